@@ -1,0 +1,19 @@
+import { fileURLToPath } from "node:url";
+import react from "@vitejs/plugin-react";
+import { defineConfig } from "vite";
+
+const empty = fileURLToPath(new URL("src/scene/xr/no-emulator.ts", import.meta.url));
+
+export default defineConfig({
+  root: fileURLToPath(new URL(".", import.meta.url)),
+  base: "./",
+  plugins: [react()],
+  worker: { format: "es" },
+  build: { target: "es2022", outDir: "dist", chunkSizeWarningLimit: 2000 },
+  resolve: {
+    // The headset emulator's rooms weigh 4.6 MB and are never used: tests bring their own emulator.
+    alias: { "@iwer/devui": empty, "@iwer/sem": empty },
+    dedupe: ["three", "react", "react-dom"],
+  },
+  server: { host: "127.0.0.1" },
+});

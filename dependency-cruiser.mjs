@@ -1,0 +1,83 @@
+/**
+ * Who may use what. Three floors: core knows nobody, the middle floor knows core and none of its neighbours,
+ * apps join things. This table is the whole truth; there is no list of exceptions.
+ */
+const middle = ["languages", "controllers", "formats", "recording", "project"];
+const packages = ["core", ...middle];
+const mayUse = { core: [], ...Object.fromEntries(middle.map(name => [name, ["core"]])) };
+
+/** Outside packages that each of ours may touch. Tests may add their own tools. */
+const mayInstall = {
+  core: [],
+  languages: [],
+  controllers: [],
+  formats: ["saxes", "xmlchars"],
+  recording: ["@mcap/", "@foxglove/"],
+  project: ["zod"],
+};
+const any = names => names.join("|");
+const test = "[.]test[.]tsx?$|/testing/";
+
+export default {
+  forbidden: [
+    ...packages.map(name => ({
+      name: `${name}-knows-only-its-own`, severity: "error",
+      comment: `${name} may use: ${mayUse[name].join(", ") || "nobody"}`,
+      from: { path: `^packages/${name}/` },
+      to: { path: "^(packages|apps)/", pathNot: `^packages/(${any([name, ...mayUse[name]])})/` },
+    })),
+    ...packages.map(name => ({
+      name: `${name}-installs-only`, severity: "error",
+      comment: mayInstall[name].join(", ") || "no runtime dependency at all",
+      from: { path: `^packages/${name}/`, pathNot: test },
+      to: {
+        dependencyTypes: ["npm", "npm-dev", "npm-peer", "npm-optional", "npm-no-pkg", "npm-unknown", "core", "unknown"],
+        pathNot: ["^packages/", ...mayInstall[name].map(dep => `node_modules/${dep}`)],
+      },
+    })),
+    {
+      name: "through-the-front-door", severity: "error",
+      comment: "import a package by its name and its exports, not by a path into its src",
+      from: { path: "^(packages|apps)/([^/]+)/" },
+      to: { path: "^packages/([^/]+)/src/", pathNot: ["^packages/$2/", "^packages/[^/]+/src/(index|[^/]+/index)[.]ts$"] },
+    },
+    {
+      name: "vendors-are-strangers", severity: "error",
+      comment: "brands and dialects meet only in the port above them and in the shared folders named here",
+      from: { path: "^packages/(controllers|languages)/src/([^/]+)/", pathNot: "/src/(text|transport|guard|twin|testing)/" },
+      to: { path: "^packages/(controllers|languages)/src/[^/]+/", pathNot: "^packages/[^/]+/src/($2|text|transport|guard|twin|testing)/" },
+    },
+    {
+      name: "driver-and-virtual-are-strangers", severity: "error", comment: "they share the codec and nothing else",
+      from: { path: "/(driver|virtual)[.]ts$" }, to: { path: "/(driver|virtual)[.]ts$", pathNot: "index[.]ts$" },
+    },
+    {
+      name: "features-are-strangers", severity: "error", comment: "features meet in stores/ or in packages/",
+      from: { path: "^apps/studio/src/features/([^/]+)/" },
+      to: { path: "^apps/studio/src/features/", pathNot: "^apps/studio/src/features/$1/" },
+    },
+    {
+      name: "scene-knows-no-feature", severity: "error", comment: "the scene draws what the stores say",
+      from: { path: "^apps/studio/src/scene/" }, to: { path: "^apps/studio/src/features/" },
+    },
+    {
+      name: "apps-are-strangers", severity: "error", comment: "the cli may use the server through its front door; nobody uses the cli",
+      from: { path: "^apps/([^/]+)/" }, to: { path: "^apps/", pathNot: ["^apps/$1/", "^apps/server/src/index[.]ts$"] },
+    },
+    { name: "only-cli-meets-server", severity: "error", from: { path: "^apps/(?!cli/|server/)" }, to: { path: "^apps/server/" } },
+    {
+      name: "stores-see-no-picture", severity: "error", comment: "stores run in Node without React or three",
+      from: { path: "^apps/studio/src/(stores|live)/" }, to: { path: "node_modules/(react|three|@react-three)" },
+    },
+    { name: "resolves", severity: "error", from: {}, to: { couldNotResolve: true } },
+    { name: "no-circles", severity: "error", from: {}, to: { circular: true } },
+    { name: "tests-are-leaves", severity: "error", from: { pathNot: `${test}|browser-tests/` }, to: { path: test } },
+  ],
+  options: {
+    tsPreCompilationDeps: true,
+    tsConfig: { fileName: "tsconfig.base.json" },
+    doNotFollow: { path: "node_modules" },
+    exclude: { path: "/dist/" },
+    enhancedResolveOptions: { exportsFields: ["exports"], conditionNames: ["import", "types", "default"], extensions: [".ts", ".tsx", ".js", ".mjs"] },
+  },
+};

@@ -1,0 +1,30 @@
+import ts from "typescript-eslint";
+import hooks from "eslint-plugin-react-hooks";
+
+export default [
+  { ignores: ["**/dist/**", "**/out/**", "**/node_modules/**", ".cache/**"] },
+  ...ts.configs.strict.map(config => ({ ...config, files: ["**/*.ts", "**/*.tsx"] })),
+  {
+    files: ["**/*.ts", "**/*.tsx"],
+    rules: {
+      "@typescript-eslint/no-non-null-assertion": "off", // indices into typed arrays are the daily bread here
+      "@typescript-eslint/no-explicit-any": "error",
+      "@typescript-eslint/no-unused-vars": ["error", { argsIgnorePattern: "^_" }],
+      "@typescript-eslint/unified-signatures": "off",
+      "no-empty": ["error", { allowEmptyCatch: false }],
+      "eqeqeq": ["error", "always", { null: "ignore" }],
+    },
+  },
+  {
+    files: ["apps/studio/src/**/*.tsx", "apps/studio/src/**/*.ts"],
+    plugins: { "react-hooks": hooks },
+    rules: { "react-hooks/rules-of-hooks": "error", "react-hooks/exhaustive-deps": "error" },
+  },
+  {
+    files: ["packages/*/src/**/*.ts"], ignores: ["**/*.test.ts", "**/testing/**"],
+    rules: {
+      "no-restricted-globals": ["error", { name: "Date", message: "Time is an argument below the roof." }],
+      "no-restricted-properties": ["error", { object: "Math", property: "random", message: "Randomness is an argument below the roof: pass a seeded generator." }],
+    },
+  },
+];

@@ -1,0 +1,29 @@
+import type { Pose } from "../spatial/pose.ts";
+import type { TriangleMesh } from "./mesh.ts";
+
+/** A solid in the cell that does not belong to the robot. */
+export interface CellObject {
+  readonly id: string;
+  readonly name: string;
+  readonly worldFromObject: Pose<"world", "object">;
+  readonly mesh: TriangleMesh;
+}
+
+/** The solid of one robot link, in that link's frame (link 0 is the base). */
+export interface LinkSolid { readonly link: number; readonly name: string; readonly mesh: TriangleMesh }
+
+/** Everything a collision check must know; JSON-able apart from the typed arrays, so it can be sent to a worker once. */
+export interface CellGeometry {
+  readonly worldFromBase: Pose<"world", "base">;
+  readonly links: readonly LinkSolid[];
+  /** Solid of the tool in the flange frame. */
+  readonly tool?: { readonly name: string; readonly mesh: TriangleMesh };
+  readonly objects: readonly CellObject[];
+  /** Pairs of names that may touch (the tool tip and the work piece it traces, for instance). */
+  readonly allowedPairs: readonly (readonly [string, string])[];
+  /** Uncertainty of the drawn robot shape [m], added to every margin. */
+  readonly shapeError_m: number;
+}
+
+/** Two solids that touch. Names are those of links ("link 4"), of the tool or of objects. */
+export interface Contact { readonly a: string; readonly b: string }

@@ -1,0 +1,3 @@
+export * from "./forward.ts";
+export * from "./branch.ts";
+export * from "./reach.ts";

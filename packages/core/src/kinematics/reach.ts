@@ -1,0 +1,18 @@
+import type { Branch } from "./branch.ts";
+
+/** Joint angles that reach a pose, with the branch they belong to. */
+export interface Solution { readonly q_rad: Float64Array; readonly branch: Branch }
+
+/**
+ * Whether and how a pose can be reached. "Why can it not?" is a `switch` over `kind`;
+ * a new cause does not compile until every view says something about it.
+ */
+export type Reach =
+  /** All distinct solutions inside the limits, ±2π copies included, least total travel first when `near` was given. */
+  | { readonly kind: "reached"; readonly solutions: readonly Solution[]; readonly singular: boolean; readonly considered: number }
+  | { readonly kind: "too-far"; readonly beyond_m: number; readonly reach_m: number }
+  | { readonly kind: "too-near"; readonly inside_m: number; readonly nearest_m: number }
+  /** The branch that comes closest to the limits; joint counts from 1. */
+  | { readonly kind: "outside-limits"; readonly joint: number; readonly wanted_rad: number; readonly limit_rad: number; readonly branch: Branch }
+  | { readonly kind: "no-solver"; readonly because: string }
+  | { readonly kind: "not-a-pose"; readonly because: string };

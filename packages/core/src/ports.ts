@@ -1,0 +1,113 @@
+import type { Robot } from "./robots/robot.ts";
+import type { Pose } from "./spatial/pose.ts";
+import type { Program, Step } from "./program/program.ts";
+
+/** Time given from outside: a real clock in the apps, a virtual one in tests. */
+export interface Scheduler {
+  /** Seconds since an arbitrary start; never runs backwards. */
+  now_s(): number;
+  /** Calls `tick` every `period_s` until the returned function is called. */
+  every(period_s: number, tick: () => void): () => void;
+}
+
+export type OperatingMode = "manual" | "automatic" | "remote";
+export type SafetyState = "normal" | "guard-stop" | "protective-stop" | "emergency-stop";
+
+/** What a robot says of itself at one instant. */
+export interface JointSample {
+  readonly sequence: number;
+  /** The controller's own time [s]. */
+  readonly time_s: number;
+  readonly q_rad: Float64Array;
+  readonly moving: boolean;
+  readonly mode: OperatingMode;
+  readonly safety: SafetyState;
+  /** 0 … 1. */
+  readonly override: number;
+  readonly gripperClosed: boolean;
+  /** Id of the step being executed, or "". */
+  readonly step: string;
+  /** Last fault in words, or "". */
+  readonly message: string;
+}
+
+/** Live, virtual and recorded state come through one door; what a source cannot do it does not have. */
+export interface StateSource {
+  readonly name: string;
+  readonly robot: Robot;
+  /** `lent` is only valid during the call: copy what you keep. Returns the unsubscriber. */
+  onSample(listen: (lent: JointSample) => void): () => void;
+  readonly timeline?: Timeline;
+  close(): void;
+}
+
+export interface Timeline {
+  readonly start_s: number;
+  readonly end_s: number;
+  /** Emits the sample in force at that time. */
+  seek(to_s: number): void;
+  setSpeed(factor: number): void;
+  play(): void;
+  pause(): void;
+}
+
+/** Why a command was not carried out, or carried out only in part. */
+export interface Refusal { readonly code: string; readonly sentence: string; readonly hint: string }
+export type CommandOutcome = { readonly kind: "done" } | { readonly kind: "refused"; readonly why: Refusal } | { readonly kind: "stopped"; readonly why: Refusal };
+
+/** One interface for virtual, real and twin robots (rows T-01 … T-18). Joints count from 1. */
+export interface RobotController extends StateSource {
+  readonly kind: "virtual" | "real" | "twin";
+  isMoving(): boolean;
+  /** Override 0 … 100 %. 0 holds the robot where it is. */
+  setSpeed(percent: number): CommandOutcome;
+  jointAngle(joint: number): number;
+  jointAngles(out?: Float64Array): Float64Array;
+  moveJoint(joint: number, angle_rad: number): Promise<CommandOutcome>;
+  moveJoints(q_rad: ArrayLike<number>): Promise<CommandOutcome>;
+  moveToPose(baseFromFlange: Pose<"base", "flange">): Promise<CommandOutcome>;
+  moveToZero(): Promise<CommandOutcome>;
+  /** Executes steps one after the other; the iterator is asked for the next when it is needed (T-53). */
+  run(steps: Iterable<Step>, context: Pick<Program, "tools" | "frames">): Promise<CommandOutcome>;
+  /** Stops along the path. `emergency` also takes the drives off: moves are refused until `reset`. */
+  stop(emergency?: boolean): void;
+  reset(): CommandOutcome;
+  /** Virtual robots only (row T-18). */
+  readonly jumpTo?: (q_rad: ArrayLike<number>) => CommandOutcome;
+}
+
+/** A place in a text, counted from 1. */
+export interface TextPlace { readonly line: number; readonly column: number }
+export interface TextFault extends TextPlace { readonly expected: string; readonly sentence: string }
+
+export interface EmittedFile {
+  readonly name: string;
+  readonly text: string;
+  /** lines[i] is the step id that line i + 1 came from, or "". */
+  readonly lines: readonly string[];
+}
+export type Emitted =
+  | { readonly kind: "emitted"; readonly files: readonly EmittedFile[]; readonly warnings: readonly string[] }
+  | { readonly kind: "cannot"; readonly step: string; readonly sentence: string; readonly hint: string };
+export type Parsed =
+  | { readonly kind: "parsed"; readonly program: Program; readonly warnings: readonly TextFault[] }
+  | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
+/** Statement by statement: the line being executed and the neutral step it amounts to, if any. */
+export interface Executed { readonly line: number; readonly step?: Step }
+export type Interpreted =
+  | { readonly kind: "ready"; readonly run: () => Iterator<Executed, void>; readonly context: Pick<Program, "tools" | "frames"> }
+  | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
+
+/** A robot language. One folder each; `cannot` is shown to the user as it stands. */
+export interface Dialect {
+  readonly id: string;
+  readonly brand: string;
+  readonly name: string;
+  readonly extensions: readonly string[];
+  readonly maturity: "proven" | "experimental";
+  readonly cannot: readonly { readonly what: string; readonly because: string }[];
+  emit(program: Program, robot: Robot): Emitted;
+  parse(text: string, robot: Robot): Parsed;
+  /** Executes the text with the vendor's own conventions. Written independently of `emit`. */
+  interpret(text: string, robot: Robot): Interpreted;
+}

@@ -1,0 +1,37 @@
+import type { Step } from "./program.ts";
+
+/** A way out that a person can apply with one click: the step as it would be. */
+export interface Repair {
+  readonly sentence: string;
+  readonly replace?: Step;
+  /** Steps to put before the step, when the way out is an extra point. */
+  readonly insertBefore?: readonly Step[];
+}
+
+export interface Finding {
+  /** "reach.too-far", "limits.joint", "speed.joint", "branch.jump", "collision.contact", … */
+  readonly code: string;
+  /** Counts from 1. */
+  readonly joint?: number;
+  readonly value: number;
+  readonly limit: number;
+  readonly unit: "rad" | "m" | "rad/s" | "m/s" | "s" | "1";
+  /** Seconds after the start of the program. */
+  readonly at_s: number;
+  readonly sentence: string;
+  readonly repairs: readonly Repair[];
+}
+
+export type StepVerdict = "ok" | "warn" | "bad" | "unknown";
+export interface StepReport { readonly id: string; readonly verdict: StepVerdict; readonly findings: readonly Finding[] }
+
+/** What the checker says of a program. `ok` is true when no step is bad. */
+export interface Verdict {
+  readonly ok: boolean;
+  readonly steps: readonly StepReport[];
+  readonly duration_s: number;
+  /** Least distance between solids over the whole program; null when it was not measured. */
+  readonly clearance_m: number | null;
+  /** What the result rests on, one sentence each. */
+  readonly assumptions: readonly string[];
+}

@@ -1,0 +1,3 @@
+export * from "./arm.ts";
+export * from "./robot.ts";
+export * from "./library/index.ts";

@@ -1,0 +1,4 @@
+export * from "./vector.ts";
+export * from "./quaternion.ts";
+export * from "./pose.ts";
+export * from "./units.ts";

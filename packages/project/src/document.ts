@@ -1,0 +1,49 @@
+import type { Pose, Program, Vector3 } from "@twincell/core";
+
+/** How a solid is described in a saved cell. Origin and axes are the object's own frame, z up. */
+export type Shape =
+  /** Centred on the origin. */
+  | { readonly kind: "box"; readonly size_m: Vector3 }
+  /** Axis z, from z = 0 to height. */
+  | { readonly kind: "cylinder"; readonly radius_m: number; readonly height_m: number }
+  /** Turned about z: [radius, z] from bottom to top. */
+  | { readonly kind: "revolved"; readonly profile_m: readonly (readonly [number, number])[] }
+  /** An imported mesh: little-endian float32 positions and uint32 indices in base64. */
+  | { readonly kind: "mesh"; readonly file: string; readonly positions: string; readonly indices: string };
+
+export interface ToolRecord {
+  readonly name: string;
+  readonly flangeFromTcp: Pose<"flange", "tcp">;
+  /** In the flange frame. */
+  readonly shape?: Shape;
+}
+
+export interface ObjectRecord {
+  readonly id: string;
+  readonly name: string;
+  readonly role: "workpiece" | "fixture" | "furniture" | "wall";
+  readonly worldFromObject: Pose<"world", "object">;
+  readonly shape: Shape;
+  /** #rrggbb */
+  readonly color: string;
+}
+
+export interface FrameRecord { readonly name: string; readonly worldFromFrame: Pose<"world", "frame"> }
+
+/** Everything a person saves: one robot, its tools, what stands around it, and the programs taught there. */
+export interface CellDocument {
+  readonly format: "twincell.cell";
+  readonly version: 1;
+  readonly name: string;
+  readonly robot: { readonly id: string; readonly worldFromBase: Pose<"world", "base"> };
+  readonly tools: readonly ToolRecord[];
+  /** Name of the tool in use; "flange" for none. */
+  readonly tool: string;
+  readonly objects: readonly ObjectRecord[];
+  readonly frames: readonly FrameRecord[];
+  /** Pairs of solids that may touch, by object name, "tool" or "link n". */
+  readonly allowedPairs: readonly (readonly [string, string])[];
+  readonly programs: readonly Program[];
+  /** Name of the program being worked on. */
+  readonly program: string;
+}
