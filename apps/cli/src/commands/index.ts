@@ -1,0 +1,4 @@
+import type { Command } from "../io/usage.ts";
+import { serveCommand } from "./serve.ts";
+
+export const COMMANDS: readonly Command[] = [serveCommand];
