@@ -10,8 +10,8 @@ export interface Figure {
   readonly note?: string;
 }
 
-/** A benchmark: one file each. Figures are told as they are measured; a peer that is not installed is told as a sentence. */
-export type Bench = (tell: (figure: Figure) => void, say: (sentence: string) => void) => Promise<void>;
+/** A benchmark is a file of this folder that exports `run: Bench`. A peer that is not installed is left out and said on stderr. */
+export type Bench = () => Promise<readonly Figure[]>;
 
 export function figure(name: string, unit: string, values: readonly number[], note?: string): Figure {
   const sorted = [...values].sort((a, b) => a - b);
