@@ -6,4 +6,5 @@ export * from "./robots/index.ts";
 export * from "./kinematics/index.ts";
 export * from "./trajectory/index.ts";
 export * from "./collision/index.ts";
+export * from "./shapes/index.ts";
 export * from "./program/index.ts";
