@@ -1,4 +1,5 @@
 import type { Command } from "../io/usage.ts";
+import { benchCommand } from "./bench.ts";
 import { serveCommand } from "./serve.ts";
 
-export const COMMANDS: readonly Command[] = [serveCommand];
+export const COMMANDS: readonly Command[] = [serveCommand, benchCommand];
