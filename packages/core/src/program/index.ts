@@ -1,2 +1,4 @@
 export * from "./program.ts";
 export * from "./verdict.ts";
+export * from "./parse.ts";
+export * from "./edit.ts";

@@ -49,7 +49,11 @@ export interface Program {
   readonly steps: readonly Step[];
 }
 
+/** What a program file says of itself. */
+export const PROGRAM_FORMAT = "twincell.program";
+export const PROGRAM_VERSION = 1;
+
 /** An empty program for that robot. */
 export const emptyProgram = (robot: string, name = "Program"): Program => ({
-  format: "twincell.program", version: 1, name, robot, tools: {}, frames: {}, groups: {}, steps: [],
+  format: PROGRAM_FORMAT, version: PROGRAM_VERSION, name, robot, tools: {}, frames: {}, groups: {}, steps: [],
 });
