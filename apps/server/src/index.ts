@@ -1,1 +1,2 @@
-export {};
+export { serve, type Served, type ServeOptions } from "./serve.ts";
+export { lanAddresses } from "./lan.ts";

@@ -1,0 +1,92 @@
+import { createServer as createHttp, type IncomingMessage, type RequestListener, type ServerResponse } from "node:http";
+import { createServer as createHttps } from "node:https";
+import type { AddressInfo } from "node:net";
+import { accessCode, askForCode, type AccessCode } from "./access.ts";
+import { certificate, lanAddresses } from "./lan.ts";
+import { staticFiles } from "./static-files.ts";
+
+export interface ServeOptions {
+  /** Folder of the built studio. */
+  readonly studio: string;
+  /** 0 takes any free port. */
+  readonly port: number;
+  /** Where the server keeps what must survive it. */
+  readonly data?: string;
+  /** Also serve other machines: HTTPS, an access code. */
+  readonly lan?: boolean;
+  /** Address to listen on; by default loopback, or every address with `lan`. */
+  readonly host?: string;
+}
+export interface Served {
+  readonly url: string;
+  /** Addresses for other machines, access code included. */
+  readonly lanUrls: readonly string[];
+  readonly code: string | null;
+  close(): Promise<void>;
+}
+
+/** Cross-origin isolation gives the studio precise clocks and shared memory; nothing is ever loaded from elsewhere. */
+const HEADERS: Readonly<Record<string, string>> = {
+  "content-security-policy": "default-src 'self'; script-src 'self' 'wasm-unsafe-eval' blob:; worker-src 'self' blob:; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' data: blob:; frame-ancestors 'none'; base-uri 'self'; form-action 'self'",
+  "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp",
+  "x-content-type-options": "nosniff", "referrer-policy": "no-referrer",
+};
+
+/** Serves the built studio on loopback, or on the local network when asked. Rejects when the port is taken. */
+export async function serve(options: ServeOptions): Promise<Served> {
+  const addresses = options.lan ? lanAddresses() : [];
+  const access = options.lan ? accessCode() : null;
+  const hosts = new Set(["localhost", "127.0.0.1", "[::1]", ...addresses]);
+  const listener = studioListener(staticFiles(options.studio), hosts, access);
+  const server = options.lan ? createHttps({ ...await certificate(options.data, addresses) }, listener) : createHttp(listener);
+  await new Promise<void>((resolve, reject) => {
+    server.once("error", reject);
+    server.listen(options.port, options.host ?? (options.lan ? "0.0.0.0" : "127.0.0.1"), resolve);
+  });
+  const port = (server.address() as AddressInfo).port;
+  const scheme = options.lan ? "https" : "http";
+  const query = access ? `/?code=${access.code}` : "/";
+  return {
+    url: `${scheme}://127.0.0.1:${port}${query}`,
+    lanUrls: addresses.map(address => `${scheme}://${address}:${port}${query}`),
+    code: access?.code ?? null,
+    close: () => new Promise(resolve => { server.closeAllConnections(); server.close(() => { resolve(); }); }),
+  };
+}
+
+function studioListener(files: ReturnType<typeof staticFiles>, hosts: ReadonlySet<string>, access: AccessCode | null): RequestListener {
+  return (request, response) => {
+    answer(request, response).catch((problem: unknown) => {
+      if (!response.headersSent) response.writeHead(500, { "content-type": "text/plain; charset=utf-8" });
+      response.end("The server could not answer this request.\n");
+      console.error(problem instanceof Error ? problem.message : String(problem));
+    });
+  };
+
+  async function answer(request: IncomingMessage, response: ServerResponse): Promise<void> {
+    const say = (status: number, text: string, headers: Record<string, string> = {}) => {
+      response.writeHead(status, { ...HEADERS, "content-type": "text/plain; charset=utf-8", ...headers });
+      response.end(request.method === "HEAD" ? undefined : text);
+    };
+    // A page elsewhere that points its own name at this machine must not be served.
+    if (!hosts.has((request.headers.host ?? "").replace(/:\d+$/, ""))) { say(421, "This address is not served here.\n"); return; }
+    if (request.method !== "GET" && request.method !== "HEAD") { say(405, "Only reading is possible here.\n", { allow: "GET, HEAD" }); return; }
+    let url: URL, path: string;
+    try {
+      url = new URL(request.url ?? "/", "http://here");
+      path = decodeURIComponent(url.pathname);
+    } catch (problem) {
+      say(400, `This address cannot be read: ${(problem as Error).message}.\n`);
+      return;
+    }
+    if (access) {
+      const entry = access.enter(request.headers.cookie, url.searchParams.get("code"));
+      if (entry.kind === "too-many-tries") { say(429, "Too many wrong codes. Start Twincell again for a new one.\n"); return; }
+      if (entry.kind === "ask") { say(401, askForCode, { "content-type": "text/html; charset=utf-8" }); return; }
+      if (entry.kind === "welcome-with-cookie") { say(303, "", { "set-cookie": entry.cookie, location: "/" }); return; }
+    }
+    const found = await files(path, String(request.headers["accept-encoding"] ?? ""), request.headers["if-none-match"]);
+    response.writeHead(found.status, { ...HEADERS, ...found.headers, ...(found.status === 200 ? { "content-length": String(found.body.length) } : {}) });
+    response.end(request.method === "HEAD" ? undefined : found.body);
+  }
+}

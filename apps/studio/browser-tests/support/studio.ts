@@ -1,0 +1,85 @@
+import { spawn, type ChildProcess } from "node:child_process";
+import { existsSync, mkdirSync } from "node:fs";
+import { fileURLToPath } from "node:url";
+import { chromium, type Browser, type BrowserContext, type Page } from "playwright-core";
+
+const root = fileURLToPath(new URL("../../../../", import.meta.url));
+const PLACES = [process.env["TWINCELL_CHROMIUM"], "/usr/bin/chromium", "/usr/bin/google-chrome"];
+const FLAGS = ["--headless=new", "--no-sandbox", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
+  "--disable-quic", "--ignore-gpu-blocklist", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--autoplay-policy=no-user-gesture-required"];
+
+export interface OpenOptions {
+  readonly width?: number;
+  readonly height?: number;
+  readonly theme?: "dark" | "light";
+  readonly touch?: boolean;
+  /** Installs an emulated Quest 3 before the page starts. */
+  readonly headset?: boolean;
+  /** Added to the page before it starts. */
+  readonly script?: string;
+  readonly query?: string;
+}
+
+/** The studio as users get it: served by the command line, shown by a real Chromium. */
+export class Studio {
+  readonly url: string;
+  private readonly server: ChildProcess;
+  private readonly browser: Browser;
+
+  private constructor(url: string, server: ChildProcess, browser: Browser) {
+    this.url = url;
+    this.server = server;
+    this.browser = browser;
+  }
+
+  static async start(): Promise<Studio> {
+    const executablePath = PLACES.find(path => path !== undefined && existsSync(path));
+    if (executablePath === undefined) throw new Error("No Chromium was found; set TWINCELL_CHROMIUM to its path.");
+    const server = spawn(process.execPath, ["apps/cli/src/main.ts", "serve", "--port", "0"], { cwd: root, stdio: ["ignore", "pipe", "inherit"] });
+    const url = await new Promise<string>((resolve, reject) => {
+      let text = "";
+      server.stdout.on("data", (part: Buffer) => {
+        text += part.toString();
+        const found = /https?:\/\/\S+/.exec(text);
+        if (found) resolve(found[0]);
+      });
+      server.once("exit", code => { reject(new Error(`twincell serve ended with ${code ?? "a signal"}.`)); });
+    });
+    const browser = await chromium.launch({ executablePath, headless: true, args: FLAGS });
+    return new Studio(url, server, browser);
+  }
+
+  /** A fresh person: nothing stored, no permission given. */
+  async open(options: OpenOptions = {}): Promise<StudioPage> {
+    const context = await this.browser.newContext({
+      viewport: { width: options.width ?? 1280, height: options.height ?? 800 },
+      hasTouch: options.touch ?? false, isMobile: options.touch ?? false, acceptDownloads: true,
+      colorScheme: options.theme ?? "dark",
+    });
+    const page = await context.newPage();
+    const problems: string[] = [];
+    page.on("pageerror", problem => problems.push(problem.message));
+    page.on("console", message => { if (message.type() === "error") problems.push(message.text()); });
+    page.on("request", request => { if (!request.url().startsWith(this.url) && !/^(data|blob):/.test(request.url())) problems.push(`The page asked for ${request.url()}.`); });
+    if (options.headset) {
+      await page.addInitScript({ path: `${root}node_modules/iwer/build/iwer.min.js` });
+      await page.addInitScript({ content: "{const d=new IWER.XRDevice(IWER.metaQuest3);d.installRuntime({forceInstall:true});d.position.set(0,1.6,0);window.xrDevice=d}" });
+    }
+    if (options.script) await page.addInitScript({ content: options.script });
+    await page.goto(this.url + (options.query ?? ""));
+    return { page, context, problems };
+  }
+
+  async stop(): Promise<void> {
+    await this.browser.close();
+    this.server.kill("SIGTERM");
+  }
+}
+
+export interface StudioPage { readonly page: Page; readonly context: BrowserContext; readonly problems: string[] }
+
+/** Where a picture of the test goes, to be looked at. */
+export function picture(name: string): string {
+  mkdirSync(`${root}out/screenshots`, { recursive: true });
+  return `${root}out/screenshots/${name}.png`;
+}

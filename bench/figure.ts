@@ -1,0 +1,29 @@
+/** One measured figure: the median of n repeats, with its spread. */
+export interface Figure {
+  readonly name: string;
+  readonly unit: string;
+  readonly median: number;
+  readonly min: number;
+  readonly max: number;
+  readonly n: number;
+  /** What one should know to read it: the peer, the budget, the condition. */
+  readonly note?: string;
+}
+
+/** A benchmark is a file of this folder that exports `run: Bench`. A peer that is not installed is left out and said on stderr. */
+export type Bench = () => Promise<readonly Figure[]>;
+
+export function figure(name: string, unit: string, values: readonly number[], note?: string): Figure {
+  const sorted = [...values].sort((a, b) => a - b);
+  return { name, unit, median: sorted[sorted.length >> 1]!, min: sorted[0]!, max: sorted.at(-1)!, n: sorted.length, ...(note === undefined ? {} : { note }) };
+}
+
+/** Time of one call [µs], measured in `repeats` rounds of `calls` calls after a warm-up. */
+export function microseconds(calls: number, repeats: number, call: (i: number) => void): number[] {
+  for (let i = 0; i < calls; i++) call(i);
+  return Array.from({ length: repeats }, () => {
+    const began = process.hrtime.bigint();
+    for (let i = 0; i < calls; i++) call(i);
+    return Number(process.hrtime.bigint() - began) / 1000 / calls;
+  });
+}

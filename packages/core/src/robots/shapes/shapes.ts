@@ -1,0 +1,33 @@
+import type { LinkSolid } from "../../collision/cell.ts";
+import { linkPoses } from "../../kinematics/forward.ts";
+import { identity } from "../../spatial/pose.ts";
+import type { Robot } from "../robot.ts";
+import { articulatedArm } from "./articulated-arm.ts";
+import { intoLink, merge } from "./loft.ts";
+import type { LinkDesign, LinkShape } from "./link-shape.ts";
+import { plainArm } from "./plain-arm.ts";
+
+/** "link 0" (the base), "link 1", … "link 6": how contacts, labels and allowed pairs call the links. */
+export const linkName = (link: number): string => `link ${link}`;
+
+/** Links as designed, each already in its own frame. */
+export function linkDesigns(robot: Robot): LinkDesign[] {
+  const { arm, family } = robot, n = arm.joints.length;
+  const parallel = family.kind === "ortho-parallel" && n === 6;
+  const q_rad = parallel ? family.offsets_rad.map((offset, i) => offset * family.signs[i]!) : new Float64Array(n);
+  const designs = parallel ? articulatedArm(family) : plainArm(robot);
+  const baseFromLink = Array.from({ length: n + 1 }, () => identity<"base", "link">());
+  linkPoses(arm, q_rad, baseFromLink);
+  return designs.map((design, link) => ({
+    parts: design.parts.map(part => ({ ...part, mesh: intoLink(part.mesh, baseFromLink[link]!) })),
+    shells: design.shells.map(mesh => intoLink(mesh, baseFromLink[link]!)),
+  }));
+}
+
+/** What is drawn of a robot, link by link, in the frame of each link. */
+export const linkShapes = (robot: Robot): LinkShape[] =>
+  linkDesigns(robot).map((design, link) => ({ link, name: linkName(link), parts: design.parts }));
+
+/** The coarse solids of a robot: closed, few triangles, and enclosing everything that is drawn. */
+export const linkSolids = (robot: Robot): LinkSolid[] =>
+  linkDesigns(robot).map((design, link) => ({ link, name: linkName(link), mesh: merge(design.shells) }));

@@ -1,0 +1,5 @@
+export * from "./solids.ts";
+export * from "./polygon.ts";
+export * from "./assemble.ts";
+export * from "./measure.ts";
+export * from "./weld.ts";

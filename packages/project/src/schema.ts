@@ -1,0 +1,55 @@
+import { z } from "zod";
+import type { Pose } from "@twincell/core";
+import { decodeMesh } from "./mesh/codec.ts";
+
+/** How far a quaternion's length may be from 1 before it is taken for a mistake instead of rounding. */
+const UNIT_TOLERANCE = 1e-3;
+
+const number = z.number();
+const length_m = z.number().positive();
+const text = z.string().min(1);
+
+const quaternion = z.tuple([number, number, number, number]).transform((q, context): [number, number, number, number] => {
+  const size = Math.hypot(...q);
+  if (!(Math.abs(size - 1) <= UNIT_TOLERANCE)) {
+    context.addIssue({ code: "custom", message: `the length of a quaternion is 1, this one's is ${size.toPrecision(4)}` });
+    return z.NEVER;
+  }
+  // A quaternion that is exact to rounding is kept bit for bit, so that open and save do not make it drift.
+  return Math.abs(size - 1) <= 1e-12 ? q : [q[0] / size, q[1] / size, q[2] / size, q[3] / size];
+});
+
+/** The frames of a pose are known from where it stands in the file. */
+const poseOf = <Into extends string, From extends string>() =>
+  z.strictObject({ position: z.tuple([number, number, number]), quaternion }).transform((pose): Pose<Into, From> => pose);
+
+const shape = z.discriminatedUnion("kind", [
+  z.strictObject({ kind: z.literal("box"), size_m: z.tuple([length_m, length_m, length_m]) }),
+  z.strictObject({ kind: z.literal("cylinder"), radius_m: length_m, height_m: length_m }),
+  z.strictObject({ kind: z.literal("revolved"), profile_m: z.array(z.tuple([z.number().nonnegative(), number])).min(2) }),
+  z.strictObject({ kind: z.literal("mesh"), file: z.string(), positions: z.string(), indices: z.string() }).superRefine((mesh, context) => {
+    const decoded = decodeMesh(mesh);
+    if (decoded.kind === "not-a-mesh") context.addIssue({ code: "custom", message: decoded.sentence });
+  }),
+]);
+
+/** Version 1 of the cell file. The programs inside have their own door: core's `parseProgram`. */
+export const cellSchema = z.strictObject({
+  format: z.literal("twincell.cell"),
+  version: z.literal(1),
+  name: z.string(),
+  robot: z.strictObject({ id: text, worldFromBase: poseOf<"world", "base">() }),
+  tools: z.array(z.strictObject({ name: text, flangeFromTcp: poseOf<"flange", "tcp">(), shape: z.exactOptional(shape) })),
+  tool: text,
+  objects: z.array(z.strictObject({
+    id: text, name: text,
+    role: z.enum(["workpiece", "fixture", "furniture", "wall"]),
+    worldFromObject: poseOf<"world", "object">(),
+    shape,
+    color: z.string().regex(/^#[0-9a-f]{6}$/i, "a colour is written #rrggbb"),
+  })),
+  frames: z.array(z.strictObject({ name: text, worldFromFrame: poseOf<"world", "frame">() })),
+  allowedPairs: z.array(z.tuple([text, text])),
+  programs: z.array(z.unknown()),
+  program: z.string(),
+});

@@ -1,0 +1,56 @@
+// What both commands of the README need first: the packages of the lock file, and a Node that runs TypeScript.
+// Runs on any Node from 20.19, without any package installed.
+import { spawnSync } from "node:child_process";
+import { existsSync, readFileSync, statSync, mkdirSync, writeFileSync } from "node:fs";
+import { createHash } from "node:crypto";
+import { fileURLToPath } from "node:url";
+
+export const root = fileURLToPath(new URL("..", import.meta.url));
+/** The Node of the lock file: it runs .ts files as they are. */
+export const node = `${root}node_modules/node/bin/node`;
+
+const stamp = `${root}node_modules/.twincell-installed`;
+const lockHash = () => createHash("sha256").update(readFileSync(`${root}package-lock.json`)).digest("hex");
+
+/** Installs what the lock file names, unless that was done before. Works offline from then on. */
+export function install() {
+  const [major, minor] = process.versions.node.split(".").map(Number);
+  if (major < 20 || (major === 20 && minor < 19)) {
+    console.error(`Twincell needs Node 20.19 or newer; this is ${process.versions.node}.`);
+    process.exit(2);
+  }
+  const wanted = lockHash();
+  if (existsSync(node) && existsSync(stamp) && readFileSync(stamp, "utf8") === wanted) return;
+  console.log("Installing packages (once) …");
+  run("npm", ["ci", "--no-audit", "--no-fund"]);
+  if (!existsSync(node)) {
+    console.error("The packages are installed but node_modules/node/bin/node is missing: npm was told to skip install scripts. Run `npm ci --ignore-scripts=false`.");
+    process.exit(2);
+  }
+  writeFileSync(stamp, wanted);
+}
+
+/** Builds the studio when a source file is newer than the last build. */
+export function build() {
+  const built = `${root}apps/studio/dist/index.html`;
+  if (existsSync(built)) {
+    const since = statSync(built).mtimeMs;
+    const sources = spawnSync("find", ["packages", "apps/studio/src", "apps/studio/index.html", "apps/studio/vite.config.ts", "package-lock.json",
+      "-newermt", new Date(since).toISOString(), "-type", "f", "-not", "-name", "*.test.ts"], { cwd: root, encoding: "utf8" });
+    if (sources.status === 0 && sources.stdout.trim() === "") return;
+  }
+  console.log("Building the studio …");
+  run(node, ["node_modules/vite/bin/vite.js", "build", "apps/studio", "--logLevel", "warn"]);
+}
+
+export function run(command, args, options = {}) {
+  const result = spawnSync(command, args, { cwd: root, stdio: "inherit", ...options });
+  if (result.error) { console.error(`${command}: ${result.error.message}`); process.exit(2); }
+  if (result.status !== 0) process.exit(result.status ?? 1);
+}
+
+/** Folder for what tests leave to be looked at: screenshots, reports. */
+export function outFolder() {
+  mkdirSync(`${root}out`, { recursive: true });
+  return `${root}out/`;
+}
