@@ -1,2 +1,13 @@
 export * from "./mesh.ts";
 export * from "./cell.ts";
+export * from "./bvh.ts";
+export * from "./relative.ts";
+export * from "./triangles.ts";
+export * from "./triangle-distance.ts";
+export { pairScratch, surfacesTouch, type PairScratch } from "./intersect.ts";
+export { surfaceDistance } from "./distance.ts";
+export * from "./inside.ts";
+export * from "./solid.ts";
+export { SolidShelf } from "./bodies.ts";
+export * from "./cell-collider.ts";
+export * from "./motion.ts";

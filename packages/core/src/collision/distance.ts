@@ -1,0 +1,84 @@
+import type { Bvh } from "./bvh.ts";
+import { makeRoom, size, type PairScratch } from "./intersect.ts";
+import { movePoints, type Rigid } from "./relative.ts";
+import { triangleDistance2 } from "./triangle-distance.ts";
+
+/**
+ * Distance between two surfaces [m] when it is below `cutoff_m`, else Infinity. 0 when they share a point.
+ *
+ * @param aFromB   pose of b's frame in a's frame.
+ * @param out      receives the nearest point of a and of b, both in a's frame [m]; unchanged for Infinity.
+ * @param scratch  working memory. `scratch.witness` names a pair of triangles to begin with, when it holds numbers ≥ 0
+ *                 (last time's nearest pair prunes best), and receives the nearest pair. The call allocates nothing.
+ * @see Larsen, Gottschalk, Lin, Manocha, Fast distance queries with rectangular swept sphere volumes, ICRA 2000.
+ */
+export function surfaceDistance(a: Bvh, b: Bvh, aFromB: Rigid, cutoff_m: number, scratch: PairScratch, out: Float64Array): number {
+  if (a.source.length === 0 || b.source.length === 0) return Infinity;
+  makeRoom(scratch, a, b);
+  const stack = scratch.stack, bounds = scratch.bounds, witness = scratch.witness, linksA = a.links, linksB = b.links;
+  let best = cutoff_m * cutoff_m, found = false;
+  if (witness[0]! >= 0 && witness[0]! < a.source.length && witness[1]! >= 0 && witness[1]! < b.source.length) {
+    movePoints(aFromB, b.corners, 9 * witness[1]!, 3, scratch.triangles, 0);
+    const seed = triangleDistance2(a.corners, 9 * witness[0]!, scratch.triangles, 0, best, out);
+    if (seed < best) { best = seed; found = true; }
+  }
+  if (boxDistance2(a.boxes, 0, b.boxes, 0, aFromB) >= best) return found ? Math.sqrt(best) : Infinity;
+  let nodeA = 0, nodeB = 0, top = 0;
+  for (;;) {
+    const countA = linksA[2 * nodeA + 1]!, countB = linksB[2 * nodeB + 1]!;
+    if (countA > 0 && countB > 0) {
+      const near = nearestInLeaves(a, linksA[2 * nodeA]!, countA, b, linksB[2 * nodeB]!, countB, aFromB, best, scratch, out);
+      if (near < best) { best = near; found = true; }
+    } else {
+      const openA = countB > 0 || (countA === 0 && size(a.boxes, 6 * nodeA) >= size(b.boxes, 6 * nodeB));
+      const first = openA ? nodeA + 1 : nodeB + 1, second = openA ? linksA[2 * nodeA]! : linksB[2 * nodeB]!;
+      const toFirst = openA ? boxDistance2(a.boxes, 6 * first, b.boxes, 6 * nodeB, aFromB) : boxDistance2(a.boxes, 6 * nodeA, b.boxes, 6 * first, aFromB);
+      const toSecond = openA ? boxDistance2(a.boxes, 6 * second, b.boxes, 6 * nodeB, aFromB) : boxDistance2(a.boxes, 6 * nodeA, b.boxes, 6 * second, aFromB);
+      const near = toFirst <= toSecond ? first : second, far = toFirst <= toSecond ? second : first;
+      if (Math.max(toFirst, toSecond) < best) {
+        bounds[top >> 1] = Math.max(toFirst, toSecond);
+        stack[top++] = openA ? far : nodeA; stack[top++] = openA ? nodeB : far;
+      }
+      if (Math.min(toFirst, toSecond) < best) { if (openA) nodeA = near; else nodeB = near; continue; }
+    }
+    do {
+      if (top === 0 || best === 0) return found ? Math.sqrt(best) : Infinity;
+      nodeB = stack[--top]!; nodeA = stack[--top]!;
+    } while (bounds[top >> 1]! >= best);
+  }
+}
+
+function nearestInLeaves(
+  a: Bvh, fromA: number, countA: number, b: Bvh, fromB: number, countB: number, aFromB: Rigid, limit: number, scratch: PairScratch, out: Float64Array,
+): number {
+  const moved = scratch.triangles;
+  movePoints(aFromB, b.corners, 9 * fromB, 3 * countB, moved, 0);
+  let best = limit;
+  for (let i = 0; i < countA; i++) for (let j = 0; j < countB; j++) {
+    const squared = triangleDistance2(a.corners, 9 * (fromA + i), moved, 9 * j, best, out);
+    if (squared >= best) continue;
+    best = squared;
+    scratch.witness[0] = fromA + i; scratch.witness[1] = fromB + j;
+  }
+  return best;
+}
+
+/** No more than the squared distance of two boxes [m²]: the gap between them along the axes of one and of the other. */
+export function boxDistance2(boxesA: Float64Array, i: number, boxesB: Float64Array, j: number, m: Rigid): number {
+  const r00 = m[0]!, r01 = m[1]!, r02 = m[2]!, r10 = m[3]!, r11 = m[4]!, r12 = m[5]!, r20 = m[6]!, r21 = m[7]!, r22 = m[8]!;
+  const q00 = Math.abs(r00), q01 = Math.abs(r01), q02 = Math.abs(r02), q10 = Math.abs(r10), q11 = Math.abs(r11), q12 = Math.abs(r12);
+  const q20 = Math.abs(r20), q21 = Math.abs(r21), q22 = Math.abs(r22);
+  const bx = boxesB[j]!, by = boxesB[j + 1]!, bz = boxesB[j + 2]!, b0 = boxesB[j + 3]!, b1 = boxesB[j + 4]!, b2 = boxesB[j + 5]!;
+  const a0 = boxesA[i + 3]!, a1 = boxesA[i + 4]!, a2 = boxesA[i + 5]!;
+  const tx = r00 * bx + r01 * by + r02 * bz + m[9]! - boxesA[i]!;
+  const ty = r10 * bx + r11 * by + r12 * bz + m[10]! - boxesA[i + 1]!;
+  const tz = r20 * bx + r21 * by + r22 * bz + m[11]! - boxesA[i + 2]!;
+  const gx = Math.abs(tx) - a0 - b0 * q00 - b1 * q01 - b2 * q02, gy = Math.abs(ty) - a1 - b0 * q10 - b1 * q11 - b2 * q12;
+  const gz = Math.abs(tz) - a2 - b0 * q20 - b1 * q21 - b2 * q22;
+  const inA = (gx > 0 ? gx * gx : 0) + (gy > 0 ? gy * gy : 0) + (gz > 0 ? gz * gz : 0);
+  const hx = Math.abs(tx * r00 + ty * r10 + tz * r20) - b0 - a0 * q00 - a1 * q10 - a2 * q20;
+  const hy = Math.abs(tx * r01 + ty * r11 + tz * r21) - b1 - a0 * q01 - a1 * q11 - a2 * q21;
+  const hz = Math.abs(tx * r02 + ty * r12 + tz * r22) - b2 - a0 * q02 - a1 * q12 - a2 * q22;
+  const inB = (hx > 0 ? hx * hx : 0) + (hy > 0 ? hy * hy : 0) + (hz > 0 ? hz * hz : 0);
+  return inA > inB ? inA : inB;
+}
