@@ -41,7 +41,11 @@ export interface CellDocument {
   readonly tool: string;
   readonly objects: readonly ObjectRecord[];
   readonly frames: readonly FrameRecord[];
+<<<<<<< HEAD
   /** Pairs of solids that may touch: ids of objects, "tool" or "link n". */
+=======
+  /** Pairs of solids that may touch, by object id, "tool" or "link n". */
+>>>>>>> main
   readonly allowedPairs: readonly (readonly [string, string])[];
   readonly programs: readonly Program[];
   /** Name of the program being worked on. */
