@@ -1,1 +1,2 @@
-export {};
+export * from "./refusals.ts";
+export * from "./virtual/index.ts";

@@ -1,6 +1,7 @@
 export * from "./fault.ts";
 export * from "./random.ts";
 export * from "./ports.ts";
+export * from "./scheduler.ts";
 export * from "./spatial/index.ts";
 export * from "./robots/index.ts";
 export * from "./kinematics/index.ts";

@@ -1,0 +1,4 @@
+export { manualScheduler } from "@twincell/core";
+export * from "./contract.ts";
+export * from "./numeric.ts";
+export * from "./spoiled.ts";

@@ -1,0 +1,175 @@
+import { manualScheduler, robotById, type Step } from "@twincell/core";
+import { describe, expect, test } from "vitest";
+import { describeController, onSpoiledSample } from "../testing/index.ts";
+import { createVirtualController } from "./controller.ts";
+
+const robot = robotById("staubli_rx90l")!;
+const HOME = robot.home_rad;
+const near = (by: number): number[] => HOME.map(q => q + by);
+
+describeController("virtual RX90L", { robot, scheduler: manualScheduler, make: options => createVirtualController(options) });
+
+describe("virtual controller", () => {
+  const bench = (options = {}) => {
+    const scheduler = manualScheduler();
+    return { scheduler, robot: createVirtualController({ robot, scheduler, ...options }) };
+  };
+  const move = (id: string, q: readonly number[]): Step => ({ id, type: "move", path: "ptp", target: { q }, speed: { ratio: 1 }, blend_m: 0 });
+
+  test("emits one sample each 4 ms, also when ticks come late", () => {
+    let now_s = 0, tick = (): void => undefined;
+    const late = { now_s: () => now_s, every: (_: number, ticking: () => void) => { tick = ticking; return () => undefined; } };
+    const controller = createVirtualController({ robot, scheduler: late }), times: number[] = [];
+    onSpoiledSample(controller, sample => times.push(sample.time_s));
+    for (const to of [0.004, 0.011, 0.1, 0.1]) { now_s = to; tick(); }
+    expect(times.length).toBe(25);
+    times.forEach((time, i) => expect(time).toBeCloseTo(0.004 * (i + 1), 12));
+    now_s = 60;
+    tick();
+    expect(times.length).toBeLessThanOrEqual(25 + 251);
+    expect(times.at(-1)).toBeCloseTo(60, 9);
+  });
+
+  test("a stop brakes within the stated time, at no more than twice a joint's acceleration, and stays on the path", async () => {
+    const { scheduler, robot: controller } = bench();
+    const from = controller.jointAngles(), to = near(0.8);
+    const command = controller.moveJoints(to);
+    await scheduler.elapse(0.3);
+    const speeds: number[][] = [];
+    let last = controller.jointAngles();
+    onSpoiledSample(controller, sample => { speeds.push([...sample.q_rad].map((q, i) => (q - last[i]!) / 0.004)); last = Float64Array.from(sample.q_rad); });
+    await scheduler.elapse(0.02);
+    const stopped_s = scheduler.now_s();
+    controller.stop();
+    let standing_s = NaN;
+    void command.then(() => { standing_s = scheduler.now_s(); });
+    await scheduler.elapse(1);
+    expect(standing_s - stopped_s).toBeLessThanOrEqual(controller.brakingTime_s + 0.004 + 1e-9);
+    robot.arm.joints.forEach(({ limits }, i) => {
+      for (let k = 1; k < speeds.length; k++) {
+        expect(Math.abs(speeds[k]![i]! - speeds[k - 1]![i]!) / 0.004).toBeLessThanOrEqual(2 * limits.acceleration_rad_s2 * (1 + 1e-6));
+      }
+    });
+    const part = (last[0]! - from[0]!) / (to[0]! - from[0]!);
+    last.forEach((q, i) => expect(q).toBeCloseTo(from[i]! + part * (to[i]! - from[i]!), 9));
+    expect(part).toBeLessThan(1);
+  });
+
+  test("T-30 a wait lasts as long as it says, whatever the override", async () => {
+    for (const percent of [100, 30]) {
+      const { scheduler, robot: controller } = bench();
+      controller.setSpeed(percent);
+      const steps: Step[] = [{ id: "w", type: "wait", s: 0.5 }];
+      const begun_s = scheduler.now_s();
+      let ended_s = NaN;
+      void controller.run(steps, { tools: {}, frames: {} }).then(() => { ended_s = scheduler.now_s(); });
+      await scheduler.elapse(1);
+      expect(Math.abs(ended_s - begun_s - 0.5)).toBeLessThanOrEqual(0.01);
+    }
+  });
+
+  test("T-31 the gripper follows: true closes, false opens; samples name the step", async () => {
+    const { scheduler, robot: controller } = bench();
+    const seen: string[] = [];
+    onSpoiledSample(controller, ({ step, gripperClosed }) => { const line = `${step} ${gripperClosed}`; if (seen.at(-1) !== line) seen.push(line); });
+    const steps: Step[] = [move("a", near(0.1)), { id: "g", type: "gripper", closed: true }, { id: "w", type: "wait", s: 0.1 },
+      move("b", HOME), { id: "h", type: "gripper", closed: false }, { id: "v", type: "wait", s: 0.1 }];
+    void controller.run(steps, { tools: {}, frames: {} });
+    await scheduler.elapse(3);
+    expect(seen).toEqual(["a false", "w true", "b true", "v false", " false"]);
+  });
+
+  test("T-53 the next step is asked for when it is needed", async () => {
+    const { scheduler, robot: controller } = bench();
+    let asked = 0;
+    function* endless(): Generator<Step> { for (;;) yield move(`s${asked++}`, near(asked % 2 ? 0.2 : 0)); }
+    void controller.run(endless(), { tools: {}, frames: {} });
+    await scheduler.elapse(0.1);
+    expect(asked).toBe(1);
+    await scheduler.elapse(3);
+    expect(asked).toBeGreaterThan(3);
+    controller.close();
+  });
+
+  test("a step that cannot be done stops the program there, with the reason; as the first it is refused", async () => {
+    const { scheduler, robot: controller } = bench();
+    const far = near(0);
+    far[0] = 9;
+    const outcomes: unknown[] = [];
+    void controller.run([move("a", near(0.1)), move("far", far)], { tools: {}, frames: {} }).then(outcome => outcomes.push(outcome));
+    await scheduler.elapse(3);
+    void controller.run([move("far", far)], { tools: {}, frames: {} }).then(outcome => outcomes.push(outcome));
+    await scheduler.elapse(0.1);
+    expect(outcomes).toMatchObject([{ kind: "stopped", why: { code: "limits.joint", joint: 1 } }, { kind: "refused", why: { code: "limits.joint", joint: 1 } }]);
+  });
+
+  test("a second command while one runs is refused, and the first goes on", async () => {
+    const { scheduler, robot: controller } = bench();
+    const first = controller.moveJoints(near(0.2));
+    expect(await controller.moveToZero()).toMatchObject({ kind: "refused", why: { code: "controller.busy" } });
+    await scheduler.elapse(3);
+    expect(await first).toEqual({ kind: "done" });
+  });
+
+  test("T-26 in manual mode the pendant moves it and others are refused; the switch stops a move under way", async () => {
+    const { scheduler, robot: controller } = bench();
+    expect(await controller.atTheRobot.jog(near(0.1))).toMatchObject({ kind: "refused", why: { code: "controller.not-manual" } });
+    const running = controller.moveJoints(near(0.8));
+    await scheduler.elapse(0.2);
+    controller.atTheRobot.setMode("manual");
+    await scheduler.elapse(1);
+    expect(await running).toMatchObject({ kind: "stopped", why: { code: "controller.mode-changed" } });
+    expect(await controller.moveToZero()).toMatchObject({ kind: "refused", why: { code: "controller.manual-mode" } });
+    const jog = controller.atTheRobot.jog(near(0.1));
+    await scheduler.elapse(2);
+    expect(await jog).toEqual({ kind: "done" });
+  });
+
+  test("T-27 a guard stop ends the move and clears itself without moving; a protective stop wants a reset", async () => {
+    const { scheduler, robot: controller } = bench();
+    const first = controller.moveJoints(near(0.8));
+    await scheduler.elapse(0.2);
+    controller.atTheRobot.setGuardOpen(true);
+    await scheduler.elapse(1);
+    expect(await first).toMatchObject({ kind: "stopped", why: { code: "safety.guard-stop" } });
+    expect(await controller.moveToZero()).toMatchObject({ kind: "refused", why: { code: "safety.guard-stop" } });
+    expect(controller.reset().kind).toBe("refused");
+    const rest = controller.jointAngles();
+    controller.atTheRobot.setGuardOpen(false);
+    await scheduler.elapse(1);
+    expect(controller.jointAngles()).toEqual(rest);
+    const second = controller.moveJoints(HOME);
+    await scheduler.elapse(0.1);
+    controller.atTheRobot.protectiveStop("Joint 2 met a resistance.");
+    expect(controller.reset()).toMatchObject({ kind: "refused", why: { code: "controller.braking" } });
+    await scheduler.elapse(1);
+    expect(await second).toMatchObject({ kind: "stopped", why: { code: "safety.protective-stop" } });
+    expect((await controller.moveToZero()).kind).toBe("refused");
+    expect(controller.reset().kind).toBe("done");
+    const third = controller.moveToZero();
+    await scheduler.elapse(5);
+    expect(await third).toEqual({ kind: "done" });
+  });
+
+  test("T-67 without a solver poses are refused and joint moves still work", async () => {
+    const { scheduler, robot: controller } = bench();
+    expect(await controller.moveToPose({ position: [0.5, 0, 0.5], quaternion: [0, 0, 0, 1] })).toMatchObject({ kind: "refused", why: { code: "controller.no-solver" } });
+    const move = controller.moveToZero();
+    await scheduler.elapse(5);
+    expect(await move).toEqual({ kind: "done" });
+  });
+
+  test("closing ends what runs and refuses what comes", async () => {
+    const { scheduler, robot: controller } = bench();
+    let samples = 0;
+    onSpoiledSample(controller, () => { samples++; });
+    const running = controller.moveToZero();
+    await scheduler.elapse(0.1);
+    controller.close();
+    const before = samples;
+    await scheduler.elapse(1);
+    expect(samples).toBe(before);
+    expect(await running).toMatchObject({ kind: "stopped", why: { code: "controller.closed" } });
+    expect(await controller.moveToZero()).toMatchObject({ kind: "refused", why: { code: "controller.closed" } });
+  });
+});
