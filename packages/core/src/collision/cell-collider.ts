@@ -123,12 +123,17 @@ export class CellCollider {
     return out;
   }
 
-  /** The smallest distance between watched solids at q, if it is below `cutoff_m`: a tighter cut-off answers faster. */
-  clearance(q: ArrayLike<number>, cutoff_m: number, out: Clearance = clearance()): Clearance {
+  /**
+   * The smallest distance between watched solids at q, if it is below `cutoff_m`: a tighter cut-off answers faster.
+   *
+   * @param counts  pairs to look at; all without it. `robotAndCell` leaves out the robot's distance from itself.
+   */
+  clearance(q: ArrayLike<number>, cutoff_m: number, out: Clearance = clearance(), counts?: (pair: SolidPair) => boolean): Clearance {
     this.place(q);
     out.distance_m = Infinity; out.a = out.b = "";
     let limit = cutoff_m;
     for (const pair of this.#pairs) {
+      if (counts?.(pair) === false) continue;
       const distance = this.distanceOf(pair, limit);
       if (distance >= limit) continue;
       limit = out.distance_m = distance;
@@ -237,6 +242,9 @@ export class CellCollider {
     this.#pairs.sort((p, q) => q.hits - p.hits);
   }
 }
+
+/** Pairs of the robot, its tool or what it holds with what stands around it. */
+export const robotAndCell = ({ a, b }: SolidPair): boolean => (a.carrier === WORLD) !== (b.carrier === WORLD);
 
 const HERE: Pose = identity();
 const keyOf = (a: string, b: string): string => (a < b ? `${a}\n${b}` : `${b}\n${a}`);

@@ -11,3 +11,5 @@ export * from "./solid.ts";
 export { SolidShelf } from "./bodies.ts";
 export * from "./cell-collider.ts";
 export * from "./motion.ts";
+export * from "./tip.ts";
+export * from "./watch.ts";
