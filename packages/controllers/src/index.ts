@@ -1,2 +1,3 @@
 export * from "./refusals.ts";
 export * from "./virtual/index.ts";
+export * from "./twin/index.ts";
