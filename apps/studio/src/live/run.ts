@@ -1,4 +1,4 @@
-import { createGuard, createTwin, createVirtualController, executeSteps, type Guard, type Twin, type VirtualController } from "@twincell/controllers";
+import { createGuard, createTwin, createVirtualController, type Guard, type Twin, type VirtualController } from "@twincell/controllers";
 import type { CommandOutcome, Dialect, EmittedFile, Executed, Pose, Program, Robot, Scheduler, Step } from "@twincell/core";
 import { createRunRecorder, type RunRecorder } from "@twincell/recording";
 import { controlStore } from "../stores/control.ts";
@@ -73,7 +73,7 @@ export interface CellControl {
 
 export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromTcp }: RunSetting): CellControl {
   const { scheduler } = world, begun_s = scheduler.now_s();
-  const virtual: VirtualController = createVirtualController({ robot, scheduler, name: `Virtual ${robot.name.split(" ").at(-1)!}`, execute: executeSteps(worldFromBase), start_rad: theLive().q_rad });
+  const virtual: VirtualController = createVirtualController({ robot, scheduler, name: `Virtual ${robot.name.split(" ").at(-1)!}`, worldFromBase, start_rad: theLive().q_rad });
   const guard = createGuard({ controller: virtual, scheduler, flangeFromTcp, brakingTime_s: virtual.brakingTime_s });
   const seat = guard.seat("you");
   seat.take();

@@ -202,16 +202,19 @@ describe("guard", () => {
 
     test("T-44 the robot is kept from its own stand", async () => {
       const stand = (q_rad: ArrayLike<number>): boolean => flangePose(robot.arm, q_rad).position[2] > 0.1;
-      const { scheduler, real, me } = bench({ isSafe: stand });
+      const { scheduler, real, me, guard } = bench({ isSafe: stand });
       let lowest_m = Infinity;
       real.onSample(lent => { lowest_m = Math.min(lowest_m, flangePose(robot.arm, lent.q_rad).position[2]); });
-      // Both ends are above the stand's top; the way between them dips below it.
-      const above = [0, 0.1, 1.2, 0, 0, 0], before = [0, -1.2, 2.9, 0, 0, 0];
-      expect(stand(above) || stand(before)).toBe(true);
-      const down = me.robot.moveJoints([0, 0.75, 1.5, 0, 0, 0]);
+      const low = [0, 0.75, 1.5, 0, 0, 0];
+      expect(stand(START)).toBe(true);
+      expect(await me.robot.moveJoints(low)).toMatchObject({ kind: "refused", why: { code: "guard.clearance" } });
+      // Steps are not looked at beforehand; the motion is.
+      const command = me.robot.run([{ id: "down", type: "move", path: "ptp", target: { q: low }, speed: { ratio: 1 }, blend_m: 0 }], { tools: {}, frames: {} });
       await scheduler.elapse(3);
-      expect((await down).kind).toBe("refused");
+      expect(await command).toMatchObject({ kind: "stopped", why: { code: "guard.clearance" } });
       expect(lowest_m).toBeGreaterThan(0.1);
+      expect(lowest_m).toBeLessThan(0.2);
+      expect(guard.state).toMatchObject({ motion: "at-rest", trip: "none" });
     });
 
     test("a robot that stands too near to something may move away, not nearer", async () => {
