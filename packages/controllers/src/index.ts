@@ -1,2 +1,4 @@
 export * from "./refusals.ts";
 export * from "./virtual/index.ts";
+export * from "./twin/index.ts";
+export * from "./guard/index.ts";

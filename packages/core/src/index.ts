@@ -8,4 +8,6 @@ export * from "./kinematics/index.ts";
 export * from "./trajectory/index.ts";
 export * from "./collision/index.ts";
 export * from "./shapes/index.ts";
+export * from "./paths/index.ts";
 export * from "./program/index.ts";
+export * from "./teach/index.ts";

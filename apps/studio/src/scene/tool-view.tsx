@@ -23,6 +23,20 @@ export function toolGeometry(tool: ToolRecord): BufferGeometry | null {
   return geometry;
 }
 
+const WIRE_RADIUS_M = 0.0012;
+
+/** Where the solid ends before the TCP, a thin wire shows the way to it. */
+function Wire({ tool, from_m }: { readonly tool: ToolRecord; readonly from_m: number }) {
+  const [x, y, z] = tool.flangeFromTcp.position, length = z - from_m;
+  if (Math.hypot(x, y) > 1e-6 || length < 1e-4) return null;
+  return (
+    <mesh position={[0, 0, from_m + length / 2]} rotation={[Math.PI / 2, 0, 0]} castShadow>
+      <cylinderGeometry args={[WIRE_RADIUS_M, WIRE_RADIUS_M, length, 12]} />
+      <meshStandardMaterial color={TIP} roughness={0.4} metalness={0.7} />
+    </mesh>
+  );
+}
+
 /** The tool in use, carried by the flange. */
 export function ToolView({ tool, worldFromBase }: { readonly tool: ToolRecord; readonly worldFromBase: Pose<"world", "base"> }) {
   const group = useRef<Group>(null), seen = useRef(-1);
@@ -40,6 +54,7 @@ export function ToolView({ tool, worldFromBase }: { readonly tool: ToolRecord; r
   }, -10);
   return (
     <group ref={group} name="tool" matrixAutoUpdate={false} userData={{ thing: { kind: "tool" } }}>
+      <Wire tool={tool} from_m={geometry?.boundingBox?.max.z ?? 0} />
       {geometry && <mesh geometry={geometry} castShadow receiveShadow raycast={raycastByTree}><meshStandardMaterial vertexColors roughness={0.36} metalness={0.6} /></mesh>}
     </group>
   );

@@ -1,6 +1,6 @@
 import { manualScheduler, robotById, type Step } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { describeController, onSpoiledSample } from "../testing/index.ts";
+import { describeController, numericSolver, onSpoiledSample } from "../testing/index.ts";
 import { createVirtualController } from "./controller.ts";
 
 const robot = robotById("staubli_rx90l")!;
@@ -8,6 +8,9 @@ const HOME = robot.home_rad;
 const near = (by: number): number[] => HOME.map(q => q + by);
 
 describeController("virtual RX90L", { robot, scheduler: manualScheduler, make: options => createVirtualController(options) });
+describeController("virtual RX90L with a second solver", {
+  robot, scheduler: manualScheduler, make: options => createVirtualController({ ...options, solve: numericSolver(options.robot) }),
+});
 
 describe("virtual controller", () => {
   const bench = (options = {}) => {
@@ -152,11 +155,21 @@ describe("virtual controller", () => {
   });
 
   test("T-67 without a solver poses are refused and joint moves still work", async () => {
-    const { scheduler, robot: controller } = bench();
+    const { scheduler, robot: controller } = bench({ solve: null });
     expect(await controller.moveToPose({ position: [0.5, 0, 0.5], quaternion: [0, 0, 0, 1] })).toMatchObject({ kind: "refused", why: { code: "controller.no-solver" } });
     const move = controller.moveToZero();
     await scheduler.elapse(5);
     expect(await move).toEqual({ kind: "done" });
+  });
+
+  test("a pose out of reach is refused with the distance, and nothing moves", async () => {
+    const { scheduler, robot: controller } = bench();
+    const before = controller.jointAngles();
+    const outcome = await controller.moveToPose({ position: [3, 0, 0.42], quaternion: [0, 0, 0, 1] });
+    expect(outcome).toMatchObject({ kind: "refused", why: { code: "reach.too-far" } });
+    if (outcome.kind === "refused") expect(outcome.why.sentence).toMatch(/\d/);
+    await scheduler.elapse(0.1);
+    expect(controller.jointAngles()).toEqual(before);
   });
 
   test("closing ends what runs and refuses what comes", async () => {

@@ -1,5 +1,5 @@
 import {
-  type CommandOutcome, type JointSample, type OperatingMode, type Pose, type Program, type Reach, type Refusal, type Robot,
+  explainReach, solveAll, type CommandOutcome, type JointSample, type OperatingMode, type Pose, type Program, type Reach, type Refusal, type Robot,
   type RobotController, type SafetyState, type Scheduler, type Step,
 } from "@twincell/core";
 import { listeners } from "../listeners.ts";
@@ -18,15 +18,15 @@ export interface VirtualOptions {
   readonly mode?: OperatingMode;
   /** How steps become motion. */
   readonly execute?: Execute;
-  /** Finds joint angles for a pose; without it `moveToPose` is refused and joint moves still work (row T-67). */
-  readonly solve?: (baseFromFlange: Pose<"base", "flange">, near_rad: Float64Array) => Reach;
-  /** Says why a pose is out of reach. */
-  readonly explain?: (reach: Reach) => string;
+  /** Finds joint angles for a pose: core's own when left out; with null `moveToPose` is refused and joint moves still work (row T-67). */
+  readonly solve?: Solve | null;
   /** Called once, before the first sample (row T-11). */
   readonly initialize?: () => void;
   /** Called with the target of every joint motion: the one primitive behind all moves (row T-12). */
   readonly onMotion?: (q_rad: ArrayLike<number>) => void;
 }
+
+export type Solve = (baseFromFlange: Pose<"base", "flange">, near_rad: Float64Array) => Reach;
 
 /** What a person does at the robot itself: mode switch, teach pendant, guard, and what the drives do on their own. */
 export interface AtTheRobot {
@@ -60,6 +60,7 @@ const CATCH_UP_S = 1;
 export function createVirtualController(options: VirtualOptions): VirtualController {
   const { robot, scheduler } = options;
   const cycle_s = options.cycle_s ?? 0.004, maxSpeed = options.maxSpeed ?? 1, execute = options.execute ?? executeJointMoves;
+  const solve: Solve | null = options.solve === undefined ? (pose, near) => solveAll(robot, pose, { near }) : options.solve;
   const name = options.name ?? `Virtual ${robot.name}`, n = robot.arm.joints.length;
   const brakingTime_s = Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2));
   const q_rad = Float64Array.from(options.start_rad ?? robot.home_rad);
@@ -174,11 +175,11 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
     moveJoints: target_rad => moveRobotJoints(target_rad),
     moveToZero: () => moveRobotJoints(new Float64Array(n)),
     async moveToPose(baseFromFlange) {
-      if (!options.solve) {
+      if (!solve) {
         return refuse({ code: "controller.no-solver", sentence: `${name} has no solver for poses.`, hint: "Attach one, or command joint angles." });
       }
-      const reach = options.solve(baseFromFlange, q_rad), nearest = reach.kind === "reached" ? reach.solutions[0] : undefined;
-      if (!nearest) return refuse({ code: `reach.${reach.kind}`, sentence: options.explain?.(reach) ?? `The pose is out of reach (${reach.kind}).`, hint: "Choose a pose within reach." });
+      const reach = solve(baseFromFlange, q_rad), nearest = reach.kind === "reached" ? reach.solutions[0] : undefined;
+      if (!nearest) return refuse({ code: `reach.${reach.kind}`, sentence: explainReach(reach), hint: "Choose a pose within reach." });
       return moveRobotJoints(nearest.q_rad);
     },
     async run(steps, context) {

@@ -1,2 +1,3 @@
 export * from "./controller.ts";
 export * from "./execution.ts";
+export { executeSteps } from "./stepping.ts";

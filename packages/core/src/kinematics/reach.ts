@@ -8,7 +8,10 @@ export interface Solution { readonly q_rad: Float64Array; readonly branch: Branc
  * a new cause does not compile until every view says something about it.
  */
 export type Reach =
-  /** All distinct solutions inside the limits, ±2π copies included, least total travel first when `near` was given. */
+  /**
+   * All distinct solutions inside the limits, ±2π copies included, least total travel first when `near` was given.
+   * `considered` counts the candidates they were taken from: closed-form branches times a turn less, none, or more of each joint.
+   */
   | { readonly kind: "reached"; readonly solutions: readonly Solution[]; readonly singular: boolean; readonly considered: number }
   | { readonly kind: "too-far"; readonly beyond_m: number; readonly reach_m: number }
   | { readonly kind: "too-near"; readonly inside_m: number; readonly nearest_m: number }

@@ -1,0 +1,3 @@
+export * from "./topology.ts";
+export { featureEdges, type EdgeChain, type FeatureEdges, type FeatureOptions } from "./features.ts";
+export * from "./pick.ts";

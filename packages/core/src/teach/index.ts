@@ -1,0 +1,2 @@
+export * from "./jogged.ts";
+export * from "./jog.ts";
