@@ -159,7 +159,8 @@ function nearestLimit(robot: Robot, solutions: readonly Float64Array[]): Reach {
   return answer ?? { kind: "no-solver", because: "No solution of the wanted branch exists for this pose." };
 }
 
-function outOfReach(robot: Robot, baseFromFlange: Pose<"base", "flange">): Reach {
+/** Why no branch of the closed form exists: the wrist centre lies beyond the stretched or inside the folded arm. */
+export function outOfReach(robot: Robot, baseFromFlange: Pose<"base", "flange">): Reach {
   const { farthest_m, nearest_m, distance_m } = span(robot, baseFromFlange);
   if (distance_m > farthest_m) return { kind: "too-far", beyond_m: distance_m - farthest_m, reach_m: farthest_m };
   return { kind: "too-near", inside_m: nearest_m - distance_m, nearest_m };

@@ -227,7 +227,7 @@ describe("executing V+", () => {
 });
 
 describe("faults have a place and say what is expected", () => {
-  test.each<readonly [line: string, atLine: number, column: number, more?: string]>([
+  test.each<[line: string, atLine: number, column: number, more?: string]>([
     ["MOVE #PPOINT(1,2", 2, 17],
     ["  FROB 12", 2, 3],
     ["MOVE", 2, 5],
@@ -247,7 +247,7 @@ describe("faults have a place and say what is expected", () => {
     ["SPEED 0", 2, 1],
     ["x = 5 §", 2, 7],
     ["MOVE TRANS(1)", 3, 1, "DRIVE 1,2,3"],
-  ])("%s", (line, atLine, column, more) => {
+  ])("%s", (line: string, atLine: number, column: number, more?: string) => {
     const answer = vPlus.interpret(body(line, ...(more === undefined ? [] : [more])), robot);
     expect(answer.kind).toBe("not-understood");
     if (answer.kind !== "not-understood") return;

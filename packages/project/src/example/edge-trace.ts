@@ -74,7 +74,7 @@ export function edgeTraceCell(): CellDocument {
       name: "carton",
       worldFromFrame: pose([0.45, -0.2, 0.5]),
     }],
-    allowedPairs: [["link 0", "column"]],
+    allowedPairs: [],
     programs: [emptyProgram(ROBOT, "Edge trace")],
     program: "Edge trace",
   };
