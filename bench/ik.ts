@@ -1,4 +1,4 @@
-import { flangePose, robotById, seededRandom, solveOrthoParallel, armScratch, identity, angleBetween, distance, type OrthoParallelGeometry, type Pose, type SerialArm } from "@twincell/core";
+import { flangePose, robotById, seededRandom, solveOrthoParallel, armScratch, identity, posesAgree, type OrthoParallelGeometry, type Pose, type SerialArm } from "@twincell/core";
 import { figure, microseconds, type Figure } from "./figure.ts";
 import { KR6_ARM, KR6_GEOMETRY } from "./robots/kr6.ts";
 
@@ -28,7 +28,7 @@ function figuresOf(name: string, arm: SerialArm, geometry: OrthoParallelGeometry
     for (let s = 0; s < count; s++) {
       for (let j = 0; j < 6; j++) q[j] = out[6 * s + j]!;
       flangePose(arm, q, again, scratch);
-      if (distance(again.position, pose.position) < 1e-9 && angleBetween(again.quaternion, pose.quaternion) < 1e-9) held++;
+      if (posesAgree(again, pose, 1e-9, 1e-9)) held++;
     }
     solved += count;
   });
