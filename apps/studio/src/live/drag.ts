@@ -1,6 +1,6 @@
 import {
-  angleBetween, compose, copyPose, distance, explainNearest, explainReach, flangeForTool, identity, inverse, inverseScratch, lerp, nearestSolution,
-  slerp, type Pose, type Robot,
+  angleBetween, compose, copyPose, distance, explainReach, identity, inverse, lerp, nearestSolution, slerp, solveAll, solverScratch,
+  type Pose, type Robot,
 } from "@twincell/core";
 import { jogStore } from "../stores/jog.ts";
 import { sound } from "../stores/sound.ts";
@@ -27,32 +27,29 @@ export function dragFollows(robot: Robot, worldFromBase: Pose<"world", "base">, 
   followed = { robot, baseFromWorld: inverse(worldFromBase), flangeFromTcp };
 }
 
-const scratch = inverseScratch(), q = new Float64Array(6), best = new Float64Array(6);
+const scratch = solverScratch(), q = new Float64Array(6), best = new Float64Array(6);
 const baseFromTcp: Pose<"base", "tcp"> = identity(), baseFromFlange: Pose<"base", "flange"> = identity();
 const tcpFromFlange: Pose<"tcp", "flange"> = identity();
 const from: Pose<"world", "tcp"> = identity(), step: Pose<"world", "tcp"> = identity(), trial: Pose<"world", "tcp"> = identity();
 
 /** Solves for the tool tip at `worldFromTcp`, continuing from `near`; q is written when it can be reached. */
 function reaches({ robot, baseFromWorld, flangeFromTcp }: Followed, worldFromTcp: Pose<"world", "tcp">, near: Float64Array): boolean {
-  compose(baseFromWorld, worldFromTcp, baseFromTcp);
-  flangeForTool(baseFromTcp, flangeFromTcp, baseFromFlange, tcpFromFlange);
-  if (nearestSolution(robot, baseFromFlange, near, q, scratch) !== "reached") return false;
+  compose(compose(baseFromWorld, worldFromTcp, baseFromTcp), inverse(flangeFromTcp, tcpFromFlange), baseFromFlange);
+  if (!nearestSolution(robot, baseFromFlange, near, q, scratch)) return false;
   for (let i = 0; i < 6; i++) if (Math.abs(q[i]! - near[i]!) > LONGEST_JOINT_STEP_RAD) return false;
   return true;
 }
 
 /** Why the pose last asked for cannot be reached. Allocates: only called when a drag begins to be blocked. */
 function reason(to: Followed, worldFromTcp: Pose<"world", "tcp">, near: Float64Array): DragOutcome {
-  compose(to.baseFromWorld, worldFromTcp, baseFromTcp);
-  flangeForTool(baseFromTcp, to.flangeFromTcp, baseFromFlange, tcpFromFlange);
-  const outcome = nearestSolution(to.robot, baseFromFlange, near, q, scratch);
-  if (outcome === "reached") {
+  compose(compose(to.baseFromWorld, worldFromTcp, baseFromTcp), inverse(to.flangeFromTcp, tcpFromFlange), baseFromFlange);
+  if (nearestSolution(to.robot, baseFromFlange, near, q, scratch)) {
     let joint = 0;
     for (let i = 1; i < 6; i++) if (Math.abs(q[i]! - near[i]!) > Math.abs(q[joint]! - near[joint]!)) joint = i;
     const turn_deg = (Math.abs(q[joint]! - near[joint]!) * 180) / Math.PI;
     return { kind: "blocked", joint: joint + 1, sentence: `Joint ${joint + 1} would have to turn by ${turn_deg.toFixed(0)}° at once: two axes are in line here.` };
   }
-  const reach = explainNearest(to.robot, baseFromFlange, outcome, q, scratch), sentence = explainReach(reach);
+  const reach = solveAll(to.robot, baseFromFlange, { near }, scratch), sentence = explainReach(reach);
   return reach.kind === "outside-limits" ? { kind: "blocked", joint: reach.joint, sentence } : { kind: "blocked", sentence };
 }
 

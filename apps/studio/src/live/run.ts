@@ -32,11 +32,11 @@ const TELL_EVERY_S = 0.1;
  * Emits the program, interprets that very text, and gives the steps it amounts to. A step of the text keeps the id of the
  * program step its line was written for, so that screen and recording speak of the same thing.
  */
-export function prepareRun(dialect: Dialect, program: Program, robot: Robot, onLine: (step: string, line: number) => void): Prepared {
-  const emitted = dialect.emit(program, robot);
+export function prepareRun(dialect: Dialect, program: Program, { robot, worldFromBase }: Pick<RunSetting, "robot" | "worldFromBase">, onLine: (step: string, line: number) => void): Prepared {
+  const emitted = dialect.emit(program, robot, worldFromBase);
   if (emitted.kind === "cannot") return { kind: "not-emitted", sentence: emitted.sentence, hint: emitted.hint };
   const file = runnable(emitted.files);
-  const interpreted = dialect.interpret(file.text, robot);
+  const interpreted = dialect.interpret(file.text, robot, worldFromBase);
   if (interpreted.kind === "not-understood") {
     const [first] = interpreted.faults;
     return { kind: "not-understood", sentence: first ? `Line ${first.line}, column ${first.column}: ${first.sentence}` : "", hint: "Export the text and look at that line." };
@@ -105,7 +105,7 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
 
   async function run(program: Program, cellName: string): Promise<CommandOutcome | Exclude<Prepared, { kind: "ready" }>> {
     lines.clear();
-    const prepared = prepareRun(world.dialect, program, robot, (step, line) => lines.set(step, line));
+    const prepared = prepareRun(world.dialect, program, { robot, worldFromBase }, (step, line) => lines.set(step, line));
     if (prepared.kind !== "ready") return prepared;
     // A virtual robot may jump (row T-18): it starts from where the robot on screen stands.
     const jumped = virtual.jumpTo(theLive().q_rad);

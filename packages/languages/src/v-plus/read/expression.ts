@@ -31,13 +31,13 @@ function chain(cursor: Cursor, joins: (word: string) => boolean, part: () => Exp
 
 function not(cursor: Cursor, depth: number): Expression {
   const { line, column } = cursor.here;
-  let times = 0;
-  while (cursor.accept("NOT")) times++;
+  let nots = 0;
+  while (cursor.accept("NOT")) nots++;
   let value = chain(cursor, word => COMPARE.has(word),
     () => chain(cursor, word => word === "+" || word === "-",
       () => chain(cursor, word => word === "*" || word === "/" || word === "MOD",
         () => signed(cursor, depth))));
-  for (; times > 0; times--) value = { kind: "unary", sign: "NOT", of: value, line, column };
+  for (; nots > 0; nots--) value = { kind: "unary", sign: "NOT", of: value, line, column };
   return value;
 }
 
