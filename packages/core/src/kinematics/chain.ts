@@ -1,19 +1,17 @@
 import { JointCountFault } from "../fault.ts";
 import type { SerialArm } from "../robots/arm.ts";
 import type { Pose } from "../spatial/pose.ts";
-import { sineCosine } from "../spatial/sine-cosine.ts";
+import type { Vector3 } from "../spatial/vector.ts";
 
 /** Working memory of `flangePose` and its kin: one per caller, never shared between workers. */
 export interface ArmScratch {
-  /** Sine and cosine of half a turn. */
-  readonly turn: Float64Array;
   /** The arm last asked for, laid out flat. */
   arm: SerialArm | null;
   chain: Float64Array;
 }
-export const armScratch = (): ArmScratch => ({ turn: new Float64Array(2), arm: null, chain: new Float64Array(0) });
+export const armScratch = (): ArmScratch => ({ arm: null, chain: new Float64Array(0) });
 
-/** Numbers per joint of a flat chain: position, quaternion, axis, which axis, whether it is moved, whether turned. */
+/** Numbers per joint of a flat chain: position, quaternion, axis, which axis, along which axis it is moved, whether turned. */
 const STRIDE = 13;
 const X = 0, Y = 1, Z = 2, ANY = 3, NONE = 4;
 
@@ -31,17 +29,17 @@ export function chainOf(arm: SerialArm, q: ArrayLike<number>, scratch: ArmScratc
   rows.forEach(({ fixed, axis }, i) => {
     const { position, quaternion } = fixed;
     const turned = quaternion[0] !== 0 || quaternion[1] !== 0 || quaternion[2] !== 0 || quaternion[3] !== 1;
-    const moved = position.some(value => value !== 0);
-    chain.set([...position, ...quaternion, ...(axis ?? [0, 0, 0]), axis === null ? NONE : axisKind(axis), moved ? 1 : 0, turned ? 1 : 0], i * STRIDE);
+    chain.set([...position, ...quaternion, ...(axis ?? [0, 0, 0]), axis === null ? NONE : directionOf(axis), directionOf(position), turned ? 1 : 0], i * STRIDE);
   });
   scratch.arm = arm;
   scratch.chain = chain;
   return chain;
 }
 
-function axisKind(axis: readonly number[]): number {
-  const along = axis.findIndex(value => Math.abs(value) === 1);
-  return along >= 0 && axis.every((value, i) => i === along || value === 0) ? along : ANY;
+/** Along one axis of its frame, none or any: most arms are built at right angles, and that halves the work. */
+function directionOf(vector: Vector3): number {
+  const along = vector.findIndex(value => value !== 0);
+  return along < 0 ? NONE : vector.every((value, i) => i === along || value === 0) ? along : ANY;
 }
 
 /**
@@ -53,12 +51,19 @@ function axisKind(axis: readonly number[]): number {
  * @param axes    receives six numbers per joint: its axis and its origin in the base; or null.
  */
 export function walk(
-  chain: Float64Array, q: ArrayLike<number>, turn: Float64Array, flange: Pose | null, links: readonly Pose[] | null, axes: Float64Array | null,
+  chain: Float64Array, q: ArrayLike<number>, flange: Pose | null, links: readonly Pose[] | null, axes: Float64Array | null,
 ): void {
   let x = 0, y = 0, z = 0, w = 1, ox = 0, oy = 0, oz = 0;
   if (links !== null) store(links[0]!, x, y, z, w, ox, oy, oz);
   for (let at = 0, joint = 0; ; at += STRIDE, joint++) {
-    if (chain[at + 11] === 1) {
+    const move = chain[at + 11]!;
+    if (move === Z) {
+      const d = chain[at + 2]!, dd = d + d;
+      ox += (x * z + w * y) * dd; oy += (y * z - w * x) * dd; oz += d - (x * x + y * y) * dd;
+    } else if (move === X) {
+      const d = chain[at]!, dd = d + d;
+      ox += d - (y * y + z * z) * dd; oy += (x * y + w * z) * dd; oz += (x * z - w * y) * dd;
+    } else if (move === Y || move === ANY) {
       const px = chain[at]!, py = chain[at + 1]!, pz = chain[at + 2]!;
       const tx = 2 * (y * pz - z * py), ty = 2 * (z * px - x * pz), tz = 2 * (x * py - y * px);
       ox += px + w * tx + y * tz - z * ty;
@@ -81,8 +86,7 @@ export function walk(
       axes[joint * 6 + 2] = az + w * tz + x * ty - y * tx;
       axes[joint * 6 + 3] = ox; axes[joint * 6 + 4] = oy; axes[joint * 6 + 5] = oz;
     }
-    sineCosine(q[joint]! / 2, turn);
-    const s = turn[0]!, c = turn[1]!;
+    const half = q[joint]! / 2, s = Math.sin(half), c = Math.cos(half);
     if (kind === Z) {
       const b = chain[at + 9]! * s, nx = x * c + y * b, nz = z * c + w * b;
       y = y * c - x * b; w = w * c - z * b; x = nx; z = nz;
