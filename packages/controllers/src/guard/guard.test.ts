@@ -1,6 +1,7 @@
 import { distance, flangePose, identity, manualScheduler, robotById, type JointSample, type RobotController, type Vector3 } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { describeController } from "../testing/index.ts";
+import { createTwin } from "../twin/index.ts";
 import { createVirtualController } from "../virtual/index.ts";
 import { createGuard, type GuardOptions } from "./guard.ts";
 import { jointMoveSpeed, speedBound } from "./speed.ts";
@@ -15,6 +16,16 @@ describeController("guarded virtual RX90L", {
   make: options => {
     const seat = createGuard({ controller: createVirtualController(options), scheduler: options.scheduler }).seat("test");
     seat.take();
+    return seat.robot;
+  },
+});
+
+describeController("guarded twin of a virtual RX90L, dead-man pressed", {
+  robot, scheduler: manualScheduler,
+  make: options => {
+    const { scheduler } = options, seat = createGuard({ controller: createTwin({ real: createVirtualController(options), scheduler }), scheduler }).seat("test");
+    seat.take();
+    seat.hold(true);
     return seat.robot;
   },
 });
@@ -308,6 +319,16 @@ describe("guard", () => {
     await scheduler.elapse(6);
     expect(await again).toEqual({ kind: "done" });
     expect(real.isMoving()).toBe(false);
+  });
+
+  test("a driver that throws leaves the robot stopped and the guard ready", async () => {
+    const scheduler = manualScheduler(), real = createVirtualController({ robot, scheduler }), stops: number[] = [];
+    const controller: RobotController = { ...real, stop: () => { stops.push(scheduler.now_s()); }, moveJoints: () => Promise.reject(new Error("The cable was pulled.")) };
+    const guard = createGuard({ controller, scheduler }), me = guard.seat("me");
+    me.take();
+    await expect(me.robot.moveJoints(START)).rejects.toThrow("The cable was pulled.");
+    expect(stops.length).toBe(1);
+    expect(guard.state.motion).toBe("at-rest");
   });
 
   test("closing the guard stops what moves", async () => {

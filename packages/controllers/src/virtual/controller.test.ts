@@ -1,4 +1,5 @@
-import { distance, flangePose, manualScheduler, robotById, type Step, type Vector3 } from "@twincell/core";
+import fc from "fast-check";
+import { distance, flangePose, manualScheduler, PlainFault, robotById, type Step, type Vector3 } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { describeController, numericSolver, onSpoiledSample } from "../testing/index.ts";
 import { createVirtualController } from "./controller.ts";
@@ -124,6 +125,65 @@ describe("virtual controller", () => {
     expect(seen.length).toBeGreaterThan(200);
     for (const [px, , pz] of seen) { expect(Math.abs(px - x)).toBeLessThan(1e-4); expect(Math.abs(pz - z)).toBeLessThan(1e-4); }
     expect(distance(flangePose(robot.arm, controller.jointAngles()).position, [x, y + 0.1, z])).toBeLessThan(1e-6);
+  });
+
+  test("a program that faults by itself ends there; the robot takes the next command", async () => {
+    const { scheduler, robot: controller } = bench(), outcomes: unknown[] = [];
+    function* faulty(reason: Error): Generator<Step> { yield move("a", near(0.1)); throw reason; }
+    for (const reason of [new PlainFault("text.divide-by-zero", "Line 4 divides by zero.", "Check the divisor."), new Error("no such array")]) {
+      void controller.run(faulty(reason), { tools: {}, frames: {} }).then(outcome => outcomes.push(outcome));
+      await scheduler.elapse(2);
+    }
+    expect(outcomes).toMatchObject([
+      { kind: "stopped", why: { code: "text.divide-by-zero", sentence: "Line 4 divides by zero.", hint: "Check the divisor." } },
+      { kind: "stopped", why: { code: "controller.program-fault", sentence: expect.stringContaining("no such array") } },
+    ]);
+    const next = controller.moveToZero();
+    await scheduler.elapse(5);
+    expect(await next).toEqual({ kind: "done" });
+  });
+
+  test("whatever is commanded whenever, limits and speeds are kept and every command is answered", async () => {
+    const joints = robot.arm.joints, slack = 1e-6;
+    const anything = fc.array(fc.record({
+      what: fc.constantFrom("move", "joint", "zero", "stop", "emergency", "reset", "speed", "guard", "protective", "manual", "automatic", "jog", "run", "jump"),
+      part: fc.array(fc.double({ min: -0.1, max: 1.1, noNaN: true }), { minLength: 6, maxLength: 6 }), wait_s: fc.double({ min: 0, max: 0.8, noNaN: true }),
+    }), { minLength: 1, maxLength: 25 });
+    await fc.assert(fc.asyncProperty(anything, async commands => {
+      const { scheduler, robot: controller } = bench();
+      let asked = 0, answered = 0, jumped = false, last = controller.jointAngles();
+      const faults: string[] = [];
+      onSpoiledSample(controller, lent => {
+        joints.forEach(({ limits }, i) => {
+          const q = lent.q_rad[i]!;
+          if (!(q >= limits.lower_rad - slack && q <= limits.upper_rad + slack)) faults.push(`joint ${i + 1} at ${q}`);
+          if (!jumped && Math.abs(q - last[i]!) > limits.speed_rad_s * 0.004 * 1.001) faults.push(`joint ${i + 1} by ${q - last[i]!}`);
+        });
+        jumped = false;
+        last = Float64Array.from(lent.q_rad);
+      });
+      const count = (outcome: Promise<unknown>): void => { asked++; void outcome.then(() => { answered++; }); };
+      for (const { what, part, wait_s } of commands) {
+        const q = joints.map(({ limits }, i) => limits.lower_rad + part[i]! * (limits.upper_rad - limits.lower_rad));
+        if (what === "move") count(controller.moveJoints(q));
+        else if (what === "joint") count(controller.moveJoint(2, q[1]!));
+        else if (what === "zero") count(controller.moveToZero());
+        else if (what === "run") count(controller.run([move("a", q), { id: "w", type: "wait", s: 0.1 }, move("b", HOME)], { tools: {}, frames: {} }));
+        else if (what === "jog") count(controller.atTheRobot.jog(q));
+        else if (what === "jump") jumped = controller.jumpTo(q).kind === "done" || jumped;
+        else if (what === "stop" || what === "emergency") controller.stop(what === "emergency");
+        else if (what === "reset") controller.reset();
+        else if (what === "speed") controller.setSpeed(100 * Math.max(0, Math.min(1, part[0]!)));
+        else if (what === "guard") controller.atTheRobot.setGuardOpen(part[0]! > 0.5);
+        else if (what === "protective") controller.atTheRobot.protectiveStop("A test.");
+        else controller.atTheRobot.setMode(what);
+        await scheduler.elapse(wait_s);
+      }
+      controller.setSpeed(100);
+      await scheduler.elapse(20);
+      expect(faults).toEqual([]);
+      expect(answered).toBe(asked);
+    }), { seed: 7, numRuns: 40 });
   });
 
   test("a second command while one runs is refused, and the first goes on", async () => {

@@ -1,9 +1,9 @@
 import {
-  explainReach, solveAll, Stepper, type CommandOutcome, type JointSample, type OperatingMode, type Pose, type Program, type Reach, type Refusal, type Robot,
+  explainReach, solveAll, Stepper, type StepperState, type CommandOutcome, type JointSample, type OperatingMode, type Pose, type Program, type Reach, type Refusal, type Robot,
   type RobotController, type SafetyState, type Scheduler, type Step,
 } from "@twincell/core";
 import { listeners } from "../listeners.ts";
-import { busy, closed, drivesOff, guardOpen, guardStillOpen, jointNumberRefusal, jointRefusal, manualMode, percentRefusal, protective, stillBraking, stopped } from "../refusals.ts";
+import { busy, closed, drivesOff, guardOpen, guardStillOpen, jointNumberRefusal, jointRefusal, manualMode, percentRefusal, programFault, protective, stillBraking, stopped } from "../refusals.ts";
 
 export interface VirtualOptions {
   readonly robot: Robot;
@@ -83,7 +83,14 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
 
   /** One cycle of motion; what ended with it, if anything did. */
   function move(at: Command): CommandOutcome | null {
-    const state = at.stepper.advance(cycle_s, override * maxSpeed, q_rad), { begun } = at;
+    const { begun } = at;
+    let state: StepperState;
+    try {
+      state = at.stepper.advance(cycle_s, override * maxSpeed, q_rad);
+    } catch (reason) {
+      // Steps may come from a running program text, and that may fault: the program ends, the robot goes on being a robot.
+      return { kind: "stopped", why: programFault(reason) };
+    }
     gripperClosed = state.gripperClosed;
     at.begun = true;
     at.moving = state.moving;
