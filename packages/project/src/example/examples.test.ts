@@ -1,7 +1,9 @@
 import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
-import { edgeTraceCell, saveDocument } from "../index.ts";
+import { edgeTraceCell, openDocument, saveDocument, tracedCartonCell } from "../index.ts";
 
-test("the example file is what its function makes; after a change run scripts/write-examples.mjs", () => {
-  expect(readFileSync(new URL("../../../../examples/01-edge-trace/cell.json", import.meta.url), "utf8")).toBe(saveDocument(edgeTraceCell()));
+test.each([["01-edge-trace", edgeTraceCell()], ["02-traced-carton", tracedCartonCell()]] as const)("example %s is what its function makes and opens; after a change run scripts/write-examples.mjs", (name, cell) => {
+  const text = readFileSync(new URL(`../../../../examples/${name}/cell.json`, import.meta.url), "utf8");
+  expect(text).toBe(saveDocument(cell));
+  expect(openDocument(text)).toEqual({ kind: "opened", document: cell, lifted: [] });
 });

@@ -1,2 +1,3 @@
 export * from "./empty.ts";
 export * from "./edge-trace.ts";
+export * from "./traced-carton.ts";
