@@ -1,28 +1,29 @@
 /** The whole path through every package: the example program is checked against its cell, exported, executed as text, planned, and measured against the carton's edges. */
 import { CellCollider, checkProgram, degrees, flangePose, compose, linkSolids, planProgram, robotById, rotate, samplePlan, type MoveStep, type Program, type Step, type Vector3 } from "@twincell/core";
 import { DIALECTS, proveText, vPlus } from "@twincell/languages";
-import { cellGeometry, tracedCartonCell } from "@twincell/project";
+import { cellGeometry, recordedAsJoints, tracedCartonCell } from "@twincell/project";
 import { describe, expect, test } from "vitest";
 
 const cell = tracedCartonCell(), program = cell.programs[0]!, robot = robotById(cell.robot.id)!;
+const recorded = recordedAsJoints(cell, program);
 const { worldFromBase } = cell.robot;
 const geometry = cellGeometry(cell, linkSolids(robot));
 
 /** The text's own resolution at a target, and the planner's tolerance along the path. */
 const TARGET_M = 1e-5, PATH_M = 5e-5, TILT_DEG = 0.1;
 
-test("the checker has nothing against it, with the cell around it", () => {
-  const { verdict } = checkProgram(program, robot, { cell: geometry });
+test.each([["poses", program], ["joint angles", recorded]])("taught as %s: the checker has nothing against it, with the cell around it", (_, taught) => {
+  const { verdict } = checkProgram(taught, robot, { cell: geometry });
   expect(verdict.steps.filter(step => step.verdict !== "ok").map(step => [step.id, step.verdict, step.findings.map(finding => finding.sentence)])).toEqual([]);
   expect(verdict.ok).toBe(true);
 });
 
 describe.each(DIALECTS.map(dialect => [dialect.name, dialect] as const))("exported in %s", (_, dialect) => {
-  test("the text, executed, is the program", () => {
-    const emitted = dialect.emit(program, robot, worldFromBase);
+  test.each([["poses", program], ["joint angles", recorded]])("taught as %s: the text, executed, is the program", (_, taught) => {
+    const emitted = dialect.emit(taught, robot, worldFromBase);
     expect(emitted.kind).toBe("emitted");
     if (emitted.kind !== "emitted") return;
-    const proof = proveText(dialect, emitted.files[0]!, program, robot, worldFromBase);
+    const proof = proveText(dialect, emitted.files[0]!, taught, robot, worldFromBase);
     expect(proof.kind, proof.sentence).toBe("proven");
   });
 });
