@@ -41,7 +41,7 @@ export interface CellDocument {
   readonly tool: string;
   readonly objects: readonly ObjectRecord[];
   readonly frames: readonly FrameRecord[];
-  /** Pairs of solids that may touch, by object name, "tool" or "link n". */
+  /** Pairs of solids that may touch, by object id, "tool" or "link n". */
   readonly allowedPairs: readonly (readonly [string, string])[];
   readonly programs: readonly Program[];
   /** Name of the program being worked on. */

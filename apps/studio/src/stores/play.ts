@@ -1,18 +1,32 @@
-import type { Plan, Vector3, Verdict } from "@twincell/core";
+import type { Plan, StepVerdict, Vector3, Verdict } from "@twincell/core";
 import { createStore } from "zustand/vanilla";
 
+export interface PathStretch { readonly step: string; readonly verdict: StepVerdict; readonly points: readonly Vector3[] }
 /** The program laid out in time, judged, and where on the timeline we look. */
 export interface PlayState {
   readonly plan: Plan | null;
   readonly verdict: Verdict | null;
   /** Progress 0 … 1 of the check under way; null when none is. */
   readonly checking: number | null;
+  /** The check itself could not be done: why. */
+  readonly trouble: string | null;
   /** Seconds; written at most ten times a second while playing (the frame loop keeps the exact time in `live/playhead.ts`). */
   readonly t_s: number;
   readonly playing: boolean;
   /** 0 … 1. 0 holds. */
   readonly speed: number;
   /** TCP path in the world with the verdict of each stretch, for drawing. */
-  readonly path: readonly { readonly step: string; readonly verdict: "ok" | "warn" | "bad" | "unknown"; readonly points: readonly Vector3[] }[];
+  readonly path: readonly PathStretch[];
+  /** A repair being shown and not yet applied: the ids of the steps it would change. */
+  readonly preview: string | null;
 }
-export const playStore = createStore<PlayState>(() => ({ plan: null, verdict: null, checking: null, t_s: 0, playing: false, speed: 1, path: [] }));
+export const playStore = createStore<PlayState>(() => ({
+  plan: null, verdict: null, checking: null, trouble: null, t_s: 0, playing: false, speed: 1, path: [], preview: null,
+}));
+
+/** Worst first wins: bad, warn, unknown, ok. */
+const RANK: Readonly<Record<StepVerdict, number>> = { ok: 0, unknown: 1, warn: 2, bad: 3 };
+export const worse = (a: StepVerdict, b: StepVerdict): StepVerdict => (RANK[b] > RANK[a] ? b : a);
+export function verdictOf(verdict: Verdict | null, id: string): StepVerdict {
+  return verdict?.steps.find(step => step.id === id)?.verdict ?? "unknown";
+}

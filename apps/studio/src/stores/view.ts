@@ -1,6 +1,7 @@
 import { createStore } from "zustand/vanilla";
 
 export type StudioMode = "teach" | "check" | "run" | "history";
+export type SheetTab = "jog" | "program" | "why" | "run";
 export interface ViewState {
   readonly mode: StudioMode;
   readonly theme: "dark" | "light";
@@ -11,7 +12,25 @@ export interface ViewState {
   readonly closePlacement: "level" | "offset";
   readonly muted: boolean;
   readonly inHeadset: boolean;
+  /** Which tab of the bottom sheet a phone shows. */
+  readonly sheet: SheetTab;
+  /** The drawer with plots under the timeline. */
+  readonly plots: boolean;
+  /** The coach was dismissed for ever. */
+  readonly coachDone: boolean;
+  /** Counts up with every wish to enter the headset; the scene answers, since it owns the session. */
+  readonly headsetWish: number;
 }
 export const viewStore = createStore<ViewState>(() => ({
   mode: "teach", theme: "dark", camera: "main", closeTilt_rad: 0, closePlacement: "offset", muted: false, inHeadset: false,
+  sheet: "jog", plots: false, coachDone: false, headsetWish: 0,
 }));
+
+export const showMode = (mode: StudioMode): void => viewStore.setState({ mode });
+export const toggleTheme = (): void => viewStore.setState(({ theme }) => ({ theme: theme === "dark" ? "light" : "dark" }));
+export const toggleMuted = (): void => viewStore.setState(({ muted }) => ({ muted: !muted }));
+/** Row N-36. */
+export const toggleCamera = (): void => viewStore.setState(({ camera }) => ({ camera: camera === "main" ? "close" : "main" }));
+/** Row N-44: an analogue trigger 0 … 1 tilts the close camera 0 … 90°. */
+export const tiltCloseCamera = (trigger: number): void => viewStore.setState({ closeTilt_rad: (Math.min(1, Math.max(0, trigger)) * Math.PI) / 2 });
+export const wishHeadset = (): void => viewStore.setState(({ headsetWish }) => ({ headsetWish: headsetWish + 1 }));

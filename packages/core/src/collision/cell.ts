@@ -19,11 +19,11 @@ export interface CellGeometry {
   /** Solid of the tool in the flange frame. */
   readonly tool?: { readonly name: string; readonly mesh: TriangleMesh };
   readonly objects: readonly CellObject[];
-  /** Pairs of names that may touch (the tool tip and the work piece it traces, for instance). */
+  /** Pairs that may touch, by link name, "tool" or object id (the tool tip and the work piece it traces, for instance). */
   readonly allowedPairs: readonly (readonly [string, string])[];
   /** Uncertainty of the drawn robot shape [m], added to every margin. */
   readonly shapeError_m: number;
 }
 
-/** Two solids that touch. Names are those of links ("link 4"), of the tool or of objects. */
+/** Two solids that touch. Names are those of links ("link 4"), "tool", or ids of objects. */
 export interface Contact { readonly a: string; readonly b: string }

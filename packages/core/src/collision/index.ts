@@ -8,3 +8,8 @@ export { pairScratch, surfacesTouch, type PairScratch } from "./intersect.ts";
 export { surfaceDistance } from "./distance.ts";
 export * from "./inside.ts";
 export * from "./solid.ts";
+export { SolidShelf } from "./bodies.ts";
+export * from "./cell-collider.ts";
+export * from "./motion.ts";
+export * from "./tip.ts";
+export * from "./watch.ts";

@@ -6,7 +6,7 @@ export const rigid = (): Rigid => Float64Array.of(1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 
 
 /** The same motion as a pose. */
 export function rigidFromPose(pose: Pose, out: Rigid = rigid()): Rigid {
-  const [x, y, z, w] = pose.quaternion;
+  const r = pose.quaternion, x = r[0], y = r[1], z = r[2], w = r[3];
   out[0] = 1 - 2 * (y * y + z * z); out[1] = 2 * (x * y - z * w); out[2] = 2 * (x * z + y * w);
   out[3] = 2 * (x * y + z * w); out[4] = 1 - 2 * (x * x + z * z); out[5] = 2 * (y * z - x * w);
   out[6] = 2 * (x * z - y * w); out[7] = 2 * (y * z + x * w); out[8] = 1 - 2 * (x * x + y * y);

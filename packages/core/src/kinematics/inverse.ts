@@ -3,8 +3,9 @@ import { compose, identity, inverse, type Pose } from "../spatial/pose.ts";
 import { angleBetween } from "../spatial/quaternion.ts";
 import { distance } from "../spatial/vector.ts";
 import { branchOfOrthoParallel, sameBranch, type Branch } from "./branch.ts";
+import { isSingular } from "./singularity.ts";
 import { armScratch, flangePose, type ArmScratch } from "./forward.ts";
-import { MAX_BRANCHES, SINGULAR_SINE, solveOrthoParallel } from "./ortho-parallel.ts";
+import { MAX_BRANCHES, solveOrthoParallel } from "./ortho-parallel.ts";
 import type { Reach, Solution } from "./reach.ts";
 import { span } from "./span.ts";
 
@@ -67,8 +68,7 @@ export function solveAll(robot: Robot, baseFromFlange: Pose<"base", "flange">, o
   if (inside.length === 0) return nearestLimit(robot, pool);
   if (branch !== undefined && wanted.length === 0) return nearestLimit(robot, pool);
   if (near !== undefined) inside.sort((a, b) => travel(a.q_rad, near) - travel(b.q_rad, near));
-  const sine = Math.abs(Math.sin(family.signs[4] * inside[0]!.q_rad[4]! - family.offsets_rad[4]));
-  return { kind: "reached", solutions: inside, singular: sine < SINGULAR_SINE, considered };
+  return { kind: "reached", solutions: inside, singular: inside.some(({ q_rad }) => isSingular(family, q_rad)), considered };
 }
 
 /**

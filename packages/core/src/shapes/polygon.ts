@@ -21,11 +21,14 @@ export function triangulate(outline: readonly Point2[]): number[] {
   const left: number[] = [];
   for (let i = 0; i < outline.length; i++) left.push(doubleArea(outline) >= 0 ? i : outline.length - 1 - i);
   const triangles: number[] = [];
-  while (left.length > 3) {
-    const ear = left.findIndex((_, i) => isEar(outline, left, i));
-    const at = ear < 0 ? 1 : ear, n = left.length;
+  for (let at = 0; left.length > 3;) {
+    const n = left.length;
+    // The search goes on beside the last ear: long outlines of round faces would take n³ from the start each time.
+    let tried = 0;
+    while (tried < n && !isEar(outline, left, at)) { at = (at + 1) % n; tried++; }
     triangles.push(left[(at + n - 1) % n]!, left[at]!, left[(at + 1) % n]!);
     left.splice(at, 1);
+    at = (at + 1) % left.length;
   }
   return left.length === 3 ? [...triangles, left[0]!, left[1]!, left[2]!] : triangles;
 }

@@ -72,7 +72,7 @@ describe.each([["upright six-axis arm", staubliRx90l], ["arm of unknown form", g
 
   test("solids are coarse and named as the links are", () => {
     const solids = linkSolids(robot);
-    expect(solids.map(solid => solid.name)).toEqual(["base", "link 1", "link 2", "link 3", "link 4", "link 5", "link 6"]);
+    expect(solids.map(solid => solid.name)).toEqual(["link 0", "link 1", "link 2", "link 3", "link 4", "link 5", "link 6"]);
     for (const solid of solids) expect(solid.mesh.indices.length / 3).toBeLessThan(400);
   });
 });

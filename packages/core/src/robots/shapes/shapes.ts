@@ -7,8 +7,8 @@ import { intoLink, merge } from "./loft.ts";
 import type { LinkDesign, LinkShape } from "./link-shape.ts";
 import { plainArm } from "./plain-arm.ts";
 
-/** "base", "link 1", … "link 6": how contacts, labels and allowed pairs call the links. */
-export const linkName = (link: number): string => (link === 0 ? "base" : `link ${link}`);
+/** "link 0" (the base), "link 1", … "link 6": how contacts, labels and allowed pairs call the links. */
+export const linkName = (link: number): string => `link ${link}`;
 
 /** Links as designed, each already in its own frame. */
 export function linkDesigns(robot: Robot): LinkDesign[] {

@@ -1,0 +1,66 @@
+import { spawnSync } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { fileURLToPath } from "node:url";
+import { expect, test } from "vitest";
+
+const root = fileURLToPath(new URL("../../../", import.meta.url));
+
+/** The command as users run it: a process of its own, with its own standard streams. */
+function twincell(args: readonly string[], input = ""): { readonly code: number; readonly out: string; readonly err: string; readonly lines: () => unknown[] } {
+  const run = spawnSync(process.execPath, ["apps/cli/src/main.ts", ...args], { cwd: root, input, encoding: "utf8" });
+  return { code: run.status ?? -1, out: run.stdout, err: run.stderr, lines: () => run.stdout.trim().split("\n").map(line => JSON.parse(line) as unknown) };
+}
+const fixture = (name: string): unknown => JSON.parse(readFileSync(`${root}fixtures/kinematics/${name}`, "utf8"));
+
+test("robots names the RX90L with its numbers, their sources and what was assumed", () => {
+  const { code, lines } = twincell(["robots"]);
+  expect(code).toBe(0);
+  expect(lines()).toContainEqual(expect.objectContaining({ id: "staubli_rx90l", family: "ortho-parallel", dof: 6, payload_kg: 3.5, reach_m: 1.185 }));
+});
+
+test("fk answers the reference cases, in the root link and in the vendor's world", () => {
+  const { samples } = fixture("staubli_rx90l.forward.json") as { samples: { q: number[]; T: number[][] }[] };
+  const input = samples.map(({ q }) => JSON.stringify({ q })).join("\n");
+  const poses = twincell(["fk", "--robot", "staubli_rx90l"], input).lines() as { position: number[] }[];
+  const fromShoulder = twincell(["fk", "--robot", "staubli_rx90l", "--base", "base"], input).lines() as { position: number[] }[];
+  expect(poses.length).toBe(samples.length);
+  samples.forEach(({ T }, i) => {
+    T.slice(0, 3).forEach((row, axis) => { expect(poses[i]!.position[axis]).toBeCloseTo(row[3]!, 9); });
+    expect(fromShoulder[i]!.position[2]).toBeCloseTo(T[2]![3]! - 0.42, 9);
+  });
+});
+
+test("ik gives every branch in (−π, π], whole turns with --within-limits, the nearest first with --near", () => {
+  const pose = twincell(["fk", "--robot", "staubli_rx90l"], '{"q":[0.3,-1,1.2,0.4,0.7,-0.2]}').out;
+  const [all] = twincell(["ik", "--robot", "staubli_rx90l"], pose).lines() as { solutions: number[][]; reach: { kind: string } }[];
+  expect(all!.solutions.length).toBe(8);
+  expect(all!.solutions.flat().every(angle => angle > -Math.PI && angle <= Math.PI)).toBe(true);
+  expect(all!.reach.kind).toBe("reached");
+  const [near] = twincell(["ik", "--robot", "staubli_rx90l", "--within-limits", "--near", "0.3,-1,1.2,0.4,0.7,-0.2"], pose).lines() as { solutions: number[][] }[];
+  expect(near!.solutions.length).toBeGreaterThan(8);
+  near!.solutions[0]!.forEach((angle, joint) => { expect(angle).toBeCloseTo([0.3, -1, 1.2, 0.4, 0.7, -0.2][joint]!, 9); });
+});
+
+test("a pose out of reach is an answer with its measure, not a failure", () => {
+  const { code, lines } = twincell(["ik", "--robot", "staubli_rx90l"], '{"position":[3,0,1],"quaternion":[0,0,0,1]}');
+  expect(code).toBe(0);
+  expect(lines()[0]).toMatchObject({ solutions: [], reach: { kind: "too-far", reach_m: 1.1 } });
+});
+
+test.each([
+  [["fk", "--robot", "staubli_rx90l"], '{"q":[0,0,0,0,0,0]}\n{"q":[1]}', "Line 2"],
+  [["fk", "--robot", "staubli_rx90l"], "nonsense", "Line 1 is not JSON"],
+  [["fk", "--robot", "staubli_rx90l"], '{"q":[0,0,0,0,null,0]}', "joint 5"],
+  [["fk", "--robot", "nobody"], "", "nobody"],
+  [["fk"], "", "--robot is missing"],
+  [["ik", "--robot", "staubli_rx90l"], '{"position":[0,0,1],"quaternion":[0,0,0,2]}', "length 2"],
+  [["ik", "--robot", "staubli_rx90l", "--near", "1,2"], "", "--near wants 6"],
+  [["ik", "--robot", "staubli_rx90l", "--speed", "1"], "", "speed"],
+  [["fly"], "", "no command"],
+])("wrong use ends with 2 and one sentence: %j", (args, input, says) => {
+  const { code, err, out } = twincell(args, input);
+  expect(code).toBe(2);
+  expect(err).toContain(says);
+  expect(err.trim().split("\n").length).toBe(1);
+  expect(out.includes("NaN")).toBe(false);
+});

@@ -1,0 +1,44 @@
+import { allBranches, compose, explainReach, inverse, solveAll, solverScratch, travel, type Pose, type Reach } from "@twincell/core";
+import { given } from "../io/arguments.ts";
+import { jsonLines, lineWriter } from "../io/json-lines.ts";
+import { robotOf, ROBOT_OPTIONS } from "../io/robot.ts";
+import { UseFault, type Command } from "../io/usage.ts";
+import { poseOf } from "../io/values.ts";
+
+export const ikCommand: Command = {
+  name: "ik",
+  summary: "pose of the tip in, all joint angles that reach it out, or why none do",
+  usage: `twincell ik --robot R [--base LINK] [--tip LINK] [--within-limits] [--near q1,q2,…]  < poses.jsonl
+
+Reads POSE lines {"position":[x,y,z],"quaternion":[x,y,z,w]} and writes {"solutions":[[…],…],"reach":{…}} lines.
+Every distinct branch, angles in (−π, π]. An unreachable pose is an answer: "reach" says why.
+
+  --within-limits   adds whole turns inside the limits and drops the rest
+  --near q1,q2,…    sorts by least total travel from these angles (radians)`,
+  async run(args) {
+    const options = given(args, { ...ROBOT_OPTIONS, "within-limits": { type: "boolean" }, near: { type: "string" }, json: { type: "boolean" } });
+    const { robot, baseFromRoot, flangeFromTip } = await robotOf(options);
+    const near = options.numbers("near"), joints = robot.arm.joints.length;
+    if (near && near.length !== joints) throw new UseFault(`--near wants ${joints} angles, not ${near.length}.`);
+
+    const rootFromBase = inverse(baseFromRoot), tipFromFlange = inverse(flangeFromTip), scratch = solverScratch(), writer = lineWriter();
+    for await (const { line, value } of jsonLines()) {
+      const baseFromFlange = compose(compose(rootFromBase, poseOf(value, line)), tipFromFlange) as Pose<"base", "flange">;
+      const reach = solveAll(robot, baseFromFlange, near ? { near } : {}, scratch);
+      const solutions = options.flag("within-limits")
+        ? (reach.kind === "reached" ? reach.solutions.map(solution => solution.q_rad) : [])
+        : allBranches(robot, baseFromFlange, near, scratch);
+      if (near) solutions.sort((a, b) => travel(a, near) - travel(b, near));
+      writer.write({ solutions: solutions.map(q => Array.from(q)), reach: said(reach) });
+    }
+    await writer.end();
+    return 0;
+  },
+};
+
+/** The reason with its numbers and its sentence; the solutions stand beside it. */
+function said(reach: Reach): Record<string, unknown> {
+  const sentence = explainReach(reach);
+  if (reach.kind === "reached") return { kind: reach.kind, singular: reach.singular, considered: reach.considered, sentence };
+  return { ...reach, sentence };
+}

@@ -1,0 +1,74 @@
+import type { ObjectRecord } from "@twincell/project";
+import { useFrame } from "@react-three/fiber";
+import { useEffect, useMemo, useRef } from "react";
+import { EdgesGeometry, type Group, type LineSegments, type Mesh, Vector3 } from "three";
+import { paintTouching } from "../paint.ts";
+import { raycastByTree } from "../pick/raycast.ts";
+import { poseMatrix } from "../pose-matrix.ts";
+import { kraftTexture, looksLikeCardboard } from "./cardboard.ts";
+import { shapeGeometry } from "./shape-geometry.ts";
+import { wallHides } from "./walls.ts";
+
+/** One thing in the cell: furniture, work piece or wall. */
+export function ObjectView({ object }: { readonly object: ObjectRecord }) {
+  const group = useRef<Group>(null);
+  const geometry = useMemo(() => shapeGeometry(object.shape), [object.shape]);
+  const edges = useMemo(() => new EdgesGeometry(geometry, 40), [geometry]);
+  useEffect(() => () => { geometry.dispose(); edges.dispose(); }, [geometry, edges]);
+  useEffect(() => {
+    if (!group.current) return;
+    poseMatrix(object.worldFromObject, group.current.matrix);
+    group.current.matrixWorldNeedsUpdate = true;
+  }, [object.worldFromObject]);
+  useEffect(() => paintTouching(name => (name === object.name || name === object.id ? group.current : null)), [object.name, object.id]);
+
+  const wall = object.role === "wall", box = object.shape.kind === "box" ? object.shape.size_m : null;
+  const cardboard = object.role === "workpiece" && box !== null && looksLikeCardboard(object.color);
+  return (
+    <group ref={group} name={object.id} matrixAutoUpdate={false} userData={{ thing: { kind: "object", id: object.id } }}>
+      {wall ? <Wall geometry={geometry} edges={edges} color={object.color} size_m={box} />
+        : cardboard ? <Carton geometry={geometry} size_m={box} color={object.color} />
+          : <mesh geometry={geometry} castShadow receiveShadow raycast={raycastByTree}><meshStandardMaterial color={object.color} roughness={object.role === "furniture" ? 0.48 : 0.62} metalness={object.role === "furniture" ? 0.25 : 0.05} /></mesh>}
+    </group>
+  );
+}
+
+/** See-through, and gone but for its edges when it stands between the camera and the cell. */
+function Wall({ geometry, edges, color, size_m }: { readonly geometry: ReturnType<typeof shapeGeometry>; readonly edges: EdgesGeometry; readonly color: string; readonly size_m: readonly [number, number, number] | null }) {
+  const mesh = useRef<Mesh>(null), lines = useRef<LineSegments>(null);
+  useFrame(({ camera }) => {
+    if (!mesh.current || !lines.current || !size_m) return;
+    const hides = wallHides(mesh.current, size_m, MIDDLE, camera);
+    mesh.current.visible = !hides;
+    lines.current.visible = !hides;
+  }, -7);
+  return (
+    <>
+      <mesh ref={mesh} geometry={geometry} receiveShadow renderOrder={1}><meshStandardMaterial color={color} roughness={0.9} transparent opacity={0.3} depthWrite={false} /></mesh>
+      <lineSegments ref={lines} geometry={edges} userData={{ unpainted: true }} raycast={() => undefined}><lineBasicMaterial color={color} transparent opacity={0.5} /></lineSegments>
+    </>
+  );
+}
+/** A point inside every cell: where robots stand, at half height. Scene coordinates. */
+const MIDDLE = new Vector3(0.3, 0.8, 0);
+
+/** A taped carton: kraft paper, a tape over the seam of the lid and down both ends. */
+function Carton({ geometry, size_m: [x, y, z], color }: { readonly geometry: ReturnType<typeof shapeGeometry>; readonly size_m: readonly [number, number, number]; readonly color: string }) {
+  const texture = useMemo(() => kraftTexture(color), [color]);
+  useEffect(() => () => texture.dispose(), [texture]);
+  const long = x >= y, length = long ? x : y, tape = Math.min(0.05, (long ? y : x) * 0.2), thin = 0.0006, down = Math.min(0.06, z * 0.3);
+  const strip = (key: string, place: [number, number, number], size: [number, number, number]) => (
+    <mesh key={key} position={long ? place : [place[1], place[0], place[2]]} receiveShadow>
+      <boxGeometry args={long ? size : [size[1], size[0], size[2]]} />
+      <meshStandardMaterial color="#c9a572" roughness={0.28} metalness={0} transparent opacity={0.82} />
+    </mesh>
+  );
+  return (
+    <>
+      <mesh geometry={geometry} castShadow receiveShadow><meshStandardMaterial map={texture} roughness={0.93} metalness={0} bumpMap={texture} bumpScale={0.25} /></mesh>
+      <mesh position={[0, 0, z / 2 + 0.0001]}><boxGeometry args={long ? [length * 0.994, 0.0018, 0.0004] : [0.0018, length * 0.994, 0.0004]} /><meshStandardMaterial color="#5d4325" roughness={1} /></mesh>
+      {strip("lid", [0, 0, z / 2 + thin / 2], [length + 2 * thin, tape, thin])}
+      {[1, -1].map(side => strip(`end ${side}`, [side * (length / 2 + thin / 2), 0, z / 2 - down / 2], [thin, tape, down]))}
+    </>
+  );
+}

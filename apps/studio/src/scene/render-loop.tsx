@@ -1,0 +1,75 @@
+import { useFrame, useThree } from "@react-three/fiber";
+import type { Vector3 as Vector } from "@twincell/core";
+import { type RefObject, useEffect, useMemo } from "react";
+import { PerspectiveCamera, Quaternion } from "three";
+import { theLive } from "../live/live.ts";
+import { viewStore } from "../stores/view.ts";
+import { closeCameraPosition } from "./camera/close-camera.ts";
+import { turnCube } from "./camera/view-cube.tsx";
+import type { FrameMeter } from "./frame-meter.ts";
+import type { PictureFrame } from "./picture.ts";
+
+const place: Vector = [0, 0, 0];
+
+/** Renders the frame: the view, and the other camera as a picture in it. Measures script and draw time apart. */
+export function RenderLoop({ meter, picture, cube }: { readonly meter: FrameMeter; readonly picture: PictureFrame; readonly cube: RefObject<HTMLDivElement | null> }) {
+  const close = useMemo(() => new PerspectiveCamera(40, 1.4, 0.02, 60), []);
+  const overview = useMemo(() => new PerspectiveCamera(36, 1.4, 0.05, 60), []);
+  const clock = useMemo(() => ({ start: 0, turned: new Quaternion(0, 0, 0, 0) }), []);
+  const invalidate = useThree(state => state.invalidate);
+
+  // Nothing is drawn while nothing changes: one comparison per display frame keeps watch.
+  useEffect(() => {
+    let seen = -1, handle = 0;
+    const watch = (): void => {
+      const { revision } = theLive();
+      if (revision !== seen) { seen = revision; invalidate(); }
+      handle = requestAnimationFrame(watch);
+    };
+    handle = requestAnimationFrame(watch);
+    const stop = viewStore.subscribe(() => invalidate());
+    return () => { cancelAnimationFrame(handle); stop(); };
+  }, [invalidate]);
+
+  useFrame(() => { clock.start = performance.now(); }, -2000);
+  useFrame(({ gl, scene, camera, size }) => {
+    const drawing = performance.now();
+    meter.addScript(drawing - clock.start);
+    if (gl.xr.isPresenting) {
+      gl.render(scene, camera);
+    } else {
+      const view = viewStore.getState(), { worldFromTcp } = theLive();
+      closeCameraPosition(worldFromTcp, view.closePlacement, view.closeTilt_rad, place);
+      close.position.set(place[0], place[2], -place[1]);
+      // Straight down there is no "up" but the way the camera came from.
+      close.up.set(-Math.SQRT1_2 * Math.sin(view.closeTilt_rad), Math.cos(view.closeTilt_rad), -Math.SQRT1_2 * Math.sin(view.closeTilt_rad));
+      close.lookAt(worldFromTcp.position[0], worldFromTcp.position[2], -worldFromTcp.position[1]);
+      const large = view.camera === "main" ? camera : close;
+      close.aspect = size.width / size.height;
+      close.updateProjectionMatrix();
+      gl.setScissorTest(false);
+      gl.setViewport(0, 0, size.width, size.height);
+      gl.render(scene, large);
+      if (picture.visible) {
+        const small = view.camera === "main" ? close : overview;
+        if (small === overview) { overview.position.copy(camera.position); overview.quaternion.copy(camera.quaternion); }
+        small.aspect = picture.width / picture.height;
+        small.updateProjectionMatrix();
+        const below = size.height - picture.top - picture.height;
+        gl.setScissorTest(true);
+        gl.setScissor(picture.left, below, picture.width, picture.height);
+        gl.setViewport(picture.left, below, picture.width, picture.height);
+        gl.shadowMap.needsUpdate = false;
+        gl.render(scene, small);
+        gl.setScissorTest(false);
+        gl.setViewport(0, 0, size.width, size.height);
+      }
+    }
+    const drawn = performance.now();
+    if (cube.current && !camera.quaternion.equals(clock.turned)) { clock.turned.copy(camera.quaternion); turnCube(cube.current, camera); }
+    meter.addDraw(drawn - drawing);
+    meter.addScript(performance.now() - drawn);
+    meter.endFrame();
+  }, 1);
+  return null;
+}

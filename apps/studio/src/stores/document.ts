@@ -1,0 +1,73 @@
+import { createHistory, type CellDocument, type History, type ObjectRecord, type ToolRecord } from "@twincell/project";
+import { robotById, type Pose, type Program, type Robot } from "@twincell/core";
+import { cellStore } from "./cell.ts";
+
+let history: History | null = null;
+
+function publish(next: History): void {
+  const changed = next.document !== history?.document;
+  history = next;
+  cellStore.setState(state => ({
+    document: next.document, undo: next.undoLabels, redo: next.redoLabels, saving: changed ? { kind: "unsaved" } : state.saving,
+  }));
+}
+
+/** Shows another document; undo starts afresh. */
+export const showDocument = (document: CellDocument): void => publish(createHistory(document));
+
+/**
+ * The only way to change the document. `change` returns the new document, or the same one when there is nothing to do.
+ * Says whether anything changed. Commits that follow each other with the same `gesture` are one undo step.
+ */
+export function commit(label: string, change: (document: CellDocument) => CellDocument, gesture?: string): boolean {
+  if (!history) return false;
+  const after = change(history.document);
+  if (after === history.document) return false;
+  publish(history.commit(label, after, gesture));
+  return true;
+}
+
+/** Takes the last change back and returns its label; null when there is none. */
+export function undo(): string | null {
+  const label = history?.undoLabels[0];
+  if (!history || label === undefined) return null;
+  publish(history.undo());
+  return label;
+}
+export function redo(): string | null {
+  const label = history?.redoLabels[0];
+  if (!history || label === undefined) return null;
+  publish(history.redo());
+  return label;
+}
+
+export const robotOf = (document: CellDocument | null): Robot | null => (document ? robotById(document.robot.id) ?? null : null);
+export const programOf = (document: CellDocument | null): Program | null => document?.programs.find(program => program.name === document.program) ?? null;
+export const toolOf = (document: CellDocument | null): ToolRecord | null => document?.tools.find(tool => tool.name === document.tool) ?? null;
+export const objectOf = (document: CellDocument | null, id: string): ObjectRecord | null => document?.objects.find(object => object.id === id) ?? null;
+export const theProgram = (): Program | null => programOf(cellStore.getState().document);
+export const theRobot = (): Robot | null => robotOf(cellStore.getState().document);
+
+/** The document with its current program changed. */
+export function withProgram(document: CellDocument, change: (program: Program) => Program): CellDocument {
+  const before = programOf(document);
+  if (!before) return document;
+  const after = change(before);
+  return after === before ? document : { ...document, programs: document.programs.map(program => (program === before ? after : program)) };
+}
+export function withObject(document: CellDocument, id: string, change: (object: ObjectRecord) => ObjectRecord): CellDocument {
+  const objects = document.objects.map(object => (object.id === id ? change(object) : object));
+  return objects.every((object, i) => object === document.objects[i]) ? document : { ...document, objects };
+}
+/** Pose of the tool tip on the flange; the flange itself without a tool. */
+export function flangeFromTcpOf(document: CellDocument | null): Pose<"flange", "tcp"> {
+  return toolOf(document)?.flangeFromTcp ?? { position: [0, 0, 0], quaternion: [0, 0, 0, 1] };
+}
+
+const WORLD: Pose<"world", "frame"> = { position: [0, 0, 0], quaternion: [0, 0, 0, 1] };
+/** The frame jogging and read-outs count in. A user frame that is not there counts as the world. */
+export function worldFromFrameOf(document: CellDocument | null, frame: "world" | "base" | "user", userFrame: string): Pose<"world", "frame"> {
+  if (!document || frame === "world") return WORLD;
+  if (frame === "base") return { position: document.robot.worldFromBase.position, quaternion: document.robot.worldFromBase.quaternion };
+  return document.frames.find(record => record.name === userFrame)?.worldFromFrame ?? document.frames[0]?.worldFromFrame ?? WORLD;
+}

@@ -1,0 +1,48 @@
+import { bindingStore, type Bindings } from "./bindings.ts";
+import { viewStore, type ViewState } from "./view.ts";
+
+/** Choices of the person, not of the cell: kept beside the document, never in it. */
+interface Preferences { readonly theme?: ViewState["theme"]; readonly muted?: boolean; readonly coachDone?: boolean; readonly plots?: boolean; readonly bindings?: Bindings }
+export interface TextStore { getItem(key: string): string | null; setItem(key: string, text: string): void }
+const KEY = "twincell.preferences";
+
+/** Reads them and keeps them up to date. A store that cannot be read or written costs the preferences, nothing else. */
+export function keepPreferences(store: TextStore, prefersLight: boolean): () => void {
+  const kept = read(store);
+  viewStore.setState({
+    theme: kept.theme ?? (prefersLight ? "light" : "dark"), muted: kept.muted ?? false, coachDone: kept.coachDone ?? false, plots: kept.plots ?? false,
+  });
+  if (kept.bindings) bindingStore.setState(kept.bindings);
+  const write = (): void => {
+    const { theme, muted, coachDone, plots } = viewStore.getState();
+    const { keyboard, buttons, axes } = bindingStore.getState();
+    try { store.setItem(KEY, JSON.stringify({ theme, muted, coachDone, plots, bindings: { keyboard, buttons, axes } })); }
+    catch { return; } // a full or forbidden store: the choice holds until the page closes
+  };
+  const stops = [viewStore.subscribe(write), bindingStore.subscribe(write)];
+  return () => { for (const stop of stops) stop(); };
+}
+
+function read(store: TextStore): Preferences {
+  let raw: unknown;
+  try { raw = JSON.parse(store.getItem(KEY) ?? "{}"); } catch { return {}; } // damaged: start with defaults
+  if (typeof raw !== "object" || raw === null) return {};
+  const has = (key: string): unknown => Reflect.get(raw, key);
+  const theme = has("theme"), bindings = readBindings(has("bindings"));
+  return {
+    ...(theme === "dark" || theme === "light" ? { theme } : {}),
+    ...(bindings ? { bindings } : {}),
+    muted: has("muted") === true, coachDone: has("coachDone") === true, plots: has("plots") === true,
+  };
+}
+
+/** Only what has the right shape is taken; anything else falls back to the table of row N-25 on. */
+function readBindings(raw: unknown): Bindings | null {
+  if (typeof raw !== "object" || raw === null) return null;
+  const table = (value: unknown, good: (entry: unknown) => boolean): value is Readonly<Record<string, string>> =>
+    typeof value === "object" && value !== null && Object.values(value).every(good);
+  const keyboard: unknown = Reflect.get(raw, "keyboard"), buttons: unknown = Reflect.get(raw, "buttons"), axes: unknown = Reflect.get(raw, "axes");
+  const isText = (entry: unknown): boolean => typeof entry === "string";
+  if (!table(keyboard, isText) || !table(buttons, isText) || !table(axes, isText)) return null;
+  return bindingStore.getState().accept(keyboard, buttons, axes);
+}

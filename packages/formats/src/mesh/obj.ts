@@ -1,0 +1,64 @@
+import { triangulate, type Point2 } from "@twincell/core";
+import { answering, Refusal, type NotUnderstood } from "../refusal.ts";
+import { shorten } from "../xml.ts";
+import { finishMesh, type MeshRead } from "./report.ts";
+import { latin1 } from "./text.ts";
+
+const MOST_CORNERS = 2000;
+
+/** Reads the surface of a Wavefront OBJ: vertices and faces. Faces with more than three corners are cut into triangles. */
+export function readObj(bytes: Uint8Array): MeshRead | NotUnderstood {
+  return answering(() => {
+    const text = latin1(bytes).replace(/\\\r?\n/g, " "), positions: number[] = [], indices: number[] = [], warnings: string[] = [];
+    let line = 0, lines = 0;
+    for (let at = 0; at < text.length;) {
+      const end = text.indexOf("\n", at), words = text.slice(at, end < 0 ? text.length : end).trim().split(/\s+/);
+      at = end < 0 ? text.length : end + 1;
+      line++;
+      if (words[0] === "v") for (let k = 1; k <= 3; k++) positions.push(coordinate(words[k], line));
+      else if (words[0] === "f") addFace(words.slice(1), positions, indices, line);
+      else if (words[0] === "l" || words[0] === "p") lines++;
+      else if (words[0] === "curv" || words[0] === "surf") throw new Refusal("The file describes free-form surfaces; only polygons are read.", line);
+    }
+    if (indices.length === 0) throw new Refusal("The file holds no faces.");
+    if (lines > 0) warnings.push(`${lines} lines and points without surface were passed over.`);
+    return finishMesh("OBJ", { positions: Float64Array.from(positions), indices: Uint32Array.from(indices) }, warnings);
+  });
+}
+
+function coordinate(word: string | undefined, line: number): number {
+  const value = word === undefined || word === "" ? NaN : Number(word);
+  if (Number.isNaN(value) && !/^[+-]?(nan|inf)/i.test(word ?? "")) throw new Refusal(`“${shorten(word ?? "")}” stands where a coordinate is expected.`, line);
+  return value;
+}
+
+function addFace(words: readonly string[], positions: readonly number[], indices: number[], line: number): void {
+  const count = positions.length / 3;
+  if (words.length < 3) throw new Refusal(`A face has ${words.length} corners.`, line);
+  if (words.length > MOST_CORNERS) throw new Refusal(`A face has ${words.length} corners; at most ${MOST_CORNERS} are read.`, line);
+  const corners = words.map(word => {
+    const written = word.split("/", 1)[0]!, number = Number(written), index = number < 0 ? count + number : number - 1;
+    if (!/^-?\d+$/.test(written) || index < 0 || index >= count) throw new Refusal(`A face names vertex ${shorten(word)}; ${count} vertices come before it.`, line);
+    return index;
+  });
+  if (corners.length === 3) { indices.push(corners[0]!, corners[1]!, corners[2]!); return; }
+  for (const corner of triangulate(flattened(corners, positions))) indices.push(corners[corner]!);
+}
+
+/** The face seen along its Newell normal, counter-clockwise: dropping the normal's largest axis keeps it simple. */
+function flattened(corners: readonly number[], positions: readonly number[]): Point2[] {
+  const normal = [0, 0, 0];
+  corners.forEach((corner, i) => {
+    const next = corners[(i + 1) % corners.length]!;
+    for (let k = 0; k < 3; k++) {
+      const u = (k + 1) % 3, v = (k + 2) % 3;
+      normal[k]! += positions[3 * corner + u]! * positions[3 * next + v]! - positions[3 * next + u]! * positions[3 * corner + v]!;
+    }
+  });
+  const size = normal.map(Math.abs), axis = size.indexOf(Math.max(...size)), u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const forward = normal[axis]! >= 0;
+  return corners.map(corner => {
+    const [x, y] = [positions[3 * corner + u]!, positions[3 * corner + v]!];
+    return forward ? [x, y] : [y, x];
+  });
+}

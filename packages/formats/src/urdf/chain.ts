@@ -1,0 +1,138 @@
+import { compose, copyPose, identity, inverse, type Joint, type Pose, type SerialArm } from "@twincell/core";
+import { answering, Refusal, type NotUnderstood } from "../refusal.ts";
+import { shorten } from "../xml.ts";
+import type { UrdfJoint, UrdfRobot, UrdfShape } from "./model.ts";
+
+/** A shape of the robot, seen from the moving link it is bolted to. Link 0 is the base, link i turns with joint i. */
+export interface PlacedShape {
+  readonly link: number;
+  /** Name of the URDF link it came from. */
+  readonly name: string;
+  readonly use: "visual" | "collision";
+  readonly armLinkFromShape: Pose<"arm-link", "shape">;
+  readonly shape: UrdfShape;
+}
+
+/** The chain from one link to another as an arm, with all shapes that hang on it. */
+export interface UrdfChain {
+  readonly kind: "chain";
+  readonly arm: SerialArm;
+  readonly base: string;
+  readonly tip: string;
+  readonly shapes: readonly PlacedShape[];
+  /** What had to be assumed, one sentence each. */
+  readonly assumptions: readonly string[];
+}
+
+/** Speed and ramp that are assumed where a file gives none. */
+const ASSUMED_SPEED_RAD_S = Math.PI;
+const RAMP_S = 0.25;
+
+/**
+ * The serial arm between two links. Fixed joints melt into their neighbours; links beside the chain ride along on the
+ * link they hang on, with their own joints at 0.
+ *
+ * @param base  root of the file when absent; may also be a side link fixed to the chain's beginning (`base`).
+ * @param tip   `tool0` when absent, else `flange`, else the end of the longest chain.
+ */
+export function armFromUrdf(robot: UrdfRobot, base = robot.root, tip = defaultTip(robot)): UrdfChain | NotUnderstood {
+  return answering(() => {
+    const upTo = new Map(robot.joints.map(joint => [joint.child, joint]));
+    for (const name of [base, tip]) {
+      if (!robot.links.some(link => link.name === name)) throw new Refusal(`${robot.name} has no link ${shorten(name)}.`);
+    }
+    const fromRoot = pathTo(upTo, tip), side = pathTo(upTo, base);
+    let shared = 0;
+    while (shared < side.length && side[shared] === fromRoot[shared]) shared++;
+    const assumptions: string[] = [], joints: Joint[] = [];
+    const linkOf = new Map<string, { link: number; armLinkFromLink: Pose }>();
+    const running: Pose = identity();
+    for (const joint of side.slice(shared).reverse()) {
+      if (joint.type !== "fixed") throw new Refusal(`Joint ${shorten(joint.name)} moves between ${shorten(base)} and the chain to ${shorten(tip)}.`, joint.line);
+      compose(running, inverse(joint.parentFromJoint as Pose), running);
+    }
+    linkOf.set(shared > 0 ? fromRoot[shared - 1]!.child : robot.root, { link: 0, armLinkFromLink: copyPose(running) });
+    for (const joint of fromRoot.slice(shared)) {
+      compose(running, joint.parentFromJoint as Pose, running);
+      if (joint.type !== "fixed") {
+        joints.push(armJoint(joint, copyPose(running), assumptions));
+        copyPose(identity(), running);
+      }
+      linkOf.set(joint.child, { link: joints.length, armLinkFromLink: copyPose(running) });
+    }
+    if (joints.length === 0) throw new Refusal(`No joint turns between ${shorten(base)} and ${shorten(tip)}.`);
+    placeSideLinks(robot, upTo, linkOf, assumptions);
+    return {
+      kind: "chain", base, tip, assumptions, shapes: shapesOf(robot, linkOf),
+      arm: { name: robot.name, joints, lastJointFromFlange: copyPose(running as Pose<"joint", "flange">) },
+    };
+  });
+}
+
+/** `tool0`, else `flange`, else the link with the most joints above it (the first such in the file). */
+export function defaultTip(robot: UrdfRobot): string {
+  for (const name of ["tool0", "flange"]) if (robot.links.some(link => link.name === name)) return name;
+  const upTo = new Map(robot.joints.map(joint => [joint.child, joint]));
+  let best = robot.root, longest = 0;
+  for (const { name } of robot.links) {
+    const length = pathTo(upTo, name).length;
+    if (length > longest) { longest = length; best = name; }
+  }
+  return best;
+}
+
+/** Joints from the root down to a link. */
+function pathTo(upTo: ReadonlyMap<string, UrdfJoint>, link: string): UrdfJoint[] {
+  const path: UrdfJoint[] = [];
+  for (let joint = upTo.get(link); joint; joint = upTo.get(joint.parent)) path.push(joint);
+  return path.reverse();
+}
+
+function armJoint(joint: UrdfJoint, parentFromJoint: Pose, assumptions: string[]): Joint {
+  const { name, type, axis, limit } = joint;
+  if (type !== "revolute" && type !== "continuous") throw new Refusal(`Joint ${shorten(name)} is ${type}; an arm here has joints that turn.`, joint.line);
+  if (joint.mimic) throw new Refusal(`Joint ${shorten(name)} follows joint ${shorten(joint.mimic.joint)}; it has no motion of its own.`, joint.line);
+  const speed = limit && limit.velocity > 0 ? limit.velocity : ASSUMED_SPEED_RAD_S, bounded = type === "revolute" && limit !== undefined;
+  if (!bounded) assumptions.push(`Joint ${name} has no limits in the file: ±360° are assumed.`);
+  if (speed !== limit?.velocity) assumptions.push(`Joint ${name} has no speed in the file: 180°/s is assumed.`);
+  assumptions.push(`Joint ${name} has no acceleration in the file: full speed is assumed to be reached in ${RAMP_S} s.`);
+  return {
+    name, axis, parentFromJoint: parentFromJoint as Pose<"parent", "joint">,
+    limits: {
+      lower_rad: bounded ? limit.lower : -2 * Math.PI, upper_rad: bounded ? limit.upper : 2 * Math.PI,
+      speed_rad_s: speed, acceleration_rad_s2: speed / RAMP_S,
+    },
+  };
+}
+
+type Places = Map<string, { link: number; armLinkFromLink: Pose }>;
+
+function placeSideLinks(robot: UrdfRobot, upTo: ReadonlyMap<string, UrdfJoint>, places: Places, assumptions: string[]): void {
+  const still = new Set<string>();
+  for (const { name } of robot.links) {
+    const path = pathTo(upTo, name);
+    const first = path.findLastIndex(joint => places.has(joint.parent) && !places.has(joint.child));
+    if (first < 0) continue;
+    for (const joint of path.slice(first)) {
+      const parent = places.get(joint.parent)!;
+      places.set(joint.child, { link: parent.link, armLinkFromLink: compose(parent.armLinkFromLink, joint.parentFromJoint as Pose) });
+      if (joint.type !== "fixed") still.add(joint.name);
+    }
+  }
+  for (const name of still) assumptions.push(`Joint ${name} is beside the chain and drawn at 0.`);
+}
+
+function shapesOf(robot: UrdfRobot, places: Places): PlacedShape[] {
+  const shapes: PlacedShape[] = [];
+  for (const link of robot.links) {
+    const place = places.get(link.name);
+    if (!place) continue;
+    const put = (shape: UrdfShape, use: PlacedShape["use"]): void => {
+      const armLinkFromShape = compose(place.armLinkFromLink, shape.linkFromShape as Pose) as Pose<"arm-link", "shape">;
+      shapes.push({ link: place.link, name: link.name, use, armLinkFromShape, shape });
+    };
+    for (const shape of link.visuals) put(shape, "visual");
+    for (const shape of link.collisions) put(shape, "collision");
+  }
+  return shapes;
+}
