@@ -110,6 +110,22 @@ test("N-18 from the singular start posture every direction that stays in reach i
   }
 });
 
+test("N-18 turning out of the straight wrist works about every axis, at full and at creeping speed", () => {
+  for (const [x, y, z] of [[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.6, -0.8, 0], [-0.48, 0.6, 0.64]] as const) {
+    for (const rate of [0.5, 0.005]) {
+      const q = degs(10, -120, 150, 20, 0, 25), before = tcpOf(plain, q), scratch = jogScratch();
+      for (let i = 0; i < 200; i++) {
+        const from = q.slice();
+        expect(jogStep(plain, q, tip([0, 0, 0], [x * rate, y * rate, z * rate]), DT, q, scratch)).toMatchObject({ kind: "moved", blocked: [] });
+        expect(withinSpeed(from, q, DT)).toBe(true);
+        if (angleBetween(before.quaternion, tcpOf(plain, q).quaternion) > 50 * DT * rate) break;
+      }
+      expect(angleBetween(before.quaternion, tcpOf(plain, q).quaternion)).toBeGreaterThan(50 * DT * rate);
+      expect(distance(before.position, tcpOf(plain, q).position)).toBeLessThan(1e-6);
+    }
+  }
+});
+
 test("N-38 random jogs into and past every singularity keep speeds, limits and the exact tip, seed 7", () => {
   const random = seededRandom(7), between = (a: number, b: number): number => a + (b - a) * random();
   for (let run = 0; run < 60; run++) {
