@@ -1,6 +1,6 @@
 import {
-  angleBetween, compose, copyPose, distance, explainReach, identity, inverse, lerp, nearestSolution, slerp, solveAll, solverScratch,
-  type Pose, type Robot,
+  allBranches, angleBetween, type Branch, branchOf, compose, copyPose, degrees, distance, explainReach, identity, inverse, lerp, nearestSolution, outOfReach,
+  slerp, solverScratch, travel, wrapAngle, type Pose, type Robot,
 } from "@twincell/core";
 import { jogStore } from "../stores/jog.ts";
 import { sound } from "../stores/sound.ts";
@@ -8,6 +8,7 @@ import { showJoints, theLive } from "./live.ts";
 
 /** Where a drag got to: all the way, or as far as the robot can, with the reason. */
 export type DragOutcome = { readonly kind: "moved" } | { readonly kind: "on-the-way" } | { readonly kind: "blocked"; readonly sentence: string; readonly joint?: number };
+type Blocked = Extract<DragOutcome, { readonly kind: "blocked" }>;
 const MOVED: DragOutcome = { kind: "moved" }, ON_THE_WAY: DragOutcome = { kind: "on-the-way" };
 
 /** A hand that jumps (tracking lost, two pointers taken for one) moves the robot by no more than this in one call. */
@@ -34,24 +35,32 @@ const from: Pose<"world", "tcp"> = identity(), step: Pose<"world", "tcp"> = iden
 
 /** Solves for the tool tip at `worldFromTcp`, continuing from `near`; q is written when it can be reached. */
 function reaches({ robot, baseFromWorld, flangeFromTcp }: Followed, worldFromTcp: Pose<"world", "tcp">, near: Float64Array): boolean {
-  compose(compose(baseFromWorld, worldFromTcp, baseFromTcp), inverse(flangeFromTcp, tcpFromFlange), baseFromFlange);
+  compose(baseFromWorld, worldFromTcp, baseFromTcp);
+  compose(baseFromTcp, inverse(flangeFromTcp, tcpFromFlange), baseFromFlange);
   if (!nearestSolution(robot, baseFromFlange, near, q, scratch)) return false;
   for (let i = 0; i < 6; i++) if (Math.abs(q[i]! - near[i]!) > LONGEST_JOINT_STEP_RAD) return false;
   return true;
 }
 
-/** Why the pose last asked for cannot be reached. Allocates: only called when a drag begins to be blocked. */
-function reason(to: Followed, worldFromTcp: Pose<"world", "tcp">, near: Float64Array): DragOutcome {
-  compose(compose(to.baseFromWorld, worldFromTcp, baseFromTcp), inverse(to.flangeFromTcp, tcpFromFlange), baseFromFlange);
-  if (nearestSolution(to.robot, baseFromFlange, near, q, scratch)) {
-    let joint = 0;
-    for (let i = 1; i < 6; i++) if (Math.abs(q[i]! - near[i]!) > Math.abs(q[joint]! - near[joint]!)) joint = i;
-    const turn_deg = (Math.abs(q[joint]! - near[joint]!) * 180) / Math.PI;
-    return { kind: "blocked", joint: joint + 1, sentence: `Joint ${joint + 1} would have to turn by ${turn_deg.toFixed(0)}° at once: two axes are in line here.` };
+/**
+ * Why the posture of `near` cannot be kept at that pose: out of reach, a joint at its limit, or axes in line.
+ * Allocates: only called while a drag is blocked.
+ */
+function reason({ robot, baseFromWorld, flangeFromTcp }: Followed, worldFromTcp: Pose<"world", "tcp">, near: Float64Array): Blocked {
+  const pose = compose(compose(baseFromWorld, worldFromTcp), inverse(flangeFromTcp));
+  const copies = allBranches(robot, pose, near).map(branch => branch.map((angle, i) => near[i]! + wrapAngle(angle - near[i]!)));
+  const nearest = copies.toSorted((a, b) => travel(a, near) - travel(b, near))[0];
+  if (!nearest) return { kind: "blocked", sentence: explainReach(outOfReach(robot, pose)) };
+  for (const [i, { limits }] of robot.arm.joints.entries()) {
+    const wanted_rad = nearest[i]!, limit_rad = wanted_rad > limits.upper_rad ? limits.upper_rad : limits.lower_rad;
+    if (wanted_rad >= limits.lower_rad && wanted_rad <= limits.upper_rad) continue;
+    return { kind: "blocked", joint: i + 1, sentence: explainReach({ kind: "outside-limits", joint: i + 1, wanted_rad, limit_rad, branch: branchOf(robot, near) ?? ANY_BRANCH }) };
   }
-  const reach = solveAll(to.robot, baseFromFlange, { near }, scratch), sentence = explainReach(reach);
-  return reach.kind === "outside-limits" ? { kind: "blocked", joint: reach.joint, sentence } : { kind: "blocked", sentence };
+  let joint = 0;
+  for (let i = 1; i < 6; i++) if (Math.abs(nearest[i]! - near[i]!) > Math.abs(nearest[joint]! - near[joint]!)) joint = i;
+  return { kind: "blocked", joint: joint + 1, sentence: `Joint ${joint + 1} would have to turn by ${degrees(Math.abs(nearest[joint]! - near[joint]!)).toFixed(0)}° at once: axes 4 and 6 are almost in line.` };
 }
+const ANY_BRANCH: Branch = { shoulder: "front", elbow: "up", wrist: "positive" };
 
 /** Goes from `from` towards `to` as far as it can in one direction; `from` and `best` hold where it got to. */
 function advance(robot: Followed, to: Pose<"world", "tcp">): boolean {
@@ -96,8 +105,7 @@ export function dragTcp(worldFromTcp: Pose<"world", "tcp">): DragOutcome {
 }
 
 /** Says once that a limit was met: sentence, sound and pause are the same as for jogging. */
-function block(why: DragOutcome): void {
-  if (why.kind !== "blocked") return;
+function block(why: Blocked): void {
   const now_ms = performance.now(), { blocked } = jogStore.getState();
   if (blocked?.sentence === why.sentence) return;
   if (!blocked || blocked.until_ms < now_ms) sound("limit");
