@@ -7,6 +7,7 @@ import { Files } from "./features/files/Files.tsx";
 import { ControlsDialog } from "./features/input/ControlsDialog.tsx";
 import { GamepadWatch } from "./features/input/GamepadWatch.tsx";
 import { Shortcuts } from "./features/input/Shortcuts.tsx";
+import { Rewind } from "./features/history/Rewind.tsx";
 import { Inspector } from "./features/inspector/Inspector.tsx";
 import { Notices } from "./features/notices/Notices.tsx";
 import { Overlay } from "./features/overlay/Overlay.tsx";
@@ -75,5 +76,5 @@ function RightSide() {
   }
 }
 function BottomSide() {
-  return <Timeline />;
+  return useStore(viewStore, state => state.mode) === "history" ? <Rewind /> : <Timeline />;
 }

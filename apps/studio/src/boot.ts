@@ -10,8 +10,15 @@ import { releaseAll } from "./live/held.ts";
 import { startJogging } from "./live/jogger.ts";
 import { pause, startPlayhead } from "./live/playhead.ts";
 import { startPreview } from "./live/preview.ts";
+import { browserShelf } from "./live/archive.ts";
+import { browserScheduler } from "./live/browser-scheduler.ts";
+import { runSession } from "./live/run-session.ts";
+import { travelBack } from "./live/travel-back.ts";
 import { keepDocument, openKept, type Keeper } from "./stores/autosave.ts";
 import { keepPreferences } from "./stores/preferences.ts";
+import { notify } from "./stores/notices.ts";
+import { offerTravel } from "./stores/travel.ts";
+import { words } from "./words/index.ts";
 import { onStop } from "./stores/stop.ts";
 
 const browserKeeper: Keeper = { get: key => get(key), set: (key, value) => set(key, value) };
@@ -29,7 +36,12 @@ export function boot(): void {
   void openKept(browserKeeper);
   watchCollisions();
   const checking = startChecking();
-  startCommands(checking);
+  const shelf = browserShelf(), session = runSession(shelf, browserScheduler, () => Date.now()), back = travelBack(shelf, browserScheduler);
+  offerTravel(back);
+  onStop(session.stop);
+  onStop(back.pause);
+  startCommands(checking, session, back);
+  back.refresh().catch((trouble: unknown) => { notify("warn", words.file.noKeep(String(trouble))); });
   const beat = (now_ms: number): void => { tick(now_ms); requestAnimationFrame(beat); };
   requestAnimationFrame(beat);
 }
