@@ -7,7 +7,6 @@ import { Files } from "./features/files/Files.tsx";
 import { ControlsDialog } from "./features/input/ControlsDialog.tsx";
 import { GamepadWatch } from "./features/input/GamepadWatch.tsx";
 import { Shortcuts } from "./features/input/Shortcuts.tsx";
-import { Rewind } from "./features/history/Rewind.tsx";
 import { Inspector } from "./features/inspector/Inspector.tsx";
 import { Notices } from "./features/notices/Notices.tsx";
 import { Overlay } from "./features/overlay/Overlay.tsx";
@@ -51,7 +50,7 @@ export function App() {
         {phone
           ? <Sheet key="sheet" />
           : <><aside key="right" className="panel area-right" aria-label={words.app.region.side}><div className="scroll"><RightSide /></div></aside>
-            <footer key="bottom" className="area-bottom" aria-label={words.app.region.time}><BottomSide /></footer></>}
+            <BottomSide key="bottom" /></>}
         <Palette />
         <ControlsDialog />
         <Suspense><Export /></Suspense>
@@ -75,6 +74,8 @@ function RightSide() {
     case "history": return <Suspense><History /></Suspense>;
   }
 }
+/** History has its own timeline, beside the runs. */
 function BottomSide() {
-  return useStore(viewStore, state => state.mode) === "history" ? <Rewind /> : <Timeline />;
+  if (useStore(viewStore, state => state.mode) === "history") return null;
+  return <footer className="area-bottom" aria-label={words.app.region.time}><Timeline /></footer>;
 }

@@ -2,7 +2,6 @@ import { Tabs } from "radix-ui";
 import { lazy, Suspense } from "react";
 import { useStore } from "zustand";
 import { Check } from "./features/check/Check.tsx";
-import { Rewind } from "./features/history/Rewind.tsx";
 import { Inspector } from "./features/inspector/Inspector.tsx";
 import { Pendant } from "./features/pendant/Pendant.tsx";
 import { Timeline } from "./features/timeline/Timeline.tsx";
@@ -28,7 +27,7 @@ export function Sheet() {
       <Tabs.Content value="jog" className="scroll sheet-body" tabIndex={-1}>{tracing && <TracePanel />}<Pendant /></Tabs.Content>
       <Tabs.Content value="program" className="sheet-body sheet-program" tabIndex={-1}><Tree /><div className="scroll"><Inspector /></div></Tabs.Content>
       <Tabs.Content value="why" className="scroll sheet-body" tabIndex={-1}><Check /><Timeline /></Tabs.Content>
-      <Tabs.Content value="run" className="scroll sheet-body" tabIndex={-1}><Suspense><Segments label={words.mode.label} value={mode === "history" ? "history" : "run"} onChange={showMode} options={[{ value: "run", words: words.mode.run }, { value: "history", words: words.mode.history }]} className="seg fill sheet-seg" />{mode === "history" ? <><History /><Rewind /></> : <><Run /><Timeline /></>}</Suspense></Tabs.Content>
+      <Tabs.Content value="run" className="scroll sheet-body" tabIndex={-1}><Suspense><Segments label={words.mode.label} value={mode === "history" ? "history" : "run"} onChange={showMode} options={[{ value: "run", words: words.mode.run }, { value: "history", words: words.mode.history }]} className="seg fill sheet-seg" />{mode === "history" ? <History /> : <><Run /><Timeline /></>}</Suspense></Tabs.Content>
     </Tabs.Root>
   );
 }

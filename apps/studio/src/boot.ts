@@ -10,15 +10,8 @@ import { releaseAll } from "./live/held.ts";
 import { startJogging } from "./live/jogger.ts";
 import { pause, startPlayhead } from "./live/playhead.ts";
 import { startPreview } from "./live/preview.ts";
-import { browserShelf } from "./live/archive.ts";
-import { browserScheduler } from "./live/browser-scheduler.ts";
-import { runSession } from "./live/run-session.ts";
-import { travelBack } from "./live/travel-back.ts";
 import { keepDocument, openKept, type Keeper } from "./stores/autosave.ts";
 import { keepPreferences } from "./stores/preferences.ts";
-import { notify } from "./stores/notices.ts";
-import { offerTravel } from "./stores/travel.ts";
-import { words } from "./words/index.ts";
 import { onStop } from "./stores/stop.ts";
 
 const browserKeeper: Keeper = { get: key => get(key), set: (key, value) => set(key, value) };
@@ -33,15 +26,11 @@ export function boot(): void {
   startSounds();
   for (const bringToRest of [releaseAll, endGlide, pause]) onStop(bringToRest);
   keepDocument(browserKeeper, { after: (ms, act) => { const timer = setTimeout(act, ms); return () => clearTimeout(timer); } });
-  void openKept(browserKeeper);
+  // Languages, controllers and recording are a part of the page that the first sight of it does not wait for.
+  void openKept(browserKeeper).then(() => import("./live/cell-control.ts")).then(({ startCellControl }) => { startCellControl(); });
   watchCollisions();
   const checking = startChecking();
-  const shelf = browserShelf(), session = runSession(shelf, browserScheduler, () => Date.now()), back = travelBack(shelf, browserScheduler);
-  offerTravel(back);
-  onStop(session.stop);
-  onStop(back.pause);
-  startCommands(checking, session, back);
-  back.refresh().catch((trouble: unknown) => { notify("warn", words.file.noKeep(String(trouble))); });
+  startCommands(checking);
   const beat = (now_ms: number): void => { tick(now_ms); requestAnimationFrame(beat); };
   requestAnimationFrame(beat);
 }

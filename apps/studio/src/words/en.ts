@@ -107,10 +107,10 @@ export const en = {
   run: {
     title: "Run", text: "V+ text", run: "Run", again: "Run again", hold: "Pause", resume: "Resume", stop: "Stop", running: (line: number) => `Line ${line} runs.`, idle: "The exported text runs statement by statement on the virtual controller; the twin on screen mirrors it.", twin: "Twin error",
     nothing: "There is nothing to run yet. Add a step first.", done: (s: string) => `The run is done after ${s} s.`, refused: (why: string) => `The controller refused: ${why}`, stopped: (why: string) => `The run was stopped: ${why}`, recording: "Every run is recorded.", notEmitted: "This program cannot be said in V+:", notUnderstood: "The text could not be read:", kept: "The run is in the history.",
-    start: "To the first point", io: "Gripper", virtual: (robot: string) => `Virtual ${robot.replace(/^\S+ /, "")}`, event: { start: (program: string) => `${program} was started.` },
+    start: "To the first point", io: "Gripper",
   },
   history: {
-    title: "Runs", none: "No run yet. Every run is recorded and appears here.", open: "Open run", play: "Play the run", endings: { done: "done", stopped: "stopped", refused: "refused", running: "running", "cut-off": "cut off: the page was closed" }, remove: "Delete run", download: "Download .mcap", events: "Events", noEvents: "Nothing happened in this run but motion.", loading: "The recording is being read …", unreadable: "The recording could not be read:", choose: "Open a run to look back at any moment of it.",
+    title: "Runs", none: "No run yet. Every run is recorded and appears here.", open: "Open run", endings: { done: "done", stopped: "stopped", refused: "refused", running: "runs now", "cut-off": "cut off" }, remove: "Delete run", download: "Download .mcap", events: "Events", noEvents: "Nothing happened in this run but motion.", loading: "The recording is being read …", unreadable: "The recording could not be read:", choose: "Open a run to look back at any moment of it.",
     size: (bytes: number) => (bytes < 1e6 ? `${Math.round(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`), full: "There is no room left in this browser for the recording of this run.", fullHint: "Delete older runs, or download them first.", name: (cell: string, n: number) => `${cell}, run ${n}`, deleted: "The run was deleted.", back: "Back to now",
   },
   file: {
