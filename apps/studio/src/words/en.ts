@@ -105,7 +105,7 @@ export const en = {
     s: (s: number) => s.toFixed(2), seconds: "s", joint: (n: number) => `J${n}`, deg: "°", degS: "°/s", start: "To the start",
   },
   run: {
-    title: "Run", text: "V+ text", run: "Run", again: "Run again", hold: "Pause", resume: "Resume", stop: "Stop", running: (line: number) => `Line ${line} runs.`, idle: "The exported text runs statement by statement on the virtual controller; the twin on screen mirrors it.", twin: "Twin error", twinOk: "The twin differs from the controller by at most",
+    title: "Run", text: "V+ text", run: "Run", again: "Run again", hold: "Pause", resume: "Resume", stop: "Stop", running: (line: number) => `Line ${line} runs.`, idle: "The exported text runs statement by statement on the virtual controller; the twin on screen mirrors it.", twin: "Twin error",
     nothing: "There is nothing to run yet. Add a step first.", done: (s: string) => `The run is done after ${s} s.`, refused: (why: string) => `The controller refused: ${why}`, stopped: (why: string) => `The run was stopped: ${why}`, recording: "Every run is recorded.", notEmitted: "This program cannot be said in V+:", notUnderstood: "The text could not be read:", kept: "The run is in the history.",
     start: "To the first point", io: "Gripper",
   },
