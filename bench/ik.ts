@@ -1,5 +1,5 @@
-import { flangePose, robotById, seededRandom, solveOrthoParallel, armScratch, identity, angleBetween, distance, type OrthoParallelGeometry, type Pose, type SerialArm } from "@twincell/core";
-import { figure, microseconds, type Figure } from "./figure.ts";
+import { flangePose, robotById, seededRandom, solveOrthoParallel, armScratch, identity, posesAgree, type OrthoParallelGeometry, type Pose, type SerialArm } from "@twincell/core";
+import { figure, microseconds, type Bench, type Figure } from "./figure.ts";
 import { KR6_ARM, KR6_GEOMETRY } from "./robots/kr6.ts";
 
 const POSES = 1024, CALLS = 100_000, ROUNDS = 15;
@@ -8,14 +8,14 @@ const POSES = 1024, CALLS = 100_000, ROUNDS = 15;
  * Closed-form inverse kinematics, all branches of one pose, one thread: bare, and with every branch put back through
  * forward kinematics of the arm description and compared with the pose to 1e-9 (m, rad).
  */
-export function run(): Promise<Figure[]> {
+export const run: Bench = () => {
   const rx90l = robotById("staubli_rx90l");
   if (rx90l?.family.kind !== "ortho-parallel") throw new Error("The library has no staubli_rx90l with a closed form.");
   return Promise.resolve([
     ...figuresOf("rx90l", rx90l.arm, rx90l.family),
     ...figuresOf("kr6", KR6_ARM, KR6_GEOMETRY),
   ]);
-}
+};
 
 function figuresOf(name: string, arm: SerialArm, geometry: OrthoParallelGeometry): Figure[] {
   const random = seededRandom(1), out = new Float64Array(48);
@@ -28,7 +28,7 @@ function figuresOf(name: string, arm: SerialArm, geometry: OrthoParallelGeometry
     for (let s = 0; s < count; s++) {
       for (let j = 0; j < 6; j++) q[j] = out[6 * s + j]!;
       flangePose(arm, q, again, scratch);
-      if (distance(again.position, pose.position) < 1e-9 && angleBetween(again.quaternion, pose.quaternion) < 1e-9) held++;
+      if (posesAgree(again, pose, 1e-9, 1e-9)) held++;
     }
     solved += count;
   });

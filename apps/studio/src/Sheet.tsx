@@ -23,7 +23,7 @@ export function Sheet() {
   return (
     <Tabs.Root className="area-sheet" value={tab} onValueChange={value => { if (isTab(value)) { viewStore.setState({ sheet: value }); showMode(MODE[value]); } }}>
       <Tabs.List className="sheet-tabs" aria-label={words.sheet.label}>{TABS.map(each => <Tabs.Trigger key={each} className="sheet-tab" value={each}>{words.sheet[each]}</Tabs.Trigger>)}</Tabs.List>
-      <Tabs.Content value="jog" className="scroll sheet-body" tabIndex={-1}>{tracing && <TracePanel />}<Pendant phone /></Tabs.Content>
+      <Tabs.Content value="jog" className="scroll sheet-body" tabIndex={-1}>{tracing && <TracePanel />}<Pendant /></Tabs.Content>
       <Tabs.Content value="program" className="sheet-body sheet-program" tabIndex={-1}><Tree /><div className="scroll"><Inspector /></div></Tabs.Content>
       <Tabs.Content value="why" className="scroll sheet-body" tabIndex={-1}><Check /><Timeline /></Tabs.Content>
       <Tabs.Content value="run" className="scroll sheet-body" tabIndex={-1}><Suspense>{mode === "history" ? <History /> : <Run />}</Suspense><Timeline /></Tabs.Content>

@@ -16,6 +16,8 @@ export interface Bvh {
   readonly links: Int32Array;
   /** 9 numbers a triangle, in the order of the leaves [m]. */
   readonly corners: Float64Array;
+  /** 4 numbers a triangle: centre and radius of the smallest ball around it [m]. */
+  readonly balls: Float64Array;
   /** Which triangle of the mesh each was. */
   readonly source: Uint32Array;
   /** Levels below the root. */
@@ -88,7 +90,7 @@ class Builder {
       corners[9 * i + 3 * c + k] = positions[3 * indices[3 * this.#order[i]! + c]! + k]!;
     }
     return {
-      boxes: Float64Array.from(this.#boxes), links: Int32Array.from(this.#links), corners, source: this.#order, depth: this.#depth,
+      boxes: Float64Array.from(this.#boxes), links: Int32Array.from(this.#links), corners, balls: ballsOf(corners), source: this.#order, depth: this.#depth,
     };
   }
 
@@ -166,6 +168,31 @@ class Builder {
     }
     return { cost, bin };
   }
+}
+
+/** The ball over the longest edge, or through all three corners where that one leaves the third outside. */
+function ballsOf(corners: Float64Array): Float64Array {
+  const balls = new Float64Array(corners.length / 9 * 4);
+  for (let t = 0, at = 0; t < corners.length; t += 9, at += 4) {
+    let longest = -1, ux = 0, uy = 0, uz = 0, vx = 0, vy = 0, vz = 0, from = t;
+    for (let c = 0; c < 3; c++) {
+      const a = t + 3 * c, b = t + 3 * ((c + 1) % 3), o = t + 3 * ((c + 2) % 3);
+      const x = corners[b]! - corners[a]!, y = corners[b + 1]! - corners[a + 1]!, z = corners[b + 2]! - corners[a + 2]!;
+      const squared = x * x + y * y + z * z;
+      if (squared <= longest) continue;
+      longest = squared; from = a; ux = x; uy = y; uz = z;
+      vx = corners[o]! - corners[a]!; vy = corners[o + 1]! - corners[a + 1]!; vz = corners[o + 2]! - corners[a + 2]!;
+    }
+    // Centre a + s u + w v, equally far from a, a + u and a + v; w = 0 when the corner across sees the edge at 90° or more.
+    const uv = ux * vx + uy * vy + uz * vz, vv = vx * vx + vy * vy + vz * vz, area = longest * vv - uv * uv;
+    const acute = vv - uv > 0 && area > 1e-12 * longest * vv;
+    const w = acute ? Math.max(0, longest * (vv - uv) / (2 * area)) : 0, s = w > 0 ? vv * (longest - uv) / (2 * area) : 0.5;
+    const cx = s * ux + w * vx, cy = s * uy + w * vy, cz = s * uz + w * vz;
+    const far = Math.max(cx * cx + cy * cy + cz * cz, (cx - ux) ** 2 + (cy - uy) ** 2 + (cz - uz) ** 2, (cx - vx) ** 2 + (cy - vy) ** 2 + (cz - vz) ** 2);
+    balls[at] = corners[from]! + cx; balls[at + 1] = corners[from + 1]! + cy; balls[at + 2] = corners[from + 2]! + cz;
+    balls[at + 3] = Math.sqrt(far) + ROUNDING_M;
+  }
+  return balls;
 }
 
 function hasArea({ positions: p, indices }: TriangleMesh, t: number): boolean {

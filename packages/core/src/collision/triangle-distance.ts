@@ -10,7 +10,9 @@ import { trianglesTouch } from "./triangles.ts";
  * @see Ericson, Real-Time Collision Detection, Morgan Kaufmann 2005, sections 5.1.5, 5.1.9, 5.1.10.
  */
 export function triangleDistance2(p: Float64Array, i: number, q: Float64Array, j: number, limit: number, out: Float64Array): number {
-  if (trianglesTouch(p, i, q, j)) {
+  const planes = planeGap2(p, i, q, j, limit);
+  if (planes >= limit) return Infinity;
+  if (planes === 0 && trianglesTouch(p, i, q, j)) {
     if (!crossing(p, i, q, j, out) && !crossing(q, j, p, i, out)) edges(p, i, q, j, Infinity, out);
     return 0;
   }
@@ -18,6 +20,23 @@ export function triangleDistance2(p: Float64Array, i: number, q: Float64Array, j
   best = corners(p, i, q, j, best, out, 0);
   best = corners(q, j, p, i, best, out, 3);
   return best < limit ? best : Infinity;
+}
+
+/** Squared gap between the plane of either triangle and the other triangle, the larger of the two; 0 when both straddle. */
+function planeGap2(p: Float64Array, i: number, q: Float64Array, j: number, enough: number): number {
+  const first = gapToPlane2(p, i, q, j);
+  return first >= enough ? first : Math.max(first, gapToPlane2(q, j, p, i));
+}
+
+function gapToPlane2(p: Float64Array, i: number, q: Float64Array, j: number): number {
+  const x = p[i]!, y = p[i + 1]!, z = p[i + 2]!;
+  const ux = p[i + 3]! - x, uy = p[i + 4]! - y, uz = p[i + 5]! - z, vx = p[i + 6]! - x, vy = p[i + 7]! - y, vz = p[i + 8]! - z;
+  const nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+  const a = nx * (q[j]! - x) + ny * (q[j + 1]! - y) + nz * (q[j + 2]! - z);
+  const b = nx * (q[j + 3]! - x) + ny * (q[j + 4]! - y) + nz * (q[j + 5]! - z);
+  const c = nx * (q[j + 6]! - x) + ny * (q[j + 7]! - y) + nz * (q[j + 8]! - z);
+  const gap = a > 0 ? Math.min(a, b, c) : -Math.max(a, b, c);
+  return gap > 0 ? gap * gap / (nx * nx + ny * ny + nz * nz) : 0;
 }
 
 /** Least squared distance over the nine pairs of edges, when it is below `best`. */

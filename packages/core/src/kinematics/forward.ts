@@ -1,17 +1,8 @@
-import { JointCountFault } from "../fault.ts";
 import type { SerialArm } from "../robots/arm.ts";
 import { identity, type Pose } from "../spatial/pose.ts";
-import { sineCosine } from "../spatial/sine-cosine.ts";
+import { armScratch, chainOf, walk, type ArmScratch } from "./chain.ts";
 
-/** Working memory of `flangePose` and its kin: one per caller, never shared between workers. */
-export interface ArmScratch {
-  /** Sine and cosine of half a turn. */
-  readonly turn: Float64Array;
-  /** The arm last asked for, laid out flat. */
-  arm: SerialArm | null;
-  chain: Float64Array;
-}
-export const armScratch = (): ArmScratch => ({ turn: new Float64Array(2), arm: null, chain: new Float64Array(0) });
+export { armScratch, type ArmScratch } from "./chain.ts";
 
 /**
  * Pose of the flange in the robot base.
@@ -28,9 +19,7 @@ export const armScratch = (): ArmScratch => ({ turn: new Float64Array(2), arm: n
 export function flangePose(
   arm: SerialArm, q: ArrayLike<number>, out: Pose<"base", "flange"> = identity(), scratch: ArmScratch = armScratch(),
 ): Pose<"base", "flange"> {
-  const chain = chainOf(arm, scratch), n = arm.joints.length;
-  if (q.length !== n) throw new JointCountFault(arm.name, n, q.length);
-  walk(chain, q, scratch.turn, out, null);
+  walk(chainOf(arm, q, scratch), q, out, null, null);
   return out;
 }
 
@@ -40,83 +29,5 @@ export function flangePose(
  * @param out  n + 1 poses, written in place.
  */
 export function linkPoses(arm: SerialArm, q: ArrayLike<number>, out: readonly Pose<"base", "link">[], scratch: ArmScratch = armScratch()): void {
-  const chain = chainOf(arm, scratch), n = arm.joints.length;
-  if (q.length !== n) throw new JointCountFault(arm.name, n, q.length);
-  walk(chain, q, scratch.turn, null, out);
-}
-
-/** Numbers per joint of a flat chain: position, quaternion, axis, which axis, whether it is moved, whether turned. */
-const STRIDE = 13;
-const X = 0, Y = 1, Z = 2, ANY = 3, NONE = 4;
-
-/** The arm as one row of numbers, laid out when the scratch first sees it: a joint is then one line of memory. */
-function chainOf(arm: SerialArm, scratch: ArmScratch): Float64Array {
-  if (scratch.arm === arm) return scratch.chain;
-  const rows = [...arm.joints.map(({ parentFromJoint, axis }) => ({ fixed: parentFromJoint as Pose, axis })),
-    { fixed: arm.lastJointFromFlange as Pose, axis: null }];
-  const chain = new Float64Array(rows.length * STRIDE);
-  rows.forEach(({ fixed, axis }, i) => {
-    const { position, quaternion } = fixed;
-    const turned = quaternion[0] !== 0 || quaternion[1] !== 0 || quaternion[2] !== 0 || quaternion[3] !== 1;
-    const moved = position.some(value => value !== 0);
-    chain.set([...position, ...quaternion, ...(axis ?? [0, 0, 0]), axis === null ? NONE : axisKind(axis), moved ? 1 : 0, turned ? 1 : 0], i * STRIDE);
-  });
-  scratch.arm = arm;
-  scratch.chain = chain;
-  return chain;
-}
-
-function axisKind(axis: readonly number[]): number {
-  const along = axis.findIndex(value => Math.abs(value) === 1);
-  return along >= 0 && axis.every((value, i) => i === along || value === 0) ? along : ANY;
-}
-
-/**
- * running ← running · fixed · Rot(axis, angle), row after row of `chain`, in local numbers: what is stored and loaded
- * again between two joints costs as much as the sines.
- */
-function walk(chain: Float64Array, q: ArrayLike<number>, turn: Float64Array, flange: Pose | null, links: readonly Pose[] | null): void {
-  let x = 0, y = 0, z = 0, w = 1, ox = 0, oy = 0, oz = 0;
-  if (links !== null) store(links[0]!, x, y, z, w, ox, oy, oz);
-  for (let at = 0, joint = 0; ; at += STRIDE, joint++) {
-    if (chain[at + 11] === 1) {
-      const px = chain[at]!, py = chain[at + 1]!, pz = chain[at + 2]!;
-      const tx = 2 * (y * pz - z * py), ty = 2 * (z * px - x * pz), tz = 2 * (x * py - y * px);
-      ox += px + w * tx + y * tz - z * ty;
-      oy += py + w * ty + z * tx - x * tz;
-      oz += pz + w * tz + x * ty - y * tx;
-    }
-    if (chain[at + 12] === 1) {
-      const bx = chain[at + 3]!, by = chain[at + 4]!, bz = chain[at + 5]!, bw = chain[at + 6]!;
-      const nx = w * bx + x * bw + y * bz - z * by, ny = w * by - x * bz + y * bw + z * bx;
-      const nz = w * bz + x * by - y * bx + z * bw;
-      w = w * bw - x * bx - y * by - z * bz; x = nx; y = ny; z = nz;
-    }
-    const kind = chain[at + 10]!;
-    if (kind === NONE) break;
-    sineCosine(q[joint]! / 2, turn);
-    const s = turn[0]!, c = turn[1]!;
-    if (kind === Z) {
-      const b = chain[at + 9]! * s, nx = x * c + y * b, nz = z * c + w * b;
-      y = y * c - x * b; w = w * c - z * b; x = nx; z = nz;
-    } else if (kind === Y) {
-      const b = chain[at + 8]! * s, nx = x * c - z * b, ny = y * c + w * b;
-      z = z * c + x * b; w = w * c - y * b; x = nx; y = ny;
-    } else if (kind === X) {
-      const b = chain[at + 7]! * s, nx = x * c + w * b, ny = y * c + z * b;
-      z = z * c - y * b; w = w * c - x * b; x = nx; y = ny;
-    } else {
-      const bx = chain[at + 7]! * s, by = chain[at + 8]! * s, bz = chain[at + 9]! * s;
-      const nx = w * bx + x * c + y * bz - z * by, ny = w * by - x * bz + y * c + z * bx, nz = w * bz + x * by - y * bx + z * c;
-      w = w * c - x * bx - y * by - z * bz; x = nx; y = ny; z = nz;
-    }
-    if (links !== null) store(links[joint + 1]!, x, y, z, w, ox, oy, oz);
-  }
-  if (flange !== null) store(flange, x, y, z, w, ox, oy, oz);
-}
-
-function store(out: Pose, x: number, y: number, z: number, w: number, ox: number, oy: number, oz: number): void {
-  const quaternion = out.quaternion, position = out.position;
-  quaternion[0] = x; quaternion[1] = y; quaternion[2] = z; quaternion[3] = w;
-  position[0] = ox; position[1] = oy; position[2] = oz;
+  walk(chainOf(arm, q, scratch), q, null, out, null);
 }

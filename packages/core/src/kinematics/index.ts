@@ -1,4 +1,6 @@
 export * from "./forward.ts";
+export * from "./jacobian.ts";
+export * from "./manipulability.ts";
 export * from "./branch.ts";
 export * from "./reach.ts";
 export * from "./ortho-parallel.ts";
