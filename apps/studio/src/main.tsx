@@ -1,3 +1,10 @@
+import "@fontsource-variable/inter/wght.css";
 import { createRoot } from "react-dom/client";
+import { App } from "./App.tsx";
+import { boot } from "./boot.ts";
+import { exposeStores } from "./console.ts";
+import "./tokens.css";
 
-createRoot(document.getElementById("root")!).render(<main>Twincell</main>);
+boot();
+exposeStores();
+createRoot(document.getElementById("root")!).render(<App />);

@@ -10,3 +10,4 @@ export * from "./collision/index.ts";
 export * from "./shapes/index.ts";
 export * from "./paths/index.ts";
 export * from "./program/index.ts";
+export * from "./teach/index.ts";

@@ -1,62 +1,54 @@
-import type { CellDocument, ObjectRecord, ToolRecord } from "@twincell/project";
+import { createHistory, type CellDocument, type History, type ObjectRecord, type ToolRecord } from "@twincell/project";
 import { robotById, type Pose, type Program, type Robot } from "@twincell/core";
 import { cellStore } from "./cell.ts";
 
-interface Moment { readonly label: string; readonly document: CellDocument }
-const DEPTH = 200;
-let past: readonly Moment[] = [];
-let future: readonly Moment[] = [];
-/** Edits with the same key within this time become one undo step: typing, dragging, nudging. */
-const MERGE_MS = 800;
-let lastKey = "", lastAt_ms = -Infinity;
+let history: History | null = null;
 
-function publish(document: CellDocument | null, unsaved: boolean): void {
+function publish(next: History): void {
+  const changed = next.document !== history?.document;
+  history = next;
   cellStore.setState(state => ({
-    document, undo: past.map(moment => moment.label).reverse(), redo: future.map(moment => moment.label).reverse(),
-    saving: unsaved ? { kind: "unsaved" } : state.saving,
+    document: next.document, undo: next.undoLabels, redo: next.redoLabels, saving: changed ? { kind: "unsaved" } : state.saving,
   }));
 }
 
 /** Shows another document; undo starts afresh. */
-export function showDocument(document: CellDocument): void {
-  past = []; future = []; lastKey = "";
-  publish(document, true);
+export const showDocument = (document: CellDocument): void => publish(createHistory(inStep(document)));
+
+/** Programs carry the tools and frames of the cell, so that each can be checked, exported and run by itself. */
+function inStep(document: CellDocument): CellDocument {
+  const tools = Object.fromEntries(document.tools.map(tool => [tool.name, tool.flangeFromTcp]));
+  const frames = Object.fromEntries(document.frames.map(frame => [frame.name, frame.worldFromFrame]));
+  const programs = document.programs.map(program => (agrees(program.tools, tools) && agrees(program.frames, frames) ? program : { ...program, tools: { ...program.tools, ...tools }, frames: { ...program.frames, ...frames } }));
+  return programs.every((program, i) => program === document.programs[i]) ? document : { ...document, programs };
 }
+const agrees = (has: Readonly<Record<string, Pose>>, wants: Readonly<Record<string, Pose>>): boolean =>
+  Object.entries(wants).every(([name, pose]) => has[name] === pose || JSON.stringify(has[name]) === JSON.stringify(pose));
 
 /**
  * The only way to change the document. `change` returns the new document, or the same one when there is nothing to do.
- * @param merge  edits that share this key and follow one another quickly are one undo step; `at_ms` is their time.
+ * Says whether anything changed. Commits that follow each other with the same `gesture` are one undo step.
  */
-export function commit(label: string, change: (document: CellDocument) => CellDocument, merge?: { readonly key: string; readonly at_ms: number }): boolean {
-  const before = cellStore.getState().document;
-  if (!before) return false;
-  const after = change(before);
-  if (after === before) return false;
-  const merged = merge !== undefined && merge.key === lastKey && merge.at_ms - lastAt_ms < MERGE_MS && past.length > 0;
-  if (!merged) past = [...past.slice(1 - DEPTH), { label, document: before }];
-  lastKey = merge?.key ?? ""; lastAt_ms = merge?.at_ms ?? -Infinity;
-  future = [];
-  publish(after, true);
+export function commit(label: string, change: (document: CellDocument) => CellDocument, gesture?: string): boolean {
+  if (!history) return false;
+  const after = inStep(change(history.document));
+  if (after === history.document) return false;
+  publish(history.commit(label, after, gesture));
   return true;
 }
 
+/** Takes the last change back and returns its label; null when there is none. */
 export function undo(): string | null {
-  const moment = past.at(-1), now = cellStore.getState().document;
-  if (!moment || !now) return null;
-  past = past.slice(0, -1);
-  future = [...future, { label: moment.label, document: now }];
-  lastKey = "";
-  publish(moment.document, true);
-  return moment.label;
+  const label = history?.undoLabels[0];
+  if (!history || label === undefined) return null;
+  publish(history.undo());
+  return label;
 }
 export function redo(): string | null {
-  const moment = future.at(-1), now = cellStore.getState().document;
-  if (!moment || !now) return null;
-  future = future.slice(0, -1);
-  past = [...past, { label: moment.label, document: now }];
-  lastKey = "";
-  publish(moment.document, true);
-  return moment.label;
+  const label = history?.redoLabels[0];
+  if (!history || label === undefined) return null;
+  publish(history.redo());
+  return label;
 }
 
 export const robotOf = (document: CellDocument | null): Robot | null => (document ? robotById(document.robot.id) ?? null : null);
@@ -80,4 +72,12 @@ export function withObject(document: CellDocument, id: string, change: (object: 
 /** Pose of the tool tip on the flange; the flange itself without a tool. */
 export function flangeFromTcpOf(document: CellDocument | null): Pose<"flange", "tcp"> {
   return toolOf(document)?.flangeFromTcp ?? { position: [0, 0, 0], quaternion: [0, 0, 0, 1] };
+}
+
+const WORLD: Pose<"world", "frame"> = { position: [0, 0, 0], quaternion: [0, 0, 0, 1] };
+/** The frame jogging and read-outs count in. A user frame that is not there counts as the world. */
+export function worldFromFrameOf(document: CellDocument | null, frame: "world" | "base" | "user", userFrame: string): Pose<"world", "frame"> {
+  if (!document || frame === "world") return WORLD;
+  if (frame === "base") return { position: document.robot.worldFromBase.position, quaternion: document.robot.worldFromBase.quaternion };
+  return document.frames.find(record => record.name === userFrame)?.worldFromFrame ?? document.frames[0]?.worldFromFrame ?? WORLD;
 }

@@ -1,8 +1,7 @@
 import {
-  flangePose, type CommandOutcome, type ManualScheduler, type Pose, type Reach, type Robot, type RobotController,
+  flangePose, type CommandOutcome, type ManualScheduler, type Robot, type RobotController,
 } from "@twincell/core";
 import { afterEach, describe, expect, test } from "vitest";
-import { numericSolver } from "./numeric.ts";
 import { onSpoiledSample } from "./spoiled.ts";
 
 /** What a bench must be able to set up for a controller under test. */
@@ -11,7 +10,6 @@ export interface BenchOptions {
   readonly scheduler: ManualScheduler;
   readonly start_rad: ArrayLike<number>;
   readonly maxSpeed?: number;
-  readonly solve?: (baseFromFlange: Pose<"base", "flange">, near_rad: ArrayLike<number>) => Reach;
   readonly initialize?: () => void;
   readonly onMotion?: (q_rad: ArrayLike<number>) => void;
 }
@@ -41,7 +39,7 @@ export function describeController(name: string, contract: Contract): void {
 
   function bench(options: Partial<BenchOptions> = {}) {
     const scheduler = contract.scheduler();
-    const controller = contract.make({ robot, scheduler, start_rad: at(0.5), solve: numericSolver(robot), ...options });
+    const controller = contract.make({ robot, scheduler, start_rad: at(0.5), ...options });
     open.push(controller);
     /** Lets a command run to its end and says how long that took. */
     const carryOut = async (command: Promise<CommandOutcome>): Promise<{ outcome: CommandOutcome; took_s: number }> => {
@@ -253,7 +251,7 @@ export function describeController(name: string, contract: Contract): void {
 
     row("T-16 a robot that is only data can be driven", async () => {
       const copy = JSON.parse(JSON.stringify({ ...robot, id: "a_new_robot", name: "A new robot" })) as Robot;
-      const { controller, carryOut } = bench({ robot: copy, solve: numericSolver(copy) });
+      const { controller, carryOut } = bench({ robot: copy });
       expect((await carryOut(controller.moveJoints(at(0.6)))).outcome).toEqual({ kind: "done" });
       expect(controller.robot.name).toBe("A new robot");
     });

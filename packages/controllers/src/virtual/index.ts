@@ -1,2 +1,1 @@
 export * from "./controller.ts";
-export * from "./execution.ts";

@@ -72,11 +72,9 @@ export function edgeTraceCell(): CellDocument {
     ],
     frames: [{
       name: "carton",
-      worldFromFrame: pose([
-        CARTON_AT_M[0] - CARTON_SIZE_M[0] / 2, CARTON_AT_M[1] - CARTON_SIZE_M[1] / 2, CARTON_AT_M[2] + CARTON_SIZE_M[2] / 2,
-      ]),
+      worldFromFrame: pose([0.45, -0.2, 0.5]),
     }],
-    allowedPairs: [["link 0", "column"]],
+    allowedPairs: [],
     programs: [emptyProgram(ROBOT, "Edge trace")],
     program: "Edge trace",
   };

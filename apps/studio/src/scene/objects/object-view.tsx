@@ -1,10 +1,13 @@
 import type { ObjectRecord } from "@twincell/project";
+import { useFrame } from "@react-three/fiber";
 import { useEffect, useMemo, useRef } from "react";
-import { EdgesGeometry, type Group } from "three";
+import { EdgesGeometry, type Group, type LineSegments, type Mesh, Vector3 } from "three";
 import { paintTouching } from "../paint.ts";
+import { raycastByTree } from "../pick/raycast.ts";
 import { poseMatrix } from "../pose-matrix.ts";
 import { kraftTexture, looksLikeCardboard } from "./cardboard.ts";
 import { shapeGeometry } from "./shape-geometry.ts";
+import { wallHides } from "./walls.ts";
 
 /** One thing in the cell: furniture, work piece or wall. */
 export function ObjectView({ object }: { readonly object: ObjectRecord }) {
@@ -23,21 +26,31 @@ export function ObjectView({ object }: { readonly object: ObjectRecord }) {
   const cardboard = object.role === "workpiece" && box !== null && looksLikeCardboard(object.color);
   return (
     <group ref={group} name={object.id} matrixAutoUpdate={false} userData={{ thing: { kind: "object", id: object.id } }}>
-      {wall ? <Wall geometry={geometry} edges={edges} color={object.color} />
+      {wall ? <Wall geometry={geometry} edges={edges} color={object.color} size_m={box} />
         : cardboard ? <Carton geometry={geometry} size_m={box} color={object.color} />
-          : <mesh geometry={geometry} castShadow receiveShadow><meshStandardMaterial color={object.color} roughness={object.role === "furniture" ? 0.48 : 0.62} metalness={object.role === "furniture" ? 0.25 : 0.05} /></mesh>}
+          : <mesh geometry={geometry} castShadow receiveShadow raycast={raycastByTree}><meshStandardMaterial color={object.color} roughness={object.role === "furniture" ? 0.48 : 0.62} metalness={object.role === "furniture" ? 0.25 : 0.05} /></mesh>}
     </group>
   );
 }
 
-function Wall({ geometry, edges, color }: { readonly geometry: ReturnType<typeof shapeGeometry>; readonly edges: EdgesGeometry; readonly color: string }) {
+/** See-through, and gone but for its edges when it stands between the camera and the cell. */
+function Wall({ geometry, edges, color, size_m }: { readonly geometry: ReturnType<typeof shapeGeometry>; readonly edges: EdgesGeometry; readonly color: string; readonly size_m: readonly [number, number, number] | null }) {
+  const mesh = useRef<Mesh>(null), lines = useRef<LineSegments>(null);
+  useFrame(({ camera }) => {
+    if (!mesh.current || !lines.current || !size_m) return;
+    const hides = wallHides(mesh.current, size_m, MIDDLE, camera);
+    mesh.current.visible = !hides;
+    lines.current.visible = !hides;
+  }, -7);
   return (
     <>
-      <mesh geometry={geometry} receiveShadow renderOrder={1}><meshStandardMaterial color={color} roughness={0.9} transparent opacity={0.32} depthWrite={false} /></mesh>
-      <lineSegments geometry={edges} userData={{ unpainted: true }}><lineBasicMaterial color={color} transparent opacity={0.55} /></lineSegments>
+      <mesh ref={mesh} geometry={geometry} receiveShadow renderOrder={1}><meshStandardMaterial color={color} roughness={0.9} transparent opacity={0.3} depthWrite={false} /></mesh>
+      <lineSegments ref={lines} geometry={edges} userData={{ unpainted: true }} raycast={() => undefined}><lineBasicMaterial color={color} transparent opacity={0.5} /></lineSegments>
     </>
   );
 }
+/** A point inside every cell: where robots stand, at half height. Scene coordinates. */
+const MIDDLE = new Vector3(0.3, 0.8, 0);
 
 /** A taped carton: kraft paper, a tape over the seam of the lid and down both ends. */
 function Carton({ geometry, size_m: [x, y, z], color }: { readonly geometry: ReturnType<typeof shapeGeometry>; readonly size_m: readonly [number, number, number]; readonly color: string }) {

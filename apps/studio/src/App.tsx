@@ -1,0 +1,79 @@
+import { Tooltip } from "radix-ui";
+import { lazy, Suspense, useEffect } from "react";
+import { useStore } from "zustand";
+import { Check } from "./features/check/Check.tsx";
+import { Coach } from "./features/coach/Coach.tsx";
+import { Files } from "./features/files/Files.tsx";
+import { ControlsDialog } from "./features/input/ControlsDialog.tsx";
+import { GamepadWatch } from "./features/input/GamepadWatch.tsx";
+import { Shortcuts } from "./features/input/Shortcuts.tsx";
+import { Inspector } from "./features/inspector/Inspector.tsx";
+import { Notices } from "./features/notices/Notices.tsx";
+import { Overlay } from "./features/overlay/Overlay.tsx";
+import { Palette } from "./features/palette/Palette.tsx";
+import { Pendant } from "./features/pendant/Pendant.tsx";
+import { Timeline } from "./features/timeline/Timeline.tsx";
+import { TopBar } from "./features/topbar/TopBar.tsx";
+import { TracePanel } from "./features/trace/TracePanel.tsx";
+import { Tree } from "./features/tree/Tree.tsx";
+import { Welcome } from "./features/welcome/Welcome.tsx";
+import { Sheet } from "./Sheet.tsx";
+import { SceneGuard } from "./SceneGuard.tsx";
+import { traceStore } from "./stores/trace.ts";
+import { viewStore } from "./stores/view.ts";
+import { PHONE, useMedia } from "./ui/useMedia.ts";
+import { words } from "./words/index.ts";
+import "./app.css";
+
+const Viewport = lazy(() => import("./scene/Viewport.tsx").then(scene => ({ default: scene.Viewport })));
+const Export = lazy(() => import("./features/export/Export.tsx"));
+const Run = lazy(() => import("./features/run/Run.tsx"));
+const History = lazy(() => import("./features/history/History.tsx"));
+
+/** The shell: four modes around one scene. Nothing here changes many times a second. */
+export function App() {
+  const phone = useMedia(PHONE), theme = useStore(viewStore, state => state.theme);
+  useEffect(() => { document.documentElement.dataset.theme = theme; }, [theme]);
+  return (
+    <Tooltip.Provider delayDuration={500}>
+      <div className="app" data-layout={phone ? "phone" : "desk"}>
+        <a className="skip-link" href="#program">{words.app.skip}</a>
+        <TopBar key="top" phone={phone} />
+        {!phone && <nav key="left" className="panel area-left" aria-label={words.app.region.cell}><Tree /><Honest /></nav>}
+        <main key="view" className="area-view" aria-label={words.app.region.view}>
+          <SceneGuard><Suspense fallback={<p className="scene-note" role="status">{words.app.loadingScene}</p>}><Viewport /></Suspense></SceneGuard>
+          <Overlay phone={phone} />
+          {!phone && <Coach />}
+          <Welcome />
+          <Notices />
+        </main>
+        {phone
+          ? <Sheet key="sheet" />
+          : <><aside key="right" className="panel area-right" aria-label={words.app.region.side}><div className="scroll"><RightSide /></div></aside>
+            <footer key="bottom" className="area-bottom" aria-label={words.app.region.time}><BottomSide /></footer></>}
+        <Palette />
+        <ControlsDialog />
+        <Suspense><Export /></Suspense>
+        <Files />
+        <Shortcuts />
+        <GamepadWatch />
+        <span className="visually-hidden" id="reorder-hint">{words.tree.reorderHint}</span>
+      </div>
+    </Tooltip.Provider>
+  );
+}
+
+const Honest = () => <p className="honest" title={words.app.notSafetyHint}>{words.app.notSafety}</p>;
+
+function RightSide() {
+  const mode = useStore(viewStore, state => state.mode), tracing = useStore(traceStore, state => state.active);
+  switch (mode) {
+    case "teach": return <>{tracing && <TracePanel />}<Pendant /><Inspector /></>;
+    case "check": return <><Check /><Inspector /></>;
+    case "run": return <Suspense><Run /></Suspense>;
+    case "history": return <Suspense><History /></Suspense>;
+  }
+}
+function BottomSide() {
+  return <Timeline />;
+}

@@ -1,0 +1,14 @@
+import { Component, type ReactNode } from "react";
+import { words } from "./words/index.ts";
+
+/** Without WebGL the page lives on: tree, pendant, program and export need no picture. */
+export class SceneGuard extends Component<{ readonly children: ReactNode }, { readonly trouble: string | null }> {
+  override state: { readonly trouble: string | null } = { trouble: null };
+  static getDerivedStateFromError(trouble: unknown): { readonly trouble: string } {
+    return { trouble: trouble instanceof Error ? trouble.message : String(trouble) };
+  }
+  override render(): ReactNode {
+    if (this.state.trouble === null) return this.props.children;
+    return <div className="scene-note" role="alert"><p><b>{words.app.sceneTrouble}</b> {this.state.trouble}</p><p>{words.app.sceneHint}</p></div>;
+  }
+}

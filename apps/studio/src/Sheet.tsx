@@ -1,0 +1,32 @@
+import { Tabs } from "radix-ui";
+import { lazy, Suspense } from "react";
+import { useStore } from "zustand";
+import { Check } from "./features/check/Check.tsx";
+import { Inspector } from "./features/inspector/Inspector.tsx";
+import { Pendant } from "./features/pendant/Pendant.tsx";
+import { Timeline } from "./features/timeline/Timeline.tsx";
+import { TracePanel } from "./features/trace/TracePanel.tsx";
+import { Tree } from "./features/tree/Tree.tsx";
+import { traceStore } from "./stores/trace.ts";
+import { showMode, viewStore, type SheetTab, type StudioMode } from "./stores/view.ts";
+import { words } from "./words/index.ts";
+
+const Run = lazy(() => import("./features/run/Run.tsx"));
+const History = lazy(() => import("./features/history/History.tsx"));
+const TABS: readonly SheetTab[] = ["jog", "program", "why", "run"];
+const MODE: Readonly<Record<SheetTab, StudioMode>> = { jog: "teach", program: "teach", why: "check", run: "run" };
+const isTab = (value: string): value is SheetTab => TABS.some(tab => tab === value);
+
+/** The phone's bottom sheet: jog, program, why, run. */
+export function Sheet() {
+  const tab = useStore(viewStore, state => state.sheet), tracing = useStore(traceStore, state => state.active), mode = useStore(viewStore, state => state.mode);
+  return (
+    <Tabs.Root className="area-sheet" value={tab} onValueChange={value => { if (isTab(value)) { viewStore.setState({ sheet: value }); showMode(MODE[value]); } }}>
+      <Tabs.List className="sheet-tabs" aria-label={words.sheet.label}>{TABS.map(each => <Tabs.Trigger key={each} className="sheet-tab" value={each}>{words.sheet[each]}</Tabs.Trigger>)}</Tabs.List>
+      <Tabs.Content value="jog" className="scroll sheet-body" tabIndex={-1}>{tracing && <TracePanel />}<Pendant /></Tabs.Content>
+      <Tabs.Content value="program" className="sheet-body sheet-program" tabIndex={-1}><Tree /><div className="scroll"><Inspector /></div></Tabs.Content>
+      <Tabs.Content value="why" className="scroll sheet-body" tabIndex={-1}><Check /><Timeline /></Tabs.Content>
+      <Tabs.Content value="run" className="scroll sheet-body" tabIndex={-1}><Suspense>{mode === "history" ? <History /> : <Run />}</Suspense><Timeline /></Tabs.Content>
+    </Tabs.Root>
+  );
+}

@@ -1,0 +1,54 @@
+import { glideTo } from "../live/glide.ts";
+import { theLive } from "../live/live.ts";
+import { solveStep } from "../live/solve.ts";
+import { cellStore } from "../stores/cell.ts";
+import type { Command } from "../stores/commands.ts";
+import { theProgram, theRobot } from "../stores/document.ts";
+import { notify } from "../stores/notices.ts";
+import { addGripper, addWait, clearProgram, copySteps, deleteSteps, recordPoint, stepWords, touchUp } from "../stores/program.ts";
+import { seekStep } from "../stores/seek.ts";
+import { selectionStore } from "../stores/selection.ts";
+import { sound } from "../stores/sound.ts";
+import { words } from "../words/index.ts";
+
+const selectedStep = (): string | null => { const { selected } = selectionStore.getState(); return selected?.kind === "step" ? selected.id : null; };
+const isMove = (id: string | null): boolean => theProgram()?.steps.find(step => step.id === id)?.type === "move";
+const hasProgram = (): boolean => theProgram() !== null;
+const nameOf = (id: string): string => {
+  const steps = theProgram()?.steps ?? [], index = steps.findIndex(step => step.id === id), step = steps[index];
+  return step ? stepWords(step, index) : id;
+};
+
+function record(path: "ptp" | "lin"): void {
+  const tool = cellStore.getState().document?.tool ?? "flange";
+  if (!recordPoint(path, theLive().q_rad, tool)) return;
+  const id = selectedStep();
+  if (id) notify("done", words.jog.recorded(nameOf(id)));
+}
+function gripper(closed: boolean): void {
+  if (addGripper(closed)) sound("grip");
+}
+
+export const programCommands = (): readonly Command[] => [
+  { id: "program.record-ptp", group: "program", words: words.commands.recordPtp, keys: ["P"], can: hasProgram, run: () => record("ptp") },
+  { id: "program.record-lin", group: "program", words: words.commands.recordLin, keys: ["Shift+P"], can: hasProgram, run: () => record("lin") },
+  {
+    id: "program.touch-up", group: "program", words: words.commands.touchUp, keys: ["Shift+U"], can: () => isMove(selectedStep()),
+    run: () => { const id = selectedStep(); if (id && touchUp(id, theLive().q_rad, cellStore.getState().document?.tool ?? "flange")) notify("done", words.jog.touched(nameOf(id))); },
+  },
+  { id: "program.wait", group: "program", words: words.commands.wait, can: hasProgram, run: () => { addWait(0.5); } },
+  { id: "program.gripper-close", group: "program", words: words.commands.gripperClose, can: hasProgram, run: () => gripper(true) },
+  { id: "program.gripper-open", group: "program", words: words.commands.gripperOpen, can: hasProgram, run: () => gripper(false) },
+  {
+    id: "program.go-to", group: "program", words: words.tree.goTo, keys: ["G"], can: () => selectedStep() !== null,
+    run: () => {
+      const id = selectedStep(), robot = theRobot(), step = theProgram()?.steps.find(each => each.id === id);
+      if (step?.type !== "move" || !robot) { if (id) seekStep(id); return; }
+      const there = solveStep(step, theLive().q_rad);
+      if (there.kind === "reached") glideTo(robot, there.q_rad); else notify("warn", there.sentence);
+    },
+  },
+  { id: "program.duplicate", group: "program", words: words.commands.duplicate, keys: ["Mod+D"], can: () => selectedStep() !== null, run: () => { const id = selectedStep(); if (id) copySteps([id]); } },
+  { id: "program.delete", group: "program", words: words.commands.remove, keys: ["Delete"], can: () => selectedStep() !== null, run: () => { const id = selectedStep(); if (id) deleteSteps([id]); } },
+  { id: "program.clear", group: "program", words: words.commands.clear, can: () => (theProgram()?.steps.length ?? 0) > 0, run: () => { clearProgram(); } },
+];

@@ -1,0 +1,32 @@
+import { hold, release, releaseAll } from "./live/held.ts";
+import { showJoints, theLive, touchingNow } from "./live/live.ts";
+import { playheadNow } from "./live/playhead.ts";
+import { aidStore } from "./stores/aids.ts";
+import { bindingStore } from "./stores/bindings.ts";
+import { cellStore } from "./stores/cell.ts";
+import { commandStore, runCommand } from "./stores/commands.ts";
+import { controlStore } from "./stores/control.ts";
+import { dialogStore } from "./stores/dialogs.ts";
+import { commit, redo, showDocument, undo } from "./stores/document.ts";
+import { gamepadStore } from "./stores/gamepad.ts";
+import { historyStore } from "./stores/history.ts";
+import { jogStore } from "./stores/jog.ts";
+import { noticeStore } from "./stores/notices.ts";
+import { openCellText } from "./stores/opening.ts";
+import { playStore } from "./stores/play.ts";
+import { seek } from "./stores/seek.ts";
+import { selectionStore } from "./stores/selection.ts";
+import { soundStore } from "./stores/sound.ts";
+import { traceStore } from "./stores/trace.ts";
+import { viewStore } from "./stores/view.ts";
+
+/** What the browser's console and tests can reach: every store, the live state, and the commands by name. */
+const twincell = {
+  stores: { aidStore, bindingStore, cellStore, commandStore, controlStore, dialogStore, gamepadStore, historyStore, jogStore, noticeStore, playStore, selectionStore, soundStore, traceStore, viewStore },
+  live: { now: theLive, touching: touchingNow, showJoints, hold, release, releaseAll, playhead: playheadNow },
+  document: { commit, undo, redo, show: showDocument, open: openCellText },
+  run: runCommand, seek,
+};
+export type Twincell = typeof twincell;
+declare global { interface Window { twincell: Twincell } }
+export const exposeStores = (): void => { window.twincell = twincell; };

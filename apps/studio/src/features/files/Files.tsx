@@ -1,0 +1,53 @@
+import { edgeTraceCell, emptyCell, saveDocument } from "@twincell/project";
+import { useEffect, useRef, useState } from "react";
+import { cellStore } from "../../stores/cell.ts";
+import { registerCommands } from "../../stores/commands.ts";
+import { notify } from "../../stores/notices.ts";
+import { openCell } from "../../stores/opening.ts";
+import { download } from "../../ui/download.ts";
+import { words } from "../../words/index.ts";
+import { openFile } from "./openFile.ts";
+import "./files.css";
+
+const KINDS = ".json,.v2,.pg,.txt,.stl";
+
+/** Save, open and drop. */
+export function Files() {
+  const input = useRef<HTMLInputElement>(null);
+  const [over, setOver] = useState(false);
+  useEffect(() => registerCommands([
+    { id: "file.save", group: "file", words: words.commands.save, keys: ["Mod+S"], can: () => cellStore.getState().document !== null, run: saveFile },
+    { id: "file.load", group: "file", words: words.commands.load, keys: ["Mod+O"], run: () => input.current?.click() },
+    { id: "file.example", group: "file", words: words.commands.example, run: () => openCell(edgeTraceCell()) },
+    { id: "file.new", group: "file", words: words.commands.fresh, run: () => openCell(emptyCell()) },
+  ]), []);
+  useEffect(() => {
+    const hasFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes("Files") ?? false;
+    const drag = (event: DragEvent): void => { if (hasFiles(event)) { event.preventDefault(); setOver(true); } };
+    const leave = (event: DragEvent): void => { if (event.relatedTarget === null) setOver(false); };
+    const drop = (event: DragEvent): void => {
+      if (!hasFiles(event)) return;
+      event.preventDefault();
+      setOver(false);
+      for (const file of event.dataTransfer?.files ?? []) void openFile(file);
+    };
+    window.addEventListener("dragover", drag);
+    window.addEventListener("dragleave", leave);
+    window.addEventListener("drop", drop);
+    return () => { window.removeEventListener("dragover", drag); window.removeEventListener("dragleave", leave); window.removeEventListener("drop", drop); };
+  }, []);
+  return (
+    <>
+      <input ref={input} type="file" accept={KINDS} hidden aria-label={words.commands.load} data-file-input onChange={event => { const file = event.currentTarget.files?.[0]; if (file) void openFile(file); event.currentTarget.value = ""; }} />
+      {over && <div className="drop-veil" aria-hidden><p>{words.file.drop}</p></div>}
+    </>
+  );
+}
+
+function saveFile(): void {
+  const { document } = cellStore.getState();
+  if (!document) return;
+  const name = `${document.name.trim().replaceAll(/[^\p{L}\p{N}]+/gu, "-") || "cell"}.twincell.json`;
+  download(name, new Blob([saveDocument(document)], { type: "application/json" }));
+  notify("done", words.file.saved(name));
+}

@@ -1,0 +1,48 @@
+import { useEffect } from "react";
+import { onFrame } from "../../live/frames.ts";
+import { hold, release, releaseAll } from "../../live/held.ts";
+import { bindingStore, type PressedAction } from "../../stores/bindings.ts";
+import { runCommand } from "../../stores/commands.ts";
+import { dialogStore } from "../../stores/dialogs.ts";
+import { gamepadStore } from "../../stores/gamepad.ts";
+import { notify } from "../../stores/notices.ts";
+import { tiltCloseCamera, viewStore } from "../../stores/view.ts";
+import { words } from "../../words/index.ts";
+import { padStep, type PadReading } from "./gamepad.ts";
+
+const COMMAND: Readonly<Record<PressedAction, string>> = { "aid-next": "jog.aid-next", "aid-previous": "jog.aid-previous", record: "program.record-ptp", ready: "jog.ready", camera: "view.camera" };
+/** The Controls dialog draws the pad ten times a second. */
+const TELL_EVERY_MS = 100;
+
+/** Reads the gamepad once a frame. A pad that goes away while it holds something stops the robot. */
+export function GamepadWatch() {
+  useEffect(() => {
+    let before: PadReading | null = null, told_ms = 0, name = "";
+    const back = new Set<number>();
+    return onFrame(now_ms => {
+      const pad = navigator.getGamepads().find(each => each?.connected) ?? null;
+      if (!pad) {
+        if (before === null) return;
+        before = null; back.clear();
+        release("gamepad");
+        releaseAll();
+        gamepadStore.setState({ pad: null });
+        notify("warn", words.pad.lost, words.pad.lostHint);
+        return;
+      }
+      const now: PadReading = { buttons: pad.buttons.map(button => Math.max(button.value, button.pressed ? 1 : 0)), axes: [...pad.axes] };
+      if (before === null || name !== pad.id) { name = pad.id; notify("info", words.pad.found(pad.id)); }
+      const step = padStep(now, before, bindingStore.getState(), back);
+      const listens = viewStore.getState().mode === "teach" && dialogStore.getState().open === null;
+      for (let axis = 0; axis < 6; axis++) hold("gamepad", axis, listens ? step.axes[axis]! : 0);
+      if (listens) for (const action of step.pressed) runCommand(COMMAND[action]);
+      if (step.tilt !== null) tiltCloseCamera(step.tilt);
+      if (now_ms - told_ms > TELL_EVERY_MS && dialogStore.getState().open === "controls" || before === null) {
+        told_ms = now_ms;
+        gamepadStore.setState({ pad: { id: pad.id, buttons: now.buttons, axes: now.axes } });
+      }
+      before = now;
+    });
+  }, []);
+  return null;
+}

@@ -1,0 +1,21 @@
+import type { CellDocument } from "@twincell/project";
+import { commit } from "../../stores/document.ts";
+import { jogStore } from "../../stores/jog.ts";
+import { words } from "../../words/index.ts";
+import { PoseFields } from "./PoseFields.tsx";
+
+export function FrameInspector({ document, name }: { document: CellDocument; name: string }) {
+  const frame = document.frames.find(each => each.name === name);
+  if (!frame) return <p className="empty">{words.inspector.nothing}</p>;
+  return (
+    <section aria-label={name}>
+      <h2 className="heading"><span className="grow">{name}</span><span className="tag">{words.inspector.frame}</span></h2>
+      <div className="section stack">
+        <PoseFields pose={frame.worldFromFrame} onChange={(pose, done) => commit(words.undo.moveObject, before => ({
+          ...before, frames: before.frames.map(each => (each.name === name ? { ...each, worldFromFrame: { position: pose.position, quaternion: pose.quaternion } } : each)),
+        }), done ? undefined : `frame ${name}`)} />
+        <button className="btn" onClick={() => jogStore.setState({ frame: "user", userFrame: name })}>{words.commands.frame(name)}</button>
+      </div>
+    </section>
+  );
+}

@@ -1,0 +1,30 @@
+import { useStore } from "zustand";
+import { cellStore } from "../../stores/cell.ts";
+import { objectOf, programOf } from "../../stores/document.ts";
+import { selectionStore } from "../../stores/selection.ts";
+import { words } from "../../words/index.ts";
+import { FrameInspector } from "./FrameInspector.tsx";
+import { ObjectInspector } from "./ObjectInspector.tsx";
+import { RobotInspector } from "./RobotInspector.tsx";
+import { StepInspector } from "./StepInspector.tsx";
+import { ToolInspector } from "./ToolInspector.tsx";
+import "./inspector.css";
+
+/** The numbers of what is selected, each of them editable where it may be changed. */
+export function Inspector() {
+  const selected = useStore(selectionStore, state => state.selected), document = useStore(cellStore, state => state.document);
+  if (!document || !selected) return <p className="empty">{words.inspector.nothing}</p>;
+  switch (selected.kind) {
+    case "robot": case "link": return <RobotInspector document={document} />;
+    case "tool": return <ToolInspector document={document} />;
+    case "frame": return <FrameInspector document={document} name={selected.name} />;
+    case "object": {
+      const object = objectOf(document, selected.id);
+      return object ? <ObjectInspector key={object.id} object={object} /> : <p className="empty">{words.inspector.nothing}</p>;
+    }
+    case "step": {
+      const program = programOf(document), index = program?.steps.findIndex(step => step.id === selected.id) ?? -1, step = program?.steps[index];
+      return step && program ? <StepInspector key={step.id} program={program} step={step} index={index} /> : <p className="empty">{words.inspector.nothing}</p>;
+    }
+  }
+}

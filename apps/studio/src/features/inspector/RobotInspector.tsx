@@ -1,0 +1,30 @@
+import type { CellDocument } from "@twincell/project";
+import { commit, robotOf } from "../../stores/document.ts";
+import { showNumber } from "../../ui/expression.ts";
+import { words } from "../../words/index.ts";
+import { JointFields } from "./JointFields.tsx";
+import { PoseFields } from "./PoseFields.tsx";
+
+export function RobotInspector({ document }: { document: CellDocument }) {
+  const robot = robotOf(document);
+  if (!robot) return null;
+  const facts = [
+    [words.inspector.reach, `${showNumber(robot.reach_m, "length", 0)} mm`], [words.inspector.payload, `${robot.payload_kg} kg`],
+    [words.inspector.repeatability, `±${showNumber(robot.repeatability_m, "length", 3)} mm`], [words.inspector.tcpSpeed, `${robot.maxTcpSpeed_mps} m/s`],
+  ] as const;
+  return (
+    <section aria-label={robot.name}>
+      <h2 className="heading"><span className="grow">{robot.name}</span><span className="tag">{words.tree.axes(robot.arm.joints.length)}</span></h2>
+      <div className="section stack">
+        <h3 className="label">{words.inspector.joints}</h3>
+        <JointFields robot={robot} />
+        <h3 className="label">{words.inspector.base}</h3>
+        <PoseFields pose={document.robot.worldFromBase} onChange={(pose, done) => commit(words.undo.moveRobot, before => ({
+          ...before, robot: { ...before.robot, worldFromBase: { position: pose.position, quaternion: pose.quaternion } },
+        }), done ? undefined : "robot")} />
+        <dl className="facts">{facts.map(([name, value]) => <div key={name}><dt>{name}</dt><dd>{value}</dd></div>)}</dl>
+        {robot.assumptions.length > 0 && <details className="small"><summary>{words.inspector.assumptions}</summary><ul className="notes">{robot.assumptions.map(says => <li key={says}>{says}</li>)}</ul></details>}
+      </div>
+    </section>
+  );
+}

@@ -1,0 +1,85 @@
+import { Minus, Plus } from "lucide-react";
+import { useRef } from "react";
+import { useStore } from "zustand";
+import { hold, release } from "../../live/held.ts";
+import { readFrame, readTcp } from "../../live/readout.ts";
+import { cellStore } from "../../stores/cell.ts";
+import { robotOf, worldFromFrameOf } from "../../stores/document.ts";
+import { jogStore, type JogFrame } from "../../stores/jog.ts";
+import { Segments } from "../../ui/Choice.tsx";
+import { showNumber } from "../../ui/expression.ts";
+import { HoldButton } from "../../ui/HoldButton.tsx";
+import { useLive } from "../../ui/useLive.ts";
+import { words } from "../../words/index.ts";
+import { JointGauges } from "./JointGauges.tsx";
+import { Manner } from "./Manner.tsx";
+import { PointButtons } from "./PointButtons.tsx";
+import "./pendant.css";
+
+const FRAMES: readonly JogFrame[] = ["joint", "base", "tool", "user", "world"];
+const AXES = [0, 1, 2, 3, 4, 5] as const;
+
+/** What a robot programmer's hands know. */
+export function Pendant() {
+  const frame = useStore(jogStore, state => state.frame), blocked = useStore(jogStore, state => state.blocked);
+  const noUser = useStore(cellStore, state => (state.document?.frames.length ?? 0) === 0);
+  return (
+    <section className="pendant" aria-label={words.jog.title}>
+      <h2 className="heading"><span className="grow">{words.jog.title}</span></h2>
+      <div className="section stack">
+        <Segments label={words.jog.frame} value={frame} onChange={next => jogStore.setState({ frame: next, blocked: null })}
+          options={FRAMES.map(value => ({ value, words: words.jog.frames[value], disabled: value === "user" && noUser }))} />
+        <Axes />
+        {blocked ? <p className="pendant-blocked" role="alert">{blocked.sentence}</p> : frame !== "joint" && <JointGauges />}
+        <Manner />
+        <PointButtons />
+      </div>
+    </section>
+  );
+}
+
+/** One row a coordinate: − and + jog while held; in the joint frame with the gauge of its limits. */
+function Axes() {
+  const frame = useStore(jogStore, state => state.frame), userFrame = useStore(jogStore, state => state.userFrame), blockedJoint = useStore(jogStore, state => state.blocked?.joint);
+  const cell = useStore(cellStore, state => state.document), robot = robotOf(cell);
+  const numbers = useRef<(HTMLElement | null)[]>([]), gauges = useRef<(HTMLElement | null)[]>([]), rows = useRef<(HTMLElement | null)[]>([]);
+  const values = useRef(new Float64Array(6));
+  const joint = frame === "joint";
+  useLive(live => {
+    if (!joint) readTcp(live.worldFromTcp, worldFromFrameOf(cell, readFrame(frame), userFrame), values.current);
+    for (const i of AXES) {
+      const value = joint ? live.q_rad[i]! : values.current[i]!, number = numbers.current[i];
+      const text = joint || i > 2 ? `${showNumber(value, "angle")}°` : showNumber(value, "length");
+      if (number && number.textContent !== text) number.textContent = text;
+      const limits = robot?.arm.joints[i]?.limits, gauge = gauges.current[i];
+      if (!joint || !limits || !gauge) continue;
+      const part = (value - limits.lower_rad) / (limits.upper_rad - limits.lower_rad);
+      gauge.style.left = `${Math.min(1, Math.max(0, part)) * 100}%`;
+      const near = nearness(value, limits.lower_rad, limits.upper_rad), row = rows.current[i];
+      if (row && row.dataset.near !== near) row.dataset.near = near;
+    }
+  });
+  return (
+    <div className="axes" key={joint ? "joint" : "cartesian"}>
+      {AXES.map(axis => {
+        const name = joint ? words.time.joint(axis + 1) : words.jog.axes[axis]!;
+        return (
+          <div className="axis" key={axis} ref={element => { rows.current[axis] = element; }} data-blocked={blockedJoint === axis + 1 && joint}>
+            <span className="axis-name">{name}</span>
+            <HoldButton label={words.jog.minus(name)} className="btn icon axis-button" onHold={() => hold("pendant", axis, -1)} onRelease={() => release("pendant", axis)}><Minus /></HoldButton>
+            {joint ? <span className="gauge" aria-hidden><i ref={element => { gauges.current[axis] = element; }} /></span> : <span className="axis-line" aria-hidden />}
+            <HoldButton label={words.jog.plus(name)} className="btn icon axis-button" onHold={() => hold("pendant", axis, 1)} onRelease={() => release("pendant", axis)}><Plus /></HoldButton>
+            <span className="num axis-value" ref={element => { numbers.current[axis] = element; }} />
+          </div>
+        );
+      })}
+    </div>
+  );
+}
+
+const NEAR_RAD = (10 * Math.PI) / 180;
+/** Row L-39: near is within 10° of a limit. */
+export function nearness(value: number, lower: number, upper: number): "" | "near" | "bad" {
+  const left = Math.min(value - lower, upper - value);
+  return left < 0.0005 ? "bad" : left < NEAR_RAD ? "near" : "";
+}

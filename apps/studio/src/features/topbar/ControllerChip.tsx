@@ -1,0 +1,40 @@
+import { Popover } from "radix-ui";
+import { useStore } from "zustand";
+import { runCommand } from "../../stores/commands.ts";
+import { controlStore } from "../../stores/control.ts";
+import { playStore } from "../../stores/play.ts";
+import { words } from "../../words/index.ts";
+
+/** Who commands, in which mode, how late, and the safety state in words. */
+export function ControllerChip({ brief }: { brief: boolean }) {
+  const control = useStore(controlStore), override = useStore(playStore, state => state.speed);
+  const latency = control.latency_ms === null ? null : words.control.ms(control.latency_ms);
+  const says = control.safety === "normal"
+    ? [words.control.modes[control.mode], latency, words.control.title && `${control.commander} ${control.commander === words.control.you ? "command" : "commands"}`].filter(Boolean).join(" · ")
+    : words.control.safetyStates[control.safety];
+  return (
+    <Popover.Root>
+      <Popover.Trigger asChild>
+        <button className="chip" data-safety={control.safety} data-running={control.running} aria-label={`${words.control.title}: ${control.controller}, ${says}`}>
+          <i aria-hidden /><span>{control.controller}</span>{!brief && <span className="chip-more">{says}</span>}
+        </button>
+      </Popover.Trigger>
+      <Popover.Portal>
+        <Popover.Content className="pop" sideOffset={8} align="end" collisionPadding={8}>
+          <dl className="facts">
+            <div><dt>{words.control.state}</dt><dd>{control.running ? words.control.running : words.control.idle}</dd></div>
+            <div><dt>{words.control.commander}</dt><dd>{control.commander}</dd></div>
+            <div><dt>{words.control.mode}</dt><dd>{words.control.modes[control.mode]}</dd></div>
+            <div><dt>{words.control.latency}</dt><dd>{latency ?? words.control.unknown}</dd></div>
+            <div><dt>{words.control.speed}</dt><dd>{Math.round(override * 100)} %</dd></div>
+            <div><dt>{words.control.safety}</dt><dd>{words.control.safetyStates[control.safety]}</dd></div>
+          </dl>
+          {control.message && <p className="chip-message">{control.message}</p>}
+          {control.safety !== "normal" && <button className="btn" onClick={() => runCommand("run.reset")}>{words.control.reset}</button>}
+          <p className="small dim">{words.control.virtualNote}</p>
+          <p className="small muted"><b>{words.app.notSafety}</b> {words.app.notSafetyHint}</p>
+        </Popover.Content>
+      </Popover.Portal>
+    </Popover.Root>
+  );
+}

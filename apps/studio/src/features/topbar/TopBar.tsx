@@ -1,0 +1,88 @@
+import { Headset, Moon, Redo2, Sun, Undo2, Volume2, VolumeX } from "lucide-react";
+import { DropdownMenu } from "radix-ui";
+import { useStore } from "zustand";
+import { cellStore } from "../../stores/cell.ts";
+import { commandStore, runCommand } from "../../stores/commands.ts";
+import { showMode, viewStore, type StudioMode } from "../../stores/view.ts";
+import { Segments } from "../../ui/Choice.tsx";
+import { showKeys } from "../../ui/keys.ts";
+import { Tip } from "../../ui/Tip.tsx";
+import { words } from "../../words/index.ts";
+import { CellName } from "./CellName.tsx";
+import { ControllerChip } from "./ControllerChip.tsx";
+import { Override } from "./Override.tsx";
+import { StopButton } from "./StopButton.tsx";
+import "./topbar.css";
+
+const MODES: readonly StudioMode[] = ["teach", "check", "run", "history"];
+const MENU: readonly (readonly string[])[] = [["file.save", "file.load", "file.example", "file.new"], ["export.open", "export.import"], ["help.controls", "help.shortcuts", "help.coach"]];
+
+export function TopBar({ phone }: { phone: boolean }) {
+  return (
+    <header className="topbar area-top">
+      <CellMenu />
+      {!phone && <><CellName /><UndoRedo /></>}
+      <div className="topbar-space" />
+      {!phone && <Modes />}
+      <div className="topbar-space" />
+      <ControllerChip brief={phone} />
+      {!phone && <Override />}
+      <StopButton />
+      {!phone && <RightEnd />}
+    </header>
+  );
+}
+
+function Modes() {
+  const mode = useStore(viewStore, state => state.mode);
+  return <Segments className="seg" label={words.mode.label} value={mode} onChange={showMode} options={MODES.map(value => ({ value, words: words.mode[value] }))} />;
+}
+
+function CellMenu() {
+  const commands = useStore(commandStore, state => state.commands);
+  return (
+    <DropdownMenu.Root modal={false}>
+      <DropdownMenu.Trigger asChild><button className="brand" aria-label={words.top.menu}><i aria-hidden /><span>{words.app.name}</span></button></DropdownMenu.Trigger>
+      <DropdownMenu.Portal>
+        <DropdownMenu.Content className="menu" align="start" sideOffset={6}>
+          {MENU.map((ids, i) => (
+            <DropdownMenu.Group key={i}>
+              {i > 0 && <DropdownMenu.Separator className="menu-line" />}
+              {ids.map(id => commands.get(id)).map(command => command && (
+                <DropdownMenu.Item key={command.id} className="menu-item" disabled={command.can?.() === false} onSelect={() => runCommand(command.id)}>
+                  {command.words}{command.keys?.[0] && <span className="kbd">{showKeys(command.keys[0])}</span>}
+                </DropdownMenu.Item>
+              ))}
+            </DropdownMenu.Group>
+          ))}
+        </DropdownMenu.Content>
+      </DropdownMenu.Portal>
+    </DropdownMenu.Root>
+  );
+}
+
+function UndoRedo() {
+  const undo = useStore(cellStore, state => state.undo[0]), redo = useStore(cellStore, state => state.redo[0]);
+  return (
+    <div className="topbar-undo">
+      <Tip words={undo ? `${words.common.undo}: ${undo}` : words.undo.nothing} keys="Mod+Z">
+        <button className="btn quiet icon" aria-label={words.common.undo} aria-disabled={!undo} onClick={() => runCommand("edit.undo")}><Undo2 /></button>
+      </Tip>
+      <Tip words={redo ? `${words.common.redo}: ${redo}` : words.undo.nothingAhead} keys="Mod+Shift+Z">
+        <button className="btn quiet icon" aria-label={words.common.redo} aria-disabled={!redo} onClick={() => runCommand("edit.redo")}><Redo2 /></button>
+      </Tip>
+    </div>
+  );
+}
+
+function RightEnd() {
+  const { theme, muted } = useStore(viewStore);
+  return (
+    <>
+      <Tip words={words.top.headsetTip}><button className="btn topbar-headset" onClick={() => runCommand("view.headset")}><Headset /><span>{words.top.headset}</span></button></Tip>
+      <Tip words={words.top.theme}><button className="btn quiet icon" aria-label={words.top.theme} onClick={() => runCommand("view.theme")}>{theme === "dark" ? <Sun /> : <Moon />}</button></Tip>
+      <Tip words={muted ? words.top.unmute : words.top.mute}><button className="btn quiet icon" aria-label={words.top.mute} aria-pressed={muted} onClick={() => runCommand("view.mute")}>{muted ? <VolumeX /> : <Volume2 />}</button></Tip>
+      <Tip words={words.top.palette}><button className="topbar-palette" aria-label={words.top.palette} onClick={() => runCommand("help.palette")}><span className="kbd">{showKeys("Mod+K")}</span></button></Tip>
+    </>
+  );
+}

@@ -1,0 +1,80 @@
+import { manualScheduler, robotById, type JointSample } from "@twincell/core";
+import { createRunRecorder } from "@twincell/recording";
+import { expect, test } from "vitest";
+import { historyStore } from "../stores/history.ts";
+import { noticeStore } from "../stores/notices.ts";
+import { viewStore } from "../stores/view.ts";
+import { listRuns, openRunFile, removeRun, type Shelf } from "./archive.ts";
+import { theLive } from "./live.ts";
+import { travelBack } from "./travel-back.ts";
+
+const robot = robotById("staubli_rx90l")!;
+const record = { id: "r1", name: "Trace", startedAt: "2026-01-02T03:04:05Z", duration_s: 2, bytes: 0, ending: "running" as const };
+
+function memoryShelf(room = Infinity): Shelf {
+  const kept = new Map<string, unknown>();
+  return {
+    async set(key, value) { if (kept.size >= room) { const full = new Error("full"); full.name = "QuotaExceededError"; throw full; } kept.set(key, structuredClone(value)); },
+    async get(key) { return kept.get(key); },
+    async keys() { return [...kept.keys()]; },
+    async remove(keys) { for (const key of keys) kept.delete(key); },
+  };
+}
+const sample = (i: number): JointSample => ({
+  sequence: i, time_s: i * 0.01, q_rad: Float64Array.from(robot.home_rad, q => q + i * 0.001), moving: true, mode: "automatic", safety: "normal",
+  override: 1, gripperClosed: false, step: `s${Math.floor(i / 100)}`, message: "",
+});
+function recordInto(shelf: Shelf, samples: number, finish: boolean) {
+  const file = openRunFile(shelf, "r1");
+  file.note(record);
+  const recorder = createRunRecorder(file.sink, { robot, startedAt_ns: 0n, program: "Trace", cell: "Cell", chunk_s: 0.5 });
+  for (let i = 0; i < samples; i++) recorder.record(sample(i));
+  if (finish) { recorder.finish(); file.note({ ...record, ending: "done" }); }
+  return file;
+}
+
+test("T-54 travel back: the pose at any moment is the recorded one", async () => {
+  const shelf = memoryShelf();
+  await recordInto(shelf, 201, true).settled();
+  viewStore.setState({ mode: "history" });
+  const back = travelBack(shelf, manualScheduler());
+  await back.refresh();
+  expect(historyStore.getState().runs).toMatchObject([{ id: "r1", ending: "done" }]);
+  await back.open("r1");
+  expect(historyStore.getState().duration_s).toBeCloseTo(2, 9);
+  for (const at of [0, 0.5, 1.234, 2]) {
+    back.seek(at);
+    expect(theLive().q_rad[1]).toBeCloseTo(robot.home_rad[1]! + Math.floor(at / 0.01 + 1e-6) * 0.001, 12);
+  }
+  expect(historyStore.getState()).toMatchObject({ step: "s2", t_s: 2 });
+});
+
+test("a closed tab loses at most the piece under way, and says that the run was cut off", async () => {
+  const shelf = memoryShelf();
+  await recordInto(shelf, 175, false).settled();
+  expect(await listRuns(shelf)).toMatchObject([{ ending: "cut-off" }]);
+  const back = travelBack(shelf, manualScheduler());
+  await back.open("r1");
+  expect(historyStore.getState().duration_s).toBeGreaterThanOrEqual(1.75 - 0.5 - 0.02);
+});
+
+test("a full disk is one sentence; what was kept can be opened", async () => {
+  const shelf = memoryShelf(4);
+  const file = recordInto(shelf, 500, true);
+  expect(await file.settled()).toBe("The browser has no room left for this recording.");
+  const back = travelBack(shelf, manualScheduler());
+  await back.open("r1");
+  expect(historyStore.getState().duration_s).toBeGreaterThan(0);
+});
+
+test("bytes that are no recording are told, and nothing stays open", async () => {
+  const shelf = memoryShelf();
+  await shelf.set("meta:bad", { ...record, id: "bad" });
+  await shelf.set("piece:bad:00000000", new Uint8Array([1, 2, 3]));
+  const back = travelBack(shelf, manualScheduler());
+  await back.open("bad");
+  expect(historyStore.getState().open).toBeNull();
+  expect(noticeStore.getState().notices.at(-1)?.tone).toBe("bad");
+  await removeRun(shelf, "bad");
+  expect(await shelf.keys()).toEqual([]);
+});

@@ -1,0 +1,80 @@
+import type { ByteSink } from "@twincell/recording";
+import { createStore, delMany, get, keys, set, type UseStore } from "idb-keyval";
+import type { RunRecord } from "../stores/history.ts";
+
+/** Where runs are kept: the browser's database, or memory in tests. */
+export interface Shelf {
+  set(key: string, value: unknown): Promise<void>;
+  get(key: string): Promise<unknown>;
+  keys(): Promise<readonly string[]>;
+  remove(keys: readonly string[]): Promise<void>;
+}
+
+export function browserShelf(): Shelf {
+  let store: UseStore | undefined;
+  const opened = (): UseStore => (store ??= createStore("twincell-runs", "runs"));
+  return {
+    set: (key, value) => set(key, value, opened()),
+    get: key => get<unknown>(key, opened()),
+    keys: async () => (await keys(opened())).map(String),
+    remove: wanted => delMany([...wanted], opened()),
+  };
+}
+
+const META = "meta:", PIECE = "piece:";
+const pieceKey = (id: string, n: number): string => `${PIECE}${id}:${String(n).padStart(8, "0")}`;
+
+/** One run on its way to the shelf, piece by piece: a page that closes loses only the piece under way. */
+export interface RunFile {
+  readonly sink: ByteSink;
+  /** Tells the shelf how the run stands. */
+  note(record: RunRecord): void;
+  /** Resolves when everything handed over so far is kept, with the sentence of the first trouble, or null. */
+  settled(): Promise<string | null>;
+}
+
+export function openRunFile(shelf: Shelf, id: string): RunFile {
+  let position = 0, pieces = 0, trouble: string | null = null, last: Promise<void> = Promise.resolve();
+  const keep = (key: string, value: unknown): void => {
+    last = last.then(() => shelf.set(key, value)).catch((reason: unknown) => {
+      trouble ??= isFull(reason) ? "The browser has no room left for this recording." : `The recording could not be kept: ${reason instanceof Error ? reason.message : String(reason)}.`;
+    });
+  };
+  return {
+    sink: {
+      get position() { return position; },
+      write(bytes) {
+        if (trouble !== null) throw new Error(trouble);
+        position += bytes.length;
+        keep(pieceKey(id, pieces++), bytes.slice());
+      },
+    },
+    note(record) { keep(META + id, record); },
+    async settled() { await last; return trouble; },
+  };
+}
+
+const isFull = (reason: unknown): boolean => reason instanceof Error && reason.name === "QuotaExceededError";
+
+/** All runs on the shelf, newest first. One that never ended was cut off. */
+export async function listRuns(shelf: Shelf): Promise<RunRecord[]> {
+  const metas = (await shelf.keys()).filter(key => key.startsWith(META));
+  const records = await Promise.all(metas.map(key => shelf.get(key) as Promise<RunRecord>));
+  return records
+    .map(record => (record.ending === "running" ? { ...record, ending: "cut-off" as const } : record))
+    .sort((a, b) => b.startedAt.localeCompare(a.startedAt));
+}
+
+/** The bytes of a run, in order. */
+export async function runBytes(shelf: Shelf, id: string): Promise<Uint8Array<ArrayBuffer>> {
+  const wanted = (await shelf.keys()).filter(key => key.startsWith(`${PIECE}${id}:`)).sort();
+  const pieces = await Promise.all(wanted.map(key => shelf.get(key) as Promise<Uint8Array>));
+  const all = new Uint8Array(pieces.reduce((sum, piece) => sum + piece.length, 0));
+  let at = 0;
+  for (const piece of pieces) { all.set(piece, at); at += piece.length; }
+  return all;
+}
+
+export async function removeRun(shelf: Shelf, id: string): Promise<void> {
+  await shelf.remove((await shelf.keys()).filter(key => key === META + id || key.startsWith(`${PIECE}${id}:`)));
+}

@@ -1,0 +1,55 @@
+import { compose, flangePose, identity, type Pose, type Program, type Robot, robotById } from "@twincell/core";
+import type { CellDocument } from "@twincell/project";
+import { useLayoutEffect, useMemo, useRef } from "react";
+import { type InstancedMesh, Matrix4 } from "three";
+import { poseMatrix } from "../pose-matrix.ts";
+import { triadGeometry } from "../triad-geometry.ts";
+
+/** More frames than this would hide each other: then only the points are drawn. */
+const MOST_FRAMES = 600;
+
+/** Where the taught points of the program are, in the world. */
+export function waypointPoses(document: CellDocument, program: Program, robot: Robot): Pose<"world", "tcp">[] {
+  const tools = new Map(document.tools.map(tool => [tool.name, tool.flangeFromTcp]));
+  const flangeFromTcp = (name: string): Pose<"flange", "tcp"> => program.tools[name] ?? tools.get(name) ?? identity();
+  return program.steps.flatMap(step => {
+    if (step.type !== "move") return [];
+    const { target } = step;
+    if ("q" in target) {
+      if (target.q.length !== robot.arm.joints.length) return [];
+      return [compose(compose(document.robot.worldFromBase, flangePose(robot.arm, target.q)), flangeFromTcp(target.tool ?? document.tool))];
+    }
+    const frame: Pose<"world", "frame"> | undefined = target.frame === "world" ? identity() : program.frames[target.frame] ?? document.frames.find(each => each.name === target.frame)?.worldFromFrame;
+    return frame ? [compose(frame, target.pose)] : [];
+  });
+}
+
+/** Taught points: a small frame with a white dot each, in two draw calls. */
+export function Waypoints({ document }: { readonly document: CellDocument }) {
+  const program = document.programs.find(each => each.name === document.program), robot = robotById(document.robot.id);
+  const poses = useMemo(() => (program && robot ? waypointPoses(document, program, robot) : []), [document, program, robot]);
+  const triad = useMemo(() => triadGeometry(0.026, 0.0011), []);
+  const dots = useRef<InstancedMesh>(null), frames = useRef<InstancedMesh>(null);
+  useLayoutEffect(() => {
+    const matrix = new Matrix4();
+    poses.forEach((pose, i) => {
+      poseMatrix(pose, matrix);
+      dots.current?.setMatrixAt(i, matrix);
+      if (i < MOST_FRAMES) frames.current?.setMatrixAt(i, matrix);
+    });
+    for (const mesh of [dots.current, frames.current]) if (mesh) { mesh.instanceMatrix.needsUpdate = true; mesh.computeBoundingSphere(); }
+  }, [poses]);
+  if (poses.length === 0) return null;
+  return (
+    <>
+      <instancedMesh key={`dots ${poses.length}`} ref={dots} args={[undefined, undefined, poses.length]} userData={{ unpickable: true }}>
+        <sphereGeometry args={[0.0062, 14, 10]} /><meshBasicMaterial color="#ffffff" toneMapped={false} />
+      </instancedMesh>
+      {poses.length <= MOST_FRAMES && (
+        <instancedMesh key={`frames ${poses.length}`} ref={frames} args={[triad, undefined, poses.length]} userData={{ unpickable: true }}>
+          <meshBasicMaterial vertexColors toneMapped={false} />
+        </instancedMesh>
+      )}
+    </>
+  );
+}

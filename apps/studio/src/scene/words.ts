@@ -1,0 +1,25 @@
+/** Every word the scene says, in one place. */
+export const WORDS = {
+  links: ["base", "shoulder", "upper arm", "elbow", "forearm", "wrist", "flange"],
+  link: (number: number, name: string | undefined, robot: string): string => `${robot} · link ${number}${name === undefined ? "" : `, ${name}`}`,
+  tool: (name: string): string => `Tool · ${name}`,
+  touching: "touching",
+  closeCamera: "Close camera",
+  overview: "Overview",
+  hidePicture: "Hide the picture",
+  swapCameras: "Swap the cameras",
+  viewFrom: (side: string): string => `View from ${side}`,
+  sides: { front: "Front", back: "Back", left: "Left", right: "Right", top: "Top", bottom: "Below" },
+  fit: "Fit the view",
+  viewport: "The cell in three dimensions",
+  handle: {
+    x: "Move along X", y: "Move along Y", z: "Move along Z", yz: "Move in the YZ plane", zx: "Move in the ZX plane", xy: "Move in the XY plane",
+    free: "Move freely", rx: "Turn about X", ry: "Turn about Y", rz: "Turn about Z",
+  },
+  edge: (length_mm: string): string => `Edge, ${length_mm} mm`,
+  noHeadset: "This browser has no WebXR.",
+  noHeadsetSecure: "A headset needs a secure page: open it over https or on localhost.",
+  noHeadsetDevice: "No headset answers this browser.",
+  record: "Record", deletePoint: "Delete last", play: "Play", pause: "Pause", stop: "STOP", leave: "Leave",
+  points: (count: number): string => `${count} ${count === 1 ? "point" : "points"}`,
+} as const;

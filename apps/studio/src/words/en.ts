@@ -1,0 +1,148 @@
+/** English. Field terms as a programmer says them; sentences end with a full stop and carry the number and the unit. */
+const plural = (count: number, one: string, many = `${one}s`): string => `${count} ${count === 1 ? one : many}`;
+
+export const en = {
+  common: {
+    close: "Close", cancel: "Cancel", apply: "Apply", show: "Show", hide: "Hide", remove: "Delete", rename: "Rename", duplicate: "Duplicate", done: "Done", more: "More",
+    on: "on", off: "off", none: "none", copy: "Copy", copied: "Copied.", download: "Download", open: "Open", undo: "Undo", redo: "Redo",
+  },
+  app: {
+    name: "Twincell", notSafety: "Not a safety device.",
+    notSafetyHint: "Twincell may refuse a motion. It can never guarantee one: people and machines are protected by the robot's own safety functions.",
+    loadingScene: "The cell is being drawn …", sceneTrouble: "The 3D view could not start:",
+    sceneHint: "Everything else works. A browser with WebGL 2 draws the cell.",
+    skip: "Skip to the program", region: { cell: "Cell and program", view: "Cell, seen in 3D", side: "Tools", time: "Timeline", sheet: "Tools" },
+  },
+  mode: {
+    label: "Mode", teach: "Teach", check: "Check", run: "Run", history: "History",
+    teachTip: "Jog, trace edges and record points", checkTip: "See what is reached, how close it gets, and what would fix it",
+    runTip: "Run the exported text on the virtual controller", historyTip: "Look back at any moment of a run",
+  },
+  saving: { saved: "saved", saving: "saving …", unsaved: "not saved yet", problem: "not saved", tip: "Kept in this browser after every change." },
+  top: {
+    rename: "Name of the cell", menu: "Cell menu", speed: "Speed", speedTip: "Speed override. 0 % holds the robot.", stop: "STOP", stopTip: "Stops everything that moves. Also: Pause, or Esc twice.",
+    headset: "Headset", headsetTip: "Enter the cell at 1:1", headsetNone: "This browser has no WebXR headset to enter. Open the page in the headset's own browser, over HTTPS.",
+    palette: "All commands", theme: "Light or dark", mute: "Mute sounds", unmute: "Sounds on", stopped: "Everything was stopped.", stoppedHint: "Motion goes on only when you command it again.",
+    stopTrouble: "One part did not answer to STOP:",
+  },
+  control: {
+    title: "Controller", commander: "Commanded by", mode: "Mode", latency: "Latency", safety: "Safety", state: "State", speed: "Speed",
+    modes: { manual: "manual", automatic: "automatic", remote: "remote" },
+    safetyStates: { normal: "normal", "guard-stop": "guard open: robot held", "protective-stop": "protective stop", "emergency-stop": "emergency stop: drives off" },
+    running: "runs a program", idle: "at rest", you: "you", unknown: "not measured yet", ms: (ms: number) => `${ms < 10 ? ms.toFixed(1) : ms.toFixed(0)} ms`, reset: "Reset after stop",
+    virtualNote: "This controller lives in the page. Nothing outside moves.",
+  },
+  tree: {
+    cell: "Cell", program: "Program", axes: (n: number) => `${n} axes`, noTool: "No tool (flange)", robot: "Robot", tool: "Tool", object: "Object", frame: "Frame",
+    roles: { workpiece: "work piece", fixture: "fixture", furniture: "furniture", wall: "wall" },
+    points: (n: number) => plural(n, "point"), expand: "Open the group", collapse: "Close the group", addStep: "Add a step", empty: "No steps yet. Trace an edge (T), or jog somewhere and record a point (P).",
+    stepActions: "Actions for this step", steps: (n: number) => plural(n, "step"), up: "Move up", down: "Move down", reorderHint: "Alt with ↑ or ↓ moves it.",
+    moved: (name: string, place: number, of: number) => `${name} is now step ${place} of ${of}.`, goTo: "Go there", gone: "no longer there", addBox: "Add a box", deleteObject: "Delete object", useTool: "Use this tool",
+    verdicts: { ok: "fine", warn: "near a limit", bad: "not possible", unknown: "not checked yet" },
+  },
+  step: {
+    point: (n: number) => `Point ${n}`, wait: (s: number) => `Wait ${s} s`, open: "Open gripper", close: "Close gripper", path: { ptp: "PTP", lin: "LIN", circ: "CIRC", spline: "SPL" },
+    pathLabel: "Path", speed: "Speed", ofJoint: "of joint speed", blend: "Blend", target: "Target", waitTime: "Waiting time", joints: "Joints", position: "Position", gripper: "Gripper", open2: "open", closed: "closed",
+    name: "Name", unreachable: (sentence: string) => `The point stays where it was. ${sentence}`, duration: "Duration", kindOfSpeed: "Speed as",
+    kinds: { ratio: "% of joints", mps: "TCP speed", time_s: "duration" },
+  },
+  undo: {
+    recordPoint: "Record point", addWait: "Add wait", addGripper: "Add gripper step", touchUp: "Touch up point", rename: "Rename", deleteSteps: (n: number) => `Delete ${plural(n, "step")}`, duplicate: "Duplicate",
+    reorder: "Reorder", clear: "Clear program", repair: "Apply repair", repairAll: "Repair all", moveObject: "Move object", size: "Change size", tool: "Choose tool", trace: "Trace edges", speed: "Change speed", blend: "Change blend",
+    path: "Change path", target: "Change target", wait: "Change wait", addObject: "Add object", deleteObject: "Delete object", import: "Import program", cellName: "Rename cell", moveRobot: "Move robot", gripper: "Change gripper",
+    done: (label: string) => `Undone: ${label}.`, redone: (label: string) => `Done again: ${label}.`, nothing: "There is nothing to undo.", nothingAhead: "There is nothing to redo.",
+  },
+  field: {
+    notUnderstood: (text: string, unit: string) => `“${text}” is not a length of time, angle or distance I can read. Type a number, for instance 25${unit && ` ${unit}`}, +10 or 90/4.`,
+    atLeast: (name: string, limit: string, unit: string) => `${name} is at least ${limit} ${unit}.`, atMost: (name: string, limit: string, unit: string) => `${name} is at most ${limit} ${unit}.`,
+  },
+  inspector: {
+    nothing: "Nothing is selected. Click a part of the cell or a step to see and change its numbers.", robot: "Robot", base: "Stands at", joints: "Joint angles", reach: "Reach", payload: "Payload", repeatability: "Repeatability", tcpSpeed: "Fastest TCP",
+    assumptions: "Assumed, not published", object: "Object", position: "Position", size: "Size", role: "Role", tool: "Tool", tcp: "TCP on the flange", frame: "Frame", width: "along x", depth: "along y", height: "along z", step: "Step",
+    joint: (n: number) => `Joint ${n}`, margin: (deg: string) => `${deg}° to the limit`, rotation: "Turned", shape: "Shape", shapes: { box: "box", cylinder: "cylinder", revolved: "turned part", mesh: "mesh" }, group: "Group",
+    manySteps: (n: number) => `${n} points of one trace`, speedAll: "Speed of all points",
+  },
+  jog: {
+    title: "Pendant", frame: "Frame", frames: { joint: "Joint", base: "Base", tool: "Tool", user: "User", world: "World" }, axes: ["X", "Y", "Z", "Rx", "Ry", "Rz"],
+    minus: (axis: string) => `Jog ${axis} down`, plus: (axis: string) => `Jog ${axis} up`, manner: "Manner", hold: "While held", steps: "In steps", step: "Step", speed: "Jog speed", closest: (joint: number, deg: string) => `Closest to a limit: joint ${joint}, ${deg}° left.`,
+    ready: "Do Ready", readyTip: "Moves to the home position", zero: "All joints to zero", aidNext: "Next orientation", aidPrevious: "Previous orientation", aid: (n: number, of: number) => `Aid ${n} of ${of}`, aidFree: "Tool free", aids: "Orientation",
+    record: "Record", recordPtp: "PTP", recordLin: "LIN", recordTip: "Records where the robot stands", touchUp: "Touch up", touchUpTip: "The selected point becomes where the robot stands", touchUpNone: "Select the point that is to be touched up.",
+    gripperOpen: "Open", gripperClose: "Close", gripper: "Gripper", message: "Last message", quiet: "No message.", noUser: "The cell has no user frame yet.", dead: "On this virtual controller the held button is itself the dead-man.",
+    recorded: (name: string) => `${name} was recorded.`, touched: (name: string) => `${name} was touched up.`, busy: "The robot is running a program; jogging waits until it is done or stopped.", noIk: "Moving in a straight line needs the inverse of this robot, which the library does not have.",
+    speedOf: (percent: number) => `${percent} % of 250 mm/s`, stepOf: (mm: string, deg: string) => `${mm} mm · ${deg}°`,
+    atLimit: (joint: number, deg: string, limit: string) => `Joint ${joint} is at ${deg}°; its limit is ${limit}°.`, gripperClosed: "closed", gripperOpened: "open", aidUnreachable: (n: number, why: string) => `Orientation aid ${n} cannot be taken here. ${why}`,
+  },
+  pad: {
+    lost: "The gamepad was disconnected; the robot was stopped.", lostHint: "Plug it in again or press one of its buttons.", found: (name: string) => `Gamepad ready: ${name}.`, none: "No gamepad is connected. Plug one in and press any of its buttons.",
+    title: "Controls", keyboard: "Keyboard", gamepad: "Gamepad", press: "Press a key …", pressButton: "Press a button …", rebind: (what: string) => `Change the control for ${what}`, reset: "Back to the standard table", button: (n: number) => `Button ${n}`, stick: (n: number) => `Stick axis ${n}`, unbound: "not set",
+    while: "Hold a key to move, let go to stop. Click an entry, then press what should do it.",
+    actions: {
+      "x+": "+X · joint 1 +", "x-": "−X · joint 1 −", "y+": "+Y · joint 2 +", "y-": "−Y · joint 2 −", "z+": "+Z · joint 3 +", "z-": "−Z · joint 3 −",
+      "rx+": "turn +X · joint 4 +", "rx-": "turn −X · joint 4 −", "ry+": "turn +Y · joint 5 +", "ry-": "turn −Y · joint 5 −", "rz+": "turn +Z · joint 6 +", "rz-": "turn −Z · joint 6 −",
+      "turn-back": "hold first: turn the other way", "aid-next": "next orientation", "aid-previous": "previous orientation", record: "record a point", ready: "Do Ready", camera: "main or close camera", tilt: "tilt of the close camera",
+    },
+    sticks: { x: "X", y: "Y", z: "Z", rx: "turn X", ry: "turn Y", rz: "turn Z", "-x": "X, reversed", "-y": "Y, reversed", "-z": "Z, reversed", "-rx": "turn X, reversed", "-ry": "turn Y, reversed", "-rz": "turn Z, reversed" },
+  },
+  view: {
+    tcp: "TCP", inFrame: (frame: string) => `TCP in ${frame}`, tcpAxes: ["X", "Y", "Z", "Rx", "Ry", "Rz"], hintTrace: [["Click", "traces an edge"], ["Shift", "the whole loop"], ["Esc", "leaves"]], hintTeach: [["Drag the ring", "moves the tool"], ["click", "selects"], ["T", "traces edges"]],
+    hintCheck: [["Click a point", "says why"], ["drag the timeline", "moves the robot"]], hintRun: [["Run", "proves the exported text"], ["Pause", "holds"]], hintHistory: [["Drag the timeline", "looks back"]], close: "Close camera", main: "Overview", camera: "Main or close camera",
+    touching: (names: string) => `Contact: ${names}.`,
+  },
+  trace: {
+    title: "Trace edges", tool: "Trace", tip: "Click edges of an object and get points along them", tilt: "Tool angle", leadIn: "Lead-in", leadOut: "Lead-out", chord: "Chord tolerance", tolerance: "Path tolerance", motion: "Motion", joint: "PTP between points", straight: "LIN", speed: "Speed",
+    loop: "Whole loop", chosen: "Chosen edges", none: "Click an edge of the carton. Shift takes its whole loop.", make: "Make points", clear: "Clear", working: "Points are being laid …", edge: (n: number, mm: string) => `Edge ${n} · ${mm} mm`, remove: (n: number) => `Take edge ${n} out`,
+    made: (points: number, edges: number, inserted: number) => `${plural(points, "point")} on ${plural(edges, "edge")}; ${inserted} of them inserted to stay within tolerance.`, deviation: (mm: string, tolerance: string) => `Largest deviation from the edge: ${mm} mm (allowed ${tolerance} mm).`,
+    group: (n: number) => `Edge ${n}`, loopGroup: (n: number) => `Loop ${n}`, approach: "Approach", retreat: "Retreat", last: "Last trace", leave: "Done tracing", home: "Home",
+  },
+  check: {
+    title: "Verdict", clearance: "Clearance", margin: "Joint margin", reach: "Reach", cycle: "Cycle", reachOk: (n: number) => `${n} of ${n}`, reachBad: (bad: number, all: number) => `${bad} of ${all} fail`, notMeasured: "not measured",
+    checking: "Checking …", percent: (p: number) => `Checking … ${p} %`, cancel: "Cancel check", again: "Check again", repairAll: (n: number) => `Repair all (${n})`, fine: "Every step can be carried out.", none: "There is nothing to check yet. Add a step first.", notYet: "Not checked yet.",
+    assumptions: "What this rests on", cancelled: "The check was cancelled.", stale: "The program changed; it is being checked again.", why: "Why", whyNone: "Nothing stands in the way.", more: (n: number) => `and ${n} more`, affected: (n: number) => `${plural(n, "point")} ${n === 1 ? "is" : "are"} affected.`, repaired: (n: number) => `${plural(n, "repair")} applied.`,
+    shown: "This is how it would stand. Esc goes back.", at: (s: string) => `at ${s} s`, trouble: "The program could not be checked:", joint: "Joints at this moment",
+  },
+  time: {
+    play: "Play", pause: "Pause", step: "Step", back: "Step back", of: "/", plots: "Plots", scrubber: "Time", empty: "The program appears here as blocks on a time line.", speed: "Playback speed", angles: "Joint angles", speeds: "Joint speeds", over: (name: string, n: number) => `${name}, ${plural(n, "finding")}`,
+    s: (s: number) => s.toFixed(2), seconds: "s", joint: (n: number) => `J${n}`, deg: "°", degS: "°/s", start: "To the start",
+  },
+  run: {
+    title: "Run", text: "V+ text", run: "Run", again: "Run again", hold: "Pause", resume: "Resume", stop: "Stop", running: (line: number) => `Line ${line} runs.`, idle: "The exported text runs statement by statement on the virtual controller; the twin on screen mirrors it.", twin: "Twin error", twinOk: "The twin differs from the controller by at most",
+    nothing: "There is nothing to run yet. Add a step first.", done: (s: string) => `The run is done after ${s} s.`, refused: (why: string) => `The controller refused: ${why}`, stopped: (why: string) => `The run was stopped: ${why}`, recording: "Every run is recorded.", notEmitted: "This program cannot be said in V+:", notUnderstood: "The text could not be read:", kept: "The run is in the history.",
+    start: "To the first point", io: "Gripper",
+  },
+  history: {
+    title: "Runs", none: "No run yet. Every run is recorded and appears here.", open: "Open run", endings: { done: "done", stopped: "stopped", refused: "refused", running: "runs now", "cut-off": "cut off" }, remove: "Delete run", download: "Download .mcap", events: "Events", noEvents: "Nothing happened in this run but motion.", loading: "The recording is being read …", unreadable: "The recording could not be read:", choose: "Open a run to look back at any moment of it.",
+    size: (bytes: number) => (bytes < 1e6 ? `${Math.round(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`), full: "There is no room left in this browser for the recording of this run.", fullHint: "Delete older runs, or download them first.", name: (cell: string, n: number) => `${cell}, run ${n}`, deleted: "The run was deleted.", back: "Back to now",
+  },
+  file: {
+    save: "Save to file", load: "Open file …", example: "Open the edge-trace example", fresh: "New empty cell", drop: "Drop a cell, program or CAD file to open it.", opened: (name: string) => `${name} is open.`, saved: (name: string) => `${name} was saved to your downloads.`, lifted: (text: string) => `The file was brought up to date: ${text}`, tooNew: (version: number, newest: number) => `This file says version ${version}; this Twincell reads up to version ${newest}.`, tooNewHint: "Open it with a newer Twincell.",
+    notCell: (name: string, why: string) => `${name} was not opened. ${why}`, notCellHint: "What you had is still open.", fullDisk: "The browser has no room left to keep this cell.", fullDiskHint: "Nothing is lost: it stays open. Save it to a file, or delete old runs in History.", noKeep: (why: string) => `The browser did not keep the cell: ${why}`, noKeepHint: "Nothing is lost: it stays open. Save it to a file.",
+    damaged: "The cell kept in this browser could not be read; an earlier copy was opened.", lost: "The cell kept in this browser could not be read; the example was opened instead.", unreadable: (name: string) => `${name} could not be read from the disk.`, mesh: (name: string, faces: number) => `${name} was added with ${faces.toLocaleString("en")} triangles.`, unknownKind: (name: string) => `${name} is neither a cell, nor a program, nor an STL or URDF file I can read.`, unknownHint: "Drop a .json cell saved by Twincell, a V+ text (.v2, .pg, .txt), or an STL mesh.",
+  },
+  welcome: {
+    title: "Start with a cell", example: "Open an example", exampleSays: "A Stäubli RX90L, a carton on a table, four edges to trace.", drop: "Drop a robot or CAD file", dropSays: "STL meshes become objects. Or start with the robot alone.", connect: "Connect a controller", connectSays: "The virtual RX90L is connected. Real controllers come later.", connected: "connected", empty: "Empty cell", choose: "Choose a file",
+  },
+  export: {
+    title: "Export", dialect: "Language", files: "Files", text: "Text", warnings: "Notes", none: "No notes.", download: "Download all", copy: "Copy text", step: (name: string) => `from ${name}`, cannot: "This program cannot be written in this language:", manifest: "Manifest", lines: (n: number) => plural(n, "line"), copied: "The text is in the clipboard.", notCopied: "The browser did not allow copying.", notCopiedHint: "Select the text and copy it by hand.",
+    proof: (mm: string, deg: string) => `Read back by an independent interpreter: every point within ${mm} mm and ${deg}°.`, import: "Import V+ text", importSays: "Paste or drop a V+ program. Its points become steps.", importGo: "Import", paste: "V+ text", line: (line: number, column: number, sentence: string) => `Line ${line}, column ${column}: ${sentence}`, imported: (n: number) => `${plural(n, "step")} imported.`, proven: "proven by interpreting the text", experimental: "experimental",
+    cannotDo: "What this language cannot say",
+  },
+  palette: { title: "Commands", search: "Type a command", none: "No command is called that.", groups: { file: "Cell", edit: "Edit", program: "Program", jog: "Robot", view: "View", play: "Timeline", help: "Help" } },
+  shortcuts: { title: "Keyboard", open: "Keyboard shortcuts" },
+  coach: {
+    title: "First trace", of: (n: number, all: number) => `${n} of ${all}`, skip: "Do not show this again", next: "Next",
+    steps: [
+      ["Look around", "Drag to orbit, wheel to zoom, right-drag to pan. Click a part to see its numbers."],
+      ["Turn on Trace", "Press T. Edges light up under the pointer."],
+      ["Click the four top edges", "Or hold Shift and take the whole loop at once."],
+      ["Make points", "The tool leans 45° into the edge; points are added until the path stays within tolerance."],
+      ["Check it", "Blue is fine, yellow is near a limit, red is not possible. Why cards say what would fix it."],
+      ["Run it", "The V+ text itself runs on the virtual controller, and every run is recorded."],
+    ],
+  },
+  commands: {
+    stop: "Stop everything", undo: "Undo", redo: "Redo", save: "Save to file", load: "Open file …", example: "Open the edge-trace example", fresh: "New empty cell", palette: "All commands", shortcuts: "Keyboard shortcuts", controls: "Controls: keys and gamepad", export: "Export V+", import: "Import V+ text",
+    teach: "Teach", check: "Check", run: "Run", history: "History", theme: "Light or dark", mute: "Sounds on or off", camera: "Main or close camera", headset: "Enter the headset", trace: "Trace edges", recordPtp: "Record point, PTP", recordLin: "Record point, LIN", touchUp: "Touch up the selected point", wait: "Add a wait", gripperClose: "Add: close gripper", gripperOpen: "Add: open gripper",
+    ready: "Do Ready: go home", zero: "All joints to zero", aidNext: "Next orientation aid", aidPrevious: "Previous orientation aid", remove: "Delete what is selected", duplicate: "Duplicate the selected step", clear: "Clear the program", play: "Play or pause", stepOn: "Next step", stepBack: "Previous step", start: "To the start", checkNow: "Check now", repairAll: "Repair all", plots: "Plots", up: "Move the step up", down: "Move the step down", rename: "Rename", startRun: "Run on the virtual controller", frame: (name: string) => `Jog in ${name}`, coach: "Show the coach again", box: "Add a box", deselect: "Leave",
+  },
+  sheet: { label: "Tools", jog: "Jog", program: "Program", why: "Why", run: "Run", dead: "Hold to move" },
+};

@@ -1,0 +1,279 @@
+import {
+  distance, identity, type CommandOutcome, type JointSample, type Pose, type Refusal, type RobotController, type Scheduler,
+} from "@twincell/core";
+import { listeners } from "../listeners.ts";
+import { jointNumberRefusal, jointRefusal, percentRefusal } from "../refusals.ts";
+import { jointMoveSpeed, speedBound, tcpOf } from "./speed.ts";
+import { AT_FIRST, guardStep, type GuardEvent, type GuardState } from "./state.ts";
+import { cameTooNear, commanderWentSilent, denialRefusal, leaseGivenBack, linkWentDown, switchLetGo, targetTooNear, tooFast } from "./words.ts";
+
+export interface GuardOptions {
+  /** The robot behind the guard. Nothing else may command it. */
+  readonly controller: RobotController;
+  readonly scheduler: Scheduler;
+  /** Motion only while the commander keeps a switch pressed. Robots that are not virtual need it unless told otherwise. */
+  readonly deadMan?: boolean;
+  /** Whether the clearance margin is kept at those joint angles; asked for targets and along the motion. */
+  readonly isSafe?: (q_rad: Float64Array) => boolean;
+  /** Without a sample for this long the link counts as lost. With the watch's own period it stays below 100 ms (row X-41). */
+  readonly silence_s?: number;
+  /** When given, the commander must call `alive` at least this often. */
+  readonly heartbeat_s?: number;
+  /** Longest time the robot needs to stop; how far ahead the clearance is looked at follows from it. */
+  readonly brakingTime_s?: number;
+  readonly flangeFromTcp?: Pose<"flange", "tcp">;
+  /** Speed of the tool in manual mode. */
+  readonly manualCap_mps?: number;
+}
+
+/** One who may command: mouse, headset, gamepad, server. */
+export interface Seat {
+  readonly name: string;
+  /** Takes the motion lease. One at a time has it. */
+  take(): CommandOutcome;
+  release(): CommandOutcome;
+  /** The dead-man switch: pressed or let go. */
+  hold(pressed: boolean): CommandOutcome;
+  /** A person's word that motion is wanted again, after a lost link or beside an obstacle. */
+  confirm(): CommandOutcome;
+  /** Sign of life, where heartbeats are asked for. */
+  alive(): void;
+  /** The robot as this seat may command it. */
+  readonly robot: RobotController;
+}
+
+export interface Guard {
+  readonly state: GuardState;
+  seat(name: string): Seat;
+  /** Anyone may stop. */
+  stop(emergency?: boolean): void;
+  /** Why a point may not be added to a program (row T-42); null when it may. */
+  pointRefusal(q_rad: ArrayLike<number>): Refusal | null;
+  onChange(listen: (state: GuardState) => void): () => void;
+  /** What the guard did on its own, in words. */
+  onNotice(listen: (why: Refusal) => void): () => void;
+  close(): void;
+}
+
+/** To be shown wherever the guard's state is shown. */
+export const GUARD_NOTICE = "Not a certified safety function: it may refuse or stop a motion, it can never guarantee one.";
+
+const WATCH_S = 0.02;
+/** From seeing to the stop taking effect. */
+const REACTION_S = 0.02;
+const MANUAL_CAP_MPS = 0.25;
+/** Measured over one cycle the speed is a little noisy. */
+const SPEED_SLACK = 1.1;
+const DONE: CommandOutcome = { kind: "done" };
+const refused = (why: Refusal): CommandOutcome => ({ kind: "refused", why });
+
+/** Stands between any input and any robot. Everything it does on its own can only stop the robot or lead it back where it was safe. */
+export function createGuard(options: GuardOptions): Guard {
+  const { controller, scheduler } = options, { robot, jumpTo } = controller, n = robot.arm.joints.length;
+  const rules = { deadMan: options.deadMan ?? controller.kind !== "virtual" };
+  const isSafe = options.isSafe ?? (() => true), silence_s = options.silence_s ?? 0.06, cap_mps = options.manualCap_mps ?? MANUAL_CAP_MPS;
+  const braking_s = options.brakingTime_s ?? Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2));
+  const flangeFromTcp = options.flangeFromTcp ?? identity<"flange", "tcp">(), tcp = tcpOf(robot.arm, flangeFromTcp), bound_mps = speedBound(robot, flangeFromTcp);
+  const changes = listeners<GuardState>(), notices = listeners<Refusal>();
+
+  let state = AT_FIRST, heard_s = scheduler.now_s(), alive_s = heard_s, because: Refusal | null = null, manual = false;
+  /** Wanted override, and the part of it that the cap leaves in this move. */
+  let percent = 100, capped = 1, applied = 100;
+  // What is known of the motion: latest angles, where it would stand if stopped now, the last pose that was safe with room to stop.
+  const q_rad = controller.jointAngles(), ahead_rad = new Float64Array(n), safe_rad = Float64Array.from(q_rad);
+  let time_s = NaN, leaving = false, tip = identity<"base", "tcp">(), tipBefore = identity<"base", "tcp">();
+
+  /** Only when it changes: an override set at the pendant is not overwritten by the way. */
+  function applySpeed(): CommandOutcome {
+    const wanted = percent * (manual ? capped : 1);
+    if (wanted === applied) return DONE;
+    const outcome = controller.setSpeed(wanted);
+    if (outcome.kind === "done") applied = wanted;
+    return outcome;
+  }
+
+  function send(event: GuardEvent): Refusal | null {
+    const answer = guardStep(state, event, rules), changed = answer.state !== state;
+    const holder = state.holder;
+    state = answer.state;
+    for (const effect of answer.effects) {
+      if (effect === "stop") controller.stop();
+      else if (effect === "emergency-stop") controller.stop(true);
+      else if (effect === "return") void goBack();
+    }
+    if (changed) changes.call(state);
+    return answer.denied ? denialRefusal(answer.denied, robot.name, holder) : null;
+  }
+  function notice(why: Refusal): void {
+    because = why;
+    notices.call(why);
+  }
+
+  async function goBack(): Promise<void> {
+    capped = cappedFor(safe_rad);
+    applySpeed();
+    const outcome = await controller.moveJoints(Float64Array.from(safe_rad));
+    if (outcome.kind !== "done") send({ type: "stop", emergency: false });
+    send({ type: "ended" });
+    capped = 1;
+    applySpeed();
+  }
+
+  const cappedFor = (target_rad: ArrayLike<number> | null): number => {
+    const speed_mps = target_rad ? jointMoveSpeed(robot, q_rad, target_rad, flangeFromTcp) : bound_mps;
+    return speed_mps > cap_mps ? cap_mps / speed_mps : 1;
+  };
+
+  /** Asks, then lets the robot do it, then says how it ended and why. */
+  async function command(who: string, target_rad: ArrayLike<number> | null, go: () => Promise<CommandOutcome>): Promise<CommandOutcome> {
+    const why = target_rad ? jointRefusal(robot, target_rad) ?? pointRefusal(target_rad) : null;
+    if (why) return refused(why);
+    const denied = send({ type: "ask", who });
+    if (denied) return refused(denied);
+    because = null;
+    leaving = !isSafe(q_rad);
+    capped = cappedFor(target_rad);
+    applySpeed();
+    let outcome: CommandOutcome | null = null;
+    try {
+      outcome = await go();
+    } finally {
+      // A driver that throws leaves nobody to say what the robot does: it is stopped.
+      if (!outcome) { send({ type: "stop", emergency: false }); send({ type: "ended" }); }
+    }
+    const reason: Refusal | null = because;
+    if (state.motion !== "returning") {
+      capped = 1;
+      applySpeed();
+    }
+    send({ type: "ended" });
+    return outcome.kind === "stopped" && reason ? { kind: "stopped", why: reason } : outcome;
+  }
+
+  function pointRefusal(target_rad: ArrayLike<number>): Refusal | null {
+    return jointRefusal(robot, target_rad) ?? (isSafe(Float64Array.from(target_rad)) ? null : targetTooNear);
+  }
+
+  /** Looks at one sample: link, clearance here and where a stop would end, speed of the tool. */
+  function watch(lent: JointSample): void {
+    heard_s = scheduler.now_s();
+    if (state.link === "lost") send({ type: "link-back" });
+    const dt_s = lent.time_s - time_s, known = dt_s > 0;
+    manual = lent.mode === "manual";
+    let part = 0;
+    for (let i = 0; i < n; i++) {
+      ahead_rad[i] = known ? (lent.q_rad[i]! - q_rad[i]!) / dt_s : 0;
+      part = Math.max(part, Math.abs(ahead_rad[i]!) / robot.arm.joints[i]!.limits.speed_rad_s);
+      q_rad[i] = lent.q_rad[i]!;
+    }
+    // From a part of full speed a joint stops in that part of the braking time, half as far as it would go in it.
+    for (let i = 0; i < n; i++) ahead_rad[i] = q_rad[i]! + ahead_rad[i]! * (part * braking_s / 2 + REACTION_S);
+    time_s = lent.time_s;
+    [tip, tipBefore] = [tipBefore, tip];
+    tcp(q_rad, tip);
+    const underWay = state.motion === "moving" || state.motion === "returning";
+    if (underWay && manual && known) {
+      const speed_mps = distance(tip.position, tipBefore.position) / dt_s;
+      if (speed_mps > SPEED_SLACK * cap_mps) { notice(tooFast(speed_mps, cap_mps)); send({ type: "stop", emergency: false }); }
+    }
+    const here = isSafe(q_rad);
+    if (leaving) { leaving = !here; return; }
+    const kept = here && (!underWay || isSafe(ahead_rad));
+    if (kept) { if (state.trip === "none") safe_rad.set(q_rad); return; }
+    if (state.motion === "moving") { notice(cameTooNear); send({ type: "too-near" }); }
+  }
+
+  const unsubscribe = controller.onSample(watch);
+  const stopWatching = scheduler.every(WATCH_S, () => {
+    const now_s = scheduler.now_s();
+    if (state.link === "lost") return;
+    if (now_s - heard_s > silence_s) { notice(linkWentDown(robot.name, now_s - heard_s)); send({ type: "link-lost" }); return; }
+    const { heartbeat_s } = options, { holder } = state;
+    if (heartbeat_s !== undefined && holder !== null && state.link === "up" && now_s - alive_s > heartbeat_s) {
+      notice(commanderWentSilent(holder, now_s - alive_s));
+      send({ type: "link-lost" });
+    }
+  });
+
+  const act = (event: GuardEvent): CommandOutcome => {
+    const denied = send(event);
+    return denied ? refused(denied) : DONE;
+  };
+
+  function seat(who: string): Seat {
+    return {
+      name: who,
+      take() { alive_s = scheduler.now_s(); return act({ type: "take", who }); },
+      release() {
+        if (state.holder === who && state.motion === "moving") because = leaseGivenBack;
+        return act({ type: "release", who });
+      },
+      hold(pressed) {
+        if (!pressed && rules.deadMan && state.holder === who && state.motion === "moving") because = switchLetGo;
+        return act({ type: pressed ? "press" : "let-go", who });
+      },
+      confirm() { alive_s = scheduler.now_s(); return act({ type: "confirm", who }); },
+      alive() { if (state.holder === who) alive_s = scheduler.now_s(); },
+      robot: {
+        kind: controller.kind, name: controller.name, robot,
+        onSample: listen => controller.onSample(listen),
+        close: () => { act({ type: "release", who }); },
+        isMoving: () => controller.isMoving(),
+        jointAngle: joint => controller.jointAngle(joint),
+        jointAngles: out => controller.jointAngles(out),
+        setSpeed(to) {
+          const why = percentRefusal(to) ?? (state.holder === who ? null : denialRefusal(state.holder === null ? "no-lease" : "lease-taken", robot.name, state.holder));
+          if (why) return refused(why);
+          percent = to;
+          return applySpeed();
+        },
+        async moveJoint(joint, angle_rad) {
+          const why = jointNumberRefusal(robot, joint);
+          if (why) return refused(why);
+          const target_rad = controller.jointAngles();
+          target_rad[joint - 1] = angle_rad;
+          return command(who, target_rad, () => controller.moveJoint(joint, angle_rad));
+        },
+        moveJoints(target_rad) {
+          const target = Float64Array.from(target_rad);
+          return command(who, target, () => controller.moveJoints(target));
+        },
+        moveToPose: baseFromFlange => command(who, null, () => controller.moveToPose(baseFromFlange)),
+        moveToZero: () => command(who, new Float64Array(n), () => controller.moveToZero()),
+        run: (steps, context) => command(who, null, () => controller.run(steps, context)),
+        stop: emergency => { guard.stop(emergency); },
+        reset() {
+          if (state.motion !== "at-rest") return refused(denialRefusal("still-moving", robot.name, state.holder));
+          const outcome = controller.reset();
+          return outcome.kind === "done" ? act({ type: "reset", who }) : outcome;
+        },
+        ...(jumpTo ? {
+          jumpTo(target_rad: ArrayLike<number>): CommandOutcome {
+            const why = pointRefusal(target_rad) ?? send({ type: "ask", who });
+            if (why) return refused(why);
+            const outcome = jumpTo(target_rad);
+            send({ type: "ended" });
+            return outcome;
+          },
+        } : {}),
+      },
+    };
+  }
+
+  const guard: Guard = {
+    get state() { return state; },
+    seat,
+    stop(emergency = false) { send({ type: "stop", emergency }); },
+    pointRefusal,
+    onChange: listen => changes.add(listen),
+    onNotice: listen => notices.add(listen),
+    close() {
+      if (state.motion !== "at-rest") controller.stop();
+      unsubscribe();
+      stopWatching();
+      changes.clear();
+      notices.clear();
+    },
+  };
+  return guard;
+}

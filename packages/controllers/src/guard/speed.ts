@@ -1,0 +1,42 @@
+import { armScratch, compose, distance, flangePose, identity, norm, type Pose, type Robot, type SerialArm } from "@twincell/core";
+
+/** Points of a joint move at which the speed of the TCP is looked at. */
+const LOOKS = 64;
+
+/**
+ * Greatest speed of the TCP [m/s] in a joint move at full override:  max_s |dp/ds| · min_i (q̇max_i / |Δ_i|).
+ *
+ * @param flangeFromTcp  the tool; the cap is on its tip.
+ */
+export function jointMoveSpeed(robot: Robot, from_rad: ArrayLike<number>, to_rad: ArrayLike<number>, flangeFromTcp: Pose<"flange", "tcp">): number {
+  const joints = robot.arm.joints, q = new Float64Array(joints.length);
+  let rate = Infinity;
+  joints.forEach(({ limits }, i) => { rate = Math.min(rate, limits.speed_rad_s / Math.abs(to_rad[i]! - from_rad[i]!)); });
+  if (rate === Infinity) return 0;
+  const tcp = tcpOf(robot.arm, flangeFromTcp);
+  let before = identity<"base", "tcp">(), here = identity<"base", "tcp">(), most = 0;
+  for (let k = 0; k <= LOOKS; k++) {
+    for (let i = 0; i < joints.length; i++) q[i] = from_rad[i]! + (k / LOOKS) * (to_rad[i]! - from_rad[i]!);
+    tcp(q, here);
+    if (k > 0) most = Math.max(most, distance(before.position, here.position) * LOOKS);
+    [before, here] = [here, before];
+  }
+  return most * rate;
+}
+
+/** No motion within the joint speeds moves the TCP faster than this [m/s]:  Σ_i q̇max_i · (length of the arm beyond joint i). */
+export function speedBound(robot: Robot, flangeFromTcp: Pose<"flange", "tcp">): number {
+  let beyond_m = norm(robot.arm.lastJointFromFlange.position) + norm(flangeFromTcp.position), bound = 0;
+  for (let i = robot.arm.joints.length - 1; i >= 0; i--) {
+    const joint = robot.arm.joints[i]!;
+    bound += joint.limits.speed_rad_s * beyond_m;
+    beyond_m += norm(joint.parentFromJoint.position);
+  }
+  return bound;
+}
+
+/** Forward kinematics to the tip of the tool, without allocation. */
+export function tcpOf(arm: SerialArm, flangeFromTcp: Pose<"flange", "tcp">): (q_rad: ArrayLike<number>, out: Pose<"base", "tcp">) => Pose<"base", "tcp"> {
+  const scratch = armScratch(), flange = identity<"base", "flange">();
+  return (q_rad, out) => compose(flangePose(arm, q_rad, flange, scratch), flangeFromTcp, out);
+}

@@ -1,0 +1,205 @@
+import type { Robot } from "../robots/robot.ts";
+import { resolveMove, passes, type PlanContext } from "../trajectory/moves.ts";
+import type { Segment } from "../trajectory/plan.ts";
+import { GRIPPER_S } from "../trajectory/planner.ts";
+import { RunPlanner } from "../trajectory/run.ts";
+import { intervalAccelerations, sampleSegment, segmentKnot } from "../trajectory/sample.ts";
+import { explainStop, type Stuck } from "../trajectory/stop.ts";
+import type { MoveStep, Step } from "./program.ts";
+
+/** What the stepper is doing after an `advance`. Lent until the next call. */
+export interface StepperState {
+  /** "running" while there are steps; "done" after the last; "stopped" after `stop`; "fault" when a step cannot be carried out. */
+  kind: "running" | "done" | "stopped" | "fault";
+  /** Id of the step being executed, or "". */
+  step: string;
+  moving: boolean;
+  gripperClosed: boolean;
+  /** Rate of the path, 0 … 1: follows the override as fast as the accelerations allow. */
+  rate: number;
+  /** Why, when `kind` is "fault". */
+  fault: Stuck | undefined;
+}
+
+export interface StepperOptions { readonly gripperClosed?: boolean; readonly gripper_s?: number }
+
+/** Moves looked ahead over blends. A longer run of blended moves stops once at its end. */
+const MOST_AHEAD = 64;
+
+/**
+ * Executes neutral steps one after the other, a slice of time per call: the engine of virtual controllers and of
+ * interpreted program text. Steps are taken from the iterator when they are needed: the one being executed, and as many
+ * more as are passed without a stop, so that a list changed behind the iterator takes effect at the next stop (T-53).
+ *
+ * The override scales time along the path and never changes the path; waits take their own seconds at any override
+ * above 0. A change of override and `stop` slow the arm down along the path within its joint accelerations.
+ */
+export class Stepper {
+  readonly robot: Robot;
+  private readonly context: PlanContext;
+  private readonly steps: Iterator<Step, unknown>;
+  private readonly planner: RunPlanner;
+  private readonly gripper_s: number;
+  private readonly state: StepperState;
+  private readonly q: Float64Array;
+  private readonly qd: Float64Array;
+  private readonly bend: Float64Array;
+  private waiting: Step | undefined = undefined;
+  private segments: readonly Segment[] = [];
+  private segment = 0;
+  private t_s = 0;
+  private stopping = false;
+  private faultBehind: Stuck | undefined = undefined;
+
+  /**
+   * @param q0  posture at the start, at rest; copied.
+   */
+  constructor(robot: Robot, context: PlanContext, steps: Iterable<Step> | Iterator<Step, unknown>, q0: ArrayLike<number>, options: StepperOptions = {}) {
+    this.robot = robot;
+    this.context = context;
+    this.steps = Symbol.iterator in steps ? steps[Symbol.iterator]() : steps;
+    this.planner = new RunPlanner(robot);
+    this.gripper_s = options.gripper_s ?? GRIPPER_S;
+    this.q = Float64Array.from(q0);
+    this.qd = new Float64Array(this.q.length);
+    this.bend = new Float64Array(2 * this.q.length);
+    this.state = { kind: "running", step: "", moving: false, gripperClosed: options.gripperClosed ?? false, rate: 0, fault: undefined };
+  }
+
+  /**
+   * Goes on by `dt_s` of the caller's time.
+   *
+   * @param override  0 … 1; 0 holds the arm where it is on its path.
+   * @param outQ      receives the joint angles [rad].
+   */
+  advance(dt_s: number, override: number, outQ: Float64Array): StepperState {
+    const state = this.state, wanted = this.stopping ? 0 : Math.min(1, Math.max(0, override));
+    let left_s = dt_s;
+    // The bound only guards against an iterator that yields steps of no duration for ever.
+    for (let turn = 0; left_s > 0 && state.kind === "running" && turn < MOST_AHEAD; turn++) {
+      const segment = this.segments[this.segment];
+      if (segment === undefined) {
+        // Nothing is begun while the arm is held.
+        if (this.stopping) { state.kind = "stopped"; break; }
+        if (wanted === 0) break;
+        this.next();
+        state.rate = wanted; // From rest the rate is free: nothing moves yet.
+        continue;
+      }
+      state.step = segment.step;
+      if (segment.kind === "rest") {
+        state.gripperClosed = segment.gripperClosed;
+        state.rate = wanted;
+        if (this.stopping) { state.kind = "stopped"; break; }
+        if (wanted === 0) break;
+        const rest_s = segment.duration_s - this.t_s;
+        if (left_s < rest_s) { this.t_s += left_s; left_s = 0; } else { left_s -= rest_s; this.leave(); }
+        continue;
+      }
+      left_s = this.follow(segment, wanted, left_s);
+    }
+    state.moving = state.kind === "running" && state.rate > 0 && this.segments[this.segment]?.kind === "motion";
+    outQ.set(this.q);
+    return state;
+  }
+
+  /** Slows down along the path and ends there; the steps that are left are not executed. */
+  stop(): void { this.stopping = true; }
+
+  /** Posture the arm has reached; lent. */
+  get posture(): Float64Array { return this.q; }
+
+  /** Plays a motion for up to `left_s`; returns what is left of it. */
+  private follow(segment: Extract<Segment, { kind: "motion" }>, wanted: number, left_s: number): number {
+    const state = this.state, before = state.rate, rate = this.nextRate(segment, wanted, left_s), mean = (before + rate) / 2;
+    const end_s = segment.duration_s - this.t_s;
+    if (mean * left_s >= end_s) {
+      const used_s = mean > 0 ? end_s / mean : 0;
+      state.rate = before + (rate - before) * (left_s > 0 ? used_s / left_s : 1);
+      sampleSegment(segment, segment.duration_s, this.q);
+      this.leave();
+      return left_s - used_s;
+    }
+    this.t_s += mean * left_s;
+    state.rate = rate;
+    sampleSegment(segment, this.t_s, this.q);
+    if (rate === 0 && this.stopping) state.kind = "stopped";
+    return 0;
+  }
+
+  /**
+   * The rate after dt on its way to `wanted`:  |q̈ λ² + q̇ λ̇| ≤ a for every joint. λ̇ = 0 is always allowed, because the
+   * plan itself keeps the limits.
+   */
+  private nextRate(segment: Extract<Segment, { kind: "motion" }>, wanted: number, dt_s: number): number {
+    const rate = this.state.rate, n = this.q.length;
+    if (rate === wanted) return wanted;
+    sampleSegment(segment, this.t_s, this.q, this.qd);
+    const i = segmentKnot(segment, this.t_s), times = segment.times_s, h = times[i + 1]! - times[i]!, u = h > 0 ? (this.t_s - times[i]!) / h : 0;
+    intervalAccelerations(segment, i, n, this.bend);
+    let change = Number.POSITIVE_INFINITY;
+    for (let j = 0; j < n; j++) {
+      const speed = this.qd[j]!, limit = this.robot.arm.joints[j]!.limits.acceleration_rad_s2;
+      if (Math.abs(speed) < 1e-9) continue;
+      const bend = (this.bend[j]! + (this.bend[n + j]! - this.bend[j]!) * u) * rate * rate;
+      // λ̇ adds q̇ λ̇: what is left of the limit on the side it pushes to.
+      const pushes = wanted > rate ? Math.sign(speed) : -Math.sign(speed), room = limit - pushes * bend;
+      change = Math.min(change, Math.max(0, room) / Math.abs(speed));
+    }
+    const step = change * dt_s;
+    return wanted > rate ? Math.min(wanted, rate + step) : Math.max(wanted, rate - step);
+  }
+
+  private leave(): void {
+    this.segment++;
+    this.t_s = 0;
+    if (this.segment >= this.segments.length && this.faultBehind !== undefined) {
+      this.state.kind = "fault";
+      this.state.fault = this.faultBehind;
+    }
+  }
+
+  private take(): Step | undefined {
+    const step = this.waiting;
+    this.waiting = undefined;
+    if (step !== undefined) return step;
+    const next = this.steps.next();
+    return next.done === true ? undefined : next.value;
+  }
+
+  /** Lays out the next rest or run of moves. */
+  private next(): void {
+    const step = this.take();
+    this.segments = [];
+    this.segment = 0;
+    this.t_s = 0;
+    if (step === undefined) { this.state.kind = "done"; this.state.step = ""; return; }
+    if (step.type !== "move") {
+      this.segments = [{
+        kind: "rest", step: step.id, start_s: 0, duration_s: step.type === "wait" ? step.s : this.gripper_s,
+        q_rad: this.q.slice(), gripperClosed: step.type === "gripper" ? step.closed : this.state.gripperClosed,
+      }];
+      return;
+    }
+    const run: MoveStep[] = [step];
+    while (run.length < MOST_AHEAD && (run.at(-1)!.blend_m > 0 || run.at(-1)!.path === "spline")) {
+      const next = this.take();
+      if (next?.type === "move" && passes(run.at(-1)!, next)) { run.push(next); continue; }
+      this.waiting = next;
+      break;
+    }
+    this.layOut(run);
+  }
+
+  private layOut(run: readonly MoveStep[]): void {
+    const moves = run.map(step => resolveMove(step, this.robot, this.context)), answer = this.planner.plan(moves, this.q);
+    if (answer.kind === "timed") { this.segments = answer.run.parts; return; }
+    // What comes before the step in the way is still done, with a stop at its end.
+    const at = answer.stop.move, before = at > 0 ? this.planner.plan(moves.slice(0, at), this.q) : undefined;
+    this.faultBehind = explainStop(answer.stop, moves[at]!, this.robot);
+    if (before?.kind === "timed") { this.segments = before.run.parts; return; }
+    this.state.kind = "fault";
+    this.state.step = moves[at]!.step.id;
+    this.state.fault = this.faultBehind;
+  }
+}

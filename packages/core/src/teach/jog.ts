@@ -1,0 +1,231 @@
+import { branchOfOrthoParallel } from "../kinematics/branch.ts";
+import { explainReach } from "../kinematics/explain.ts";
+import { armScratch, flangePose, type ArmScratch } from "../kinematics/forward.ts";
+import { outOfReach } from "../kinematics/inverse.ts";
+import { MAX_BRANCHES, solveOrthoParallel } from "../kinematics/ortho-parallel.ts";
+import type { Reach } from "../kinematics/reach.ts";
+import type { OrthoParallelGeometry, Robot } from "../robots/robot.ts";
+import { compose, identity, inverse, type Pose } from "../spatial/pose.ts";
+import { fromAxisAngle, multiply, normalizeQuaternion, rotate, type Quaternion } from "../spatial/quaternion.ts";
+import { norm, normalize, scale, type Vector3 } from "../spatial/vector.ts";
+import { jogJoints } from "./jog-joints.ts";
+import type { JogBlock, Jogged } from "./jogged.ts";
+
+/** Which axes a Cartesian jog runs along: those of the world, the robot base, the tool tip, or worldFromUser of a work frame. */
+export type JogFrame = "world" | "base" | "tool" | Quaternion;
+
+/** What the hand asks for: joint speeds [rad/s], or a twist of the tool tip [m/s, rad/s about the tip]. */
+export type JogCommand =
+  | { readonly kind: "joints"; readonly speed_rad_s: ArrayLike<number> }
+  | { readonly kind: "tip"; readonly linear_mps: Vector3; readonly angular_rad_s: Vector3; readonly frame: JogFrame };
+
+/** Where the arm stands and what it carries. */
+export interface JogCell {
+  readonly robot: Robot;
+  readonly worldFromBase: Pose<"world", "base">;
+  readonly flangeFromTcp: Pose<"flange", "tcp">;
+}
+
+/** Working memory of `jogStep`: one per hand. */
+export interface JogScratch {
+  readonly raw: Float64Array; readonly best: Float64Array; readonly start: Float64Array; readonly ahead: Float64Array; readonly turned: Float64Array; readonly arm: ArmScratch;
+  readonly baseFromFlange: Pose<"base", "flange">; readonly worldFromTcp: Pose<"world", "tcp">; readonly wanted: Pose<"world", "tcp">;
+  readonly worldFromFlange: Pose<"world", "flange">; readonly baseFromTcp: Pose<"base", "tcp">;
+  readonly baseFromWorld: Pose<"base", "world">; readonly tcpFromFlange: Pose<"tcp", "flange">;
+  readonly linear: Vector3; readonly angular: Vector3; readonly masked: Vector3; readonly axis: Vector3; readonly turn: Quaternion;
+}
+export const jogScratch = (): JogScratch => ({
+  raw: new Float64Array(6 * MAX_BRANCHES), best: new Float64Array(6), start: new Float64Array(6), ahead: new Float64Array(6), turned: new Float64Array(6), arm: armScratch(),
+  baseFromFlange: identity(), worldFromTcp: identity(), wanted: identity(),
+  worldFromFlange: identity(), baseFromTcp: identity(), baseFromWorld: identity(), tcpFromFlange: identity(),
+  linear: [0, 0, 0], angular: [0, 0, 0], masked: [0, 0, 0], axis: [0, 0, 0], turn: [0, 0, 0, 1],
+});
+
+const NONE: readonly JogBlock[] = [];
+const AXES = ["x", "y", "z"] as const;
+/** A step shortened below this [m, rad] is looked at twice: on a singularity the arm must turn in place instead. */
+const ALL_BUT_STANDING = 1e-8;
+const SHORTEST = 1e-12;
+/** A turn in place below this share of the joint speeds is rounding. */
+const LEAST_TURN = 1e-3;
+/** Rounding of limits given in degrees. */
+const LIMIT_SLACK_RAD = 1e-9;
+/** At a singularity two branches meet; within this travel they are the same posture. */
+const SAME_TRAVEL_RAD = 1e-6;
+const TURN = 2 * Math.PI;
+
+/**
+ * One step of jogging, from where the arm stands (row N-38).
+ *
+ *   worldFromTcp′ = ( p + F v dt,  exp(F ω dt) · R ),   F = axes of the jog frame
+ *
+ * Follows the branch the arm is in. A step that asks a joint for more than its speed is shortened as a whole, so that near
+ * a singularity the tip slows down instead of the arm jumping; on a singularity the free joints turn in place towards the
+ * wanted direction. Where the whole step leaves the reach, each coordinate is tried: those that can go on do (row N-39),
+ * rotation goes or stops as one (row N-41).
+ *
+ * @param q        joint angles [rad] the arm stands at. Read only.
+ * @param dt_s     duration of the step; over 0.
+ * @param out      receives the new angles, or those of `q` when nothing moves. May be `q`.
+ * @param scratch  working memory; with it a step that is not blocked allocates nothing but its answer.
+ */
+export function jogStep(cell: JogCell, q: ArrayLike<number>, command: JogCommand, dt_s: number, out: Float64Array, scratch: JogScratch = jogScratch()): Jogged {
+  if (command.kind === "joints") return jogJoints(cell.robot, q, command.speed_rad_s, dt_s, out);
+  for (let j = 0; j < q.length; j++) out[j] = q[j]!;
+  const family = cell.robot.family, { linear, angular, worldFromTcp } = scratch;
+  if (family.kind !== "ortho-parallel") return refused({ kind: "no-solver", because: `${cell.robot.name} has no closed-form solver.` });
+  if (!command.linear_mps.every(Number.isFinite) || !command.angular_rad_s.every(Number.isFinite) || !(dt_s > 0) || !out.every(Number.isFinite)) {
+    return refused({ kind: "not-a-pose", because: "A jog speed, its duration or a joint angle is not a finite number." });
+  }
+  scratch.start.set(out);
+  compose(cell.worldFromBase, flangePose(cell.robot.arm, out, scratch.baseFromFlange, scratch.arm), scratch.worldFromFlange);
+  compose(scratch.worldFromFlange, cell.flangeFromTcp, worldFromTcp);
+  inverse(cell.worldFromBase, scratch.baseFromWorld);
+  inverse(cell.flangeFromTcp, scratch.tcpFromFlange);
+  const frame = frameOf(command.frame, cell, worldFromTcp);
+  scale(command.linear_mps, dt_s, linear);
+  rotate(frame, scale(command.angular_rad_s, dt_s, angular), angular);
+
+  const whole = towards(cell, frame, true, true, true, true, dt_s, out, scratch);
+  if (typeof whole === "number") return { kind: "moved", fraction: whole, blocked: NONE };
+  return oneByOne(cell, frame, dt_s, out, scratch);
+}
+
+/** Tries x, y, z and rotation on top of what already goes, again after each success: one may make room for another. */
+function oneByOne(cell: JogCell, frame: Quaternion, dt_s: number, out: Float64Array, scratch: JogScratch): Jogged {
+  const { linear, angular } = scratch;
+  const asked = [linear[0] !== 0, linear[1] !== 0, linear[2] !== 0, norm(angular) !== 0], goes = [false, false, false, false];
+  const why: (Reach | undefined)[] = [];
+  let fraction = 0, progress = true;
+  while (progress) {
+    progress = false;
+    for (let c = 0; c < 4; c++) {
+      if (!asked[c]! || goes[c]!) continue;
+      goes[c] = true;
+      const part = towards(cell, frame, goes[0]!, goes[1]!, goes[2]!, goes[3]!, dt_s, out, scratch);
+      if (typeof part === "number") { fraction = part; progress = true; why[c] = undefined; }
+      else { goes[c] = false; why[c] = part; }
+    }
+  }
+  const blocked: JogBlock[] = [];
+  for (let c = 0; c < 4; c++) {
+    const reach = why[c];
+    if (reach !== undefined) blocked.push({ coordinate: AXES[c] ?? "rotation", reach, sentence: explainReach(reach) });
+  }
+  return goes.includes(true) ? { kind: "moved", fraction, blocked } : { kind: "blocked", blocked };
+}
+
+/**
+ * The chosen coordinates of the wanted step, shortened until every joint keeps its speed.
+ * Writes `out` and returns the fraction taken, or returns why the pose cannot be had and leaves `out` alone.
+ */
+function towards(cell: JogCell, frame: Quaternion, x: boolean, y: boolean, z: boolean, turns: boolean, dt_s: number, out: Float64Array, scratch: JogScratch): number | Reach {
+  const { masked, linear, start, best } = scratch;
+  masked[0] = x ? linear[0] : 0; masked[1] = y ? linear[1] : 0; masked[2] = z ? linear[2] : 0;
+  rotate(frame, masked, masked);
+  const length = norm(masked) + (turns ? norm(scratch.angular) : 0);
+  let turn1 = 0, turn4 = 0;
+  for (let fraction = 1; fraction >= SHORTEST;) {
+    const reach = solveAt(cell, masked, turns, fraction, scratch);
+    if (reach !== undefined) return reach;
+    const load = speedLoad(cell.robot, start, best, dt_s);
+    if (load <= 1) {
+      if (fraction < 1 && fraction * length < ALL_BUT_STANDING && turnInPlace(cell, turn1, turn4, dt_s, out, scratch)) return 0;
+      out.set(best);
+      return fraction;
+    }
+    turn1 = best[0]! - start[0]!; turn4 = best[3]! - start[3]!;
+    fraction *= Math.max(0.05, Math.min(0.9, 0.98 / load));
+  }
+  turnInPlace(cell, turn1, turn4, dt_s, out, scratch);
+  return 0;
+}
+
+/** Solves the start pose moved by that fraction; `best` receives the solution nearest to the start, or a reason is returned. */
+function solveAt(cell: JogCell, shift: Vector3, turns: boolean, fraction: number, scratch: JogScratch): Reach | undefined {
+  const { worldFromTcp, wanted, angular, axis, turn, baseFromFlange } = scratch, family = cell.robot.family;
+  if (family.kind !== "ortho-parallel") return undefined;
+  for (let i = 0; i < 3; i++) wanted.position[i] = worldFromTcp.position[i]! + shift[i]! * fraction;
+  fromAxisAngle(normalize(angular, axis), turns ? norm(angular) * fraction : 0, turn);
+  normalizeQuaternion(multiply(turn, worldFromTcp.quaternion, wanted.quaternion), wanted.quaternion);
+  compose(scratch.baseFromWorld, wanted, scratch.baseFromTcp);
+  compose(scratch.baseFromTcp, scratch.tcpFromFlange, baseFromFlange);
+  const count = solveOrthoParallel(family, baseFromFlange, scratch.raw, scratch.start);
+  return count === 0 ? outOfReach(cell.robot, baseFromFlange) : nearest(cell.robot, family, count, scratch);
+}
+
+/** Copies the solution of least travel into `best`; of two that are as good as equal, one inside the limits. */
+function nearest(robot: Robot, family: OrthoParallelGeometry, count: number, { raw, best, start }: JogScratch): Reach | undefined {
+  let least = Infinity, chosen = 0, chosenJoint = 0;
+  for (let s = 0; s < count; s++) {
+    let total = 0;
+    for (let j = 0; j < 6; j++) {
+      const turned = raw[6 * s + j]! + TURN * Math.round((start[j]! - raw[6 * s + j]!) / TURN);
+      raw[6 * s + j] = turned;
+      total += Math.abs(turned - start[j]!);
+    }
+    const outside = jointOutside(robot, raw, 6 * s, start);
+    const preferred = total < least - SAME_TRAVEL_RAD || (total < least + SAME_TRAVEL_RAD && chosenJoint > 0 && outside === 0);
+    if (preferred) { least = total; chosen = s; chosenJoint = outside; }
+  }
+  for (let j = 0; j < 6; j++) best[j] = raw[6 * chosen + j]!;
+  if (chosenJoint === 0) return undefined;
+  const { lower_rad, upper_rad } = robot.arm.joints[chosenJoint - 1]!.limits, wanted_rad = best[chosenJoint - 1]!;
+  return { kind: "outside-limits", joint: chosenJoint, wanted_rad, limit_rad: wanted_rad < lower_rad ? lower_rad : upper_rad, branch: branchOfOrthoParallel(family, best) };
+}
+
+/** First joint (from 1) that would leave its limits, or go further out of them; 0 when none does. */
+function jointOutside(robot: Robot, angles: Float64Array, at: number, start: Float64Array): number {
+  for (let j = 0; j < 6; j++) {
+    const { lower_rad, upper_rad } = robot.arm.joints[j]!.limits, angle = angles[at + j]!;
+    if ((angle > upper_rad + LIMIT_SLACK_RAD && angle > start[j]!) || (angle < lower_rad - LIMIT_SLACK_RAD && angle < start[j]!)) return j + 1;
+  }
+  return 0;
+}
+
+/** The largest joint speed of the step as a share of what that joint can do. */
+function speedLoad(robot: Robot, from: Float64Array, to: Float64Array, dt_s: number): number {
+  let load = 0;
+  for (let j = 0; j < 6; j++) load = Math.max(load, Math.abs(to[j]! - from[j]!) / (robot.arm.joints[j]!.limits.speed_rad_s * dt_s));
+  return load;
+}
+
+/**
+ * On a singularity the wanted direction needs other angles of the free joints (1 and 4) however short the step is.
+ * Turns these towards them while the tip stands still: where they are free, the solver leaves them where it is told to.
+ *
+ * @returns false, with `out` and `best` as they were, where they are not free.
+ */
+function turnInPlace(cell: JogCell, turn1: number, turn4: number, dt_s: number, out: Float64Array, scratch: JogScratch): boolean {
+  const { start, best, ahead, arm, baseFromFlange, raw, turned } = scratch, robot = cell.robot, family = robot.family;
+  if (family.kind !== "ortho-parallel") return false;
+  turned.set(best);
+  flangePose(robot.arm, start, baseFromFlange, arm);
+  const speeds = robot.arm.joints, load = Math.max(Math.abs(turn1) / speeds[0]!.limits.speed_rad_s, Math.abs(turn4) / speeds[3]!.limits.speed_rad_s) / dt_s;
+  for (let part = Math.min(1, 1 / load), tries = 0; tries < 8; part /= 2, tries++) {
+    ahead.set(start);
+    ahead[0] = start[0]! + turn1 * part; ahead[3] = start[3]! + turn4 * part;
+    const count = solveOrthoParallel(family, baseFromFlange, raw, ahead);
+    if (count === 0 || nearest(robot, family, count, scratch) !== undefined) continue;
+    const taken = speedLoad(robot, start, best, dt_s);
+    if (taken > 1) continue;
+    if (taken < LEAST_TURN) break;
+    out.set(best);
+    return true;
+  }
+  best.set(turned);
+  return false;
+}
+
+/** Unit quaternion worldFromFrame of the axes a jog runs along. */
+function frameOf(frame: JogFrame, cell: JogCell, worldFromTcp: Pose<"world", "tcp">): Quaternion {
+  switch (frame) {
+    case "world": return WORLD;
+    case "base": return cell.worldFromBase.quaternion;
+    case "tool": return worldFromTcp.quaternion;
+    default: return frame;
+  }
+}
+const WORLD: Quaternion = [0, 0, 0, 1];
+
+const refused = (reach: Reach): Jogged => ({ kind: "blocked", blocked: (["x", "y", "z", "rotation"] as const).map(coordinate => ({ coordinate, reach, sentence: explainReach(reach) })) });

@@ -1,0 +1,79 @@
+import { flangePose } from "../kinematics/forward.ts";
+import type { Robot } from "../robots/robot.ts";
+import { compose } from "../spatial/pose.ts";
+import { distance } from "../spatial/vector.ts";
+import { trapezoid } from "./laws.ts";
+import type { Move } from "./moves.ts";
+import type { MotionSegment } from "./plan.ts";
+import { paceOf, type Slowed, type TimedRun } from "./run-timing.ts";
+import type { TimingLimits } from "./timing.ts";
+
+/** Places along a joint leg at which the speed of its TCP is looked at. */
+const PLACES = 16;
+
+/**
+ * The joint move that starts and ends at rest: all joints together on one trapezoid of speed, whose few knots the plan's
+ * cubics pass exactly.
+ */
+export function timeJointLeg(move: Move, q0: Float64Array, q1: Float64Array, limits: TimingLimits, robot: Robot): TimedRun {
+  const n = q0.length, step = move.step, pace = paceOf(step.speed, "ptp", robot), slowed: Slowed[] = [];
+  let fastest = Number.POSITIVE_INFINITY, acceleration = Number.POSITIVE_INFINITY, ruling = 0;
+  for (let j = 0; j < n; j++) {
+    const way = Math.abs(q1[j]! - q0[j]!);
+    if (way === 0) continue;
+    if (limits.speed_rad_s[j]! / way < fastest) { fastest = limits.speed_rad_s[j]! / way; ruling = j; }
+    acceleration = Math.min(acceleration, limits.acceleration_rad_s2[j]! / way);
+  }
+  if (!(fastest < Number.POSITIVE_INFINITY)) return { parts: [segment(move, 0, new Float64Array(1), q0.slice(), new Float64Array(n))], slowed, duration_s: 0 };
+  const way = Math.abs(q1[ruling]! - q0[ruling]!), limit = robot.arm.joints[ruling]!.limits.speed_rad_s;
+  let rate = fastest * pace.ratio;
+  if (pace.mps < Number.POSITIVE_INFINITY) {
+    const wanted = pace.mps / tcpSlope(move, q0, q1, robot);
+    if (wanted > fastest) slowed.push({ move: 0, joint: ruling + 1, wanted: wanted * way, limit, unit: "rad/s", s: 0 });
+    rate = Math.min(fastest, wanted);
+  }
+  let law = trapezoid(1, rate, acceleration);
+  const least_s = law.times_s.at(-1)!;
+  if (pace.time_s > 0 && pace.time_s < least_s * (1 - 1e-9)) {
+    const factor = least_s / pace.time_s, top = Math.max(...law.speed) * way * factor;
+    slowed.push(top > limit
+      ? { move: 0, joint: ruling + 1, wanted: top, limit, unit: "rad/s", s: 0 }
+      : hardest(q0, q1, acceleration * factor * factor, robot));
+  }
+  if (pace.time_s > least_s) law = trapezoid(1, rate, acceleration, pace.time_s / least_s);
+  const knots = law.times_s.length, q = new Float64Array(knots * n), qd = new Float64Array(knots * n);
+  for (let k = 0; k < knots; k++) {
+    for (let j = 0; j < n; j++) {
+      q[k * n + j] = k === knots - 1 ? q1[j]! : q0[j]! + (q1[j]! - q0[j]!) * law.place[k]!;
+      qd[k * n + j] = (q1[j]! - q0[j]!) * law.speed[k]!;
+    }
+  }
+  const duration_s = law.times_s[knots - 1]!;
+  return { parts: [segment(move, duration_s, law.times_s, q, qd)], slowed, duration_s };
+}
+
+const segment = (move: Move, duration_s: number, times_s: Float64Array, q_rad: Float64Array, qd_rad_s: Float64Array): MotionSegment =>
+  ({ kind: "motion", path: move.step.path, step: move.step.id, start_s: 0, duration_s, times_s, q_rad, qd_rad_s });
+
+/** The joint that a common acceleration of the whole leg asks most of. */
+function hardest(q0: Float64Array, q1: Float64Array, acceleration: number, robot: Robot): Slowed {
+  let found: Slowed = { move: 0, joint: 1, wanted: 0, limit: 1, unit: "rad/s2", s: 0 };
+  for (let j = 0; j < q0.length; j++) {
+    const wanted = Math.abs(q1[j]! - q0[j]!) * acceleration, limit = robot.arm.joints[j]!.limits.acceleration_rad_s2;
+    if (wanted / limit > found.wanted / found.limit) found = { move: 0, joint: j + 1, wanted, limit, unit: "rad/s2", s: 0 };
+  }
+  return found;
+}
+
+/** Largest way of the TCP per share of the leg [m]. */
+function tcpSlope(move: Move, q0: Float64Array, q1: Float64Array, robot: Robot): number {
+  const at = (share: number): readonly number[] => compose(flangePose(robot.arm, q0.map((a, j) => a + (q1[j]! - a) * share)), move.flangeFromTcp).position;
+  let most = 1e-9, last = at(0);
+  for (let k = 1; k <= PLACES; k++) {
+    const next = at(k / PLACES);
+    most = Math.max(most, distance([last[0]!, last[1]!, last[2]!], [next[0]!, next[1]!, next[2]!]) * PLACES);
+    last = next;
+  }
+  // The chords are a little shorter than the arc between them.
+  return most * 1.01;
+}

@@ -1,0 +1,268 @@
+import { flangePose } from "../kinematics/forward.ts";
+import type { Robot } from "../robots/robot.ts";
+import { compose, identity, type Pose } from "../spatial/pose.ts";
+import { distance, norm, scale, subtract, type Vector3 } from "../spatial/vector.ts";
+import { Follower } from "./follow.ts";
+import { arcPath, curvePath, geometryScratch, linePath, posePoint, poseTwist, turnBetween, TURN_M_PER_RAD, type PosePath } from "./geometry.ts";
+import { GoalFinder, type Goal } from "./goal.ts";
+import { HermitePath, type Stop } from "./hermite-path.ts";
+import type { Move } from "./moves.ts";
+
+/** Why a run of moves cannot be laid out: the move (counted from 0 within the run) and what stands in the way. */
+export type RunStop =
+  | { readonly kind: "goal"; readonly move: number; readonly goal: Extract<Goal, { kind: "none" }> }
+  | { readonly kind: "path"; readonly move: number; readonly share: number; readonly stop: Stop }
+  /** Joint counts from 1. */
+  | { readonly kind: "limit"; readonly move: number; readonly share: number; readonly joint: number; readonly wanted_rad: number; readonly limit_rad: number }
+  | { readonly kind: "straight-circle"; readonly move: number };
+
+/** A blend shorter than this [m] is a stop without the wait: it would only add nodes. */
+const SHORTEST_M = 1e-7;
+
+/** Geometry of one move of a run. */
+interface Leg {
+  readonly move: Move;
+  /** The TCP path; undefined for a joint move. */
+  readonly path?: PosePath;
+  /** Postures at both ends; only where a joint move is next to it. */
+  q0?: Float64Array;
+  q1?: Float64Array;
+  readonly length: number;
+}
+
+/**
+ * Joint path of moves that are passed without a stop: straight, circular and joint legs, with a corner curve of its own
+ * between two legs where the first one blends. Between two TCP paths of the same tool the corner is a curve of the TCP
+ * that leaves and joins them tangentially and stays inside the corner; next to a joint move it is a cubic in joint
+ * space.
+ */
+export class RunPath {
+  readonly path: HermitePath;
+  private readonly robot: Robot;
+  private readonly follower: Follower;
+  private readonly goals: GoalFinder;
+  private readonly scratch = geometryScratch();
+  private readonly q: Float64Array;
+  private startFlange: Pose<"base", "flange"> = identity();
+
+  constructor(robot: Robot, tolerance_m: number) {
+    this.robot = robot;
+    this.follower = new Follower(robot.arm);
+    this.goals = new GoalFinder(robot, this.follower);
+    this.path = new HermitePath(this.follower, tolerance_m);
+    this.q = new Float64Array(robot.arm.joints.length);
+  }
+
+  /** Fills `path` with the run from posture `q0`. When it stops, what `path` holds is of no use. */
+  lay(moves: readonly Move[], q0: Float64Array): RunStop | undefined {
+    this.path.clear();
+    const legs: Leg[] = [], stopped = this.layLegs(moves, q0, legs);
+    if (stopped !== undefined) return stopped;
+    const q = this.q;
+    q.set(q0);
+    let from = 0;
+    for (let i = 0; i < legs.length; i++) {
+      const leg = legs[i]!, next = legs[i + 1];
+      const smooth = next === undefined || this.smooth(leg, next);
+      const corner = smooth ? { leave: leg.length, join: 0 } : this.corner(leg, next);
+      if (corner.leave - from > SHORTEST_M || next === undefined) {
+        const stop = this.layLeg(leg, from, corner.leave, q, i);
+        if (stop !== undefined) return stop;
+      }
+      if (next !== undefined && !smooth) {
+        const stop = this.layCorner(leg, next, corner.leave, corner.join, q, i);
+        if (stop !== undefined) return stop;
+      }
+      from = corner.join;
+    }
+    return undefined;
+  }
+
+  private layLegs(moves: readonly Move[], q0: Float64Array, legs: Leg[]): RunStop | undefined {
+    // Postures at the corners are only needed where a joint move ends or begins.
+    let q: Float64Array | undefined = q0;
+    this.startFlange = flangePose(this.robot.arm, q0);
+    for (let i = 0; i < moves.length; i++) {
+      const move = moves[i]!, from = this.startOf(moves, i);
+      if (move.step.path === "ptp") {
+        const start: Float64Array = q ?? q0, goal = this.goals.find(move, start);
+        if (goal.kind === "none") return { kind: "goal", move: i, goal };
+        legs.push({ move, q0: start, q1: goal.q_rad, length: this.jointLength(start, goal.q_rad, move) });
+        q = goal.q_rad;
+        continue;
+      }
+      const path = this.posePath(moves, i, from);
+      if (path === undefined) return { kind: "straight-circle", move: i };
+      const leg: Leg = { move, path, length: path.length };
+      if (q !== undefined) leg.q0 = q;
+      legs.push(leg);
+      q = undefined;
+      if (moves[i + 1]?.step.path === "ptp") {
+        const end = this.march(leg, moves, i, legs, q0);
+        if (end.kind === "stop") return { kind: "path", move: end.move, share: end.share, stop: end.stop };
+        leg.q1 = q = end.q_rad;
+      }
+    }
+    return undefined;
+  }
+
+  /** Posture at the end of a pose leg: along every pose leg since the last posture that is known. */
+  private march(leg: Leg, moves: readonly Move[], i: number, legs: readonly Leg[], q0: Float64Array):
+    { readonly kind: "end"; readonly q_rad: Float64Array } | { readonly kind: "stop"; readonly move: number; readonly share: number; readonly stop: Stop } {
+    let first = i;
+    while (first > 0 && legs[first]!.q0 === undefined) first--;
+    const q = (legs[first]?.q0 ?? q0).slice(), trial = new HermitePath(this.follower, Number.POSITIVE_INFINITY);
+    for (let k = first; k <= i; k++) {
+      const passed = k === i ? leg : legs[k]!;
+      if (passed.path === undefined || passed.length < SHORTEST_M) continue;
+      trial.clear();
+      const stop = trial.addPoses(passed.path, moves[k]!.tcpFromFlange, 0, passed.length, q, k, k);
+      if (stop !== undefined) return { kind: "stop", move: k, share: stop.s / passed.length, stop };
+    }
+    return { kind: "end", q_rad: q };
+  }
+
+  private posePath(moves: readonly Move[], i: number, from: Pose<"base", "tcp">): PosePath | undefined {
+    const move = moves[i]!;
+    switch (move.step.path) {
+      case "circ": return move.via === undefined ? linePath(from, move.baseFromTcp) : arcPath(from, move.via.position, move.baseFromTcp);
+      case "spline": return this.splinePath(moves, i, from);
+      default: return linePath(from, move.baseFromTcp);
+    }
+  }
+
+  /** Catmull-Rom through the points of consecutive splines, non-uniform: the tangent leans to the shorter side. */
+  private splinePath(moves: readonly Move[], i: number, from: Pose<"base", "tcp">): PosePath {
+    const move = moves[i]!, to = move.baseFromTcp;
+    const spline = (k: number): boolean => moves[k]?.step.path === "spline" && moves[k].step.target.tool === move.step.target.tool;
+    const before = spline(i - 1) ? this.startOf(moves, i - 1) : undefined, after = spline(i + 1) ? moves[i + 1]!.baseFromTcp : undefined;
+    const length = span(from, to);
+    if (length < SHORTEST_M) return linePath(from, to);
+    const chord = twistOver(from, to, length);
+    const t0 = before === undefined ? chord : meanTwist(before, from, to);
+    const t1 = after === undefined ? chord : meanTwist(from, to, after);
+    return curvePath(from, t0, to, t1, length);
+  }
+
+  /** Where the TCP of move k is when it begins. */
+  private startOf(moves: readonly Move[], k: number): Pose<"base", "tcp"> {
+    return compose(moves[k - 1]?.baseFromFlange ?? this.startFlange, moves[k]!.flangeFromTcp);
+  }
+
+  /** TCP distance along a joint move, so that its blends can be measured in metres. */
+  private jointLength(q0: Float64Array, q1: Float64Array, move: Move): number {
+    let way = 0, turn = 0;
+    const last: Vector3 = this.tcpAt(q0, q1, 0, move);
+    for (let k = 1; k <= 8; k++) {
+      const p = this.tcpAt(q0, q1, k / 8, move);
+      way += distance(last, p);
+      last[0] = p[0]; last[1] = p[1]; last[2] = p[2];
+    }
+    for (let j = 0; j < q0.length; j++) turn = Math.max(turn, Math.abs(q1[j]! - q0[j]!));
+    return Math.max(way, TURN_M_PER_RAD * turn);
+  }
+
+  private tcpAt(q0: Float64Array, q1: Float64Array, share: number, move: Move): Vector3 {
+    const q = q0.map((a, j) => a + (q1[j]! - a) * share);
+    return compose(flangePose(this.robot.arm, q), move.flangeFromTcp).position;
+  }
+
+  private smooth(leg: Leg, next: Leg): boolean {
+    return leg.move.step.path === "spline" && next.move.step.path === "spline" && leg.move.step.target.tool === next.move.step.target.tool
+      && leg.length >= SHORTEST_M && next.length >= SHORTEST_M;
+  }
+
+  /** How far along each leg its corner begins and ends. Half of a leg at most, so that two corners never meet. */
+  private corner(leg: Leg, next: Leg): { readonly leave: number; readonly join: number } {
+    const blend = leg.move.step.blend_m;
+    if (leg.path !== undefined && next.path !== undefined) {
+      const d = Math.min(blend, leg.length / 2, next.length / 2);
+      return { leave: leg.length - d, join: d };
+    }
+    return { leave: leg.length - this.withinBlend(leg, blend, true), join: this.withinBlend(next, blend, false) };
+  }
+
+  /** Longest way from a leg's corner, up to half of it, that keeps the TCP within `blend` of the corner. */
+  private withinBlend(leg: Leg, blend: number, atEnd: boolean): number {
+    const half = leg.length / 2;
+    if (leg.path !== undefined || leg.q0 === undefined || leg.q1 === undefined) return Math.min(blend, half);
+    const corner = this.tcpAt(leg.q0, leg.q1, atEnd ? 1 : 0, leg.move);
+    let low = 0, high = 0.5;
+    for (let k = 0; k < 24; k++) {
+      const share = k === 0 ? high : (low + high) / 2;
+      if (distance(this.tcpAt(leg.q0, leg.q1, atEnd ? 1 - share : share, leg.move), corner) <= blend) { low = share; if (k === 0) break; } else high = share;
+    }
+    return low * leg.length;
+  }
+
+  private layLeg(leg: Leg, from: number, to: number, q: Float64Array, i: number): RunStop | undefined {
+    if (leg.path !== undefined) {
+      if (to - from <= SHORTEST_M) return undefined;
+      const stop = this.path.addPoses(leg.path, leg.move.tcpFromFlange, from, to, q, i, i);
+      return stop === undefined ? undefined : { kind: "path", move: i, share: stop.s / leg.length, stop };
+    }
+    if (leg.length <= SHORTEST_M * 1e-3) return undefined;
+    const a = this.onJointLeg(leg, from), b = this.onJointLeg(leg, to), d = this.jointSlope(leg);
+    this.path.addJoints(a, d, b, d, to - from, i, i);
+    q.set(b);
+    return undefined;
+  }
+
+  private layCorner(leg: Leg, next: Leg, leave: number, join: number, q: Float64Array, i: number): RunStop | undefined {
+    const length = leg.length - leave + join;
+    if (length <= 2 * SHORTEST_M) return undefined;
+    if (leg.path !== undefined && next.path !== undefined && leg.move.step.target.tool === next.move.step.target.tool) {
+      const a: Pose = identity(), b: Pose = identity(), t0 = new Float64Array(6), t1 = new Float64Array(6);
+      posePoint(leg.path, leave, a, this.scratch); poseTwist(leg.path, leave, t0, this.scratch);
+      posePoint(next.path, join, b, this.scratch); poseTwist(next.path, join, t1, this.scratch);
+      const curve = curvePath(a, t0, b, t1, length);
+      const stop = this.path.addPoses(curve, next.move.tcpFromFlange, 0, length, q, i, i + 1);
+      return stop === undefined ? undefined : { kind: "path", move: stop.s < length / 2 ? i : i + 1, share: stop.s < length / 2 ? 1 : 0, stop };
+    }
+    const d0 = this.slopeAt(leg, leave, q), end = this.postureAt(next, join, leg.q1 ?? q);
+    if (end === undefined) return { kind: "path", move: i + 1, share: join / next.length, stop: { kind: "out-of-reach", s: join, goal: next.move.baseFromFlange } };
+    this.path.addJoints(q, d0, end, this.slopeAt(next, join, end), length, i, i + 1);
+    q.set(end);
+    return undefined;
+  }
+
+  private slopeAt(leg: Leg, s: number, q: Float64Array): Float64Array {
+    if (leg.path === undefined) return this.jointSlope(leg);
+    const out = new Float64Array(q.length);
+    this.path.slope(leg.path, leg.move.tcpFromFlange, s, q, out);
+    return out;
+  }
+
+  private postureAt(leg: Leg, s: number, near: Float64Array): Float64Array | undefined {
+    if (leg.path === undefined) return this.onJointLeg(leg, s);
+    const q = near.slice();
+    for (let k = 1; k <= 4; k++) if (!this.path.reach(leg.path, leg.move.tcpFromFlange, (s * k) / 4, q)) return undefined;
+    return q;
+  }
+
+  private onJointLeg(leg: Leg, s: number): Float64Array {
+    const q0 = leg.q0!, q1 = leg.q1!;
+    return q0.map((a, j) => a + ((q1[j]! - a) * s) / leg.length);
+  }
+
+  private jointSlope(leg: Leg): Float64Array {
+    const q0 = leg.q0!, q1 = leg.q1!;
+    return q0.map((a, j) => (q1[j]! - a) / leg.length);
+  }
+}
+
+const span = (a: Pose, b: Pose): number => Math.max(distance(a.position, b.position), TURN_M_PER_RAD * norm(turnBetween(a.quaternion, b.quaternion)));
+
+function twistOver(a: Pose, b: Pose, length: number): Float64Array {
+  const v = scale(subtract(b.position, a.position), 1 / length), w = scale(turnBetween(a.quaternion, b.quaternion), 1 / length);
+  return Float64Array.of(...v, ...w);
+}
+
+/** Tangent at b of the parabola through a, b and c: the chords' slopes, each weighed by the other's length. */
+function meanTwist(a: Pose, b: Pose, c: Pose): Float64Array {
+  const before = span(a, b), after = span(b, c);
+  if (before < SHORTEST_M) return twistOver(b, c, after);
+  if (after < SHORTEST_M) return twistOver(a, b, before);
+  const t0 = twistOver(a, b, before), t1 = twistOver(b, c, after);
+  return t0.map((x, i) => (x * after + t1[i]! * before) / (before + after));
+}

@@ -1,0 +1,342 @@
+import type { Robot } from "../robots/robot.ts";
+import type { MoveStep, Speed } from "../program/program.ts";
+import type { HermitePath, Piece } from "./hermite-path.ts";
+import type { MotionSegment } from "./plan.ts";
+import { PathTimer, type TimingGrid, type TimingLimits } from "./timing.ts";
+
+/**
+ * Share of the published limits the planner uses. The rest covers what lies between two nodes, so that the limits hold
+ * at every instant.
+ */
+const SPEED_SHARE = 0.999, ACCELERATION_SHARE = 0.98;
+/** Intervals of the timing grid on a piece, and on one that begins or ends at rest. */
+const INTERVALS = 6, INTERVALS_AT_REST = 16;
+/** Nodes closer than this share of a piece are one. */
+const NEAR = 1e-6;
+/** Halvings of an interval in time at most, so that the cubic in time meets the cubic along the path. */
+const MOST_HALVINGS = 8;
+/** Rounds in which the pace of moves of a given duration is tuned inside a run. */
+const ROUNDS = 12;
+
+/** A move whose commanded speed some joint cannot follow: the joint that falls short most, and by how much. */
+export interface Slowed {
+  /** Move of the run, from 0. */
+  readonly move: number;
+  /** Counts from 1. */
+  readonly joint: number;
+  readonly wanted: number;
+  readonly limit: number;
+  readonly unit: "rad/s" | "rad/s2";
+  /** Place along the path of the run. */
+  readonly s: number;
+}
+
+/** A run laid out in time: for each move its part, `start_s` counted from the start of the run. */
+export interface TimedRun { readonly parts: readonly MotionSegment[]; readonly slowed: readonly Slowed[]; readonly duration_s: number }
+
+/** Joint limits of a robot as the planner uses them. */
+export const planningLimits = (robot: Robot): TimingLimits => ({
+  speed_rad_s: Float64Array.from(robot.arm.joints, joint => joint.limits.speed_rad_s * SPEED_SHARE),
+  acceleration_rad_s2: Float64Array.from(robot.arm.joints, joint => joint.limits.acceleration_rad_s2 * ACCELERATION_SHARE),
+});
+
+/** What a step's speed means along the path: a share of joint speed and a speed of the TCP. */
+export interface Pace { readonly ratio: number; readonly mps: number; readonly time_s: number }
+
+export function paceOf(speed: Speed, path: MoveStep["path"], robot: Robot): Pace {
+  if ("mps" in speed) return { ratio: 1, mps: speed.mps, time_s: 0 };
+  if ("time_s" in speed) return { ratio: 1, mps: Number.POSITIVE_INFINITY, time_s: speed.time_s };
+  return { ratio: speed.ratio, mps: path === "ptp" ? Number.POSITIVE_INFINITY : speed.ratio * robot.maxTcpSpeed_mps, time_s: 0 };
+}
+
+/** Gives a run's path its times. One per planner; its arrays are reused. */
+export class RunTimer {
+  private readonly robot: Robot;
+  private readonly limits: TimingLimits;
+  private readonly timer: PathTimer;
+  private readonly joints: number;
+  private nodes = 0;
+  private s = new Float64Array(64);
+  private cap = new Float64Array(64);
+  private x = new Float64Array(64);
+  private owner = new Int32Array(64);
+  private knot = new Int32Array(64);
+  private q: Float64Array;
+  private q1: Float64Array;
+  private q2: Float64Array;
+
+  constructor(robot: Robot) {
+    this.robot = robot;
+    this.joints = robot.arm.joints.length;
+    this.limits = planningLimits(robot);
+    this.timer = new PathTimer(this.limits);
+    this.q = new Float64Array(64 * this.joints); this.q1 = this.q.slice(); this.q2 = this.q.slice();
+  }
+
+  /** @param tcpSlope  |dp/ds| of the TCP of a move at a posture, for joint legs that have a speed in m/s. */
+  time(path: HermitePath, steps: readonly MoveStep[], q0: Float64Array, tcpSlope: (move: number, q: Float64Array, q1: Float64Array) => number): TimedRun {
+    const paces = steps.map(step => paceOf(step.speed, step.path, this.robot)), slowed: Slowed[] = [];
+    if (path.nodes < 2) return { parts: steps.map(step => this.standing(step, q0)), slowed, duration_s: 0 };
+    this.spread(path);
+    this.capSpeeds(path, paces, tcpSlope, slowed);
+    const grid: TimingGrid = { nodes: this.nodes, joints: this.joints, s: this.s, q1: this.q1, q2: this.q2, cap: this.cap };
+    this.timer.fastest(grid, 0, 0, this.x);
+    let stretch = 1;
+    if (steps.length === 1 && paces[0]!.time_s > 0) stretch = this.stretchOf(paces[0]!.time_s, slowed);
+    else if (paces.some(pace => pace.time_s > 0)) this.tune(grid, paces, slowed);
+    return this.emit(path, steps, stretch, slowed);
+  }
+
+  private standing(step: MoveStep, q0: Float64Array): MotionSegment {
+    const n = this.joints;
+    return { kind: "motion", path: step.path, step: step.id, start_s: 0, duration_s: 0, times_s: new Float64Array(1), q_rad: q0.slice(), qd_rad_s: new Float64Array(n) };
+  }
+
+  /** Fills the grid: nodes closer together where the run stands still, one at every change of move. */
+  private spread(path: HermitePath): void {
+    this.nodes = 0;
+    const last = path.pieces.length - 1;
+    for (let k = 0; k <= last; k++) {
+      const piece = path.pieces[k]!, a = path.s[piece.first]!, b = path.s[piece.last]!;
+      const rests = (k === 0 ? 1 : 0) + (k === last ? 2 : 0), dense = piece.last - piece.first;
+      const count = rests === 0 ? Math.max(INTERVALS, dense) : Math.max(INTERVALS_AT_REST, 2 * dense);
+      let i = piece.first, split = piece.before !== piece.after;
+      const near = (b - a) * NEAR;
+      for (let m = 0; m <= count; m++) {
+        let s = m === count ? b : a + (b - a) * graded(m / count, rests);
+        if (split && s >= piece.split - near) {
+          split = false;
+          if (s > piece.split + near) {
+            while (i + 1 < piece.last && path.s[i + 1]! <= piece.split) i++;
+            this.node(path, i, piece.split, piece);
+          } else s = piece.split;
+        }
+        while (i + 1 < piece.last && path.s[i + 1]! <= s) i++;
+        this.node(path, i, s, piece);
+      }
+    }
+  }
+
+  private node(path: HermitePath, i: number, s: number, piece: Piece): void {
+    if (this.nodes >= this.s.length) this.grow();
+    const at = this.nodes++;
+    this.s[at] = s;
+    this.knot[at] = i;
+    this.owner[at] = s < piece.split ? piece.before : piece.after;
+    path.evaluate(i, s, at * this.joints, this.q, this.q1, this.q2);
+  }
+
+  private grow(): void {
+    const more = this.s.length * 2, n = this.joints, to = (from: Float64Array, size: number): Float64Array<ArrayBuffer> => { const big = new Float64Array(size); big.set(from); return big; };
+    const ints = (from: Int32Array): Int32Array<ArrayBuffer> => { const big = new Int32Array(more); big.set(from); return big; };
+    this.s = to(this.s, more); this.cap = to(this.cap, more); this.x = to(this.x, more);
+    this.q = to(this.q, more * n); this.q1 = to(this.q1, more * n); this.q2 = to(this.q2, more * n);
+    this.owner = ints(this.owner); this.knot = ints(this.knot);
+  }
+
+  /** ṡ² that the commanded speeds allow, and which joints could not follow them. */
+  private capSpeeds(path: HermitePath, paces: readonly Pace[], tcpSlope: (move: number, q: Float64Array, q1: Float64Array) => number, slowed: Slowed[]): void {
+    const n = this.joints, v = this.limits.speed_rad_s, worst = new Map<number, Slowed>();
+    for (let i = 0; i < this.nodes; i++) {
+      const move = this.owner[i]!, pace = paces[move]!, at = i * n;
+      let cap = Number.POSITIVE_INFINITY;
+      if (pace.mps < Number.POSITIVE_INFINITY) {
+        const k = this.knot[i]!;
+        let slope = Math.max(path.tcp[k]!, path.tcp[k + 1]!);
+        if (slope === 0) slope = tcpSlope(move, this.q.subarray(at, at + n), this.q1.subarray(at, at + n));
+        else slope = Math.max(1, slope);
+        cap = (pace.mps / Math.max(slope, 1e-9)) ** 2;
+      }
+      if (pace.ratio < 1) {
+        for (let j = 0; j < n; j++) {
+          const p = Math.abs(this.q1[at + j]!);
+          if (p > 0) cap = Math.min(cap, ((v[j]! * pace.ratio) / p) ** 2);
+        }
+      } else if (cap < Number.POSITIVE_INFINITY) {
+        const rate = Math.sqrt(cap);
+        for (let j = 0; j < n; j++) {
+          const wanted = Math.abs(this.q1[at + j]!) * rate, by = wanted / v[j]!;
+          const limit = this.robot.arm.joints[j]!.limits.speed_rad_s, found = worst.get(move);
+          if (by > 1 && (found === undefined || wanted / limit > found.wanted / found.limit)) {
+            worst.set(move, { move, joint: j + 1, wanted, limit, unit: "rad/s", s: this.s[i]! });
+          }
+        }
+      }
+      this.cap[i] = cap;
+    }
+    slowed.push(...worst.values());
+  }
+
+  private intervalTime_s(i: number): number {
+    const h = this.s[i + 1]! - this.s[i]!;
+    return h > 0 ? (2 * h) / (Math.sqrt(this.x[i]!) + Math.sqrt(this.x[i + 1]!)) : 0;
+  }
+
+  /** Seconds each move takes. */
+  private moveTimes_s(moves: number): Float64Array {
+    const times = new Float64Array(moves);
+    for (let i = 0; i + 1 < this.nodes; i++) times[this.owner[i]!]! += this.intervalTime_s(i);
+    return times;
+  }
+
+  /** A lone move of given duration keeps its shape and takes longer. */
+  private stretchOf(time_s: number, slowed: Slowed[]): number {
+    const least_s = this.moveTimes_s(1)[0]!;
+    if (least_s <= time_s * (1 + 1e-9)) return time_s / least_s;
+    slowed.push(this.tooShort(0, least_s / time_s));
+    return 1;
+  }
+
+  /** The joint that a duration shorter by `factor` asks too much of. */
+  private tooShort(move: number, factor: number): Slowed {
+    const n = this.joints;
+    let found: Slowed = { move, joint: 1, wanted: 0, limit: 1, unit: "rad/s2", s: 0 }, by = 0;
+    for (let i = 0; i + 1 < this.nodes; i++) {
+      if (this.owner[i] !== move) continue;
+      const rate = Math.sqrt(this.x[i]!), h = this.s[i + 1]! - this.s[i]!, u = h > 0 ? (this.x[i + 1]! - this.x[i]!) / (2 * h) : 0;
+      for (let j = 0; j < n; j++) {
+        const limit = this.robot.arm.joints[j]!.limits, at = i * n + j;
+        const speed = Math.abs(this.q1[at]!) * rate * factor, bend = Math.abs(this.q1[at]! * u + this.q2[at]! * this.x[i]!) * factor * factor;
+        // A speed over its limit is the plainer reason; acceleration only speaks when no speed does.
+        if (speed / limit.speed_rad_s > Math.max(1, found.unit === "rad/s" ? by : 0)) {
+          by = speed / limit.speed_rad_s;
+          found = { move, joint: j + 1, wanted: speed, limit: limit.speed_rad_s, unit: "rad/s", s: this.s[i]! };
+        } else if (found.unit === "rad/s2" && bend / limit.acceleration_rad_s2 > by) {
+          by = bend / limit.acceleration_rad_s2;
+          found = { move, joint: j + 1, wanted: bend, limit: limit.acceleration_rad_s2, unit: "rad/s2", s: this.s[i]! };
+        }
+      }
+    }
+    return found;
+  }
+
+  /** Moves of given duration inside a run: their pace is lowered until each takes its time. */
+  private tune(grid: TimingGrid, paces: readonly Pace[], slowed: Slowed[]): void {
+    const first = this.moveTimes_s(paces.length), lengths = new Float64Array(paces.length), pace = new Float64Array(paces.length);
+    for (let i = 0; i + 1 < this.nodes; i++) lengths[this.owner[i]!]! += this.s[i + 1]! - this.s[i]!;
+    for (let m = 0; m < paces.length; m++) {
+      const time_s = paces[m]!.time_s;
+      if (time_s <= 0) continue;
+      pace[m] = lengths[m]! / time_s;
+      if (first[m]! > time_s * (1 + 1e-6)) slowed.push(this.tooShort(m, first[m]! / time_s));
+    }
+    for (let round = 0; round < ROUNDS; round++) {
+      for (let i = 0; i < this.nodes; i++) {
+        const p = pace[this.owner[i]!]!;
+        if (p > 0) this.cap[i] = p * p;
+      }
+      this.timer.fastest(grid, 0, 0, this.x);
+      const times = this.moveTimes_s(paces.length);
+      let off = 0;
+      for (let m = 0; m < paces.length; m++) {
+        if (pace[m]! <= 0) continue;
+        const factor = times[m]! / paces[m]!.time_s;
+        off = Math.max(off, Math.abs(factor - 1));
+        pace[m]! *= Math.min(4, factor);
+      }
+      if (off < 1e-4) return;
+    }
+  }
+
+  private emit(path: HermitePath, steps: readonly MoveStep[], stretch: number, slowed: readonly Slowed[]): TimedRun {
+    const parts: MotionSegment[] = [], out = new Emission(path, this.joints, stretch);
+    let start_s = 0, move = 0;
+    out.begin(this, 0);
+    const close = (): void => {
+      const step = steps[move]!, part = out.part(step, start_s);
+      parts.push(part);
+      start_s += part.duration_s;
+      move++;
+    };
+    for (let i = 0; i + 1 < this.nodes; i++) {
+      while (this.owner[i]! > move) { close(); out.begin(this, i); }
+      const dt = this.intervalTime_s(i);
+      if (dt > 0) out.interval(this.s[i]!, this.s[i + 1]!, this.x[i]!, this.x[i + 1]!, dt, this.knot[i]!);
+    }
+    while (move < steps.length) { close(); out.begin(this, this.nodes - 1); }
+    return { parts, slowed, duration_s: start_s };
+  }
+
+  /** Node i of the grid, for the emission. */
+  at(i: number): { readonly s: number; readonly x: number; readonly knot: number } { return { s: this.s[i]!, x: this.x[i]!, knot: this.knot[i]! }; }
+}
+
+/** Share of a piece at share m of its nodes: closer together at an end that rests (1 the first, 2 the last, 3 both). */
+function graded(m: number, rests: number): number {
+  switch (rests) {
+    case 1: return 1 - Math.cos((m * Math.PI) / 2);
+    case 2: return Math.sin((m * Math.PI) / 2);
+    case 3: return (1 - Math.cos(m * Math.PI)) / 2;
+    default: return m;
+  }
+}
+
+/** Collects the nodes of one part in time. */
+class Emission {
+  private readonly path: HermitePath;
+  private readonly joints: number;
+  private readonly stretch: number;
+  private times: number[] = [];
+  private q: number[] = [];
+  private qd: number[] = [];
+  private t = 0;
+  private readonly a: Float64Array;
+  private readonly a1: Float64Array;
+  private readonly a2: Float64Array;
+
+  constructor(path: HermitePath, joints: number, stretch: number) {
+    this.path = path; this.joints = joints; this.stretch = stretch;
+    this.a = new Float64Array(joints); this.a1 = new Float64Array(joints); this.a2 = new Float64Array(joints);
+  }
+
+  begin(timer: RunTimer, i: number): void {
+    const node = timer.at(i);
+    this.times = []; this.q = []; this.qd = []; this.t = 0;
+    this.push(node.knot, node.s, Math.sqrt(node.x));
+  }
+
+  private push(knot: number, s: number, rate: number): void {
+    this.path.evaluate(knot, s, 0, this.a, this.a1, this.a2);
+    this.times.push(this.t * this.stretch);
+    for (let j = 0; j < this.joints; j++) { this.q.push(this.a[j]!); this.qd.push((this.a1[j]! * rate) / this.stretch); }
+  }
+
+  /** One interval of constant s̈, halved in time until the cubic in time stays with the path. */
+  interval(s0: number, s1: number, x0: number, x1: number, dt: number, knot: number): void {
+    const rate0 = Math.sqrt(x0), u = (Math.sqrt(x1) - rate0) / dt, t0 = this.t;
+    const pieces = 1 << this.halvings(s0, rate0, u, dt, knot);
+    for (let k = 1; k <= pieces; k++) {
+      const t = (dt * k) / pieces;
+      this.t = t0 + t;
+      this.push(knot, k === pieces ? s1 : s0 + rate0 * t + 0.5 * u * t * t, k === pieces ? Math.sqrt(x1) : rate0 + u * t);
+    }
+  }
+
+  /**
+   * How often to halve. Under constant s̈ the fourth derivative by time is about 3 q″ s̈² + 6 q‴ ṡ² s̈; a cubic over h misses by
+   * h⁴/384 of it. One radian moves the TCP by about a metre.
+   */
+  private halvings(s0: number, rate: number, u: number, dt: number, knot: number): number {
+    this.path.evaluate(knot, s0, 0, this.a, this.a1, this.a2);
+    let worst = 0;
+    const b = this.joints * (knot + 1), a = this.joints * knot, h = this.path.s[knot + 1]! - this.path.s[knot]!, top = Math.max(rate, rate + u * dt);
+    for (let j = 0; j < this.joints; j++) {
+      const jerk = Math.abs(this.path.q2[b + j]! - this.path.q2[a + j]!) / h;
+      worst = Math.max(worst, 3 * Math.abs(this.a2[j]!) * u * u + 6 * jerk * top * top * Math.abs(u));
+    }
+    let miss = (worst * dt ** 4) / 384, count = 0;
+    while (miss > TIME_TOLERANCE && count < MOST_HALVINGS) { miss /= 16; count++; }
+    return count;
+  }
+
+  part(step: MoveStep, start_s: number): MotionSegment {
+    const times_s = Float64Array.from(this.times);
+    return {
+      kind: "motion", path: step.path, step: step.id, start_s, duration_s: times_s[times_s.length - 1]!,
+      times_s, q_rad: Float64Array.from(this.q), qd_rad_s: Float64Array.from(this.qd),
+    };
+  }
+}
+
+/** [rad] between the cubic in time and the cubic along the path. */
+const TIME_TOLERANCE = 2e-7;

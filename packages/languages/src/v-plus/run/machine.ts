@@ -1,0 +1,251 @@
+import type { Executed, MoveStep, Pose, Robot, Step, TextPlace } from "@twincell/core";
+import { TextError } from "../../text/index.ts";
+import type { Instruction, Routine, Source, Statement } from "../read/syntax.ts";
+import type { JointConvention } from "../robots.ts";
+import { ControllerState, type Tools } from "./state.ts";
+import { fromTrans, times, type Transform } from "./transform.ts";
+import { evaluate, keyOf, location, number, transform, type Precision, type Value } from "./values.ts";
+
+/** Statements without a motion or a wait after which the program is taken to run on the spot for ever. */
+const STATEMENTS_WITHOUT_MOTION = 100_000;
+/** Calls inside calls. */
+const CALL_DEPTH = 40;
+
+/** One program that is being executed, with its place and its loops. */
+interface Frame {
+  readonly routine: Routine;
+  at: number;
+  readonly last: number[];
+  readonly step: number[];
+  readonly chosen: Value[];
+}
+
+/** Executes a V+ text statement by statement. Deterministic: the same text gives the same steps. */
+export class Machine {
+  private readonly source: Source;
+  private readonly state: ControllerState;
+  private readonly continuousPath_m: (step: MoveStep) => number;
+  /** A motion of which it is not yet known whether the robot stops at its end, and what was executed since. */
+  private pending: { readonly line: number; readonly step: MoveStep } | undefined;
+  private readonly since: Executed[] = [];
+  private readonly times = new Map<number, number>();
+  private idle = 0;
+
+  constructor(source: Source, robot: Robot, convention: JointConvention, worldFromBase: Pose<"world", "base">, tools: Tools) {
+    this.source = source;
+    this.state = new ControllerState(robot, convention, worldFromBase, tools);
+    this.continuousPath_m = step => continuousPath(robot, step);
+  }
+
+  /** @throws {TextError} where the text cannot be executed further. */
+  *run(): Generator<Executed, void> {
+    for (const statement of [...this.source.data, ...this.source.immediate]) {
+      const called: Frame[] = [];
+      yield* this.statement(statement, called);
+      yield* this.execute(called);
+    }
+    const main = this.source.routines.values().next();
+    if (main.done !== true) yield* this.execute([newFrame(main.value)]);
+    yield* this.settle(0);
+  }
+
+  private *execute(stack: Frame[]): Generator<Executed, void> {
+    let frame: Frame | undefined;
+    while ((frame = stack.at(-1)) !== undefined) {
+      const instruction = frame.routine.instructions[frame.at++];
+      if (instruction === undefined) { stack.pop(); continue; }
+      if (instruction.kind === "statement") yield* this.statement(instruction.statement, stack);
+      else this.control(instruction, frame);
+    }
+  }
+
+  private control(instruction: Exclude<Instruction, { kind: "statement" }>, frame: Frame): void {
+    const { state } = this;
+    switch (instruction.kind) {
+      case "jump":
+        this.spend(instruction.at);
+        frame.at = instruction.to;
+        return;
+      case "unless":
+        this.spend(instruction.condition);
+        if (number(instruction.condition, state) === 0) frame.at = instruction.to;
+        return;
+      case "for":
+        state.write(keyOf(instruction.variable, state), number(instruction.from, state));
+        frame.last[instruction.slot] = number(instruction.last, state);
+        frame.step[instruction.slot] = instruction.step === undefined ? 1 : number(instruction.step, state);
+        if (frame.step[instruction.slot] === 0) throw new TextError(instruction.step!, "a step other than 0", "The loop has the step 0.");
+        return;
+      case "for-check": {
+        const value = number(instruction.variable, state), last = frame.last[instruction.slot]!;
+        if (frame.step[instruction.slot]! > 0 ? value > last : value < last) frame.at = instruction.to;
+        return;
+      }
+      case "for-next":
+        this.spend(instruction.variable);
+        state.write(keyOf(instruction.variable, state), Math.fround(number(instruction.variable, state) + frame.step[instruction.slot]!));
+        frame.at = instruction.to;
+        return;
+      case "case":
+        frame.chosen[instruction.slot] = evaluate(instruction.value, state);
+        return;
+      case "case-unless":
+        if (!instruction.values.some(value => evaluate(value, state) === frame.chosen[instruction.slot])) frame.at = instruction.to;
+        return;
+    }
+  }
+
+  private *statement(statement: Statement, stack: Frame[]): Generator<Executed, void> {
+    const { state } = this;
+    this.spend(statement);
+    switch (statement.kind) {
+      case "assign": {
+        const value = evaluate(statement.value, state);
+        if (typeof value === "object") throw new TextError(statement.value, "a number or a string", "A location is given to a variable with SET.");
+        if ((typeof value === "string") !== statement.to.name.startsWith("$")) throw new TextError(statement.value, "a value of the variable's sort", `"${statement.to.name}" takes ${statement.to.name.startsWith("$") ? "a string" : "a number"}.`);
+        state.write(keyOf(statement.to, state), value);
+        break;
+      }
+      case "set": {
+        const value = location(statement.value, state);
+        if ((value.kind === "precision") !== statement.to.name.startsWith("#")) throw new TextError(statement.value, "a location of the variable's sort", `"${statement.to.name}" takes a ${statement.to.name.startsWith("#") ? "precision point" : "transformation"}.`);
+        state.write(keyOf(statement.to, state), value);
+        break;
+      }
+      case "here": state.write(keyOf(statement.to, state), state.here()); break;
+      case "decompose":
+        for (const [i, component] of state.decomposed(location(statement.location, state)).entries()) {
+          state.write(keyOf(statement.to, state, i), Math.fround(component));
+        }
+        break;
+      case "tool": {
+        yield* this.settle(0);
+        const named = statement.location?.kind === "variable" ? statement.location.name : undefined;
+        state.setTool(statement.location === undefined ? fromTrans(0, 0, 0, 0, 0, 0) : transform(statement.location, state), named);
+        break;
+      }
+      case "base": {
+        yield* this.settle(0);
+        const [x, y, z, turn] = [0, 1, 2, 3].map(i => statement.values[i] === undefined ? 0 : number(statement.values[i], state));
+        state.setBase(x!, y!, z!, turn!);
+        break;
+      }
+      case "config": state.configure(statement.word); break;
+      case "speed": state.setSpeed(number(statement.value, state), statement.unit, statement.always, statement); break;
+      case "duration": state.setDuration(number(statement.value, state), statement.always); break;
+      case "path": state.continuous = statement.continuous; break;
+      case "break": yield* this.settle(0); break;
+      case "signal": for (const signal of statement.signals) state.setSignal(number(signal, state)); break;
+      case "wait":
+        if (statement.condition !== undefined && number(statement.condition, state) === 0) {
+          throw new TextError(statement.condition, "a condition that comes true", "The program waits for a condition that nothing here makes true.");
+        }
+        break;
+      case "delay": return yield* this.delay(statement, number(statement.time, state));
+      case "gripper": return yield* this.gripper(statement);
+      case "move": case "approach": case "depart": case "drive": return yield* this.motion(statement);
+      case "call": this.call(statement, stack); break;
+      case "return": stack.pop(); break;
+      case "stop": stack.length = 0; break;
+      case "nothing": break;
+    }
+    yield* this.note({ line: statement.line });
+  }
+
+  private *motion(statement: Extract<Statement, { kind: "move" | "approach" | "depart" | "drive" }>): Generator<Executed, void> {
+    const { state } = this;
+    yield* this.settle(state.continuous ? "continuous" : 0);
+    if (statement.kind === "move" && statement.hand !== undefined) {
+      // The hand moves while the arm does: before the motion is the nearest that a list of steps can say.
+      yield this.done(statement, { id: this.stepId(statement.line), type: "gripper", closed: number(statement.hand, state) <= 0 });
+    }
+    if (statement.kind === "drive") state.setSpeed(number(statement.speed, state), "percent", false, statement.speed);
+    const straight = statement.kind !== "drive" && statement.straight;
+    const step = state.moveTo(this.stepId(statement.line), this.goal(statement), straight);
+    this.pending = { line: statement.line, step };
+    this.idle = 0;
+  }
+
+  private goal(statement: Extract<Statement, { kind: "move" | "approach" | "depart" | "drive" }>): Transform | Precision {
+    const { state } = this;
+    const back = (from: Transform, distance_mm: number): Transform => times(from, fromTrans(0, 0, -distance_mm, 0, 0, 0));
+    switch (statement.kind) {
+      case "move": return location(statement.location, state);
+      case "drive": return state.driven(number(statement.joint, state), number(statement.change, state), statement);
+      case "depart": return back(state.here(), number(statement.distance, state));
+      case "approach": {
+        const target = location(statement.location, state);
+        return back(target.kind === "precision" ? state.reached(target) : target, number(statement.distance, state));
+      }
+    }
+  }
+
+  private *delay(statement: Statement, s: number): Generator<Executed, void> {
+    if (!(s >= 0)) throw new TextError(statement, "a time of 0 s or more", `The time is ${s} s.`);
+    yield* this.settle(0);
+    yield this.done(statement, { id: this.stepId(statement.line), type: "wait", s });
+  }
+
+  private *gripper(statement: Extract<Statement, { kind: "gripper" }>): Generator<Executed, void> {
+    yield* this.settle(statement.immediate || !this.state.continuous ? 0 : "continuous");
+    yield this.done(statement, { id: this.stepId(statement.line), type: "gripper", closed: statement.closed });
+  }
+
+  private call(statement: Extract<Statement, { kind: "call" }>, stack: Frame[]): void {
+    const routine = this.source.routines.get(statement.program);
+    if (routine === undefined) throw new TextError(statement, "a program of this file", `Program ${statement.program} is not in this file.`);
+    if (stack.length >= CALL_DEPTH) throw new TextError(statement, `at most ${CALL_DEPTH} calls inside each other`, `Program ${statement.program} is called more than ${CALL_DEPTH} deep.`);
+    if (statement.args.length > routine.parameters.length) throw new TextError(statement, `${routine.parameters.length} arguments`, `Program ${statement.program} takes ${routine.parameters.length} arguments; ${statement.args.length} are given.`);
+    const values = statement.args.map(arg => evaluate(arg, this.state));
+    for (const [i, value] of values.entries()) this.state.write(routine.parameters[i]!, value);
+    stack.push(newFrame(routine));
+  }
+
+  /** Hands out the motion that was waiting for what comes after it. */
+  private *settle(end: 0 | "continuous"): Generator<Executed, void> {
+    const { pending } = this;
+    if (pending === undefined) return;
+    this.pending = undefined;
+    const step = end === 0 ? pending.step : { ...pending.step, blend_m: this.continuousPath_m(pending.step) };
+    yield { line: pending.line, step };
+    yield* this.since.splice(0);
+  }
+
+  private *note(executed: Executed): Generator<Executed, void> {
+    if (this.pending === undefined) yield executed;
+    else this.since.push(executed);
+  }
+
+  private done(at: TextPlace, step: Step): Executed {
+    this.idle = 0;
+    return { line: at.line, step };
+  }
+
+  /** L12, and L12.2 when line 12 is executed again. */
+  private stepId(line: number): string {
+    const time = (this.times.get(line) ?? 0) + 1;
+    this.times.set(line, time);
+    return time === 1 ? `L${line}` : `L${line}.${time}`;
+  }
+
+  private spend(at: TextPlace): void {
+    if (++this.idle > STATEMENTS_WITHOUT_MOTION) {
+      throw new TextError(at, "a motion, a wait or an end", `The program has executed ${STATEMENTS_WITHOUT_MOTION} statements without a motion: it runs on the spot for ever.`);
+    }
+  }
+}
+
+const newFrame = (routine: Routine): Frame => ({ routine, at: 0, last: [], step: [], chosen: [] });
+
+/**
+ * How far from its end a motion begins to turn into the next one. V+ has no radius: the next motion sets in when this one
+ * begins to slow down, v · T / 2 before its end, T the time from full joint speed to rest.
+ */
+function continuousPath(robot: Robot, { speed }: MoveStep): number {
+  const ramp_s = Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2));
+  const speed_mps = "mps" in speed ? speed.mps : "ratio" in speed ? speed.ratio * JOINT_MOTION_MPS : JOINT_MOTION_MPS / 10;
+  return Math.min(speed_mps * ramp_s / 2, LARGEST_CORNER_M);
+}
+/** Typical TCP speed of a joint motion at 100 %, and the largest corner that is cut. */
+const JOINT_MOTION_MPS = 2;
+const LARGEST_CORNER_M = 0.05;

@@ -1,0 +1,144 @@
+import {
+  compose, degrees, flangePose, identity, inverse, radians, type Branch, type MoveStep, type Pose, type Robot, type Speed, type Target, type TextPlace,
+} from "@twincell/core";
+import { TextError } from "../../text/index.ts";
+import type { ConfigWord } from "../read/syntax.ts";
+import type { JointConvention } from "../robots.ts";
+import { NULL_TRANSFORM, components, fromPose, fromTrans, inverted, times, toPose, type Transform } from "./transform.ts";
+import type { Memory, Precision, Value } from "./values.ts";
+
+const INCH_MM = 25.4;
+
+/** What the words of the controller mean in the words of a person, one for each part of the branch. */
+const CONFIG: Readonly<Record<ConfigWord, Partial<Branch>>> = {
+  RIGHTY: { shoulder: "front" }, LEFTY: { shoulder: "back" },
+  ABOVE: { elbow: "up" }, BELOW: { elbow: "down" },
+  NOFLIP: { wrist: "positive" }, FLIP: { wrist: "negative" },
+};
+
+/** Tools by the name under which the steps know them. */
+export type Tools = Record<string, Pose<"flange", "tcp">>;
+
+/** The controller while a program runs: variables, signals, tool, speed, and where the arm has been sent. */
+export class ControllerState implements Memory {
+  readonly joints: number;
+  continuous = true;
+  private readonly robot: Robot;
+  private readonly convention: JointConvention;
+  private readonly worldFromVendor: Pose<"frame", "vendor-world">;
+  private readonly vendorFromBase: Pose<"vendor-world", "base">;
+  private readonly variables = new Map<string, Value>();
+  private readonly signals = new Map<number, boolean>();
+  private readonly tools: Tools;
+  private tool: { readonly name: string; readonly flangeFromTcp: Transform } = { name: "flange", flangeFromTcp: NULL_TRANSFORM };
+  private base: Transform = NULL_TRANSFORM;
+  private speed: Speed = { ratio: 1 };
+  private onceSpeed: Speed | undefined;
+  private duration: Speed | undefined;
+  private onceDuration: Speed | undefined;
+  private branch: Partial<Branch> = {};
+  /** Where the flange is sent, in the vendor's world. */
+  private flange: Transform;
+  /** The joints there; unknown after a move to a transformation, whose joints the controller chooses. */
+  private joints_deg: readonly number[] | undefined;
+
+  constructor(robot: Robot, convention: JointConvention, worldFromBase: Pose<"world", "base">, tools: Tools) {
+    this.robot = robot;
+    this.joints = robot.arm.joints.length;
+    this.convention = convention;
+    this.tools = tools;
+    // The world is a frame like any other to a program.
+    this.worldFromVendor = compose(compose(identity<"frame", "world">(), worldFromBase), robot.baseFromVendorWorld);
+    this.vendorFromBase = inverse(robot.baseFromVendorWorld);
+    this.joints_deg = robot.home_rad.map((q, i) => degrees(q) * convention.signs[i]! + convention.offsets_deg[i]!);
+    this.flange = this.flangeAt(this.joints_deg);
+  }
+
+  read(key: string): Value | undefined { return this.variables.get(key); }
+  write(key: string, value: Value): void { this.variables.set(key, value); }
+  signal(number: number): boolean { return this.signals.get(number) ?? false; }
+  setSignal(number: number): void { this.signals.set(Math.abs(Math.trunc(number)), number > 0); }
+  here(): Transform { return times(times(inverted(this.base), this.flange), this.tool.flangeFromTcp); }
+  reached(precision: Precision): Transform { return times(times(inverted(this.base), this.flangeAt(precision.joints_deg)), this.tool.flangeFromTcp); }
+
+  /** The six numbers of a location, as DECOMPOSE writes them. */
+  decomposed(location: Transform | Precision): readonly number[] {
+    return location.kind === "precision" ? location.joints_deg : components(location);
+  }
+
+  setTool(flangeFromTcp: Transform, wantedName: string | undefined): void {
+    const isFlange = components(flangeFromTcp).every(x => x === 0);
+    this.tool = { name: isFlange ? "flange" : this.toolName(toPose(flangeFromTcp), wantedName), flangeFromTcp };
+  }
+
+  setBase(x_mm: number, y_mm: number, z_mm: number, turn_deg: number): void {
+    this.base = fromTrans(x_mm, y_mm, z_mm, turn_deg, 0, 0);
+  }
+
+  configure(word: ConfigWord): void { this.branch = { ...this.branch, ...CONFIG[word] }; }
+
+  setSpeed(value: number, unit: "percent" | "mmps" | "ips", always: boolean, at: TextPlace): void {
+    if (!(value > 0)) throw new TextError(at, "a speed above 0", `The speed is ${value}.`);
+    const speed: Speed = unit === "percent" ? { ratio: Math.min(1, value / 100) } : { mps: value * (unit === "ips" ? INCH_MM : 1) / 1000 };
+    if (always) { this.speed = speed; this.onceSpeed = undefined; } else this.onceSpeed = speed;
+  }
+
+  /** The least time of a motion [s]; 0 takes the demand back. */
+  setDuration(time_s: number, always: boolean): void {
+    const duration = time_s > 0 ? { time_s } : undefined;
+    if (always) { this.duration = duration; this.onceDuration = undefined; } else this.onceDuration = duration;
+  }
+
+  /** The neutral step of a motion to that location; from now on the arm is there. */
+  moveTo(id: string, location: Transform | Precision, straight: boolean): MoveStep {
+    const target = location.kind === "precision" ? this.toJoints(location) : this.toTransform(location);
+    const speed = this.onceDuration ?? this.duration ?? this.onceSpeed ?? this.speed;
+    this.onceDuration = this.onceSpeed = undefined;
+    return { id, type: "move", path: straight ? "lin" : "ptp", target, speed, blend_m: 0 };
+  }
+
+  /** DRIVE: one joint, counted from 1, by an angle. */
+  driven(joint: number, change_deg: number, at: TextPlace): Precision {
+    if (!(joint >= 1 && joint <= this.joints)) throw new TextError(at, `a joint from 1 to ${this.joints}`, `The robot has no joint ${joint}.`);
+    if (this.joints_deg === undefined) throw new TextError(at, "a motion to a precision point before it", "DRIVE turns a joint from where it is, and after a motion to a transformation the joint values are the controller's choice.");
+    return { kind: "precision", joints_deg: this.joints_deg.map((value, i) => i === joint - 1 ? value + change_deg : value) };
+  }
+
+  private toJoints({ joints_deg }: Precision): Target {
+    this.joints_deg = joints_deg;
+    this.flange = this.flangeAt(joints_deg);
+    // The joints say which posture it is; a later transformation is reached from there.
+    this.branch = {};
+    return { q: this.radiansOf(joints_deg), tool: this.tool.name };
+  }
+
+  private toTransform(location: Transform): Target {
+    const vendorFromTcp = times(this.base, location);
+    this.joints_deg = undefined;
+    this.flange = times(vendorFromTcp, inverted(this.tool.flangeFromTcp));
+    const pose = compose(this.worldFromVendor, toPose<"vendor-world", "tcp">(vendorFromTcp));
+    const { shoulder, elbow, wrist } = this.branch;
+    const branch = shoulder !== undefined && elbow !== undefined && wrist !== undefined ? { branch: { shoulder, elbow, wrist } } : {};
+    return { pose, frame: "world", tool: this.tool.name, ...branch };
+  }
+
+  private flangeAt(joints_deg: readonly number[]): Transform {
+    return fromPose(compose(this.vendorFromBase, flangePose(this.robot.arm, this.radiansOf(joints_deg))));
+  }
+
+  private radiansOf(joints_deg: readonly number[]): number[] {
+    return joints_deg.map((value, i) => radians((value - this.convention.offsets_deg[i]!) / this.convention.signs[i]!));
+  }
+
+  /** A tool met before keeps its name; two tools never share one. */
+  private toolName(flangeFromTcp: Pose<"flange", "tcp">, wanted: string | undefined): string {
+    const text = JSON.stringify(flangeFromTcp);
+    const stem = wanted === undefined || wanted === "flange" ? "tool" : wanted;
+    for (let i = 1; ; i++) {
+      const name = i === 1 ? stem : `${stem}_${i}`;
+      const known = this.tools[name];
+      if (known === undefined) this.tools[name] = flangeFromTcp;
+      if (known === undefined || JSON.stringify(known) === text) return name;
+    }
+  }
+}
