@@ -26,7 +26,8 @@ export function boot(): void {
   startSounds();
   for (const bringToRest of [releaseAll, endGlide, pause]) onStop(bringToRest);
   keepDocument(browserKeeper, { after: (ms, act) => { const timer = setTimeout(act, ms); return () => clearTimeout(timer); } });
-  void openKept(browserKeeper);
+  // Languages, controllers and recording are a part of the page that the first sight of it does not wait for.
+  void openKept(browserKeeper).then(() => import("./live/cell-control.ts")).then(({ startCellControl }) => { startCellControl(); });
   watchCollisions();
   const checking = startChecking();
   startCommands(checking);

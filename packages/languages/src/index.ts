@@ -9,3 +9,4 @@ export const DIALECTS: readonly Dialect[] = [vPlus];
 
 /** The dialect of that id, or undefined. */
 export const dialectById = (id: string): Dialect | undefined => DIALECTS.find(dialect => dialect.id === id);
+export { vendorTables } from "./vendors.ts";

@@ -1,5 +1,5 @@
 import fc from "fast-check";
-import { distance, flangePose, manualScheduler, PlainFault, robotById, type Step, type Vector3 } from "@twincell/core";
+import { distance, flangePose, manualScheduler, PlainFault, robotById, seededRandom, type Step, type Vector3 } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { describeController, numericSolver, onSpoiledSample } from "../testing/index.ts";
 import { createVirtualController } from "./controller.ts";
@@ -57,6 +57,28 @@ describe("virtual controller", () => {
     const part = (last[0]! - from[0]!) / (to[0]! - from[0]!);
     last.forEach((q, i) => expect(q).toBeCloseTo(from[i]! + part * (to[i]! - from[i]!), 9));
     expect(part).toBeLessThan(1);
+  });
+
+  test("X-41 wherever a program is stopped, it stands within the stated braking time", async () => {
+    const random = seededRandom(5), start = [0, -0.6, 2.4, 0, 0.5, 0], { position: [x, y, z], quaternion } = flangePose(robot.arm, start);
+    for (let i = 0; i < 60; i++) {
+      const { scheduler, robot: controller } = bench({ start_rad: start });
+      const steps = [0, 1, 2, 3, 4].map((k): Step => ({
+        id: `s${k}`, type: "move", ...(i % 3 === 0
+          ? { path: "ptp", target: { q: robot.arm.joints.map(({ limits }) => limits.lower_rad + random() * (limits.upper_rad - limits.lower_rad)) }, speed: { ratio: 1 } }
+          : { path: "lin", target: { pose: { position: [x - 0.4 * random(), y + 0.6 * random() - 0.3, z + 0.3 * random()], quaternion }, frame: "world", tool: "flange" }, speed: { mps: 3 } }),
+        blend_m: k < 4 && i % 2 === 1 ? 0.05 : 0,
+      }));
+      let ended_s = NaN;
+      void controller.run(steps, { tools: {}, frames: {} }).then(() => { ended_s = scheduler.now_s(); });
+      await scheduler.elapse(0.05 + random());
+      const stopped_s = scheduler.now_s();
+      controller.stop();
+      await scheduler.elapse(controller.brakingTime_s);
+      expect(Number.isNaN(ended_s), `program ${i}`).toBe(false);
+      expect(ended_s - stopped_s).toBeLessThanOrEqual(controller.brakingTime_s);
+      controller.close();
+    }
   });
 
   test("T-30 a wait lasts as long as it says, whatever the override", async () => {

@@ -61,7 +61,8 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
   const cycle_s = options.cycle_s ?? 0.004, maxSpeed = options.maxSpeed ?? 1;
   const solve: Solve | null = options.solve === undefined ? (pose, near) => solveAll(robot, pose, { near }) : options.solve;
   const name = options.name ?? `Virtual ${robot.name}`, n = robot.arm.joints.length;
-  const brakingTime_s = 2 * Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2));
+  // The slowest joint from full speed to rest, and the cycles in which the command comes through.
+  const brakingTime_s = Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2)) + 2 * cycle_s;
   const q_rad = Float64Array.from(options.start_rad ?? robot.home_rad);
   const samples = listeners<JointSample>();
   const lent: Lent = {

@@ -80,7 +80,7 @@ export function solveAll(robot: Robot, baseFromFlange: Pose<"base", "flange">, o
  */
 export function nearestSolution(robot: Robot, baseFromFlange: Pose<"base", "flange">, near: ArrayLike<number>, out: Float64Array, scratch = solverScratch()): boolean {
   const family = robot.family;
-  if (family.kind !== "ortho-parallel") return false;
+  if (family.kind !== "ortho-parallel" || !isUnit(baseFromFlange)) return false;
   const raw = scratch.raw, joints = robot.arm.joints;
   const count = solveOrthoParallel(family, baseFromFlange, raw, near);
   let best = -1, least = Infinity;
@@ -165,6 +165,12 @@ export function outOfReach(robot: Robot, baseFromFlange: Pose<"base", "flange">)
   const { farthest_m, nearest_m, distance_m } = span(robot, baseFromFlange);
   if (distance_m > farthest_m) return { kind: "too-far", beyond_m: distance_m - farthest_m, reach_m: farthest_m };
   return { kind: "too-near", inside_m: nearest_m - distance_m, nearest_m };
+}
+
+/** False for NaN as well. */
+function isUnit({ quaternion: q }: Pose): boolean {
+  const length2 = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+  return length2 > 1 - 2e-6 && length2 < 1 + 2e-6;
 }
 
 function poseFlaw(pose: Pose): string | undefined {
