@@ -1,15 +1,18 @@
 import { JointCountFault } from "../fault.ts";
 import type { SerialArm } from "../robots/arm.ts";
 import type { Pose } from "../spatial/pose.ts";
+import { sineCosine } from "../spatial/sine-cosine.ts";
 import type { Vector3 } from "../spatial/vector.ts";
 
 /** Working memory of `flangePose` and its kin: one per caller, never shared between workers. */
 export interface ArmScratch {
+  /** Sine and cosine of half a turn. */
+  readonly turn: Float64Array;
   /** The arm last asked for, laid out flat. */
   arm: SerialArm | null;
   chain: Float64Array;
 }
-export const armScratch = (): ArmScratch => ({ arm: null, chain: new Float64Array(0) });
+export const armScratch = (): ArmScratch => ({ turn: new Float64Array(2), arm: null, chain: new Float64Array(0) });
 
 /** Numbers per joint of a flat chain: position, quaternion, axis, which axis, along which axis it is moved, whether turned. */
 const STRIDE = 13;
@@ -46,12 +49,13 @@ function directionOf(vector: Vector3): number {
  * running ← running · fixed · Rot(axis, angle), row after row of `chain`, in local numbers: what is stored and loaded
  * again between two joints costs as much as the sines.
  *
+ * @param turn    working memory, two numbers.
  * @param flange  receives the end of the chain, or null.
  * @param links   receive the base and every joint's frame after its turn, or null.
  * @param axes    receives six numbers per joint: its axis and its origin in the base; or null.
  */
 export function walk(
-  chain: Float64Array, q: ArrayLike<number>, flange: Pose | null, links: readonly Pose[] | null, axes: Float64Array | null,
+  chain: Float64Array, q: ArrayLike<number>, turn: Float64Array, flange: Pose | null, links: readonly Pose[] | null, axes: Float64Array | null,
 ): void {
   let x = 0, y = 0, z = 0, w = 1, ox = 0, oy = 0, oz = 0;
   if (links !== null) store(links[0]!, x, y, z, w, ox, oy, oz);
@@ -86,7 +90,8 @@ export function walk(
       axes[joint * 6 + 2] = az + w * tz + x * ty - y * tx;
       axes[joint * 6 + 3] = ox; axes[joint * 6 + 4] = oy; axes[joint * 6 + 5] = oz;
     }
-    const half = q[joint]! / 2, s = Math.sin(half), c = Math.cos(half);
+    sineCosine(q[joint]! / 2, turn);
+    const s = turn[0]!, c = turn[1]!;
     if (kind === Z) {
       const b = chain[at + 9]! * s, nx = x * c + y * b, nz = z * c + w * b;
       y = y * c - x * b; w = w * c - z * b; x = nx; z = nz;
