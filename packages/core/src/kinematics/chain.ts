@@ -42,7 +42,7 @@ function directionOf(vector: Vector3): number {
   return along < 0 ? NONE : vector.every((value, i) => i === along || value === 0) ? along : ANY;
 }
 
-const TURN = 2 * Math.PI;
+const TURNS_PER_RAD = 1 / (2 * Math.PI);
 /** 2π in two parts: whole multiples of the first are exact. */
 const TURN_HIGH = 4 * 1.57079632673412561417, TURN_LOW = 4 * 6.07710050650619224932e-11;
 /** Sine and cosine up to π/4 (fdlibm, kernels k_sin and k_cos). */
@@ -94,9 +94,9 @@ export function walk(
       axes[joint * 6 + 3] = ox; axes[joint * 6 + 4] = oy; axes[joint * 6 + 5] = oz;
     }
     // Half turns are taken off the half angle, and a fourth of the turn goes through the polynomials: no branch to mispredict.
-    const angle = q[joint]!, n = Math.floor(angle / TURN + 0.5), r = 0.25 * (angle - n * TURN_HIGH - n * TURN_LOW), r2 = r * r;
-    const sr = r + r * r2 * (S1 + r2 * (S2 + r2 * (S3 + r2 * (S4 + r2 * (S5 + r2 * S6)))));
-    const cr = 1 - 0.5 * r2 + r2 * r2 * (C1 + r2 * (C2 + r2 * (C3 + r2 * (C4 + r2 * (C5 + r2 * C6)))));
+    const angle = q[joint]!, n = Math.floor(angle * TURNS_PER_RAD + 0.5), r = 0.25 * (angle - n * TURN_HIGH - n * TURN_LOW), r2 = r * r, r4 = r2 * r2;
+    const sr = r + r * r2 * (S1 + r2 * S2 + r4 * (S3 + r2 * S4 + r4 * (S5 + r2 * S6)));
+    const cr = 1 - 0.5 * r2 + r4 * (C1 + r2 * C2 + r4 * (C3 + r2 * C4 + r4 * (C5 + r2 * C6)));
     const sign = 1 - 2 * (n & 1), s = sign * 2 * sr * cr, c = sign * (1 - 2 * sr * sr);
     if (kind === Z) {
       const b = chain[at + 9]! * s, nx = x * c + y * b, nz = z * c + w * b;
