@@ -1,7 +1,7 @@
 import type { Bvh } from "./bvh.ts";
 import { makeRoom, size, type PairScratch } from "./intersect.ts";
 import { movePoints, type Rigid } from "./relative.ts";
-import { triangleDistance2 } from "./triangle-distance.ts";
+import { segmentDistance2, triangleDistance2 } from "./triangle-distance.ts";
 
 /**
  * Distance between two surfaces [m] when it is below `cutoff_m`, else Infinity. 0 when they share a point.
@@ -67,6 +67,9 @@ function nearestInLeaves(
       const far = a.balls[at + 3]! + br + reach;
       if (dx * dx + dy * dy + dz * dz >= far * far) continue;
       if (!here) { movePoints(aFromB, b.corners, 9 * (fromB + j), 3, moved, 0); here = true; }
+      // Slivers fill little of their balls but most of the capsules around their longest edges.
+      const apart = reach + a.heights[fromA + i]! + b.heights[fromB + j]!;
+      if (segmentDistance2(a.corners, 9 * (fromA + i), moved, 0) >= apart * apart) continue;
       const squared = triangleDistance2(a.corners, 9 * (fromA + i), moved, 0, best, out);
       if (squared >= best) continue;
       best = squared; reach = Math.sqrt(best);

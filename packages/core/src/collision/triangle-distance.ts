@@ -22,6 +22,20 @@ export function triangleDistance2(p: Float64Array, i: number, q: Float64Array, j
   return best < limit ? best : Infinity;
 }
 
+/** Squared distance of the segments that begin at p[i] and at q[j] [m²]. */
+export function segmentDistance2(p: Float64Array, i: number, q: Float64Array, j: number): number {
+  const rx = p[i]! - q[j]!, ry = p[i + 1]! - q[j + 1]!, rz = p[i + 2]! - q[j + 2]!;
+  const ux = p[i + 3]! - p[i]!, uy = p[i + 4]! - p[i + 1]!, uz = p[i + 5]! - p[i + 2]!;
+  const vx = q[j + 3]! - q[j]!, vy = q[j + 4]! - q[j + 1]!, vz = q[j + 5]! - q[j + 2]!;
+  const uu = ux * ux + uy * uy + uz * uz, vv = vx * vx + vy * vy + vz * vz, uv = ux * vx + uy * vy + uz * vz;
+  const ur = ux * rx + uy * ry + uz * rz, vr = vx * rx + vy * ry + vz * rz, area = uu * vv - uv * uv;
+  let s = area > 1e-14 * uu * vv ? clamp((uv * vr - ur * vv) / area) : 0;
+  let t = (uv * s + vr) / vv;
+  if (t < 0) { t = 0; s = clamp(-ur / uu); } else if (t > 1) { t = 1; s = clamp((uv - ur) / uu); }
+  const dx = rx + s * ux - t * vx, dy = ry + s * uy - t * vy, dz = rz + s * uz - t * vz;
+  return dx * dx + dy * dy + dz * dz;
+}
+
 /** Squared gap between the plane of either triangle and the other triangle, the larger of the two; 0 when both straddle. */
 function planeGap2(p: Float64Array, i: number, q: Float64Array, j: number, enough: number): number {
   const first = gapToPlane2(p, i, q, j);
