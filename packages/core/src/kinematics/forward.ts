@@ -19,7 +19,7 @@ export { armScratch, type ArmScratch } from "./chain.ts";
 export function flangePose(
   arm: SerialArm, q: ArrayLike<number>, out: Pose<"base", "flange"> = identity(), scratch: ArmScratch = armScratch(),
 ): Pose<"base", "flange"> {
-  walk(chainOf(arm, q, scratch), q, scratch.turn, out, null, null);
+  walk(chainOf(arm, q, scratch), q, out, null, null);
   return out;
 }
 
@@ -29,5 +29,5 @@ export function flangePose(
  * @param out  n + 1 poses, written in place.
  */
 export function linkPoses(arm: SerialArm, q: ArrayLike<number>, out: readonly Pose<"base", "link">[], scratch: ArmScratch = armScratch()): void {
-  walk(chainOf(arm, q, scratch), q, scratch.turn, null, out, null);
+  walk(chainOf(arm, q, scratch), q, null, out, null);
 }

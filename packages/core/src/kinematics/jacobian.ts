@@ -33,7 +33,7 @@ export function jacobian(
   out: Float64Array = new Float64Array(6 * arm.joints.length), scratch: JacobianScratch = jacobianScratch(arm.joints.length),
 ): Float64Array {
   const n = arm.joints.length, axes = scratch.axes, flange = scratch.baseFromFlange, tip = scratch.tip;
-  walk(chainOf(arm, q, scratch.arm), q, scratch.arm.turn, flange, null, axes);
+  walk(chainOf(arm, q, scratch.arm), q, flange, null, axes);
   if (flangeFromTip === null) { tip[0] = 0; tip[1] = 0; tip[2] = 0; } else rotate(flange.quaternion, flangeFromTip, tip);
   const px = flange.position[0] + tip[0], py = flange.position[1] + tip[1], pz = flange.position[2] + tip[2];
   for (let i = 0; i < n; i++) {
