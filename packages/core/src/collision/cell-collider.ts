@@ -6,7 +6,7 @@ import { bodiesOf, farApart, objectBody, placeBody, reachesOf, SolidShelf, WORLD
 import type { CellGeometry, CellObject, Contact } from "./cell.ts";
 import { pairScratch } from "./intersect.ts";
 import { between, movePoints } from "./relative.ts";
-import { solidDistance, solidsTouch } from "./solid.ts";
+import { solidDistance, solidKeepsApart, solidsTouch } from "./solid.ts";
 
 /** The tool touches a work piece when it is nearer than this (row N-51) [m]. */
 export const TOUCH_M = 0.0005;
@@ -157,6 +157,17 @@ export class CellCollider {
     const distance = solidDistance(a.solid, b.solid, relative, cutoff_m, this.#scratch, this.#points, enough_m);
     if (distance < cutoff_m) witness.set(this.#scratch.witness);
     return distance;
+  }
+
+  /**
+   * Whether, in the posture last placed, every point of the pair's outer solid (the one farther along the arm) is more than
+   * `near_m` + `perMetre` r from the other, where r is the point's distance from the origin of its own frame.
+   */
+  keepsApart(pair: SolidPair, near_m: number, perMetre: number): boolean {
+    const outer = pair.a.carrier > pair.b.carrier ? pair.a : pair.b, inner = outer === pair.a ? pair.b : pair.a;
+    if (farApart(outer.box, inner.box, near_m + perMetre * outer.solid.radius_m)) return true;
+    const relative = between(outer.worldFromBody, inner.worldFromBody, this.#scratch.relative);
+    return solidKeepsApart(outer.solid, inner.solid, relative, near_m, perMetre, this.#scratch, this.#points);
   }
 
   /** Whether one pair is in contact in the posture last placed. */
