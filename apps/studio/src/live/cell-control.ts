@@ -1,6 +1,9 @@
+import { CellCollider, linkSolids, type Robot } from "@twincell/core";
 import { vPlus } from "@twincell/languages";
+import { cellGeometry, type CellDocument } from "@twincell/project";
 import { cellStore } from "../stores/cell.ts";
 import { registerCommands } from "../stores/commands.ts";
+import { controlStore } from "../stores/control.ts";
 import { flangeFromTcpOf, programOf, robotOf } from "../stores/document.ts";
 import { notify } from "../stores/notices.ts";
 import { playStore } from "../stores/play.ts";
@@ -15,17 +18,30 @@ import { pageScheduler } from "./scheduler.ts";
 import { travelBack, type TravelBack } from "./travel-back.ts";
 
 const shelf = browserShelf();
-let control: CellControl | null = null, made: { readonly robot: string; readonly base: unknown; readonly tool: unknown } | null = null;
+let control: CellControl | null = null, made: Solids | null = null;
 
-/** The controller of the open cell; made anew when robot, place or tool change. */
+/** What the controller and its guard are made from. */
+type Solids = Pick<CellDocument, "robot" | "objects" | "tools" | "tool" | "allowedPairs">;
+const same = (a: Solids, b: Solids): boolean => a.robot === b.robot && a.objects === b.objects && a.tools === b.tools && a.tool === b.tool && a.allowedPairs === b.allowedPairs;
+
+/** Contact of the robot with itself or its surroundings. */
+function contactTest(document: CellDocument, robot: Robot): (q_rad: Float64Array) => boolean {
+  const collider = new CellCollider(cellGeometry(document, linkSolids(robot)), robot.arm);
+  collider.allowContactsAt(robot.home_rad);
+  return q_rad => !collider.collides(q_rad);
+}
+
+/** The controller of the open cell; made anew when robot, tool or surroundings change, but never under a run. */
 export function theControl(): CellControl | null {
   const { document } = cellStore.getState(), robot = robotOf(document);
   if (!document || !robot) return null;
-  const flangeFromTcp = flangeFromTcpOf(document), now = { robot: robot.id, base: document.robot.worldFromBase, tool: document.tools.find(tool => tool.name === document.tool) };
-  if (control && made && made.robot === now.robot && made.base === now.base && made.tool === now.tool) return control;
+  if (control && made && (same(made, document) || controlStore.getState().running)) return control;
   control?.close();
-  made = now;
-  control = controlCell({ dialect: vPlus, scheduler: pageScheduler, shelf, clock_ms: () => Date.now() }, { robot, worldFromBase: now.base, flangeFromTcp });
+  made = document;
+  control = controlCell(
+    { dialect: vPlus, scheduler: pageScheduler, shelf, clock_ms: () => Date.now() },
+    { robot, worldFromBase: document.robot.worldFromBase, flangeFromTcp: flangeFromTcpOf(document), isSafe: contactTest(document, robot) },
+  );
   control.setOverride(playStore.getState().speed);
   return control;
 }

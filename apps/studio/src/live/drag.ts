@@ -4,7 +4,9 @@ import {
 } from "@twincell/core";
 import { jogStore } from "../stores/jog.ts";
 import { sound } from "../stores/sound.ts";
+import { onStop } from "../stores/stop.ts";
 import { showJoints, theLive } from "./live.ts";
+import { leaveRobot, takeRobot } from "./owner.ts";
 
 /** Where a drag got to: all the way, or as far as the robot can, with the reason. */
 export type DragOutcome = { readonly kind: "moved" } | { readonly kind: "on-the-way" } | { readonly kind: "blocked"; readonly sentence: string; readonly joint?: number };
@@ -116,5 +118,12 @@ function free(): void {
   if (jogStore.getState().blocked) jogStore.setState({ blocked: null });
 }
 
-/** The hand let go: nothing is blocked any more. */
-export const endDrag = free;
+/**
+ * The hand takes the tool. @param onLost  called when the drag must end: STOP, or somebody else moves the robot.
+ * Returns what ends it.
+ */
+export function beginDrag(onLost: () => void): () => void {
+  takeRobot("drag", onLost);
+  const stopListening = onStop(onLost);
+  return () => { stopListening(); leaveRobot("drag"); free(); };
+}

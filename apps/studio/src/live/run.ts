@@ -1,5 +1,5 @@
-import { createGuard, createTwin, createVirtualController, type Guard, type Twin, type VirtualController } from "@twincell/controllers";
-import type { CommandOutcome, Dialect, EmittedFile, Executed, Pose, Program, Robot, Scheduler, Step } from "@twincell/core";
+import { createGuard, createTwin, createVirtualController, textSteps, type Guard, type Twin, type VirtualController } from "@twincell/controllers";
+import type { CommandOutcome, Dialect, EmittedFile, Pose, Program, Robot, Scheduler, Step } from "@twincell/core";
 import { createRunRecorder, type RunRecorder } from "@twincell/recording";
 import { controlStore } from "../stores/control.ts";
 import { historyStore, type RunEnding } from "../stores/history.ts";
@@ -11,6 +11,8 @@ export interface RunSetting {
   readonly robot: Robot;
   readonly worldFromBase: Pose<"world", "base">;
   readonly flangeFromTcp: Pose<"flange", "tcp">;
+  /** Whether nothing touches at those joint angles; the guard asks along the motion (rows T-42 … T-44). */
+  readonly isSafe?: (q_rad: Float64Array) => boolean;
 }
 
 export interface RunWorld {
@@ -41,16 +43,15 @@ export function prepareRun(dialect: Dialect, program: Program, { robot, worldFro
     const [first] = interpreted.faults;
     return { kind: "not-understood", sentence: first ? `Line ${first.line}, column ${first.column}: ${first.sentence}` : "", hint: "Export the text and look at that line." };
   }
-  function* steps(run: Iterator<Executed, void>): Generator<Step> {
-    for (let next = run.next(); !next.done; next = run.next()) {
-      const { line, step } = next.value;
-      if (!step) continue;
-      const id = file.lines[line - 1] || step.id;
+  const text = textSteps(interpreted.run);
+  function* steps(): Generator<Step> {
+    for (const step of text.steps) {
+      const line = text.lineOf(step.id), id = file.lines[line - 1] || step.id;
       onLine(id, line);
       yield { ...step, id };
     }
   }
-  return { kind: "ready", file, steps: () => steps(interpreted.run()), context: interpreted.context };
+  return { kind: "ready", file, steps, context: interpreted.context };
 }
 
 /** The program proper comes with a list of its points; the program is the file that says what to do with most of its lines. */
@@ -71,10 +72,10 @@ export interface CellControl {
   close(): void;
 }
 
-export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromTcp }: RunSetting): CellControl {
+export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromTcp, isSafe }: RunSetting): CellControl {
   const { scheduler } = world, begun_s = scheduler.now_s();
   const virtual: VirtualController = createVirtualController({ robot, scheduler, name: `Virtual ${robot.name.split(" ").at(-1)!}`, worldFromBase, start_rad: theLive().q_rad });
-  const guard = createGuard({ controller: virtual, scheduler, flangeFromTcp, brakingTime_s: virtual.brakingTime_s });
+  const guard = createGuard({ controller: virtual, scheduler, flangeFromTcp, brakingTime_s: virtual.brakingTime_s, ...(isSafe ? { isSafe } : {}) });
   const seat = guard.seat("you");
   seat.take();
   let running = false, told_s = -1, recorder: RunRecorder | null = null;

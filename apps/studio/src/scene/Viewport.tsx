@@ -1,10 +1,11 @@
 import { identity, type Pose, robotById } from "@twincell/core";
 import { Canvas } from "@react-three/fiber";
-import { useEffect, useMemo, useRef, useState } from "react";
+import { lazy, Suspense, useEffect, useMemo, useRef, useState } from "react";
 import { type Group, type Mesh, NeutralToneMapping, PCFShadowMap } from "three";
 import { useStore } from "zustand";
 import { dragFollows } from "../live/drag.ts";
 import { cellStore } from "../stores/cell.ts";
+import { registerCommands } from "../stores/commands.ts";
 import { playStore } from "../stores/play.ts";
 import { traceStore } from "../stores/trace.ts";
 import { viewStore } from "../stores/view.ts";
@@ -30,7 +31,10 @@ import "./scene.css";
 import { readTheme } from "./theme.ts";
 import { ToolView } from "./tool-view.tsx";
 import { WORDS } from "./words.ts";
+import { askForHeadset } from "./xr/availability.ts";
 
+/** Everything a headset needs is fetched when one is first asked for. */
+const Headset = lazy(() => import("./xr/headset.tsx").then(part => ({ default: part.Headset })));
 const meter = new FrameMeter();
 const BARE_FLANGE: Pose<"flange", "tcp"> = identity();
 
@@ -38,6 +42,7 @@ const BARE_FLANGE: Pose<"flange", "tcp"> = identity();
 export function Viewport() {
   const document = useStore(cellStore, state => state.document);
   const mode = useStore(viewStore, state => state.mode), inHeadset = useStore(viewStore, state => state.inHeadset);
+  const wish = useStore(viewStore, state => state.headsetWish);
   const playing = useStore(playStore, state => state.playing), tracing = useStore(traceStore, state => state.active);
   const theme = useStore(viewStore, state => state.theme), colours = useMemo(() => readTheme(theme), [theme]);
   const [pictured, setPictured] = useState(true);
@@ -49,11 +54,12 @@ export function Viewport() {
   useEffect(() => {
     if (robot && worldFromBase) dragFollows(robot, worldFromBase, tool?.flangeFromTcp ?? BARE_FLANGE);
   }, [robot, worldFromBase, tool]);
+  useEffect(() => registerCommands([{ id: "view.fit", group: "view", words: WORDS.fit, keys: ["F"], run: () => wishes.fit() }]), [wishes]);
+  useEffect(() => { void askForHeadset(); }, []);
 
   return (
     <div className="viewport">
-      <div className="canvas" style={{ position: "absolute", inset: 0 }} role="application" aria-label={WORDS.viewport} tabIndex={0}
-        onKeyDown={event => { if (event.key === "f" && !event.ctrlKey && !event.metaKey && !event.altKey) { wishes.fit(); event.preventDefault(); } }}>
+      <div className="canvas" style={{ position: "absolute", inset: 0 }} role="img" aria-label={WORDS.viewport}>
         <Canvas frameloop="demand" dpr={[1, 2]} shadows={{ type: PCFShadowMap }} gl={{ antialias: true, toneMapping: NeutralToneMapping, toneMappingExposure: 0.95 }}
           camera={{ fov: 32, near: 0.05, far: 60, position: [3.6, 2.3, 2.1] }}>
           <RenderLoop meter={meter} picture={picture} cube={cube} />
@@ -63,7 +69,7 @@ export function Viewport() {
             {document && <Stage theme={colours} document={document} />}
             {document && robot && <RobotView robot={robot} worldFromBase={document.robot.worldFromBase} />}
             {document && tool && <ToolView tool={tool} worldFromBase={document.robot.worldFromBase} />}
-            {document?.objects.map(object => <ObjectView key={object.id} object={object} />)}
+            {document?.objects.map(object => <ObjectView key={object.id} object={object} theme={colours} />)}
             <PathView theme={colours} />
             {document && <Waypoints document={document} />}
             <TcpTrace theme={colours} />
@@ -72,6 +78,7 @@ export function Viewport() {
             <Ghost interaction={interaction} tool={tool} theme={colours} />
             <Outline world={world} theme={colours} />
           </group>
+          {document && wish > 0 && <Suspense fallback={null}><Headset wish={wish} document={document} interaction={interaction} world={world} /></Suspense>}
           {document && <Pointer interaction={interaction} label={label} world={world} handle={targets} document={document} meter={meter} />}
         </Canvas>
       </div>

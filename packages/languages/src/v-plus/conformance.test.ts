@@ -1,4 +1,5 @@
 import { pose, robotById } from "@twincell/core";
+import { expect, test } from "vitest";
 import { vPlus } from "../index.ts";
 import { describeDialect, describeMutations, type DialectBench } from "../testing/describe-dialect.ts";
 
@@ -10,6 +11,16 @@ const bench: DialectBench = {
 };
 
 describeDialect(vPlus, bench);
+
+test("a byte-order mark, lower case and blanks at will change nothing", () => {
+  const steps = (text: string): unknown => {
+    const parsed = vPlus.parse(text, bench.robot);
+    return parsed.kind === "parsed" ? parsed.program.steps : parsed.faults;
+  };
+  const plain = steps(".PROGRAM a()\nSPEED 50 ALWAYS\nMOVE #PPOINT(1,2,3)\n.END\n");
+  expect(plain).toMatchObject([{ type: "move", speed: { ratio: 0.5 } }]);
+  expect(steps("\uFEFF.program A ( )\r\n\tspeed  50 always\r\n  move   #ppoint ( 1 , 2 ,3 )\r\n.end\r\n")).toEqual(plain);
+});
 
 /** Changes the numbers of the first location that matches. */
 const location = (word: "TRANS" | "#PPOINT", change: (numbers: string[]) => string[]) => (text: string): string =>

@@ -23,7 +23,7 @@ export function Controls({ wishes, world, document, interaction }: {
   const camera = useThree(state => state.camera), size = useThree(state => state.size), invalidate = useThree(state => state.invalidate);
   const close = useStore(viewStore, state => state.camera === "close"), inHeadset = useStore(viewStore, state => state.inHeadset);
   const flight = useMemo(() => ({ start_ms: 0, on: false, fromPlace: new Vector3(), fromTarget: new Vector3(), place: new Vector3(), target: new Vector3() }), []);
-  const seen = useRef("");
+  const seen = useRef(""), pending = useRef<(() => void) | null>(null);
 
   useEffect(() => {
     if (!(camera instanceof PerspectiveCamera)) return;
@@ -51,11 +51,13 @@ export function Controls({ wishes, world, document, interaction }: {
     wishes.look = direction => towards(direction, false);
     // Another cell is another place: look at all of it once.
     const place = `${document.name} ${document.robot.id} ${document.objects.length > 0}`;
-    if (seen.current !== place) { seen.current = place; towards(FIRST_LOOK, true); }
+    if (seen.current !== place) { seen.current = place; pending.current = () => towards(FIRST_LOOK, true); invalidate(); }
   }, [camera, document, flight, invalidate, wishes, world]);
 
   useFrame(() => {
     const orbit = controls.current;
+    pending.current?.();
+    pending.current = null;
     if (!flight.on || !orbit) return;
     const t = Math.min(1, (performance.now() - flight.start_ms) / FLIGHT_MS), eased = 1 - (1 - t) ** 3;
     camera.position.lerpVectors(flight.fromPlace, flight.place, eased);
@@ -63,7 +65,7 @@ export function Controls({ wishes, world, document, interaction }: {
     orbit.update();
     interaction.dirty = true;
     if (t < 1) invalidate(); else flight.on = false;
-  }, -15);
+  }, -6);
 
   return (
     <OrbitControls ref={controls} makeDefault enabled={!close && !inHeadset} enableDamping={false} minDistance={0.15} maxDistance={14} maxPolarAngle={Math.PI * 0.94} zoomToCursor

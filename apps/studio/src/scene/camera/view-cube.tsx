@@ -10,8 +10,8 @@ const FACES: readonly { readonly side: keyof typeof sides; readonly css: string;
   { side: "front", css: "rotateY(90deg)", way: new Vector3(-1, 0, 0) },
   { side: "left", css: "rotateY(180deg)", way: new Vector3(0, 0, 1) },
   { side: "back", css: "rotateY(-90deg)", way: new Vector3(1, 0, 0) },
-  { side: "top", css: "rotateX(90deg)", way: new Vector3(-0.0004, -1, 0) },
-  { side: "bottom", css: "rotateX(-90deg)", way: new Vector3(-0.0004, 1, 0) },
+  { side: "top", css: "rotateX(90deg) rotateZ(-90deg)", way: new Vector3(-0.0004, -1, 0) },
+  { side: "bottom", css: "rotateX(-90deg) rotateZ(90deg)", way: new Vector3(-0.0004, 1, 0) },
 ];
 
 /** A cube that shows how the view stands and takes it to a side when clicked. Plain DOM: keyboard and screen reader work. */

@@ -3,7 +3,7 @@ import type { CellDocument } from "@twincell/project";
 import { useFrame, useThree } from "@react-three/fiber";
 import { type RefObject, useEffect, useMemo } from "react";
 import { type Group, type Mesh, PerspectiveCamera, Raycaster, Vector3 as V } from "three";
-import { dragTcp, endDrag } from "../../live/drag.ts";
+import { beginDrag, dragTcp } from "../../live/drag.ts";
 import { theLive } from "../../live/live.ts";
 import { hover, select, selectionStore, type Thing } from "../../stores/selection.ts";
 import { traceStore } from "../../stores/trace.ts";
@@ -30,7 +30,7 @@ export function Pointer({ interaction, label, world, handle, document, meter }: 
   const gl = useThree(state => state.gl), camera = useThree(state => state.camera), controls = useThree(state => state.controls), invalidate = useThree(state => state.invalidate);
   const work = useMemo(() => ({
     caster: new Raycaster(), ray: { origin: [0, 0, 0], direction: [0, 0, 1] } as { origin: Vector3; direction: Vector3 }, view: new V(),
-    grip: null as Grip | null, downX: 0, downY: 0, down: false, touches: 0, pose: identity<"world", "tcp">(),
+    grip: null as Grip | null, end: (): void => undefined, downX: 0, downY: 0, down: false, touches: 0, pose: identity<"world", "tcp">(),
   }), []);
 
   useEffect(() => {
@@ -63,6 +63,7 @@ export function Pointer({ interaction, label, world, handle, document, meter }: 
         ray: { origin: [...work.ray.origin], direction: [...work.ray.direction] }, view: toWorld(camera.getWorldDirection(work.view), [0, 0, 0]),
       };
       interaction.draggedPart = part;
+      work.end = beginDrag(drop);
       canvas.setPointerCapture(event.pointerId);
     });
     const onMove = timed(event => {
@@ -74,7 +75,7 @@ export function Pointer({ interaction, label, world, handle, document, meter }: 
       work.grip = null;
       interaction.draggedPart = null; interaction.wanting = false; interaction.dirty = true;
       enable(true);
-      endDrag();
+      work.end();
       sayAtPointer(label, "", "plain", 0, 0);
     };
     const onUp = timed(event => {

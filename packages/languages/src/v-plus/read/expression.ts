@@ -3,7 +3,7 @@ import type { Cursor } from "./cursor.ts";
 import type { Expression, Variable } from "./syntax.ts";
 
 /** Names longer than this are not V+. */
-export const NAME_LENGTH = 15;
+const NAME_LENGTH = 15;
 /** Brackets inside brackets: more than anybody writes, less than the stack holds. */
 const DEPTH = 60;
 
