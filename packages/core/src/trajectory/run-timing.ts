@@ -11,7 +11,7 @@ import { PathTimer, type TimingGrid, type TimingLimits } from "./timing.ts";
  */
 const SPEED_SHARE = 0.999, ACCELERATION_SHARE = 0.98;
 /** Intervals of the timing grid on a piece, and on one that begins or ends at rest. */
-const INTERVALS = 6, INTERVALS_AT_REST = 16;
+const INTERVALS = 4, INTERVALS_AT_REST = 12;
 /** How often the grid is made denser when the cubics between its nodes are over a limit. */
 const MOST_DENSE = 4;
 /** Least ṡ² inside a run. */
