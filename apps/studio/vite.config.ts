@@ -1,13 +1,14 @@
 import { fileURLToPath } from "node:url";
 import react from "@vitejs/plugin-react";
 import { defineConfig } from "vite";
+import { controllerProfiles } from "./vite-profiles.ts";
 
 const empty = fileURLToPath(new URL("src/scene/xr/no-emulator.ts", import.meta.url));
 
 export default defineConfig({
   root: fileURLToPath(new URL(".", import.meta.url)),
   base: "./",
-  plugins: [react()],
+  plugins: [react(), controllerProfiles()],
   worker: { format: "es" },
   build: { target: "es2022", outDir: "dist", chunkSizeWarningLimit: 2000 },
   resolve: {

@@ -1,41 +1,90 @@
-import { robotById } from "@twincell/core";
+import { identity, type Pose, robotById } from "@twincell/core";
 import { Canvas } from "@react-three/fiber";
-import { useMemo } from "react";
-import { NeutralToneMapping, PCFShadowMap } from "three";
+import { lazy, Suspense, useEffect, useMemo, useRef, useState } from "react";
+import { type Group, type Mesh, NeutralToneMapping, PCFShadowMap } from "three";
 import { useStore } from "zustand";
+import { dragFollows } from "../live/drag.ts";
 import { cellStore } from "../stores/cell.ts";
+import { registerCommands } from "../stores/commands.ts";
+import { playStore } from "../stores/play.ts";
+import { traceStore } from "../stores/trace.ts";
 import { viewStore } from "../stores/view.ts";
-import { Controls } from "./camera/controls.tsx";
+import { type CameraWishes, Controls } from "./camera/controls.tsx";
+import { ViewCube } from "./camera/view-cube.tsx";
 import { FrameMeter } from "./frame-meter.ts";
+import { Ghost, TcpHandle } from "./handle/tcp-handle.tsx";
+import { newInteraction, type PointerLabel } from "./interaction.ts";
 import { ObjectView } from "./objects/object-view.tsx";
+import { PathView } from "./path/path-view.tsx";
+import { TcpTrace } from "./path/tcp-trace.tsx";
+import { Waypoints } from "./path/waypoints.tsx";
+import { EdgeView } from "./pick/edge-view.tsx";
+import { Pointer } from "./pick/pointer.tsx";
+import { Outline } from "./pick/outline.tsx";
+import { Picture } from "./picture-frame.tsx";
 import { hiddenPicture } from "./picture.ts";
 import { RenderLoop } from "./render-loop.tsx";
 import { RobotView } from "./robot/robot-view.tsx";
+import { Probe } from "./scene-probe.tsx";
 import { Stage } from "./stage/stage.tsx";
+import "./scene.css";
 import { readTheme } from "./theme.ts";
 import { ToolView } from "./tool-view.tsx";
+import { WORDS } from "./words.ts";
+import { askForHeadset } from "./xr/availability.ts";
 
+/** Everything a headset needs is fetched when one is first asked for. */
+const Headset = lazy(() => import("./xr/headset.tsx").then(part => ({ default: part.Headset })));
 const meter = new FrameMeter();
+const BARE_FLANGE: Pose<"flange", "tcp"> = identity();
 
 /** The cell as it is now. Draws what stores and live state say; decides nothing. */
 export function Viewport() {
   const document = useStore(cellStore, state => state.document);
-  const theme = useStore(viewStore, state => state.theme);
-  const colours = useMemo(() => readTheme(theme), [theme]);
-  const picture = useMemo(hiddenPicture, []);
-  const robot = document && robotById(document.robot.id);
-  const tool = document?.tools.find(each => each.name === document.tool);
+  const mode = useStore(viewStore, state => state.mode), inHeadset = useStore(viewStore, state => state.inHeadset);
+  const wish = useStore(viewStore, state => state.headsetWish);
+  const playing = useStore(playStore, state => state.playing), tracing = useStore(traceStore, state => state.active);
+  const theme = useStore(viewStore, state => state.theme), colours = useMemo(() => readTheme(theme), [theme]);
+  const [pictured, setPictured] = useState(true);
+  const picture = useMemo(hiddenPicture, []), interaction = useMemo(newInteraction, []), wishes = useMemo<CameraWishes>(() => ({ fit: () => undefined, look: () => undefined }), []);
+  const label = useMemo<PointerLabel>(() => ({ element: null }), []), targets = useRef<readonly Mesh[]>([]);
+  const world = useRef<Group>(null), cube = useRef<HTMLDivElement>(null);
+  const robot = document ? robotById(document.robot.id) : undefined, tool = document?.tools.find(each => each.name === document.tool);
+  const worldFromBase = document?.robot.worldFromBase;
+  useEffect(() => {
+    if (robot && worldFromBase) dragFollows(robot, worldFromBase, tool?.flangeFromTcp ?? BARE_FLANGE);
+  }, [robot, worldFromBase, tool]);
+  useEffect(() => registerCommands([{ id: "view.fit", group: "view", words: WORDS.fit, keys: ["F"], run: () => wishes.fit() }]), [wishes]);
+  useEffect(() => { void askForHeadset(); }, []);
+
   return (
-    <Canvas frameloop="demand" dpr={[1, 2]} shadows={{ type: PCFShadowMap }} gl={{ antialias: true, toneMapping: NeutralToneMapping, toneMappingExposure: 0.95 }}
-      camera={{ fov: 32, near: 0.05, far: 60, position: [3.2, 1.75, 2.05] }}>
-      <RenderLoop meter={meter} picture={picture} />
-      <Controls />
-      <group rotation-x={-Math.PI / 2}>
-        {document && <Stage theme={colours} document={document} />}
-        {document && robot && <RobotView robot={robot} worldFromBase={document.robot.worldFromBase} />}
-        {document && tool && <ToolView tool={tool} worldFromBase={document.robot.worldFromBase} />}
-        {document?.objects.map(object => <ObjectView key={object.id} object={object} />)}
-      </group>
-    </Canvas>
+    <div className="viewport">
+      <div className="canvas" style={{ position: "absolute", inset: 0 }} role="img" aria-label={WORDS.viewport}>
+        <Canvas frameloop="demand" dpr={[1, 2]} shadows={{ type: PCFShadowMap }} gl={{ antialias: true, toneMapping: NeutralToneMapping, toneMappingExposure: 0.95 }}
+          camera={{ fov: 32, near: 0.05, far: 60, position: [3.6, 2.3, 2.1] }}>
+          <RenderLoop meter={meter} picture={picture} cube={cube} />
+          <Probe meter={meter} />
+          {document && <Controls wishes={wishes} world={world} document={document} interaction={interaction} />}
+          <group rotation-x={-Math.PI / 2} ref={world}>
+            {document && <Stage theme={colours} document={document} />}
+            {document && robot && <RobotView robot={robot} worldFromBase={document.robot.worldFromBase} />}
+            {document && tool && <ToolView tool={tool} worldFromBase={document.robot.worldFromBase} />}
+            {document?.objects.map(object => <ObjectView key={object.id} object={object} theme={colours} />)}
+            <PathView theme={colours} />
+            {document && <Waypoints document={document} />}
+            <TcpTrace theme={colours} />
+            <EdgeView theme={colours} />
+            <TcpHandle interaction={interaction} shown={robot !== undefined && mode === "teach" && !playing && !tracing} theme={colours} targets={targets} />
+            <Ghost interaction={interaction} tool={tool} theme={colours} />
+            <Outline world={world} theme={colours} />
+          </group>
+          {document && wish > 0 && <Suspense fallback={null}><Headset wish={wish} document={document} interaction={interaction} world={world} /></Suspense>}
+          {document && <Pointer interaction={interaction} label={label} world={world} handle={targets} document={document} meter={meter} />}
+        </Canvas>
+      </div>
+      <ViewCube cube={cube} wishes={wishes} />
+      {pictured && robot && !inHeadset && <Picture picture={picture} onHide={() => setPictured(false)} />}
+      <div className="pointer-label" hidden ref={element => { label.element = element; }} />
+    </div>
   );
 }

@@ -1,20 +1,21 @@
 import { useFrame, useThree } from "@react-three/fiber";
 import type { Vector3 as Vector } from "@twincell/core";
-import { useEffect, useMemo } from "react";
-import { PerspectiveCamera } from "three";
+import { type RefObject, useEffect, useMemo } from "react";
+import { PerspectiveCamera, Quaternion } from "three";
 import { theLive } from "../live/live.ts";
 import { viewStore } from "../stores/view.ts";
 import { closeCameraPosition } from "./camera/close-camera.ts";
+import { turnCube } from "./camera/view-cube.tsx";
 import type { FrameMeter } from "./frame-meter.ts";
 import type { PictureFrame } from "./picture.ts";
 
 const place: Vector = [0, 0, 0];
 
 /** Renders the frame: the view, and the other camera as a picture in it. Measures script and draw time apart. */
-export function RenderLoop({ meter, picture }: { readonly meter: FrameMeter; readonly picture: PictureFrame }) {
+export function RenderLoop({ meter, picture, cube }: { readonly meter: FrameMeter; readonly picture: PictureFrame; readonly cube: RefObject<HTMLDivElement | null> }) {
   const close = useMemo(() => new PerspectiveCamera(40, 1.4, 0.02, 60), []);
   const overview = useMemo(() => new PerspectiveCamera(36, 1.4, 0.05, 60), []);
-  const clock = useMemo(() => ({ start: 0 }), []);
+  const clock = useMemo(() => ({ start: 0, turned: new Quaternion(0, 0, 0, 0) }), []);
   const invalidate = useThree(state => state.invalidate);
 
   // Nothing is drawn while nothing changes: one comparison per display frame keeps watch.
@@ -64,7 +65,10 @@ export function RenderLoop({ meter, picture }: { readonly meter: FrameMeter; rea
         gl.setViewport(0, 0, size.width, size.height);
       }
     }
-    meter.addDraw(performance.now() - drawing);
+    const drawn = performance.now();
+    if (cube.current && !camera.quaternion.equals(clock.turned)) { clock.turned.copy(camera.quaternion); turnCube(cube.current, camera); }
+    meter.addDraw(drawn - drawing);
+    meter.addScript(performance.now() - drawn);
     meter.endFrame();
   }, 1);
   return null;

@@ -6,6 +6,7 @@ import { BufferAttribute, type BufferGeometry, Color, type Group } from "three";
 import { theLive } from "../live/live.ts";
 import { shapeGeometry } from "./objects/shape-geometry.ts";
 import { paintTouching } from "./paint.ts";
+import { raycastByTree } from "./pick/raycast.ts";
 import { poseMatrix } from "./pose-matrix.ts";
 
 const BODY = new Color("#2b3136"), TIP = new Color("#c98f45");
@@ -54,7 +55,7 @@ export function ToolView({ tool, worldFromBase }: { readonly tool: ToolRecord; r
   return (
     <group ref={group} name="tool" matrixAutoUpdate={false} userData={{ thing: { kind: "tool" } }}>
       <Wire tool={tool} from_m={geometry?.boundingBox?.max.z ?? 0} />
-      {geometry && <mesh geometry={geometry} castShadow receiveShadow><meshStandardMaterial vertexColors roughness={0.36} metalness={0.6} /></mesh>}
+      {geometry && <mesh geometry={geometry} castShadow receiveShadow raycast={raycastByTree}><meshStandardMaterial vertexColors roughness={0.36} metalness={0.6} /></mesh>}
     </group>
   );
 }

@@ -20,6 +20,6 @@ export const WORDS = {
   noHeadset: "This browser has no WebXR.",
   noHeadsetSecure: "A headset needs a secure page: open it over https or on localhost.",
   noHeadsetDevice: "No headset answers this browser.",
-  record: "Record", deletePoint: "Delete last", play: "Play", pause: "Pause", stop: "STOP", leave: "Leave",
+  record: "Record", deletePoint: "Delete last", play: "Play", pause: "Pause", stop: "STOP", leave: "Leave", tilt: "tilt",
   points: (count: number): string => `${count} ${count === 1 ? "point" : "points"}`,
 } as const;

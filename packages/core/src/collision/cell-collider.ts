@@ -81,7 +81,7 @@ export class CellCollider {
   check(q: ArrayLike<number>, out: Contact[] = []): Contact[] {
     this.place(q);
     out.length = 0;
-    for (const pair of this.#pairs) if (this.#touch(pair)) out.push(pair.contact);
+    for (const pair of this.#pairs) if (this.touchOf(pair)) out.push(pair.contact);
     return out;
   }
 
@@ -91,7 +91,7 @@ export class CellCollider {
     const pairs = this.#pairs;
     for (let i = 0; i < pairs.length; i++) {
       const pair = pairs[i]!;
-      if (!this.#touch(pair)) continue;
+      if (!this.touchOf(pair)) continue;
       pair.hits++;
       if (i > 0 && pairs[i - 1]!.hits < pair.hits) { pairs[i] = pairs[i - 1]!; pairs[i - 1] = pair; }
       return true;
@@ -103,7 +103,7 @@ export class CellCollider {
   near(q: ArrayLike<number>, within_m: number, out: Contact[] = []): Contact[] {
     this.place(q);
     out.length = 0;
-    for (const pair of this.#pairs) if (this.distanceOf(pair, within_m) < within_m) out.push(pair.contact);
+    for (const pair of this.#pairs) if (this.distanceOf(pair, within_m, within_m) < within_m) out.push(pair.contact);
     return out;
   }
 
@@ -144,15 +144,25 @@ export class CellCollider {
     return out;
   }
 
-  /** Distance of one pair [m] in the posture last placed, if below `cutoff_m`, else Infinity. */
-  distanceOf(pair: SolidPair, cutoff_m: number): number {
+  /**
+   * Distance of one pair [m] in the posture last placed, if below `cutoff_m`, else Infinity.
+   *
+   * @param enough_m  a first find nearer than this ends the search, and the answer is then only a bound from above.
+   */
+  distanceOf(pair: SolidPair, cutoff_m: number, enough_m = 0): number {
     const { a, b, witness } = pair;
     if (farApart(a.box, b.box, cutoff_m)) return Infinity;
     const relative = between(a.worldFromBody, b.worldFromBody, this.#scratch.relative);
     this.#scratch.witness.set(witness);
-    const distance = solidDistance(a.solid, b.solid, relative, cutoff_m, this.#scratch, this.#points);
+    const distance = solidDistance(a.solid, b.solid, relative, cutoff_m, this.#scratch, this.#points, enough_m);
     if (distance < cutoff_m) witness.set(this.#scratch.witness);
     return distance;
+  }
+
+  /** Whether one pair is in contact in the posture last placed. */
+  touchOf({ a, b }: SolidPair): boolean {
+    if (farApart(a.box, b.box, 0)) return false;
+    return solidsTouch(a.solid, b.solid, between(a.worldFromBody, b.worldFromBody, this.#scratch.relative), this.#scratch);
   }
 
   /**
@@ -216,11 +226,6 @@ export class CellCollider {
   #placeOnLink(body: Body): void {
     compose(this.#worldFromBase as Pose, this.#baseFromLinks[body.carrier] as Pose, this.#worldFromLink);
     placeBody(body, this.#worldFromLink, this.#turn);
-  }
-
-  #touch({ a, b }: SolidPair): boolean {
-    if (farApart(a.box, b.box, 0)) return false;
-    return solidsTouch(a.solid, b.solid, between(a.worldFromBody, b.worldFromBody, this.#scratch.relative), this.#scratch);
   }
 
   #pointsInto({ a }: SolidPair, out: Clearance): void {

@@ -1,7 +1,7 @@
 import type { Bvh } from "./bvh.ts";
 import { makeRoom, size, type PairScratch } from "./intersect.ts";
 import { movePoints, type Rigid } from "./relative.ts";
-import { triangleDistance2 } from "./triangle-distance.ts";
+import { segmentDistance2, triangleDistance2 } from "./triangle-distance.ts";
 
 /**
  * Distance between two surfaces [m] when it is below `cutoff_m`, else Infinity. 0 when they share a point.
@@ -10,19 +10,24 @@ import { triangleDistance2 } from "./triangle-distance.ts";
  * @param out      receives the nearest point of a and of b, both in a's frame [m]; unchanged for Infinity.
  * @param scratch  working memory. `scratch.witness` names a pair of triangles to begin with, when it holds numbers ≥ 0
  *                 (last time's nearest pair prunes best), and receives the nearest pair. The call allocates nothing.
+ * @param enough_m  the search ends with the first pair of triangles nearer than this: 0 for the true distance; the cut-off
+ *                  when it only matters whether anything is nearer.
  * @see Larsen, Gottschalk, Lin, Manocha, Fast distance queries with rectangular swept sphere volumes, ICRA 2000.
  */
-export function surfaceDistance(a: Bvh, b: Bvh, aFromB: Rigid, cutoff_m: number, scratch: PairScratch, out: Float64Array): number {
+export function surfaceDistance(
+  a: Bvh, b: Bvh, aFromB: Rigid, cutoff_m: number, scratch: PairScratch, out: Float64Array, enough_m = 0,
+): number {
   if (a.source.length === 0 || b.source.length === 0) return Infinity;
   makeRoom(scratch, a, b);
   const stack = scratch.stack, bounds = scratch.bounds, witness = scratch.witness, linksA = a.links, linksB = b.links;
+  const enough = enough_m * enough_m;
   let best = cutoff_m * cutoff_m, found = false;
   if (witness[0]! >= 0 && witness[0]! < a.source.length && witness[1]! >= 0 && witness[1]! < b.source.length) {
     movePoints(aFromB, b.corners, 9 * witness[1]!, 3, scratch.triangles, 0);
     const seed = triangleDistance2(a.corners, 9 * witness[0]!, scratch.triangles, 0, best, out);
     if (seed < best) { best = seed; found = true; }
   }
-  if (boxDistance2(a.boxes, 0, b.boxes, 0, aFromB) >= best) return found ? Math.sqrt(best) : Infinity;
+  if ((found && best < enough) || boxDistance2(a.boxes, 0, b.boxes, 0, aFromB) >= best) return found ? Math.sqrt(best) : Infinity;
   let nodeA = 0, nodeB = 0, top = 0;
   for (;;) {
     const countA = linksA[2 * nodeA + 1]!, countB = linksB[2 * nodeB + 1]!;
@@ -42,7 +47,7 @@ export function surfaceDistance(a: Bvh, b: Bvh, aFromB: Rigid, cutoff_m: number,
       if (Math.min(toFirst, toSecond) < best) { if (openA) nodeA = near; else nodeB = near; continue; }
     }
     do {
-      if (top === 0 || best === 0) return found ? Math.sqrt(best) : Infinity;
+      if (top === 0 || best === 0 || (found && best < enough)) return found ? Math.sqrt(best) : Infinity;
       nodeB = stack[--top]!; nodeA = stack[--top]!;
     } while (bounds[top >> 1]! >= best);
   }
@@ -51,14 +56,25 @@ export function surfaceDistance(a: Bvh, b: Bvh, aFromB: Rigid, cutoff_m: number,
 function nearestInLeaves(
   a: Bvh, fromA: number, countA: number, b: Bvh, fromB: number, countB: number, aFromB: Rigid, limit: number, scratch: PairScratch, out: Float64Array,
 ): number {
-  const moved = scratch.triangles;
-  movePoints(aFromB, b.corners, 9 * fromB, 3 * countB, moved, 0);
-  let best = limit;
-  for (let i = 0; i < countA; i++) for (let j = 0; j < countB; j++) {
-    const squared = triangleDistance2(a.corners, 9 * (fromA + i), moved, 9 * j, best, out);
-    if (squared >= best) continue;
-    best = squared;
-    scratch.witness[0] = fromA + i; scratch.witness[1] = fromB + j;
+  const moved = scratch.triangles, ball = scratch.ball;
+  let best = limit, reach = Math.sqrt(best);
+  for (let j = 0; j < countB; j++) {
+    movePoints(aFromB, b.balls, 4 * (fromB + j), 1, ball, 0);
+    const bx = ball[0]!, by = ball[1]!, bz = ball[2]!, br = b.balls[4 * (fromB + j) + 3]!;
+    let here = false;
+    for (let i = 0; i < countA; i++) {
+      const at = 4 * (fromA + i), dx = bx - a.balls[at]!, dy = by - a.balls[at + 1]!, dz = bz - a.balls[at + 2]!;
+      const far = a.balls[at + 3]! + br + reach;
+      if (dx * dx + dy * dy + dz * dz >= far * far) continue;
+      if (!here) { movePoints(aFromB, b.corners, 9 * (fromB + j), 3, moved, 0); here = true; }
+      // Slivers fill little of their balls but most of the capsules around their longest edges.
+      const apart = reach + a.heights[fromA + i]! + b.heights[fromB + j]!;
+      if (segmentDistance2(a.corners, 9 * (fromA + i), moved, 0) >= apart * apart) continue;
+      const squared = triangleDistance2(a.corners, 9 * (fromA + i), moved, 0, best, out);
+      if (squared >= best) continue;
+      best = squared; reach = Math.sqrt(best);
+      scratch.witness[0] = fromA + i; scratch.witness[1] = fromB + j;
+    }
   }
   return best;
 }

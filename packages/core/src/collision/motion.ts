@@ -10,8 +10,8 @@ export interface JointMotion {
 }
 
 export type MotionVerdict =
-  /** Proven: at no instant is any watched pair nearer than its margin. `nearest_m` is the least distance seen, if any was looked up. */
-  | { readonly kind: "clear"; readonly nearest_m: number; readonly checks: number }
+  /** Proven: at no instant is any watched pair nearer than its margin. */
+  | { readonly kind: "clear"; readonly checks: number }
   /** The first instant at which a pair is nearer than its margin, to within the resolution. */
   | { readonly kind: "contact"; readonly at: number; readonly a: string; readonly b: string; readonly distance_m: number; readonly margin_m: number; readonly checks: number }
   /** The limit on checks was used up: proven clear only until `at`. */
@@ -45,7 +45,7 @@ export function checkMotion(
   const margins = pairs.map(pair => (margin_m > 0 && keepsMargin(pair) ? margin_m + (isLinkAndObject(pair) ? collider.shapeError_m : 0) : 0));
   const q = new Float64Array(motion.maxRate.length);
   const stack: Interval[] = [{ from, to, open: pairs.map((_, i) => i) }];
-  let checks = 0, nearest_m = Infinity;
+  let checks = 0;
   for (let interval = stack.pop(); interval; interval = stack.pop()) {
     if (checks >= maxChecks) return { kind: "undecided", at: interval.from, checks };
     const middle = (interval.from + interval.to) / 2, half = (interval.to - interval.from) / 2, open: number[] = [];
@@ -55,13 +55,13 @@ export function checkMotion(
     checks++;
     for (const i of interval.open) {
       const pair = pairs[i]!, margin = margins[i]!, drift = rates[i]! * half;
-      const distance = collider.distanceOf(pair, margin + drift + resolution_m);
-      nearest_m = Math.min(nearest_m, distance);
-      if (distance > margin + drift) continue;
+      // Whether it is nearer than the drift is all that matters: the first pair of triangles that is ends the search.
+      if (collider.distanceOf(pair, margin + drift, margin + drift) > margin + drift) continue;
       if (drift <= resolution_m) {
-        return { kind: "contact", at: middle, a: pair.contact.a, b: pair.contact.b, distance_m: distance, margin_m: margin, checks };
+        const distance_m = collider.distanceOf(pair, margin + resolution_m);
+        return { kind: "contact", at: middle, a: pair.contact.a, b: pair.contact.b, distance_m, margin_m: margin, checks };
       }
-      if (distance <= margin) blocked = true;
+      if (!blocked && collider.touchOf(pair)) blocked = true;
       open.push(i);
     }
     if (open.length === 0) continue;
@@ -69,7 +69,7 @@ export function checkMotion(
     if (blocked) stack.length = 0; else stack.push({ from: middle, to: interval.to, open });
     stack.push({ from: interval.from, to: middle, open });
   }
-  return { kind: "clear", nearest_m, checks };
+  return { kind: "clear", checks };
 }
 
 interface Interval { readonly from: number; readonly to: number; readonly open: readonly number[] }

@@ -40,8 +40,10 @@ export function solidsTouch(a: Solid, b: Solid, aFromB: Rigid, scratch: PairScra
  * Distance of two solids [m] when below `cutoff_m`, else Infinity; 0 when they share a point or one holds the other.
  * Parameters as in `surfaceDistance`.
  */
-export function solidDistance(a: Solid, b: Solid, aFromB: Rigid, cutoff_m: number, scratch: PairScratch, out: Float64Array): number {
-  const distance = surfaceDistance(a.bvh, b.bvh, aFromB, cutoff_m, scratch, out);
+export function solidDistance(
+  a: Solid, b: Solid, aFromB: Rigid, cutoff_m: number, scratch: PairScratch, out: Float64Array, enough_m = 0,
+): number {
+  const distance = surfaceDistance(a.bvh, b.bvh, aFromB, cutoff_m, scratch, out, enough_m);
   if (distance > 0 && oneInsideOther(a, b, aFromB, scratch)) {
     out.set(scratch.point, 0); out.set(scratch.point, 3);
     return 0;

@@ -1,2 +1,4 @@
 export * from "./jogged.ts";
 export * from "./jog.ts";
+export * from "./clutch.ts";
+export * from "./aids.ts";

@@ -43,9 +43,9 @@ export const jogScratch = (): JogScratch => ({
 
 const NONE: readonly JogBlock[] = [];
 const AXES = ["x", "y", "z"] as const;
-/** Steps below this part of the wanted one are looked at twice: on a singularity the arm must turn in place instead. */
-const ALL_BUT_STANDING = 1e-6;
-const SHORTEST = 1e-10;
+/** A step shortened below this [m, rad] is looked at twice: on a singularity the arm must turn in place instead. */
+const ALL_BUT_STANDING = 1e-8;
+const SHORTEST = 1e-12;
 /** A turn in place below this share of the joint speeds is rounding. */
 const LEAST_TURN = 1e-3;
 /** Rounding of limits given in degrees. */
@@ -123,13 +123,14 @@ function towards(cell: JogCell, frame: Quaternion, x: boolean, y: boolean, z: bo
   const { masked, linear, start, best } = scratch;
   masked[0] = x ? linear[0] : 0; masked[1] = y ? linear[1] : 0; masked[2] = z ? linear[2] : 0;
   rotate(frame, masked, masked);
+  const length = norm(masked) + (turns ? norm(scratch.angular) : 0);
   let turn1 = 0, turn4 = 0;
   for (let fraction = 1; fraction >= SHORTEST;) {
     const reach = solveAt(cell, masked, turns, fraction, scratch);
     if (reach !== undefined) return reach;
     const load = speedLoad(cell.robot, start, best, dt_s);
     if (load <= 1) {
-      if (fraction < ALL_BUT_STANDING && turnInPlace(cell, turn1, turn4, dt_s, out, scratch)) return 0;
+      if (fraction < 1 && fraction * length < ALL_BUT_STANDING && turnInPlace(cell, turn1, turn4, dt_s, out, scratch)) return 0;
       out.set(best);
       return fraction;
     }

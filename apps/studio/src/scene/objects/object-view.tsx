@@ -1,13 +1,17 @@
 import type { ObjectRecord } from "@twincell/project";
+import { useFrame } from "@react-three/fiber";
 import { useEffect, useMemo, useRef } from "react";
-import { EdgesGeometry, type Group } from "three";
+import { type BufferGeometry, Color, EdgesGeometry, type Group, type LineSegments, type Mesh, Vector3 } from "three";
 import { paintTouching } from "../paint.ts";
+import { raycastByTree } from "../pick/raycast.ts";
 import { poseMatrix } from "../pose-matrix.ts";
 import { kraftTexture, looksLikeCardboard } from "./cardboard.ts";
 import { shapeGeometry } from "./shape-geometry.ts";
+import { wallHides } from "./walls.ts";
+import type { SceneTheme } from "../theme.ts";
 
 /** One thing in the cell: furniture, work piece or wall. */
-export function ObjectView({ object }: { readonly object: ObjectRecord }) {
+export function ObjectView({ object, theme }: { readonly object: ObjectRecord; readonly theme: SceneTheme }) {
   const group = useRef<Group>(null);
   const geometry = useMemo(() => shapeGeometry(object.shape), [object.shape]);
   const edges = useMemo(() => new EdgesGeometry(geometry, 40), [geometry]);
@@ -23,24 +27,37 @@ export function ObjectView({ object }: { readonly object: ObjectRecord }) {
   const cardboard = object.role === "workpiece" && box !== null && looksLikeCardboard(object.color);
   return (
     <group ref={group} name={object.id} matrixAutoUpdate={false} userData={{ thing: { kind: "object", id: object.id } }}>
-      {wall ? <Wall geometry={geometry} edges={edges} color={object.color} />
+      {wall ? <Wall geometry={geometry} edges={edges} color={object.color} size_m={box} theme={theme} />
         : cardboard ? <Carton geometry={geometry} size_m={box} color={object.color} />
-          : <mesh geometry={geometry} castShadow receiveShadow><meshStandardMaterial color={object.color} roughness={object.role === "furniture" ? 0.48 : 0.62} metalness={object.role === "furniture" ? 0.25 : 0.05} /></mesh>}
+          : <mesh geometry={geometry} castShadow receiveShadow raycast={raycastByTree}><meshStandardMaterial color={object.color} roughness={object.role === "furniture" ? 0.48 : 0.62} metalness={object.role === "furniture" ? 0.25 : 0.05} /></mesh>}
     </group>
   );
 }
 
-function Wall({ geometry, edges, color }: { readonly geometry: ReturnType<typeof shapeGeometry>; readonly edges: EdgesGeometry; readonly color: string }) {
+/** A matt panel that keeps to the background, and is gone when it stands between the camera and the cell. */
+function Wall({ geometry, edges, color, size_m, theme }: {
+  readonly geometry: BufferGeometry; readonly edges: EdgesGeometry; readonly color: string; readonly size_m: readonly [number, number, number] | null; readonly theme: SceneTheme;
+}) {
+  const mesh = useRef<Mesh>(null), lines = useRef<LineSegments>(null);
+  const paint = useMemo(() => theme.floor.clone().lerp(new Color(color), theme.dark ? 0.1 : 0.4), [color, theme]);
+  useFrame(({ camera }) => {
+    if (!mesh.current || !lines.current || !size_m) return;
+    const hides = wallHides(mesh.current, size_m, MIDDLE, camera);
+    mesh.current.visible = !hides;
+    lines.current.visible = !hides;
+  }, -7);
   return (
     <>
-      <mesh geometry={geometry} receiveShadow renderOrder={1}><meshStandardMaterial color={color} roughness={0.9} transparent opacity={0.32} depthWrite={false} /></mesh>
-      <lineSegments geometry={edges} userData={{ unpainted: true }}><lineBasicMaterial color={color} transparent opacity={0.55} /></lineSegments>
+      <mesh ref={mesh} geometry={geometry} receiveShadow><meshStandardMaterial color={paint} roughness={0.95} envMapIntensity={0.5} /></mesh>
+      <lineSegments ref={lines} geometry={edges} userData={{ unpainted: true }} raycast={() => undefined}><lineBasicMaterial color={theme.text} transparent opacity={theme.dark ? 0.22 : 0.3} /></lineSegments>
     </>
   );
 }
+/** A point inside every cell: where robots stand, at half height. Scene coordinates. */
+const MIDDLE = new Vector3(0.3, 0.8, 0);
 
 /** A taped carton: kraft paper, a tape over the seam of the lid and down both ends. */
-function Carton({ geometry, size_m: [x, y, z], color }: { readonly geometry: ReturnType<typeof shapeGeometry>; readonly size_m: readonly [number, number, number]; readonly color: string }) {
+function Carton({ geometry, size_m: [x, y, z], color }: { readonly geometry: BufferGeometry; readonly size_m: readonly [number, number, number]; readonly color: string }) {
   const texture = useMemo(() => kraftTexture(color), [color]);
   useEffect(() => () => texture.dispose(), [texture]);
   const long = x >= y, length = long ? x : y, tape = Math.min(0.05, (long ? y : x) * 0.2), thin = 0.0006, down = Math.min(0.06, z * 0.3);

@@ -14,10 +14,10 @@ interface Style { readonly verdict: StepVerdict; readonly pattern: Pattern; read
 
 /** Blue, yellow, red as the source system has it; dash and symbol say the same without colour. */
 const STYLES: readonly Style[] = [
-  { verdict: "ok", pattern: [], width_m: 0.0055, symbol: null },
-  { verdict: "unknown", pattern: [0.006, 0.006], width_m: 0.004, symbol: null },
-  { verdict: "warn", pattern: [0.026, 0.008], width_m: 0.0072, symbol: "triangle" },
-  { verdict: "bad", pattern: [0.012, 0.007], width_m: 0.0085, symbol: "cross" },
+  { verdict: "ok", pattern: [], width_m: 0.0075, symbol: null },
+  { verdict: "unknown", pattern: [0.006, 0.006], width_m: 0.0055, symbol: null },
+  { verdict: "warn", pattern: [0.026, 0.008], width_m: 0.0095, symbol: "triangle" },
+  { verdict: "bad", pattern: [0.012, 0.007], width_m: 0.0105, symbol: "cross" },
 ];
 const SYMBOL_EVERY_M = 0.11;
 
@@ -47,7 +47,7 @@ export function PathView({ theme }: { readonly theme: SceneTheme }) {
     <group key={style.verdict}>
       <primitive object={lines} />
       {marks && <points geometry={marks.geometry} renderOrder={6} userData={{ unpickable: true }}>
-        <pointsMaterial map={marks.texture} size={17 * window.devicePixelRatio} sizeAttenuation={false} transparent depthTest={false} toneMapped={false} />
+        <pointsMaterial map={marks.texture} size={15 * window.devicePixelRatio} sizeAttenuation={false} transparent depthTest={false} toneMapped={false} />
       </points>}
     </group>
   ));

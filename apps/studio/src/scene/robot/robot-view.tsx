@@ -4,6 +4,7 @@ import { useEffect, useMemo, useRef } from "react";
 import type { Group } from "three";
 import { theLive } from "../../live/live.ts";
 import { paintTouching } from "../paint.ts";
+import { raycastByTree } from "../pick/raycast.ts";
 import { poseMatrix } from "../pose-matrix.ts";
 import { linkDrawings } from "./link-geometry.ts";
 import { partMaterials } from "./materials.ts";
@@ -42,7 +43,7 @@ export function RobotView({ robot, worldFromBase }: { readonly robot: Robot; rea
   return drawings.map(drawing => (
     <group key={drawing.name} name={drawing.name} matrixAutoUpdate={false} userData={{ thing: { kind: "link", link: drawing.link } }}
       ref={group => { links.current[drawing.link] = group; }}>
-      {drawing.pieces.map(piece => <mesh key={piece.material} geometry={piece.geometry} material={materials[piece.material]} castShadow receiveShadow />)}
+      {drawing.pieces.map(piece => <mesh key={piece.material} geometry={piece.geometry} material={materials[piece.material]} castShadow receiveShadow raycast={raycastByTree} />)}
     </group>
   ));
 }

@@ -35,7 +35,7 @@ export function Stage({ theme, document }: { readonly theme: SceneTheme; readonl
       <Sky theme={theme} />
       <Floor theme={theme} />
       <Light theme={theme} anyChange={document} />
-      <ContactShadow halfX_m={0.165} halfY_m={0.165} round_m={0.165} at={base} strength={strength} reach_m={0.16} />
+      {base[2] < 0.004 && <ContactShadow halfX_m={0.165} halfY_m={0.165} round_m={0.165} at={base} strength={strength} reach_m={0.16} />}
       {things.filter(thing => thing.box.min.z < 0.004 || things.some(other => other !== thing && rests(thing.box, other.box))).map(({ id, box }) => (
         <ContactShadow key={id} at={[(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2, box.min.z]} strength={strength * 0.85} reach_m={Math.min(0.09, (box.max.x - box.min.x + box.max.y - box.min.y) * 0.25)}
           halfX_m={(box.max.x - box.min.x) / 2} halfY_m={(box.max.y - box.min.y) / 2} round_m={0.004} />

@@ -1,0 +1,107 @@
+import { jogScratch, jogStep, type JogBlock, type JogCell, type JogCommand, type Jogged, type Quaternion, type Vector3 } from "@twincell/core";
+import { cellStore } from "../stores/cell.ts";
+import { controlStore } from "../stores/control.ts";
+import { flangeFromTcpOf, robotOf, worldFromFrameOf } from "../stores/document.ts";
+import { jogStore, type JogState } from "../stores/jog.ts";
+import { sound } from "../stores/sound.ts";
+import { words } from "../words/index.ts";
+import { onFrame } from "./frames.ts";
+import { heldNow } from "./held.ts";
+import { showJoints, theLive } from "./live.ts";
+import { leaveRobot, moverNow, takeRobot } from "./owner.ts";
+
+/** Manual mode: the TCP never goes faster (ISO 10218-1). */
+export const MANUAL_SPEED_MPS = 0.25;
+const TURN_RAD_S = (40 * Math.PI) / 180;
+/** Joints jog at this part of their full speed. */
+const JOINT_PART = 0.15;
+/** Row N-40: time to let go after a limit was met. Nothing freezes meanwhile. */
+export const LOCK_MS = 500;
+/** One step of step jogging is taken in this time. */
+const STEP_S = 0.12;
+
+/** Moves the robot on screen by what is held, once a frame. */
+export interface Jogger {
+  /** Called once a frame; `now_ms` is the time of the page. */
+  step(now_ms: number, dt_s: number): void;
+}
+
+export function createJogger(): Jogger {
+  const scratch = jogScratch(), held = new Float64Array(6), before = new Float64Array(6), pending = new Float64Array(6), q = new Float64Array(6), rates = new Float64Array(6);
+  const linear: Vector3 = [0, 0, 0], angular: Vector3 = [0, 0, 0];
+  let left_s = 0, known = "", cell: JogCell | null = null, document: unknown = null;
+
+  const cellNow = (): JogCell | null => {
+    const now = cellStore.getState().document;
+    if (now !== document) {
+      document = now;
+      const robot = robotOf(now);
+      cell = now && robot ? { robot, worldFromBase: now.robot.worldFromBase, flangeFromTcp: flangeFromTcpOf(now) } : null;
+    }
+    return cell;
+  };
+
+  const command = (on: JogCell, jog: JogState, want: Float64Array): JogCommand => {
+    if (jog.frame === "joint") {
+      for (let i = 0; i < 6; i++) rates[i] = want[i]! * (jog.manner === "steps" ? jog.step_rad / STEP_S : jog.speed * JOINT_PART * on.robot.arm.joints[i]!.limits.speed_rad_s);
+      return { kind: "joints", speed_rad_s: rates };
+    }
+    const metres = jog.manner === "steps" ? jog.step_m / STEP_S : jog.speed * MANUAL_SPEED_MPS, turn = jog.manner === "steps" ? jog.step_rad / STEP_S : jog.speed * TURN_RAD_S;
+    for (let i = 0; i < 3; i++) { linear[i] = want[i]! * metres; angular[i] = want[i + 3]! * turn; }
+    return { kind: "tip", linear_mps: linear, angular_rad_s: angular, frame: jog.frame === "user" ? userAxes(jog) : jog.frame };
+  };
+  const userAxes = (jog: JogState): Quaternion => worldFromFrameOf(cellStore.getState().document, "user", jog.userFrame).quaternion;
+
+  return {
+    step(now_ms, dt_s) {
+      const any = heldNow(held), jog = jogStore.getState();
+      if (jog.moving !== any) jogStore.setState({ moving: any });
+      if (jog.aid !== null && any && (jog.frame === "joint" || held[3] !== 0 || held[4] !== 0 || held[5] !== 0)) jogStore.setState({ aid: null });
+      if (jog.manner === "steps") {
+        for (let i = 0; i < 6; i++) if (held[i] !== 0 && before[i] === 0) { pending.fill(0); pending[i] = Math.sign(held[i]!); left_s = STEP_S; }
+      }
+      before.set(held);
+      const stepping = jog.manner === "steps", on = cellNow(), locked = jog.blocked !== null && now_ms < jog.blocked.until_ms;
+      if (!any && !(stepping && left_s > 0)) {
+        if (moverNow() === "jog") leaveRobot("jog");
+        known = "";
+        if (jog.blocked && !locked) jogStore.setState({ blocked: null });
+        return;
+      }
+      if (!on || locked || dt_s <= 0 || (stepping && left_s <= 0)) return;
+      if (controlStore.getState().running) {
+        if (known !== "busy") { known = "busy"; sound("limit"); jogStore.setState({ blocked: { sentence: words.jog.busy, until_ms: now_ms + LOCK_MS } }); }
+        return;
+      }
+      takeRobot("jog");
+      const part_s = stepping ? Math.min(dt_s, left_s) : dt_s;
+      q.set(theLive().q_rad);
+      const done = jogStep(on, q, command(on, jog, stepping ? pending : held), part_s, q, scratch);
+      if (stepping) left_s = done.kind === "blocked" ? 0 : left_s - part_s;
+      if (done.kind === "moved") showJoints(q);
+      known = tell(done, known, now_ms);
+    },
+  };
+}
+
+/** The first time a coordinate meets its limit: sound, 500 ms, and which joint and limit. Held on, it stays blocked silently. */
+function tell(done: Jogged, known: string, now_ms: number): string {
+  const [first] = done.blocked;
+  if (!first) {
+    if (known !== "") jogStore.setState({ blocked: null });
+    return "";
+  }
+  const now = done.blocked.map(block => String(block.coordinate)).join();
+  if (now === known) return known;
+  sound("limit");
+  jogStore.setState({ blocked: blockedState(first, now_ms + LOCK_MS) });
+  return now;
+}
+function blockedState({ reach, sentence }: JogBlock, until_ms: number): NonNullable<JogState["blocked"]> {
+  return reach.kind === "outside-limits" ? { sentence, joint: reach.joint, until_ms } : { sentence, until_ms };
+}
+
+export function startJogging(): () => void {
+  const jogger = createJogger();
+  return onFrame((now_ms, dt_s) => jogger.step(now_ms, dt_s));
+}

@@ -1,0 +1,74 @@
+import { distance, type Pose } from "@twincell/core";
+import { Matrix4, type Object3D, Quaternion, Vector3 } from "three";
+import { matrixPose } from "../pose-matrix.ts";
+
+/** Fingers nearer than this hold; farther than that let go: between the two nothing changes. */
+const PINCH_CLOSED_M = 0.022;
+const PINCH_OPEN_M = 0.04;
+/** How near to the tool tip a hand must be to take the ring, and how near a ray must pass. */
+export const GRAB_NEAR_M = 0.2;
+export const RAY_NEAR_M = 0.11;
+
+const place = new Matrix4(), thumb = new Vector3(), index = new Vector3(), turn = new Quaternion(), one = new Vector3(1, 1, 1);
+
+/** What one hand does in this frame. Written in place. */
+export interface HandState {
+  /** Place of the grip (controller) or between thumb and index (bare hand), in the world. */
+  readonly worldFromHand: Pose<"world", "hand">;
+  /** Place and way of the pointing ray. */
+  readonly worldFromRay: Pose<"world", "hand">;
+  tracked: boolean;
+  squeezing: boolean;
+  pointing: boolean;
+}
+export const handState = (): HandState => ({
+  worldFromHand: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] }, worldFromRay: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] }, tracked: false, squeezing: false, pointing: false,
+});
+
+/** The scene that the headset counts from, and the group that holds the z-up world. */
+export interface Room { readonly origin: Object3D; readonly world: Object3D; readonly worldFromScene: Matrix4 }
+
+function intoWorld(transform: XRRigidTransform, room: Room, out: Pose<"world", "hand">): void {
+  place.fromArray(transform.matrix).premultiply(room.origin.matrixWorld).premultiply(room.worldFromScene);
+  matrixPose(place, out);
+}
+
+/** Reads one input source. A hand that is not tracked keeps its last place and holds what it holds. */
+export function readHand(source: XRInputSource, frame: XRFrame, space: XRReferenceSpace, room: Room, out: HandState): void {
+  const ray = frame.getPose(source.targetRaySpace, space);
+  if (ray) intoWorld(ray.transform, room, out.worldFromRay);
+  if (source.hand) { readFingers(source.hand, frame, space, room, out); return; }
+  const grip = source.gripSpace ? frame.getPose(source.gripSpace, space) : undefined;
+  out.tracked = grip !== undefined;
+  if (grip) intoWorld(grip.transform, room, out.worldFromHand);
+  const buttons = source.gamepad?.buttons;
+  out.squeezing = buttons?.[1]?.pressed === true;
+  out.pointing = buttons?.[0]?.pressed === true;
+}
+
+/** Between thumb and index, so that closing them moves nothing; turned as the wrist is. */
+function readFingers(hand: XRHand, frame: XRFrame, space: XRReferenceSpace, room: Room, out: HandState): void {
+  const thumbTip = joint(hand, "thumb-tip", frame, space), indexTip = joint(hand, "index-finger-tip", frame, space), wrist = joint(hand, "wrist", frame, space);
+  out.tracked = thumbTip !== undefined && indexTip !== undefined && wrist !== undefined;
+  out.pointing = false;
+  if (!thumbTip || !indexTip || !wrist) return;
+  const a = thumbTip.transform.position, b = indexTip.transform.position, o = wrist.transform.orientation;
+  thumb.set(a.x, a.y, a.z); index.set(b.x, b.y, b.z);
+  const gap = thumb.distanceTo(index);
+  out.squeezing = out.squeezing ? gap < PINCH_OPEN_M : gap < PINCH_CLOSED_M;
+  place.compose(thumb.add(index).multiplyScalar(0.5), turn.set(o.x, o.y, o.z, o.w), one).premultiply(room.origin.matrixWorld).premultiply(room.worldFromScene);
+  matrixPose(place, out.worldFromHand);
+}
+function joint(hand: XRHand, name: XRHandJoint, frame: XRFrame, space: XRReferenceSpace): XRJointPose | undefined {
+  const at = hand.get(name);
+  return at ? frame.getJointPose?.(at, space) : undefined;
+}
+
+/** How far the ray of a hand passes by a point [m]; infinite behind it. */
+export function rayMisses(worldFromRay: Pose<"world", "hand">, point: readonly [number, number, number]): number {
+  const [x, y, z, w] = worldFromRay.quaternion, [ox, oy, oz] = worldFromRay.position;
+  // The ray looks along −z of its own frame.
+  const dx = -2 * (x * z + w * y), dy = -2 * (y * z - w * x), dz = -(1 - 2 * (x * x + y * y));
+  const px = point[0] - ox, py = point[1] - oy, pz = point[2] - oz, along = px * dx + py * dy + pz * dz;
+  return along <= 0 ? Infinity : distance([ox + along * dx, oy + along * dy, oz + along * dz], [point[0], point[1], point[2]]);
+}
