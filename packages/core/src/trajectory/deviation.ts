@@ -6,7 +6,7 @@ import { slerp } from "../spatial/quaternion.ts";
 import { addScaled, distance, dot, lerp, subtract, type Vector3 } from "../spatial/vector.ts";
 
 /** Where the tool of a joint move is farthest from the straight line between its ends. */
-export interface Deviation { readonly deviation_m: number; readonly share: number }
+export interface LineDeviation { readonly deviation_m: number; readonly share: number }
 
 /** Places looked at along a joint move before the worst is refined. */
 const PLACES = 32;
@@ -18,7 +18,7 @@ const MOST_POINTS = 4096;
  *
  *   max over share of  | p(share) − its nearest point of the segment p(0) p(1) |
  */
-export function jointMoveDeviation(robot: Robot, q0: ArrayLike<number>, q1: ArrayLike<number>, flangeFromTcp: Pose<"flange", "tcp"> = identity()): Deviation {
+export function jointMoveDeviation(robot: Robot, q0: ArrayLike<number>, q1: ArrayLike<number>, flangeFromTcp: Pose<"flange", "tcp"> = identity()): LineDeviation {
   const n = q0.length, q = new Float64Array(n), scratch = armScratch(), flange = identity<"base", "flange">(), tcp = identity<"base", "tcp">();
   const at = (share: number): Vector3 => {
     for (let j = 0; j < n; j++) q[j] = q0[j]! + (q1[j]! - q0[j]!) * share;

@@ -229,7 +229,7 @@ describe("plans of random programs", () => {
     const random = seededRandom(77), a = new Float64Array(6), b = new Float64Array(6), ad = new Float64Array(6), bd = new Float64Array(6);
     for (let seed = 1; seed <= 20; seed++) {
       const { plan } = planProgram(programOf(randomProgram(seed)), robot), cursor = new PlanCursor(plan);
-      for (const t of [0, plan.duration_s]) { samplePlan(plan, t, a, ad); for (const speed of ad) expect(Math.abs(speed)).toBeLessThan(1e-9); }
+      for (const t of [0, plan.duration_s]) { samplePlan(plan, t, a, ad); for (const speed of ad) expect(Math.abs(speed)).toBeLessThan(1e-7); } // the sum of all durations rounds
       let t = 0;
       for (let k = 0; k < 300; k++) {
         t = random() < 0.05 ? random() * plan.duration_s : t + random() * 0.05;
