@@ -52,7 +52,7 @@ test("T-23 T-25 the exported text runs to its end, the twin within 0.001°, and 
 
 test("lines of the text keep the ids of the program's steps", () => {
   const lines = new Map<string, number>();
-  const prepared = prepareRun(vPlus, program, robot, worldFromBase, (step, line) => lines.set(step, line));
+  const prepared = prepareRun(vPlus, program, { robot, worldFromBase }, (step, line) => lines.set(step, line));
   if (prepared.kind !== "ready") throw new Error(prepared.sentence);
   expect([...prepared.steps()].map(step => step.id)).toEqual(program.steps.map(step => step.id));
   expect([...lines.keys()]).toEqual(program.steps.map(step => step.id));
