@@ -20,6 +20,8 @@ export type MotionVerdict =
 export interface MotionOptions {
   /** Wanted distance [m]. Between links and objects the robot's shape error comes on top. 0 asks for no contact only. */
   readonly margin_m?: number;
+  /** Which pairs keep the margin; the others only must not touch. All pairs by default. */
+  readonly keepsMargin?: (pair: SolidPair) => boolean;
   /** How near to the margin the answer may be undecided; it then counts as contact [m]. */
   readonly resolution_m?: number;
   readonly maxChecks?: number;
@@ -38,10 +40,10 @@ export interface MotionOptions {
 export function checkMotion(
   collider: CellCollider, motion: JointMotion, from: number, to: number, options: MotionOptions = {},
 ): MotionVerdict {
-  const { margin_m = 0, resolution_m = 0.0002, maxChecks = 100_000 } = options;
+  const { margin_m = 0, resolution_m = 0.0002, maxChecks = 100_000, keepsMargin = () => true } = options;
   const pairs = collider.pairs, rates = pairs.map(pair => relativeRate(pair, motion.maxRate));
   const turns = pairs.map(pair => relativeTurn(pair, motion.maxRate));
-  const margins = pairs.map(pair => margin_m + (margin_m > 0 && isLinkAndObject(pair) ? collider.shapeError_m : 0));
+  const margins = pairs.map(pair => (margin_m > 0 && keepsMargin(pair) ? margin_m + (isLinkAndObject(pair) ? collider.shapeError_m : 0) : 0));
   const q = new Float64Array(motion.maxRate.length);
   const stack: Interval[] = [{ from, to, open: pairs.map((_, i) => i) }];
   let checks = 0;
