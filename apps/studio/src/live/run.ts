@@ -72,10 +72,13 @@ export interface CellControl {
   close(): void;
 }
 
+/** Robot and guard share the page's own clock: a page that draws slowly is late with both, and no link is lost. */
+const PAGE_SILENCE_S = 1;
+
 export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromTcp, isSafe }: RunSetting): CellControl {
   const { scheduler } = world, begun_s = scheduler.now_s();
   const virtual: VirtualController = createVirtualController({ robot, scheduler, name: `Virtual ${robot.name.split(" ").at(-1)!}`, worldFromBase, start_rad: theLive().q_rad });
-  const guard = createGuard({ controller: virtual, scheduler, flangeFromTcp, brakingTime_s: virtual.brakingTime_s, ...(isSafe ? { isSafe } : {}) });
+  const guard = createGuard({ controller: virtual, scheduler, flangeFromTcp, brakingTime_s: virtual.brakingTime_s, silence_s: PAGE_SILENCE_S, ...(isSafe ? { isSafe } : {}) });
   const seat = guard.seat("you");
   seat.take();
   let running = false, told_s = -1, recorder: RunRecorder | null = null;

@@ -52,8 +52,9 @@ export const touchUp = (id: string, q_rad: ArrayLike<number>, tool: string): boo
   ...step, target: tool === "flange" ? { q: Array.from(q_rad) } : { q: Array.from(q_rad), tool },
 }));
 export const renameStep = (id: string, name: string): boolean => changeStep(id, words.undo.rename, step => {
-  const { name: _, ...rest } = step;
-  return name.trim() === "" ? rest : { ...rest, name: name.trim() };
+  const { name: before, ...rest } = step, wanted = name.trim();
+  if (wanted === (before ?? "")) return step;
+  return wanted === "" ? rest : { ...rest, name: wanted };
 });
 
 export function deleteSteps(ids: readonly string[]): boolean {

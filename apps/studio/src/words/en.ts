@@ -90,7 +90,7 @@ export const en = {
   },
   trace: {
     title: "Trace edges", tool: "Trace", tip: "Click edges of an object and get points along them", tilt: "Tool angle", leadIn: "Lead-in", leadOut: "Lead-out", chord: "Chord tolerance", tolerance: "Path tolerance", motion: "Motion", joint: "PTP between points", straight: "LIN", speed: "Speed",
-    loop: "Whole loop", chosen: "Chosen edges", none: "Click an edge of the carton. Shift takes its whole loop.", make: "Make points", clear: "Clear", working: "Points are being laid …", edge: (n: number, mm: string) => `Edge ${n} · ${mm} mm`, remove: (n: number) => `Take edge ${n} out`,
+    loop: "Whole loop", chosen: "Chosen edges", none: "Click an edge in the view. Shift takes its whole loop.", make: "Make points", clear: "Clear", working: "Points are being laid …", edge: (n: number, mm: string) => `Edge ${n} · ${mm} mm`, remove: (n: number) => `Take edge ${n} out`,
     made: (points: number, edges: number, inserted: number) => `${plural(points, "point")} on ${plural(edges, "edge")}; ${inserted} of them inserted to stay within tolerance.`, deviation: (mm: string, tolerance: string) => `Largest deviation from the edge: ${mm} mm (allowed ${tolerance} mm).`,
     group: (n: number) => `Edge ${n}`, loopGroup: (n: number) => `Loop ${n}`, approach: "Approach", retreat: "Retreat", last: "Last trace", options: "Tool angle and tolerances", stopped: "The points could not be laid.", cannot: (edge: number, why: string) => `Edge ${edge} cannot be traced. ${why}`, cannotHint: "Change the tool angle, move the object, or trace fewer edges.", leave: "Done tracing", home: "Home",
   },

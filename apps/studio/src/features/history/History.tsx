@@ -10,6 +10,7 @@ import { Slide } from "../../ui/Slide.tsx";
 import { words } from "../../words/index.ts";
 import "./history.css";
 
+const when = new Intl.DateTimeFormat("en-GB", { day: "numeric", month: "short", hour: "2-digit", minute: "2-digit" });
 const ROW_PX = 52;
 const SPEEDS = [0.25, 1, 4] as const;
 const seconds = (t_s: number): string => `${t_s.toFixed(2)} s`;
@@ -20,8 +21,9 @@ export default function History() {
   const box = useRef<HTMLDivElement>(null);
   const rows = useVirtualizer({ count: runs.length, getScrollElement: () => box.current, estimateSize: () => ROW_PX, overscan: 6 });
   return (
-    <section className="section history">
-      <h2>{words.history.title}</h2>
+    <section aria-label={words.history.title}>
+      <h2 className="heading"><span className="grow">{words.history.title}</span></h2>
+      <div className="section history">
       {runs.length === 0 && <p className="muted">{words.history.none}</p>}
       {runs.length > 0 && open === null && <p className="small muted">{words.history.choose}</p>}
       {open !== null && <Moment />}
@@ -29,6 +31,7 @@ export default function History() {
         <div style={{ height: rows.getTotalSize(), position: "relative" }}>
           {rows.getVirtualItems().map(row => <RunRow key={runs[row.index]!.id} run={runs[row.index]!} open={runs[row.index]!.id === open} top_px={row.start} />)}
         </div>
+      </div>
       </div>
     </section>
   );
@@ -44,7 +47,7 @@ function RunRow({ run, open, top_px }: { readonly run: RunRecord; readonly open:
     <div role="listitem" className="history-row" data-open={open || undefined} style={{ transform: `translateY(${top_px}px)` }}>
       <button className="history-open" aria-pressed={open} onClick={() => { void theHistory.open(run.id); }}>
         <b>{run.name}</b>
-        <span className="small muted">{new Date(run.startedAt).toLocaleString()} · {seconds(run.duration_s)} · {words.history.endings[run.ending]}</span>
+        <span className="small muted">{when.format(new Date(run.startedAt))} · {seconds(run.duration_s)} · {words.history.endings[run.ending]}</span>
       </button>
       <button className="btn quiet icon" aria-label={`${words.history.download}: ${run.name}`} onClick={() => { void save(); }}><Download /></button>
       <button className="btn quiet icon" aria-label={`${words.history.remove}: ${run.name}`} onClick={() => { void remove(); }}><Trash2 /></button>

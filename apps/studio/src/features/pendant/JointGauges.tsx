@@ -5,7 +5,7 @@ import { robotOf } from "../../stores/document.ts";
 import { showNumber } from "../../ui/expression.ts";
 import { useLive } from "../../ui/useLive.ts";
 import { words } from "../../words/index.ts";
-import { nearness } from "./Pendant.tsx";
+import { nearness } from "./nearness.ts";
 
 /** While jogging in space: all joints at a glance, and which one is closest to its limit. */
 export function JointGauges() {

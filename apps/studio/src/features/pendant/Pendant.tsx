@@ -11,6 +11,7 @@ import { showNumber } from "../../ui/expression.ts";
 import { HoldButton } from "../../ui/HoldButton.tsx";
 import { useLive } from "../../ui/useLive.ts";
 import { words } from "../../words/index.ts";
+import { nearness } from "./nearness.ts";
 import { JointGauges } from "./JointGauges.tsx";
 import { Manner } from "./Manner.tsx";
 import { PointButtons } from "./PointButtons.tsx";
@@ -75,11 +76,4 @@ function Axes() {
       })}
     </div>
   );
-}
-
-const NEAR_RAD = (10 * Math.PI) / 180;
-/** Row L-39: near is within 10° of a limit. */
-export function nearness(value: number, lower: number, upper: number): "" | "near" | "bad" {
-  const left = Math.min(value - lower, upper - value);
-  return left < 0.0005 ? "bad" : left < NEAR_RAD ? "near" : "";
 }

@@ -1,5 +1,5 @@
 import { Pause, Play, RotateCcw, Square } from "lucide-react";
-import { useEffect, useMemo, useRef } from "react";
+import { useMemo } from "react";
 import { useStore } from "zustand";
 import { vPlus } from "@twincell/languages";
 import { cellStore } from "../../stores/cell.ts";
@@ -7,6 +7,7 @@ import { runCommand } from "../../stores/commands.ts";
 import { controlStore } from "../../stores/control.ts";
 import { programOf, robotOf } from "../../stores/document.ts";
 import { playStore } from "../../stores/play.ts";
+import { CodeView } from "../../ui/CodeView.tsx";
 import { words } from "../../words/index.ts";
 import "./run.css";
 
@@ -22,8 +23,9 @@ export default function Run() {
   }, [program, robot, document]);
 
   return (
-    <section className="section run">
-      <h2>{words.run.title}</h2>
+    <section aria-label={words.run.title}>
+      <h2 className="heading"><span className="grow">{words.run.title}</span></h2>
+      <div className="section run">
       <p className="small muted">{words.run.idle} {words.run.recording}</p>
       <div className="run-buttons">
         {running
@@ -38,6 +40,7 @@ export default function Run() {
       {file === null && <p className="muted">{words.run.nothing}</p>}
       {file !== null && "kind" in file && <p role="alert" className="run-cannot">{words.run.notEmitted} {file.sentence}</p>}
       {file !== null && !("kind" in file) && <Listing text={file.text} />}
+      </div>
     </section>
   );
 }
@@ -52,21 +55,8 @@ function TwinError() {
   );
 }
 
-const LINE_PX = 18;
-
-/** The program's lines. Lines out of sight are not laid out (`content-visibility`), so that long texts cost little. */
+/** The text with the line under way lit and kept in sight. */
 function Listing({ text }: { readonly text: string }) {
-  const lines = useMemo(() => text.replace(/\r/g, "").replace(/\n$/, "").split("\n"), [text]);
-  const line = useStore(controlStore, state => (state.running ? state.line : 0)), box = useRef<HTMLOListElement>(null);
-  useEffect(() => {
-    const list = box.current;
-    if (!list || line === 0) return;
-    const top = (line - 1) * LINE_PX;
-    if (top < list.scrollTop + LINE_PX || top > list.scrollTop + list.clientHeight - 3 * LINE_PX) list.scrollTop = top - list.clientHeight / 3;
-  }, [line]);
-  return (
-    <ol ref={box} className="listing" aria-label={words.run.text} tabIndex={0}>
-      {lines.map((says, i) => <li key={i} data-now={i + 1 === line || undefined}><code>{says || " "}</code></li>)}
-    </ol>
-  );
+  const line = useStore(controlStore, state => (state.running ? state.line : 0));
+  return <CodeView text={text.replace(/\r?\n$/, "")} label={words.run.text} current={line} height="min(48vh, 520px)" />;
 }

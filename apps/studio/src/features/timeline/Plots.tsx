@@ -13,7 +13,7 @@ import { plotData } from "./plotData.ts";
 
 type What = "angles" | "speeds";
 const COLOURS = ["#4f8ff7", "#e0a12e", "#37a98f", "#c76bd6", "#e0665c", "#8a97a3"];
-const HEIGHT = 132;
+const HEIGHT = 124;
 
 /** Joint angles or speeds over the whole plan; a click looks at that moment. */
 export default function Plots({ plan }: { plan: Plan }) {
