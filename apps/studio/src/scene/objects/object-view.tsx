@@ -48,7 +48,7 @@ function Wall({ geometry, edges, color, size_m, theme }: {
   }, -7);
   return (
     <>
-      <mesh ref={mesh} geometry={geometry} receiveShadow><meshStandardMaterial color={paint} roughness={0.95} envMapIntensity={0.5} /></mesh>
+      <mesh ref={mesh} geometry={geometry} receiveShadow><meshLambertMaterial color={paint} /></mesh>
       <lineSegments ref={lines} geometry={edges} userData={{ unpainted: true }} raycast={() => undefined}><lineBasicMaterial color={theme.text} transparent opacity={theme.dark ? 0.22 : 0.3} /></lineSegments>
     </>
   );
