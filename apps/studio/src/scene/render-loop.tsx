@@ -2,7 +2,7 @@ import { useFrame, useThree } from "@react-three/fiber";
 import type { Vector3 as Vector } from "@twincell/core";
 import { type RefObject, useEffect, useMemo } from "react";
 import { PerspectiveCamera, Quaternion } from "three";
-import { theLive } from "../live/live.ts";
+import { onTouching, theLive } from "../live/live.ts";
 import { viewStore } from "../stores/view.ts";
 import { closeCameraPosition } from "./camera/close-camera.ts";
 import { turnCube } from "./camera/view-cube.tsx";
@@ -28,8 +28,8 @@ export function RenderLoop({ meter, picture, cube }: { readonly meter: FrameMete
       handle = requestAnimationFrame(watch);
     };
     handle = requestAnimationFrame(watch);
-    const stop = viewStore.subscribe(() => invalidate());
-    return () => { cancelAnimationFrame(handle); stop(); };
+    const stops = [viewStore.subscribe(() => invalidate()), onTouching(() => invalidate())];
+    return () => { cancelAnimationFrame(handle); for (const stop of stops) stop(); };
   }, [invalidate]);
 
   useFrame(() => { clock.start = performance.now(); }, -2000);

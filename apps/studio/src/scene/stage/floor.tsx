@@ -14,7 +14,7 @@ export function Floor({ theme }: { readonly theme: SceneTheme }) {
 }
 
 function floorMaterial(theme: SceneTheme): MeshLambertMaterial {
-  const material = new MeshLambertMaterial({ color: theme.floor, transparent: true });
+  const material = new MeshLambertMaterial({ color: theme.floor.clone().multiplyScalar(theme.dark ? 1.75 : 1), transparent: true });
   material.onBeforeCompile = shader => {
     shader.uniforms.gridColor = { value: theme.grid };
     shader.vertexShader = shader.vertexShader.replace("#include <common>", "#include <common>\nvarying vec2 vFloor;").replace("#include <begin_vertex>", "#include <begin_vertex>\nvFloor = position.xy;");
