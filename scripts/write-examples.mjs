@@ -1,5 +1,16 @@
-/** Writes the example cells from their functions: node scripts/write-examples.mjs. A test holds the files to them. */
-import { writeFileSync } from "node:fs";
-import { edgeTraceCell, saveDocument } from "@twincell/project";
+/** Writes the examples from their functions: node scripts/write-examples.mjs. A test holds the files to them. */
+import { mkdirSync, writeFileSync } from "node:fs";
+import { serializeProgram } from "@twincell/core";
+import { edgeTraceCell, recordedAsJoints, saveDocument, tracedCartonCell } from "@twincell/project";
 
-writeFileSync(new URL("../examples/01-edge-trace/cell.json", import.meta.url), saveDocument(edgeTraceCell()));
+const traced = tracedCartonCell();
+const FILES = {
+  "01-edge-trace/cell.json": saveDocument(edgeTraceCell()),
+  "01-edge-trace/program.json": serializeProgram(recordedAsJoints(traced, traced.programs[0])),
+  "02-traced-carton/cell.json": saveDocument(traced),
+};
+for (const [name, text] of Object.entries(FILES)) {
+  const file = new URL(`../examples/${name}`, import.meta.url);
+  mkdirSync(new URL(".", file), { recursive: true });
+  writeFileSync(file, text);
+}

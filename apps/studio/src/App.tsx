@@ -50,7 +50,7 @@ export function App() {
         {phone
           ? <Sheet key="sheet" />
           : <><aside key="right" className="panel area-right" aria-label={words.app.region.side}><div className="scroll"><RightSide /></div></aside>
-            <footer key="bottom" className="area-bottom" aria-label={words.app.region.time}><BottomSide /></footer></>}
+            <BottomSide key="bottom" /></>}
         <Palette />
         <ControlsDialog />
         <Suspense><Export /></Suspense>
@@ -74,6 +74,8 @@ function RightSide() {
     case "history": return <Suspense><History /></Suspense>;
   }
 }
+/** History has its own timeline, beside the runs. */
 function BottomSide() {
-  return <Timeline />;
+  if (useStore(viewStore, state => state.mode) === "history") return null;
+  return <footer className="area-bottom" aria-label={words.app.region.time}><Timeline /></footer>;
 }

@@ -2,3 +2,4 @@ export * from "./refusals.ts";
 export * from "./virtual/index.ts";
 export * from "./twin/index.ts";
 export * from "./guard/index.ts";
+export * from "./runner/index.ts";

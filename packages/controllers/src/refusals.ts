@@ -1,4 +1,4 @@
-import { degrees, type Refusal, type Robot } from "@twincell/core";
+import { degrees, Fault, type Refusal, type Robot } from "@twincell/core";
 
 /** Angles as people read them. */
 export const inDegrees = (angle_rad: number): string => `${degrees(angle_rad).toFixed(1)}°`;
@@ -49,3 +49,5 @@ export const stillBraking = (robot: Robot): Refusal => refusal("controller.braki
 export const guardStillOpen = (robot: Robot): Refusal => refusal("safety.guard-stop", `The guard of ${robot.name} is still open.`, "Close the guard, then reset.");
 export const closed = (name: string): Refusal => refusal("controller.closed", `${name} was closed.`, "Open the cell again to get a new controller.");
 export const stopped = (code: string, sentence: string): Refusal => refusal(code, sentence, "Command the move again when the way is clear.");
+export const programFault = (reason: unknown): Refusal => reason instanceof Fault ? refusal(reason.code, reason.message, reason.hint)
+  : refusal("controller.program-fault", `The program ended with a fault of its own: ${reason instanceof Error ? reason.message : String(reason)}`, "Look at the line it came from.");

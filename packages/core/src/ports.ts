@@ -106,7 +106,12 @@ export type Interpreted =
   | { readonly kind: "ready"; readonly run: () => Iterator<Executed, void>; readonly context: Pick<Program, "tools" | "frames"> }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
-/** A robot language. One folder each; `cannot` is shown to the user as it stands. */
+/**
+ * A robot language. One folder each; `cannot` is shown to the user as it stands.
+ *
+ * Programs count in the world of the cell, controllers from the robot: `worldFromBase` says where the robot stands.
+ * Left out, it stands in the origin of the world.
+ */
 export interface Dialect {
   readonly id: string;
   readonly brand: string;
@@ -114,8 +119,8 @@ export interface Dialect {
   readonly extensions: readonly string[];
   readonly maturity: "proven" | "experimental";
   readonly cannot: readonly { readonly what: string; readonly because: string }[];
-  emit(program: Program, robot: Robot): Emitted;
-  parse(text: string, robot: Robot): Parsed;
+  emit(program: Program, robot: Robot, worldFromBase?: Pose<"world", "base">): Emitted;
+  parse(text: string, robot: Robot, worldFromBase?: Pose<"world", "base">): Parsed;
   /** Executes the text with the vendor's own conventions. Written independently of `emit`. */
-  interpret(text: string, robot: Robot): Interpreted;
+  interpret(text: string, robot: Robot, worldFromBase?: Pose<"world", "base">): Interpreted;
 }

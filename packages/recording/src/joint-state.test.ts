@@ -1,6 +1,6 @@
 import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
-import { jointStateTemplate, readPositions } from "./joint-state.ts";
+import { jointStateTemplate, positionsOffset } from "./joint-state.ts";
 
 interface Case { frame: string; names: string[]; sec: number; nanosec: number; q_rad: number[]; hex: string }
 const golden = JSON.parse(readFileSync(new URL("../../../fixtures/recording/joint-state.cdr.json", import.meta.url), "utf8")) as { cases: Case[] };
@@ -18,10 +18,13 @@ test("joint states have the bytes that another ROS 2 implementation gives them",
 
 test("angles are read from another implementation's bytes, and nothing from bytes cut short", () => {
   for (const { names, q_rad, hex } of golden.cases) {
-    const bytes = Uint8Array.from(Buffer.from(hex, "hex")), out = new Float64Array(names.length + 1);
-    expect(readPositions(bytes, names.length, out, 1)).toBe(true);
-    expect([...out.subarray(1)]).toEqual(q_rad);
-    expect(readPositions(bytes, names.length + 1, out, 0)).toBe(false);
-    for (let cut = 0; cut < bytes.length - 8; cut++) expect(readPositions(bytes.subarray(0, cut), names.length, out, 0), `cut at ${cut}`).toBe(false);
+    const bytes = Uint8Array.from(Buffer.from(hex, "hex")), { length } = bytes, joints = names.length;
+    for (const before of [0, 3]) {
+      const view = new DataView(Uint8Array.from([...new Array<number>(before).fill(9), ...bytes]).buffer);
+      const at = before + positionsOffset(view, before, before + length, joints);
+      expect(q_rad.map((_, i) => view.getFloat64(at + 8 * i, true))).toEqual(q_rad);
+      expect(positionsOffset(view, before, before + length, joints + 1)).toBe(-1);
+      for (let cut = 0; cut < length - 8; cut++) expect(positionsOffset(view, before, before + cut, joints), `cut at ${cut}`).toBe(-1);
+    }
   }
 });

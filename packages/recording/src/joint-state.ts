@@ -49,34 +49,32 @@ export function jointStateTemplate(frame: string, names: readonly string[]): Joi
 }
 
 /**
- * Reads the angles of one message.
+ * Where the positions of a message begin, counted from its first byte: one float64 a joint, little endian.
  *
- * @param out  receives them from index `at` on; as many as it has joints.
- * @returns    false when the message does not hold that many positions.
+ * @param view  holds the message from byte `from` to before byte `until`.
+ * @returns     -1 when the message does not hold that many positions.
  */
-export function readPositions(data: Uint8Array, joints: number, out: Float64Array, at: number): boolean {
-  const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
-  if (data.byteLength < 16 || data[1] !== 1) return false;
-  let offset = ENCAPSULATION + 8;
-  const align = (to: number): void => { offset += (to - ((offset - ENCAPSULATION) % to)) % to; };
-  const uint32 = (): number => {
-    align(4);
-    if (offset + 4 > data.byteLength) return -1;
-    offset += 4;
-    return view.getUint32(offset - 4, true);
-  };
-  const skipString = (): boolean => {
-    const length = uint32();
-    offset += length;
-    return length >= 0 && offset <= data.byteLength;
-  };
-  if (!skipString()) return false;
-  const names = uint32();
-  if (names !== joints) return false;
-  for (let i = 0; i < names; i++) if (!skipString()) return false;
-  if (uint32() !== joints) return false;
-  align(8);
-  if (offset + 8 * joints > data.byteLength) return false;
-  for (let i = 0; i < joints; i++) out[at + i] = view.getFloat64(offset + 8 * i, true);
-  return true;
+export function positionsOffset(view: DataView, from: number, until: number, joints: number): number {
+  if (until - from < 16 || view.getUint8(from + 1) !== 1) return -1;
+  const body = from + ENCAPSULATION;
+  let offset = skipString(view, body, body + 8, until);
+  const names = uint32At(view, body, offset, until);
+  if (names !== joints) return -1;
+  offset = aligned(body, offset, 4) + 4;
+  for (let i = 0; i < names; i++) offset = skipString(view, body, offset, until);
+  if (uint32At(view, body, offset, until) !== joints) return -1;
+  offset = aligned(body, aligned(body, offset, 4) + 4, 8);
+  return offset + 8 * joints <= until ? offset - from : -1;
+}
+
+const aligned = (body: number, offset: number, to: number): number => offset + (to - ((offset - body) % to)) % to;
+/** The next number, or -1 behind the end. */
+function uint32At(view: DataView, body: number, offset: number, until: number): number {
+  const at = aligned(body, offset, 4);
+  return at + 4 <= until ? view.getUint32(at, true) : -1;
+}
+/** Where the next string ends; behind the end when it does not fit. */
+function skipString(view: DataView, body: number, offset: number, until: number): number {
+  const length = uint32At(view, body, offset, until), end = aligned(body, offset, 4) + 4 + length;
+  return length >= 0 && end <= until ? end : until + 1;
 }

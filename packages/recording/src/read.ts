@@ -1,5 +1,6 @@
-import { hasMcapPrefix, McapStreamReader, Opcode, type TypedMcapRecord } from "@mcap/core";
-import { readPositions } from "./joint-state.ts";
+import { crc32 } from "@foxglove/crc";
+import { hasMcapPrefix, McapStreamReader, Opcode } from "@mcap/core";
+import { positionsOffset } from "./joint-state.ts";
 import { RUN_METADATA, TOPICS } from "./recorder.ts";
 import { eventFrom, stateFrom, type RobotState, type RunEvent } from "./state.ts";
 import { utf8Text } from "./text.ts";
@@ -46,11 +47,9 @@ export function readRecording(bytes: Uint8Array): Read {
     const opcode = view.getUint8(at), length = Number(view.getBigUint64(at + 1, true)), end = at + RECORD_HEAD + length;
     let sound = opcode >= 1 && opcode <= Opcode.MAX && end <= bytes.length;
     if (sound && opcode === Opcode.CHUNK) {
-      const chunk = readChunk(bytes.subarray(at, end));
-      if (chunk.kind === "read") run.add(chunk.records);
-      else if (chunk.compression !== "") packed = chunk.compression;
-      // Its checksum does not cover the record's own length: one that is too long would swallow what follows.
-      sound = chunk.kind === "read" && chunkShaped(bytes, view, at);
+      // A chunk whose lengths do not agree is damaged, even if its checksum holds: it would swallow what follows.
+      sound = chunkShaped(bytes, view, at) && run.chunk(bytes, view, at + RECORD_HEAD);
+      packed ||= compressionOf(bytes, view, at + RECORD_HEAD, end);
     } else if (sound) {
       // A record that is, or holds, something shaped like a chunk has a wrong opcode or a wrong length.
       sound = !chunkShaped(bytes, view, at) && nextChunk(bytes, view, at + 1, end) === end;
@@ -81,35 +80,29 @@ function chunkShaped(bytes: Uint8Array, view: DataView, at: number): boolean {
     && view.getUint32(body + 28, true) === 0 && view.getUint32(body + 32, true) === size && body + CHUNK_HEAD + size <= bytes.length;
 }
 
-type ChunkRead = { readonly kind: "read"; readonly records: readonly TypedMcapRecord[] } | { readonly kind: "damaged"; readonly compression: string };
-
-/** All records of one chunk, or none: its checksum says whether they are what was written. */
-function readChunk(chunk: Uint8Array): ChunkRead {
-  const records: TypedMcapRecord[] = [];
-  let compression = "";
-  try {
-    const reader = new McapStreamReader({ noMagicPrefix: true, includeChunks: true });
-    reader.append(chunk);
-    for (let record = reader.nextRecord(); record; record = reader.nextRecord()) {
-      if (record.type === "Chunk") compression = record.compression;
-      else records.push(record);
-    }
-    return reader.bytesRemaining() === 0 ? { kind: "read", records } : { kind: "damaged", compression: "" };
-  } catch (reason) {
-    return { kind: "damaged", compression: reason instanceof Error && reason.message.startsWith("Unsupported compression") ? compression : "" };
-  }
+/** Name of a packing that other writers use on chunks; "" for none. */
+function compressionOf(bytes: Uint8Array, view: DataView, body: number, end: number): string {
+  const length = body + CHUNK_HEAD <= end ? view.getUint32(body + 28, true) : 0;
+  const name = length > 0 && length <= 8 ? String.fromCharCode(...bytes.subarray(body + 32, body + 32 + length)) : "";
+  return /^(lz4|zstd)$/.test(name) ? name : "";
 }
 
-/** Puts the messages of chunk after chunk into arrays that grow. */
+const TWO_32 = 2 ** 32;
+/** Channel, sequence, log time, publish time. */
+const MESSAGE_HEAD = 2 + 4 + 8 + 8;
+
+/** Puts the messages of chunk after chunk into arrays that grow. Times are read without a bigint each. */
 function collector() {
   const states: RobotState[] = [], events: RunEvent[] = [], topics = new Map<number, string>();
-  let run: ReadonlyMap<string, string> | null = null, startedAt_ns = 0n, joints = 0, n = 0;
+  let run: ReadonlyMap<string, string> | null = null, startedAt_ns = 0n, startHigh = 0, startLow = 0, joints = 0, n = 0, alikeLength = -1, alikeOffset = -1;
   let times_s = new Float64Array(1024), q_rad = new Float64Array(0), sequences = new Uint32Array(1024), stateOf = new Uint32Array(1024);
 
   function begin(metadata: ReadonlyMap<string, string>): void {
     run = metadata;
     const started = metadata.get("started_at_ns") ?? "";
-    startedAt_ns = /^\d{1,20}$/.test(started) ? BigInt(started) : 0n;
+    startedAt_ns = /^\d{1,19}$/.test(started) ? BigInt(started) : 0n;
+    startHigh = Number(startedAt_ns >> 32n);
+    startLow = Number(startedAt_ns & 0xffffffffn);
     joints = namesOf(metadata.get("joints")).length;
     q_rad = new Float64Array(1024 * joints);
   }
@@ -121,25 +114,48 @@ function collector() {
     stateOf = larger(stateOf, new Uint32Array(2 * stateOf.length));
   }
 
-  return {
-    add(records: readonly TypedMcapRecord[]): void {
-      for (const record of records) {
-        if (record.type === "Channel") {
-          topics.set(record.id, record.topic);
-          if (!run && record.topic === TOPICS[0] && record.metadata.has("robot")) begin(record.metadata);
-        } else if (record.type === "Message" && run) {
-          const topic = topics.get(record.channelId), at_s = Number(record.logTime - startedAt_ns) / 1e9;
-          if (topic === TOPICS[0]) {
-            if (n === times_s.length) grow();
-            if (!readPositions(record.data, joints, q_rad, n * joints)) continue;
-            times_s[n] = at_s;
-            sequences[n] = record.sequence;
-            stateOf[n] = Math.max(0, states.length - 1);
-            n++;
-          } else if (topic === TOPICS[1]) states.push(stateFrom(json(record.data)));
-          else if (topic === TOPICS[2]) events.push(eventFrom(json(record.data), at_s));
-        }
+  function channel(record: Uint8Array): void {
+    const reader = new McapStreamReader({ noMagicPrefix: true });
+    reader.append(record);
+    const read = reader.nextRecord();
+    if (read?.type !== "Channel") return;
+    topics.set(read.id, read.topic);
+    if (!run && read.topic === TOPICS[0] && read.metadata.has("robot")) begin(read.metadata);
+  }
+
+  function message(bytes: Uint8Array, view: DataView, from: number, until: number): void {
+    const topic = topics.get(view.getUint16(from, true)), data = from + MESSAGE_HEAD;
+    const at_s = ((view.getUint32(from + 10, true) - startHigh) * TWO_32 + (view.getUint32(from + 6, true) - startLow)) / 1e9;
+    if (topic === TOPICS[0]) {
+      // Messages of one channel are all alike; where the angles are is looked up once for each length.
+      if (until - data !== alikeLength) {
+        alikeLength = until - data;
+        alikeOffset = positionsOffset(view, data, until, joints);
       }
+      if (alikeOffset < 0) return;
+      if (n === times_s.length) grow();
+      for (let i = 0; i < joints; i++) q_rad[n * joints + i] = view.getFloat64(data + alikeOffset + 8 * i, true);
+      times_s[n] = at_s;
+      sequences[n] = view.getUint32(from + 2, true);
+      stateOf[n] = Math.max(0, states.length - 1);
+      n++;
+    } else if (topic === TOPICS[1]) states.push(stateFrom(json(bytes.subarray(data, until))));
+    else if (topic === TOPICS[2]) events.push(eventFrom(json(bytes.subarray(data, until)), at_s));
+  }
+
+  return {
+    /** Takes all of one chunk, or nothing: its checksum says whether it is what was written. */
+    chunk(bytes: Uint8Array, view: DataView, body: number): boolean {
+      const size = view.getUint32(body + 16, true), from = body + CHUNK_HEAD, until = from + size, checksum = view.getUint32(body + 24, true);
+      if (checksum !== crc32(bytes.subarray(from, until))) return false;
+      for (let at = from; at + RECORD_HEAD <= until;) {
+        const opcode = view.getUint8(at), next = at + RECORD_HEAD + view.getUint32(at + 1, true) + TWO_32 * view.getUint32(at + 5, true);
+        if (next > until) break;
+        if (opcode === Opcode.CHANNEL && !topics.has(view.getUint16(at + RECORD_HEAD, true))) channel(bytes.subarray(at, next));
+        else if (opcode === Opcode.MESSAGE && run && next - at >= RECORD_HEAD + MESSAGE_HEAD) message(bytes, view, at + RECORD_HEAD, next);
+        at = next;
+      }
+      return true;
     },
     finish(complete: boolean, damaged: number): Read {
       if (!run) return { kind: "not-a-recording", sentence: `The file is MCAP but holds no joint angles of a run (no ${TOPICS[0]} with ${RUN_METADATA}).` };

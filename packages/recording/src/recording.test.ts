@@ -152,6 +152,9 @@ describe("recording", () => {
     for await (const message of indexed.readMessages({ topics: ["/joint_states"] })) {
       expect(message.logTime).toBeGreaterThanOrEqual(last);
       last = message.logTime;
+      const stamp = new DataView(message.data.buffer, message.data.byteOffset + 4);
+      expect(stamp.getUint32(4, true)).toBeLessThan(1e9);
+      expect(BigInt(stamp.getInt32(0, true)) * 1_000_000_000n + BigInt(stamp.getUint32(4, true))).toBe(last);
       joints++;
     }
     expect(joints).toBe(1500);

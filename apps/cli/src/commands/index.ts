@@ -1,8 +1,16 @@
 import type { Command } from "../io/usage.ts";
 import { benchCommand } from "./bench.ts";
+import { checkCommand } from "./check.ts";
+import { dialectsCommand } from "./dialects.ts";
 import { fkCommand } from "./fk.ts";
 import { ikCommand } from "./ik.ts";
+import { parseCommand } from "./parse.ts";
+import { postCommand } from "./post.ts";
 import { robotsCommand } from "./robots.ts";
+import { runCommand } from "./run.ts";
 import { serveCommand } from "./serve.ts";
+import { simulateCommand } from "./simulate.ts";
 
-export const COMMANDS: readonly Command[] = [robotsCommand, fkCommand, ikCommand, serveCommand, benchCommand];
+export const COMMANDS: readonly Command[] = [
+  robotsCommand, dialectsCommand, fkCommand, ikCommand, checkCommand, simulateCommand, postCommand, parseCommand, runCommand, serveCommand, benchCommand,
+];

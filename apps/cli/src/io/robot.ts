@@ -1,4 +1,7 @@
-import { inverse, LIBRARY, pose, robotById, type Pose, type Robot } from "@twincell/core";
+import { readFile } from "node:fs/promises";
+import { basename, extname } from "node:path";
+import { compose, inverse, LIBRARY, pose, robotById, robotFromArm, type Pose, type Robot } from "@twincell/core";
+import { armFromUrdf, readUrdf, type UrdfChain, type UrdfRobot } from "@twincell/formats";
 import type { Given } from "./arguments.ts";
 import { UseFault } from "./usage.ts";
 
@@ -13,7 +16,8 @@ export async function robotOf(options: Given): Promise<ChosenRobot> {
   if (wanted === undefined) throw new UseFault("--robot is missing.", `Library: ${LIBRARY.map(robot => robot.id).join(", ")}; or the path of a URDF.`);
   const known = robotById(wanted);
   if (known) return libraryRobot(known, options.text("base"), options.text("tip"));
-  throw new UseFault(`There is no robot "${wanted}" in the library.`, `Library: ${LIBRARY.map(robot => robot.id).join(", ")}.`);
+  if (extname(wanted) === ".urdf") return urdfRobot(wanted, options.text("base"), options.text("tip"));
+  throw new UseFault(`There is no robot "${wanted}" in the library.`, `Library: ${LIBRARY.map(robot => robot.id).join(", ")}; or the path of a URDF.`);
 }
 
 function libraryRobot(robot: Robot, base: string | undefined, tip: string | undefined): ChosenRobot {
@@ -21,4 +25,32 @@ function libraryRobot(robot: Robot, base: string | undefined, tip: string | unde
   if (tip !== undefined && tip !== frames.tip && tip !== "flange") throw new UseFault(`${robot.name} has no frame "${tip}".`, `Tips: ${frames.tip}, flange.`);
   if (base !== undefined && base !== frames.base && base !== "base") throw new UseFault(`${robot.name} has no frame "${base}".`, `Bases: ${frames.base}, base (the vendor's world).`);
   return { robot, baseFromRoot: base === "base" ? inverse(robot.baseFromVendorWorld) as Pose : pose(), flangeFromTip: pose() };
+}
+
+/**
+ * The arm is laid out from the file's root, where axis 1 stands as the closed form wants it; another base is a fixed step from
+ * there. Another tip becomes the arm's own flange.
+ */
+async function urdfRobot(path: string, base: string | undefined, tip: string | undefined): Promise<ChosenRobot> {
+  const answer = readUrdf(await textOf(path));
+  if (answer.kind !== "read") throw new UseFault(`${path}${answer.line === undefined ? "" : `, line ${answer.line}`}: ${answer.sentence}`);
+  const chain = chainOf(path, answer.robot, undefined, tip);
+  const robot = robotFromArm(chain.arm, { id: basename(path, ".urdf"), frames: { base: chain.base, tip: chain.tip }, assumptions: chain.assumptions });
+  if (base === undefined || base === chain.base) return { robot, baseFromRoot: pose(), flangeFromTip: pose() };
+  const baseFromJoint = chainOf(path, answer.robot, base, tip).arm.joints[0]!.parentFromJoint, rootFromJoint = chain.arm.joints[0]!.parentFromJoint;
+  return { robot, baseFromRoot: compose(baseFromJoint as Pose, inverse(rootFromJoint) as Pose), flangeFromTip: pose() };
+}
+
+function chainOf(path: string, file: UrdfRobot, base: string | undefined, tip: string | undefined): UrdfChain {
+  const chain = armFromUrdf(file, base, tip);
+  if (chain.kind === "chain") return chain;
+  throw new UseFault(`${path}${chain.line === undefined ? "" : `, line ${chain.line}`}: ${chain.sentence}`);
+}
+
+async function textOf(path: string): Promise<string> {
+  try {
+    return await readFile(path, "utf8");
+  } catch (cause) {
+    throw new UseFault(`${path} cannot be read: ${cause instanceof Error ? cause.message : String(cause)}.`);
+  }
 }

@@ -1,4 +1,6 @@
+import type { Checking } from "../live/checking.ts";
 import { registerCommands } from "../stores/commands.ts";
+import { checkCommands } from "./check.ts";
 import { editCommands } from "./edit.ts";
 import { jogCommands } from "./jog.ts";
 import { playCommands } from "./play.ts";
@@ -6,4 +8,4 @@ import { programCommands } from "./program.ts";
 import { viewCommands } from "./view.ts";
 
 /** Commands that need no part of the page. Features add theirs while they are on screen. */
-export const startCommands = (): (() => void) => registerCommands([...programCommands(), ...jogCommands(), ...playCommands(), ...viewCommands(), ...editCommands()]);
+export const startCommands = (checking: Checking): (() => void) => registerCommands([...checkCommands(checking), ...programCommands(), ...jogCommands(), ...playCommands(), ...viewCommands(), ...editCommands()]);

@@ -1,5 +1,6 @@
-import { theLive } from "../live/live.ts";
 import { glideTo } from "../live/glide.ts";
+import { theLive } from "../live/live.ts";
+import { solveStep } from "../live/solve.ts";
 import { cellStore } from "../stores/cell.ts";
 import type { Command } from "../stores/commands.ts";
 import { theProgram, theRobot } from "../stores/document.ts";
@@ -42,8 +43,9 @@ export const programCommands = (): readonly Command[] => [
     id: "program.go-to", group: "program", words: words.tree.goTo, keys: ["G"], can: () => selectedStep() !== null,
     run: () => {
       const id = selectedStep(), robot = theRobot(), step = theProgram()?.steps.find(each => each.id === id);
-      if (step?.type === "move" && "q" in step.target && robot) glideTo(robot, step.target.q);
-      else if (id) seekStep(id);
+      if (step?.type !== "move" || !robot) { if (id) seekStep(id); return; }
+      const there = solveStep(step, theLive().q_rad);
+      if (there.kind === "reached") glideTo(robot, there.q_rad); else notify("warn", there.sentence);
     },
   },
   { id: "program.duplicate", group: "program", words: words.commands.duplicate, keys: ["Mod+D"], can: () => selectedStep() !== null, run: () => { const id = selectedStep(); if (id) copySteps([id]); } },

@@ -55,7 +55,8 @@ export function createJogger(): Jogger {
   return {
     step(now_ms, dt_s) {
       const any = heldNow(held), jog = jogStore.getState();
-      if (jog.moving !== any) jogStore.setState({ moving: any, ...(any ? { aid: null } : {}) });
+      if (jog.moving !== any) jogStore.setState({ moving: any });
+      if (jog.aid !== null && any && (jog.frame === "joint" || held[3] !== 0 || held[4] !== 0 || held[5] !== 0)) jogStore.setState({ aid: null });
       if (jog.manner === "steps") {
         for (let i = 0; i < 6; i++) if (held[i] !== 0 && before[i] === 0) { pending.fill(0); pending[i] = Math.sign(held[i]!); left_s = STEP_S; }
       }

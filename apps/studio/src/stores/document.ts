@@ -13,7 +13,17 @@ function publish(next: History): void {
 }
 
 /** Shows another document; undo starts afresh. */
-export const showDocument = (document: CellDocument): void => publish(createHistory(document));
+export const showDocument = (document: CellDocument): void => publish(createHistory(inStep(document)));
+
+/** Programs carry the tools and frames of the cell, so that each can be checked, exported and run by itself. */
+function inStep(document: CellDocument): CellDocument {
+  const tools = Object.fromEntries(document.tools.map(tool => [tool.name, tool.flangeFromTcp]));
+  const frames = Object.fromEntries(document.frames.map(frame => [frame.name, frame.worldFromFrame]));
+  const programs = document.programs.map(program => (agrees(program.tools, tools) && agrees(program.frames, frames) ? program : { ...program, tools: { ...program.tools, ...tools }, frames: { ...program.frames, ...frames } }));
+  return programs.every((program, i) => program === document.programs[i]) ? document : { ...document, programs };
+}
+const agrees = (has: Readonly<Record<string, Pose>>, wants: Readonly<Record<string, Pose>>): boolean =>
+  Object.entries(wants).every(([name, pose]) => has[name] === pose || JSON.stringify(has[name]) === JSON.stringify(pose));
 
 /**
  * The only way to change the document. `change` returns the new document, or the same one when there is nothing to do.
@@ -21,7 +31,7 @@ export const showDocument = (document: CellDocument): void => publish(createHist
  */
 export function commit(label: string, change: (document: CellDocument) => CellDocument, gesture?: string): boolean {
   if (!history) return false;
-  const after = change(history.document);
+  const after = inStep(change(history.document));
   if (after === history.document) return false;
   publish(history.commit(label, after, gesture));
   return true;

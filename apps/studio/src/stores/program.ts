@@ -1,6 +1,6 @@
 import {
   applyRepair, duplicateSteps, freshStepId, insertSteps, moveSteps, removeSteps, replaceStep,
-  type MoveStep, type Program, type Repair, type Speed, type Step,
+  type MoveStep, type Program, type Repair, type Speed, type Step, type Verdict,
 } from "@twincell/core";
 import { words } from "../words/index.ts";
 import { commit, theProgram, withProgram } from "./document.ts";
@@ -52,7 +52,7 @@ export const touchUp = (id: string, q_rad: ArrayLike<number>, tool: string): boo
   ...step, target: tool === "flange" ? { q: Array.from(q_rad) } : { q: Array.from(q_rad), tool },
 }));
 export const renameStep = (id: string, name: string): boolean => changeStep(id, words.undo.rename, step => {
-  const { name: _old, ...rest } = step;
+  const { name: _, ...rest } = step;
   return name.trim() === "" ? rest : { ...rest, name: name.trim() };
 });
 
@@ -80,6 +80,12 @@ export const repairStep = (id: string, repair: Repair): boolean => edit(words.un
 /** Several repairs are one undo step. */
 export const repairAll = (repairs: readonly { readonly id: string; readonly repair: Repair }[]): boolean =>
   edit(words.undo.repairAll, program => repairs.reduce((so, { id, repair }) => applyRepair(so, id, repair), program));
+
+/** The first repair of every step that has one. */
+export const firstRepairs = (verdict: Verdict | null): readonly { readonly id: string; readonly repair: Repair }[] => (verdict?.steps ?? []).flatMap(step => {
+  const repair = step.findings.find(finding => finding.repairs.length > 0)?.repairs[0];
+  return repair ? [{ id: step.id, repair }] : [];
+});
 
 /** What a person reads for a step that has no name of its own. */
 export function stepWords(step: Step, index: number): string {

@@ -1,3 +1,4 @@
+import type { Step } from "@twincell/core";
 import { playStore } from "./play.ts";
 
 /** Somebody wants to look at another moment; `live/playhead.ts` answers. */
@@ -15,4 +16,14 @@ export function seekStep(id: string): boolean {
   if (!segment) return false;
   seek(segment.start_s + segment.duration_s);
   return true;
+}
+
+/** Somebody wants to see a step as it would be, before it is so; null goes back. */
+const previewers = new Set<(step: Step | null) => void>();
+export function onPreview(listen: (step: Step | null) => void): () => void {
+  previewers.add(listen);
+  return () => previewers.delete(listen);
+}
+export function previewStep(step: Step | null): void {
+  for (const listen of previewers) listen(step);
 }

@@ -12,6 +12,11 @@ export interface TraceOptions {
   readonly motion: "joint" | "straight";
   readonly speed_mps: number;
 }
+/** Faces that bend by more than this meet in an edge [rad]. */
+export const SHARP_RAD = 0.5;
+
+/** What came of the last trace. */
+export interface TraceResult { readonly points: number; readonly edges: number; readonly inserted: number; readonly deviation_m: number }
 /** Edge tracing: which edges of which object are under the pointer and chosen. Polylines are in the world [m]. */
 export interface TraceState {
   readonly active: boolean;
@@ -19,8 +24,10 @@ export interface TraceState {
   readonly hovered: { readonly object: string; readonly polyline: readonly Vector3[] } | null;
   readonly chosen: readonly { readonly object: string; readonly edge: number; readonly polyline: readonly Vector3[] }[];
   readonly options: TraceOptions;
+  readonly working: boolean;
+  readonly last: TraceResult | null;
 }
 export const traceStore = createStore<TraceState>(() => ({
-  active: false, wholeLoop: false, hovered: null, chosen: [],
+  active: false, wholeLoop: false, hovered: null, chosen: [], working: false, last: null,
   options: { tilt_rad: Math.PI / 4, leadIn_m: 0.03, leadOut_m: 0.03, chordTolerance_m: 0.0002, pathTolerance_m: 0.0005, motion: "joint", speed_mps: 0.1 },
 }));

@@ -92,7 +92,7 @@ export const en = {
     title: "Trace edges", tool: "Trace", tip: "Click edges of an object and get points along them", tilt: "Tool angle", leadIn: "Lead-in", leadOut: "Lead-out", chord: "Chord tolerance", tolerance: "Path tolerance", motion: "Motion", joint: "PTP between points", straight: "LIN", speed: "Speed",
     loop: "Whole loop", chosen: "Chosen edges", none: "Click an edge of the carton. Shift takes its whole loop.", make: "Make points", clear: "Clear", working: "Points are being laid …", edge: (n: number, mm: string) => `Edge ${n} · ${mm} mm`, remove: (n: number) => `Take edge ${n} out`,
     made: (points: number, edges: number, inserted: number) => `${plural(points, "point")} on ${plural(edges, "edge")}; ${inserted} of them inserted to stay within tolerance.`, deviation: (mm: string, tolerance: string) => `Largest deviation from the edge: ${mm} mm (allowed ${tolerance} mm).`,
-    group: (n: number) => `Edge ${n}`, loopGroup: (n: number) => `Loop ${n}`, approach: "Approach", retreat: "Retreat", last: "Last trace", leave: "Done tracing", home: "Home",
+    group: (n: number) => `Edge ${n}`, loopGroup: (n: number) => `Loop ${n}`, approach: "Approach", retreat: "Retreat", last: "Last trace", options: "Tool angle and tolerances", stopped: "The points could not be laid.", cannot: (edge: number, why: string) => `Edge ${edge} cannot be traced. ${why}`, cannotHint: "Change the tool angle, move the object, or trace fewer edges.", leave: "Done tracing", home: "Home",
   },
   check: {
     title: "Verdict", clearance: "Clearance", margin: "Joint margin", reach: "Reach", cycle: "Cycle", reachOk: (n: number) => `${n} of ${n}`, reachBad: (bad: number, all: number) => `${bad} of ${all} fail`, notMeasured: "not measured",
@@ -105,12 +105,12 @@ export const en = {
     s: (s: number) => s.toFixed(2), seconds: "s", joint: (n: number) => `J${n}`, deg: "°", degS: "°/s", start: "To the start",
   },
   run: {
-    title: "Run", text: "V+ text", run: "Run", again: "Run again", hold: "Pause", resume: "Resume", stop: "Stop", running: (line: number) => `Line ${line} runs.`, idle: "The exported text runs statement by statement on the virtual controller; the twin on screen mirrors it.", twin: "Twin error", twinOk: "The twin differs from the controller by at most",
+    title: "Run", text: "V+ text", run: "Run", again: "Run again", hold: "Pause", resume: "Resume", stop: "Stop", running: (line: number) => `Line ${line} runs.`, idle: "The exported text runs statement by statement on the virtual controller; the twin on screen mirrors it.", twin: "Twin error",
     nothing: "There is nothing to run yet. Add a step first.", done: (s: string) => `The run is done after ${s} s.`, refused: (why: string) => `The controller refused: ${why}`, stopped: (why: string) => `The run was stopped: ${why}`, recording: "Every run is recorded.", notEmitted: "This program cannot be said in V+:", notUnderstood: "The text could not be read:", kept: "The run is in the history.",
     start: "To the first point", io: "Gripper",
   },
   history: {
-    title: "Runs", none: "No run yet. Every run is recorded and appears here.", open: "Open run", endings: { done: "done", stopped: "stopped", refused: "refused" }, remove: "Delete run", download: "Download .mcap", events: "Events", noEvents: "Nothing happened in this run but motion.", loading: "The recording is being read …", unreadable: "The recording could not be read:", choose: "Open a run to look back at any moment of it.",
+    title: "Runs", none: "No run yet. Every run is recorded and appears here.", open: "Open run", endings: { done: "done", stopped: "stopped", refused: "refused", running: "runs now", "cut-off": "cut off" }, remove: "Delete run", download: "Download .mcap", events: "Events", noEvents: "Nothing happened in this run but motion.", loading: "The recording is being read …", unreadable: "The recording could not be read:", choose: "Open a run to look back at any moment of it.",
     size: (bytes: number) => (bytes < 1e6 ? `${Math.round(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`), full: "There is no room left in this browser for the recording of this run.", fullHint: "Delete older runs, or download them first.", name: (cell: string, n: number) => `${cell}, run ${n}`, deleted: "The run was deleted.", back: "Back to now",
   },
   file: {

@@ -1,6 +1,7 @@
 import { distance, flangePose, identity, manualScheduler, robotById, type JointSample, type RobotController, type Vector3 } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { describeController } from "../testing/index.ts";
+import { createTwin } from "../twin/index.ts";
 import { createVirtualController } from "../virtual/index.ts";
 import { createGuard, type GuardOptions } from "./guard.ts";
 import { jointMoveSpeed, speedBound } from "./speed.ts";
@@ -15,6 +16,16 @@ describeController("guarded virtual RX90L", {
   make: options => {
     const seat = createGuard({ controller: createVirtualController(options), scheduler: options.scheduler }).seat("test");
     seat.take();
+    return seat.robot;
+  },
+});
+
+describeController("guarded twin of a virtual RX90L, dead-man pressed", {
+  robot, scheduler: manualScheduler,
+  make: options => {
+    const { scheduler } = options, seat = createGuard({ controller: createTwin({ real: createVirtualController(options), scheduler }), scheduler }).seat("test");
+    seat.take();
+    seat.hold(true);
     return seat.robot;
   },
 });
@@ -202,16 +213,19 @@ describe("guard", () => {
 
     test("T-44 the robot is kept from its own stand", async () => {
       const stand = (q_rad: ArrayLike<number>): boolean => flangePose(robot.arm, q_rad).position[2] > 0.1;
-      const { scheduler, real, me } = bench({ isSafe: stand });
+      const { scheduler, real, me, guard } = bench({ isSafe: stand });
       let lowest_m = Infinity;
       real.onSample(lent => { lowest_m = Math.min(lowest_m, flangePose(robot.arm, lent.q_rad).position[2]); });
-      // Both ends are above the stand's top; the way between them dips below it.
-      const above = [0, 0.1, 1.2, 0, 0, 0], before = [0, -1.2, 2.9, 0, 0, 0];
-      expect(stand(above) || stand(before)).toBe(true);
-      const down = me.robot.moveJoints([0, 0.75, 1.5, 0, 0, 0]);
+      const low = [0, 0.75, 1.5, 0, 0, 0];
+      expect(stand(START)).toBe(true);
+      expect(await me.robot.moveJoints(low)).toMatchObject({ kind: "refused", why: { code: "guard.clearance" } });
+      // Steps are not looked at beforehand; the motion is.
+      const command = me.robot.run([{ id: "down", type: "move", path: "ptp", target: { q: low }, speed: { ratio: 1 }, blend_m: 0 }], { tools: {}, frames: {} });
       await scheduler.elapse(3);
-      expect((await down).kind).toBe("refused");
+      expect(await command).toMatchObject({ kind: "stopped", why: { code: "guard.clearance" } });
       expect(lowest_m).toBeGreaterThan(0.1);
+      expect(lowest_m).toBeLessThan(0.2);
+      expect(guard.state).toMatchObject({ motion: "at-rest", trip: "none" });
     });
 
     test("a robot that stands too near to something may move away, not nearer", async () => {
@@ -305,6 +319,16 @@ describe("guard", () => {
     await scheduler.elapse(6);
     expect(await again).toEqual({ kind: "done" });
     expect(real.isMoving()).toBe(false);
+  });
+
+  test("a driver that throws leaves the robot stopped and the guard ready", async () => {
+    const scheduler = manualScheduler(), real = createVirtualController({ robot, scheduler }), stops: number[] = [];
+    const controller: RobotController = { ...real, stop: () => { stops.push(scheduler.now_s()); }, moveJoints: () => Promise.reject(new Error("The cable was pulled.")) };
+    const guard = createGuard({ controller, scheduler }), me = guard.seat("me");
+    me.take();
+    await expect(me.robot.moveJoints(START)).rejects.toThrow("The cable was pulled.");
+    expect(stops.length).toBe(1);
+    expect(guard.state.motion).toBe("at-rest");
   });
 
   test("closing the guard stops what moves", async () => {

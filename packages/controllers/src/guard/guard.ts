@@ -134,7 +134,13 @@ export function createGuard(options: GuardOptions): Guard {
     leaving = !isSafe(q_rad);
     capped = cappedFor(target_rad);
     applySpeed();
-    const outcome = await go();
+    let outcome: CommandOutcome | null = null;
+    try {
+      outcome = await go();
+    } finally {
+      // A driver that throws leaves nobody to say what the robot does: it is stopped.
+      if (!outcome) { send({ type: "stop", emergency: false }); send({ type: "ended" }); }
+    }
     const reason: Refusal | null = because;
     if (state.motion !== "returning") {
       capped = 1;

@@ -2,3 +2,4 @@ export { manualScheduler } from "@twincell/core";
 export * from "./contract.ts";
 export * from "./numeric.ts";
 export * from "./spoiled.ts";
+export { createVirtualController } from "../virtual/index.ts";

@@ -1,4 +1,5 @@
-import { manualScheduler, robotById, type Step } from "@twincell/core";
+import fc from "fast-check";
+import { distance, flangePose, manualScheduler, PlainFault, robotById, seededRandom, type Step, type Vector3 } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { describeController, numericSolver, onSpoiledSample } from "../testing/index.ts";
 import { createVirtualController } from "./controller.ts";
@@ -33,7 +34,7 @@ describe("virtual controller", () => {
     expect(times.at(-1)).toBeCloseTo(60, 9);
   });
 
-  test("a stop brakes within the stated time, at no more than twice a joint's acceleration, and stays on the path", async () => {
+  test("a stop brakes within the stated time, within every joint's acceleration, and stays on the path", async () => {
     const { scheduler, robot: controller } = bench();
     const from = controller.jointAngles(), to = near(0.8);
     const command = controller.moveJoints(to);
@@ -50,12 +51,34 @@ describe("virtual controller", () => {
     expect(standing_s - stopped_s).toBeLessThanOrEqual(controller.brakingTime_s + 0.004 + 1e-9);
     robot.arm.joints.forEach(({ limits }, i) => {
       for (let k = 1; k < speeds.length; k++) {
-        expect(Math.abs(speeds[k]![i]! - speeds[k - 1]![i]!) / 0.004).toBeLessThanOrEqual(2 * limits.acceleration_rad_s2 * (1 + 1e-6));
+        expect(Math.abs(speeds[k]![i]! - speeds[k - 1]![i]!) / 0.004).toBeLessThanOrEqual(limits.acceleration_rad_s2 * 1.02);
       }
     });
     const part = (last[0]! - from[0]!) / (to[0]! - from[0]!);
     last.forEach((q, i) => expect(q).toBeCloseTo(from[i]! + part * (to[i]! - from[i]!), 9));
     expect(part).toBeLessThan(1);
+  });
+
+  test("X-41 wherever a program is stopped, it stands within the stated braking time", async () => {
+    const random = seededRandom(5), start = [0, -0.6, 2.4, 0, 0.5, 0], { position: [x, y, z], quaternion } = flangePose(robot.arm, start);
+    for (let i = 0; i < 60; i++) {
+      const { scheduler, robot: controller } = bench({ start_rad: start });
+      const steps = [0, 1, 2, 3, 4].map((k): Step => ({
+        id: `s${k}`, type: "move", ...(i % 3 === 0
+          ? { path: "ptp", target: { q: robot.arm.joints.map(({ limits }) => limits.lower_rad + random() * (limits.upper_rad - limits.lower_rad)) }, speed: { ratio: 1 } }
+          : { path: "lin", target: { pose: { position: [x - 0.4 * random(), y + 0.6 * random() - 0.3, z + 0.3 * random()], quaternion }, frame: "world", tool: "flange" }, speed: { mps: 3 } }),
+        blend_m: k < 4 && i % 2 === 1 ? 0.05 : 0,
+      }));
+      let ended_s = NaN;
+      void controller.run(steps, { tools: {}, frames: {} }).then(() => { ended_s = scheduler.now_s(); });
+      await scheduler.elapse(0.05 + random());
+      const stopped_s = scheduler.now_s();
+      controller.stop();
+      await scheduler.elapse(controller.brakingTime_s);
+      expect(Number.isNaN(ended_s), `program ${i}`).toBe(false);
+      expect(ended_s - stopped_s).toBeLessThanOrEqual(controller.brakingTime_s);
+      controller.close();
+    }
   });
 
   test("T-30 a wait lasts as long as it says, whatever the override", async () => {
@@ -79,7 +102,7 @@ describe("virtual controller", () => {
       move("b", HOME), { id: "h", type: "gripper", closed: false }, { id: "v", type: "wait", s: 0.1 }];
     void controller.run(steps, { tools: {}, frames: {} });
     await scheduler.elapse(3);
-    expect(seen).toEqual(["a false", "w true", "b true", "v false", " false"]);
+    expect(seen).toEqual(["a false", "g true", "w true", "b true", "h false", "v false", " false"]);
   });
 
   test("T-53 the next step is asked for when it is needed", async () => {
@@ -103,7 +126,86 @@ describe("virtual controller", () => {
     await scheduler.elapse(3);
     void controller.run([move("far", far)], { tools: {}, frames: {} }).then(outcome => outcomes.push(outcome));
     await scheduler.elapse(0.1);
-    expect(outcomes).toMatchObject([{ kind: "stopped", why: { code: "limits.joint", joint: 1 } }, { kind: "refused", why: { code: "limits.joint", joint: 1 } }]);
+    const why = { code: "limits.joint", sentence: expect.stringContaining("joint 1") };
+    expect(outcomes).toMatchObject([{ kind: "stopped", why }, { kind: "refused", why }]);
+  });
+
+  test("straight and circular steps run, with tools, frames and blends", async () => {
+    const start = [0, -0.6, 2.4, 0, 0.5, 0], { scheduler, robot: controller } = bench({ start_rad: start });
+    const from = flangePose(robot.arm, start), [x, y, z] = from.position, { quaternion } = from, rest = { type: "move", blend_m: 0, speed: { mps: 0.2 } } as const;
+    const at = (dx: number, dy: number, dz: number) => ({ pose: { position: [x + dx, y + dy, z + dz] as Vector3, quaternion }, frame: "world", tool: "flange" });
+    const seen: Vector3[] = [];
+    onSpoiledSample(controller, lent => { if (lent.step === "line") seen.push([...flangePose(robot.arm, lent.q_rad).position]); });
+    const command = controller.run([
+      { ...rest, id: "line", path: "lin", target: at(0, 0.2, 0) },
+      { ...rest, id: "arc", path: "circ", via: at(-0.05, 0.25, 0), target: at(-0.1, 0.2, 0) },
+      { ...rest, id: "corner", path: "lin", target: at(-0.1, 0.1, 0), blend_m: 0.02 },
+      { ...rest, id: "end", path: "lin", target: at(0, 0.1, 0) },
+    ], { tools: {}, frames: {} });
+    await scheduler.elapse(10);
+    expect(await command).toEqual({ kind: "done" });
+    expect(seen.length).toBeGreaterThan(200);
+    for (const [px, , pz] of seen) { expect(Math.abs(px - x)).toBeLessThan(1e-4); expect(Math.abs(pz - z)).toBeLessThan(1e-4); }
+    expect(distance(flangePose(robot.arm, controller.jointAngles()).position, [x, y + 0.1, z])).toBeLessThan(1e-6);
+  });
+
+  test("a program that faults by itself ends there; the robot takes the next command", async () => {
+    const { scheduler, robot: controller } = bench(), outcomes: unknown[] = [];
+    function* faulty(reason: Error): Generator<Step> { yield move("a", near(0.1)); throw reason; }
+    for (const reason of [new PlainFault("text.divide-by-zero", "Line 4 divides by zero.", "Check the divisor."), new Error("no such array")]) {
+      void controller.run(faulty(reason), { tools: {}, frames: {} }).then(outcome => outcomes.push(outcome));
+      await scheduler.elapse(2);
+    }
+    expect(outcomes).toMatchObject([
+      { kind: "stopped", why: { code: "text.divide-by-zero", sentence: "Line 4 divides by zero.", hint: "Check the divisor." } },
+      { kind: "stopped", why: { code: "controller.program-fault", sentence: expect.stringContaining("no such array") } },
+    ]);
+    const next = controller.moveToZero();
+    await scheduler.elapse(5);
+    expect(await next).toEqual({ kind: "done" });
+  });
+
+  test("whatever is commanded whenever, limits and speeds are kept and every command is answered", async () => {
+    const joints = robot.arm.joints, slack = 1e-6;
+    const anything = fc.array(fc.record({
+      what: fc.constantFrom("move", "joint", "zero", "stop", "emergency", "reset", "speed", "guard", "protective", "manual", "automatic", "jog", "run", "jump"),
+      part: fc.array(fc.double({ min: -0.1, max: 1.1, noNaN: true }), { minLength: 6, maxLength: 6 }), wait_s: fc.double({ min: 0, max: 0.8, noNaN: true }),
+    }), { minLength: 1, maxLength: 25 });
+    await fc.assert(fc.asyncProperty(anything, async commands => {
+      const { scheduler, robot: controller } = bench();
+      let asked = 0, answered = 0, jumped = false, last = controller.jointAngles();
+      const faults: string[] = [];
+      onSpoiledSample(controller, lent => {
+        joints.forEach(({ limits }, i) => {
+          const q = lent.q_rad[i]!;
+          if (!(q >= limits.lower_rad - slack && q <= limits.upper_rad + slack)) faults.push(`joint ${i + 1} at ${q}`);
+          if (!jumped && Math.abs(q - last[i]!) > limits.speed_rad_s * 0.004 * 1.001) faults.push(`joint ${i + 1} by ${q - last[i]!}`);
+        });
+        jumped = false;
+        last = Float64Array.from(lent.q_rad);
+      });
+      const count = (outcome: Promise<unknown>): void => { asked++; void outcome.then(() => { answered++; }); };
+      for (const { what, part, wait_s } of commands) {
+        const q = joints.map(({ limits }, i) => limits.lower_rad + part[i]! * (limits.upper_rad - limits.lower_rad));
+        if (what === "move") count(controller.moveJoints(q));
+        else if (what === "joint") count(controller.moveJoint(2, q[1]!));
+        else if (what === "zero") count(controller.moveToZero());
+        else if (what === "run") count(controller.run([move("a", q), { id: "w", type: "wait", s: 0.1 }, move("b", HOME)], { tools: {}, frames: {} }));
+        else if (what === "jog") count(controller.atTheRobot.jog(q));
+        else if (what === "jump") jumped = controller.jumpTo(q).kind === "done" || jumped;
+        else if (what === "stop" || what === "emergency") controller.stop(what === "emergency");
+        else if (what === "reset") controller.reset();
+        else if (what === "speed") controller.setSpeed(100 * Math.max(0, Math.min(1, part[0]!)));
+        else if (what === "guard") controller.atTheRobot.setGuardOpen(part[0]! > 0.5);
+        else if (what === "protective") controller.atTheRobot.protectiveStop("A test.");
+        else controller.atTheRobot.setMode(what);
+        await scheduler.elapse(wait_s);
+      }
+      controller.setSpeed(100);
+      await scheduler.elapse(20);
+      expect(faults).toEqual([]);
+      expect(answered).toBe(asked);
+    }), { seed: 7, numRuns: 40 });
   });
 
   test("a second command while one runs is refused, and the first goes on", async () => {

@@ -1,10 +1,9 @@
 import {
-  explainReach, solveAll, type CommandOutcome, type JointSample, type OperatingMode, type Pose, type Program, type Reach, type Refusal, type Robot,
+  explainReach, solveAll, Stepper, type StepperState, type CommandOutcome, type JointSample, type OperatingMode, type Pose, type Program, type Reach, type Refusal, type Robot,
   type RobotController, type SafetyState, type Scheduler, type Step,
 } from "@twincell/core";
 import { listeners } from "../listeners.ts";
-import { busy, closed, drivesOff, guardOpen, guardStillOpen, jointNumberRefusal, jointRefusal, manualMode, percentRefusal, protective, stillBraking, stopped } from "../refusals.ts";
-import { executeJointMoves, type Execute, type Execution } from "./execution.ts";
+import { busy, closed, drivesOff, guardOpen, guardStillOpen, jointNumberRefusal, jointRefusal, manualMode, percentRefusal, programFault, protective, stillBraking, stopped } from "../refusals.ts";
 
 export interface VirtualOptions {
   readonly robot: Robot;
@@ -16,8 +15,8 @@ export interface VirtualOptions {
   readonly maxSpeed?: number;
   readonly start_rad?: ArrayLike<number>;
   readonly mode?: OperatingMode;
-  /** How steps become motion. */
-  readonly execute?: Execute;
+  /** Where the robot stands in the cell; frames of a program are seen from the world. */
+  readonly worldFromBase?: Pose<"world", "base">;
   /** Finds joint angles for a pose: core's own when left out; with null `moveToPose` is refused and joint moves still work (row T-67). */
   readonly solve?: Solve | null;
   /** Called once, before the first sample (row T-11). */
@@ -48,7 +47,7 @@ export interface VirtualController extends RobotController {
   readonly brakingTime_s: number;
 }
 
-interface Command { readonly execution: Execution; readonly resolve: (outcome: CommandOutcome) => void; stopping: Refusal | null; begun: boolean }
+interface Command { readonly stepper: Stepper; readonly resolve: (outcome: CommandOutcome) => void; stopping: Refusal | null; begun: boolean; moving: boolean; step: string }
 type Lent = { -readonly [K in keyof JointSample]: JointSample[K] };
 
 const DONE: CommandOutcome = { kind: "done" };
@@ -59,10 +58,11 @@ const CATCH_UP_S = 1;
 /** A robot made of numbers, with a controller's habits: modes, override, limits, stops, samples in its own cycle. */
 export function createVirtualController(options: VirtualOptions): VirtualController {
   const { robot, scheduler } = options;
-  const cycle_s = options.cycle_s ?? 0.004, maxSpeed = options.maxSpeed ?? 1, execute = options.execute ?? executeJointMoves;
+  const cycle_s = options.cycle_s ?? 0.004, maxSpeed = options.maxSpeed ?? 1;
   const solve: Solve | null = options.solve === undefined ? (pose, near) => solveAll(robot, pose, { near }) : options.solve;
   const name = options.name ?? `Virtual ${robot.name}`, n = robot.arm.joints.length;
-  const brakingTime_s = Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2));
+  // The slowest joint from full speed to rest, and the cycles in which the command comes through.
+  const brakingTime_s = Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2)) + 2 * cycle_s;
   const q_rad = Float64Array.from(options.start_rad ?? robot.home_rad);
   const samples = listeners<JointSample>();
   const lent: Lent = {
@@ -70,29 +70,35 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
     override: 1, gripperClosed: false, step: "", message: "",
   };
   let mode: OperatingMode = lent.mode, safety: SafetyState = "normal", override = 1, gripperClosed = false, message = "";
-  let guardIsOpen = false, why: Refusal | null = null, rate = 0, command: Command | null = null, cycles = 0, skipped = 0, isClosed = false;
+  let guardIsOpen = false, why: Refusal | null = null, command: Command | null = null, cycles = 0, skipped = 0, isClosed = false;
   const begun_s = scheduler.now_s();
 
-  const isMoving = (): boolean => command !== null && !command.execution.resting && (rate > 0 || (override > 0 && !command.stopping));
+  const isMoving = (): boolean => command !== null && (command.begun ? command.moving : override > 0);
 
   function finish(outcome: CommandOutcome): void {
     const ended = command;
     command = null;
-    rate = 0;
     if (outcome.kind !== "done") message = outcome.why.sentence;
     ended?.resolve(outcome);
   }
 
   /** One cycle of motion; what ended with it, if anything did. */
   function move(at: Command): CommandOutcome | null {
-    const wanted = at.stopping ? 0 : override * maxSpeed, slope = cycle_s / brakingTime_s;
-    rate += Math.min(Math.max(wanted - rate, -slope), slope);
-    if (at.stopping && (rate <= 1e-12 || at.execution.resting)) return { kind: "stopped", why: at.stopping };
-    const how = at.execution.advance(cycle_s, rate, q_rad);
-    gripperClosed = at.execution.gripperClosed;
-    if (how === "going") { at.begun = true; return null; }
-    if (how === "finished") return at.stopping ? { kind: "stopped", why: at.stopping } : DONE;
-    return { kind: at.begun ? "stopped" : "refused", why: how };
+    const { begun } = at;
+    let state: StepperState;
+    try {
+      state = at.stepper.advance(cycle_s, override * maxSpeed, q_rad);
+    } catch (reason) {
+      // Steps may come from a running program text, and that may fault: the program ends, the robot goes on being a robot.
+      return { kind: "stopped", why: programFault(reason) };
+    }
+    gripperClosed = state.gripperClosed;
+    at.begun = true;
+    at.moving = state.moving;
+    at.step = state.step;
+    if (state.kind === "running") return null;
+    if (state.kind === "fault" && state.fault) return { kind: begun ? "stopped" : "refused", why: state.fault };
+    return at.stopping ? { kind: "stopped", why: at.stopping } : DONE;
   }
 
   function cycle(): void {
@@ -101,7 +107,7 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
     if (outcome) finish(outcome);
     lent.sequence = cycles; lent.time_s = (cycles + skipped) * cycle_s; lent.q_rad.set(q_rad); lent.moving = isMoving();
     lent.mode = mode; lent.safety = safety; lent.override = override; lent.gripperClosed = gripperClosed;
-    lent.message = message; lent.step = command?.execution.step ?? "";
+    lent.message = message; lent.step = command?.step ?? "";
     samples.call(lent);
   }
 
@@ -126,9 +132,9 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
   /** Carries out steps from standstill. Everything that moves the virtual robot goes through here. */
   function start(steps: Iterator<Step>, context: Pick<Program, "tools" | "frames">): Promise<CommandOutcome> {
     message = "";
-    const execution = execute(steps, context, { robot, q_rad, gripperClosed });
-    rate = override * maxSpeed;
-    return new Promise(resolve => { command = { execution, resolve, stopping: null, begun: false }; });
+    const plan = options.worldFromBase ? { ...context, worldFromBase: options.worldFromBase } : context;
+    const stepper = new Stepper(robot, plan, steps, q_rad, { gripperClosed });
+    return new Promise(resolve => { command = { stepper, resolve, stopping: null, begun: false, moving: false, step: "" }; });
   }
 
   /** The one motion primitive (rows T-12, T-13): joint targets, checked, then carried out over many cycles. */
@@ -143,7 +149,7 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
   function brake(state: SafetyState, reason: Refusal): void {
     if (state !== "normal") { safety = state; why = reason; }
     message = reason.sentence;
-    if (command && !command.stopping) command.stopping = reason;
+    if (command && !command.stopping) { command.stopping = reason; command.stepper.stop(); }
   }
 
   return {

@@ -1,3 +1,1 @@
 export * from "./controller.ts";
-export * from "./execution.ts";
-export { executeSteps } from "./stepping.ts";

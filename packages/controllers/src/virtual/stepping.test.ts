@@ -1,7 +1,6 @@
 import { flangePose, manualScheduler, robotById, type MoveStep } from "@twincell/core";
 import { expect, test } from "vitest";
 import { createVirtualController } from "./controller.ts";
-import { executeSteps } from "./stepping.ts";
 
 const robot = robotById("staubli_rx90l")!;
 const down = { quaternion: [0, 1, 0, 0] as [number, number, number, number] };
@@ -11,7 +10,7 @@ const lin = (id: string, x: number, y: number, z: number, path: "ptp" | "lin" = 
 
 test("a straight move keeps the flange on its line, counted from where the robot stands", async () => {
   const scheduler = manualScheduler(), worldFromBase = { position: [0, 0, 0.75] as [number, number, number], quaternion: [0, 0, 0, 1] as [number, number, number, number] };
-  const controller = createVirtualController({ robot, scheduler, execute: executeSteps(worldFromBase) });
+  const controller = createVirtualController({ robot, scheduler, worldFromBase });
   const seen: number[][] = [];
   controller.onSample(({ q_rad, step }) => { if (step === "b") seen.push([...flangePose(robot.arm, q_rad).position]); });
   const outcome = controller.run([lin("a", 0.6, -0.2, 0.9, "ptp"), lin("b", 0.6, 0.2, 0.9)], { tools: {}, frames: {} });
@@ -23,7 +22,7 @@ test("a straight move keeps the flange on its line, counted from where the robot
 });
 
 test("a step that cannot be reached ends the run with its reason", async () => {
-  const scheduler = manualScheduler(), controller = createVirtualController({ robot, scheduler, execute: executeSteps() });
+  const scheduler = manualScheduler(), controller = createVirtualController({ robot, scheduler });
   const outcome = controller.run([lin("a", 0.6, 0, 0.5, "ptp"), lin("far", 2.6, 0, 0.5)], { tools: {}, frames: {} });
   await scheduler.elapse(10);
   const ended = await outcome;

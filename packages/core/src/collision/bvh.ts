@@ -12,10 +12,16 @@ const ROUNDING_M = 1e-12;
 export interface Bvh {
   /** 6 numbers a node: centre x, y, z and half lengths x, y, z [m]. */
   readonly boxes: Float64Array;
+  /** No point of a node's box is farther than this from the origin of the frame [m]. */
+  readonly reaches: Float64Array;
   /** 2 numbers a node: second child and 0, or in a leaf first triangle and number of triangles. */
   readonly links: Int32Array;
-  /** 9 numbers a triangle, in the order of the leaves [m]. */
+  /** 9 numbers a triangle, in the order of the leaves, each beginning with its longest edge [m]. */
   readonly corners: Float64Array;
+  /** 4 numbers a triangle: centre and radius of the smallest ball around it [m]. */
+  readonly balls: Float64Array;
+  /** How far the third corner is from the longest edge: a triangle lies inside that edge's capsule [m]. */
+  readonly heights: Float64Array;
   /** Which triangle of the mesh each was. */
   readonly source: Uint32Array;
   /** Levels below the root. */
@@ -83,13 +89,32 @@ class Builder {
   }
 
   finish(): Bvh {
-    const { positions, indices } = this.#mesh, corners = new Float64Array(9 * this.count);
-    for (let i = 0; i < this.count; i++) for (let c = 0; c < 3; c++) for (let k = 0; k < 3; k++) {
-      corners[9 * i + 3 * c + k] = positions[3 * indices[3 * this.#order[i]! + c]! + k]!;
+    const corners = new Float64Array(9 * this.count), balls = new Float64Array(4 * this.count), heights = new Float64Array(this.count);
+    for (let i = 0; i < this.count; i++) {
+      this.#copyCorners(this.#order[i]!, corners, 9 * i);
+      heights[i] = boundTriangle(corners, 9 * i, balls, 4 * i);
+    }
+    const boxes = Float64Array.from(this.#boxes), reaches = new Float64Array(boxes.length / 6);
+    for (let n = 0; n < reaches.length; n++) {
+      const far = [0, 1, 2].map(k => Math.abs(boxes[6 * n + k]!) + boxes[6 * n + 3 + k]!);
+      reaches[n] = Math.hypot(far[0]!, far[1]!, far[2]!);
     }
     return {
-      boxes: Float64Array.from(this.#boxes), links: Int32Array.from(this.#links), corners, source: this.#order, depth: this.#depth,
+      boxes, reaches, links: Int32Array.from(this.#links), corners, balls, heights, source: this.#order, depth: this.#depth,
     };
+  }
+
+  /** Writes a triangle's corners, turned so that its longest edge comes first. */
+  #copyCorners(triangle: number, out: Float64Array, at: number): void {
+    const { positions, indices } = this.#mesh;
+    const from = (c: number): number => 3 * indices[3 * triangle + c % 3]!;
+    let longest = -1, first = 0;
+    for (let c = 0; c < 3; c++) {
+      const a = from(c), b = from(c + 1);
+      const length = Math.hypot(positions[b]! - positions[a]!, positions[b + 1]! - positions[a + 1]!, positions[b + 2]! - positions[a + 2]!);
+      if (length > longest) { longest = length; first = c; }
+    }
+    for (let c = 0; c < 3; c++) for (let k = 0; k < 3; k++) out[at + 3 * c + k] = positions[from(first + c) + k]!;
   }
 
   #measure(from: number, to: number): void {
@@ -166,6 +191,26 @@ class Builder {
     }
     return { cost, bin };
   }
+}
+
+/**
+ * Writes the smallest ball around a triangle that begins with its longest edge: over that edge, or through all three
+ * corners where that one leaves the third outside. Returns the triangle's height over the edge.
+ */
+function boundTriangle(corners: Float64Array, t: number, balls: Float64Array, at: number): number {
+  const ax = corners[t]!, ay = corners[t + 1]!, az = corners[t + 2]!;
+  const ux = corners[t + 3]! - ax, uy = corners[t + 4]! - ay, uz = corners[t + 5]! - az;
+  const vx = corners[t + 6]! - ax, vy = corners[t + 7]! - ay, vz = corners[t + 8]! - az;
+  // Centre a + s u + w v, equally far from a, a + u and a + v; w = 0 when the third corner sees the edge at 90° or more.
+  const uu = ux * ux + uy * uy + uz * uz, uv = ux * vx + uy * vy + uz * vz, vv = vx * vx + vy * vy + vz * vz, area = uu * vv - uv * uv;
+  const acute = vv - uv > 0 && area > 1e-12 * uu * vv;
+  const w = acute ? Math.max(0, uu * (vv - uv) / (2 * area)) : 0, s = w > 0 ? vv * (uu - uv) / (2 * area) : 0.5;
+  const cx = s * ux + w * vx, cy = s * uy + w * vy, cz = s * uz + w * vz;
+  const far = Math.max(cx * cx + cy * cy + cz * cz, (cx - ux) ** 2 + (cy - uy) ** 2 + (cz - uz) ** 2, (cx - vx) ** 2 + (cy - vy) ** 2 + (cz - vz) ** 2);
+  balls[at] = ax + cx; balls[at + 1] = ay + cy; balls[at + 2] = az + cz;
+  balls[at + 3] = Math.sqrt(far) + ROUNDING_M;
+  const px = uy * vz - uz * vy, py = uz * vx - ux * vz, pz = ux * vy - uy * vx;
+  return Math.sqrt((px * px + py * py + pz * pz) / uu) + ROUNDING_M;
 }
 
 function hasArea({ positions: p, indices }: TriangleMesh, t: number): boolean {

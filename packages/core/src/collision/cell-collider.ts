@@ -6,7 +6,7 @@ import { bodiesOf, farApart, objectBody, placeBody, reachesOf, SolidShelf, WORLD
 import type { CellGeometry, CellObject, Contact } from "./cell.ts";
 import { pairScratch } from "./intersect.ts";
 import { between, movePoints } from "./relative.ts";
-import { solidDistance, solidsTouch } from "./solid.ts";
+import { solidDistance, solidKeepsApart, solidsTouch } from "./solid.ts";
 
 /** The tool touches a work piece when it is nearer than this (row N-51) [m]. */
 export const TOUCH_M = 0.0005;
@@ -29,6 +29,8 @@ export interface SolidPair {
   readonly contact: Contact;
   /** Nearest triangles last time, where the next search begins. */
   readonly witness: Int32Array;
+  /** Triangles that were too near in a motion last time, the outer solid's first. */
+  readonly tooNear: Int32Array;
   /** Grows each time the pair is in contact; pairs that meet often are asked first. */
   hits: number;
 }
@@ -81,7 +83,7 @@ export class CellCollider {
   check(q: ArrayLike<number>, out: Contact[] = []): Contact[] {
     this.place(q);
     out.length = 0;
-    for (const pair of this.#pairs) if (this.#touch(pair)) out.push(pair.contact);
+    for (const pair of this.#pairs) if (this.touchOf(pair)) out.push(pair.contact);
     return out;
   }
 
@@ -91,7 +93,7 @@ export class CellCollider {
     const pairs = this.#pairs;
     for (let i = 0; i < pairs.length; i++) {
       const pair = pairs[i]!;
-      if (!this.#touch(pair)) continue;
+      if (!this.touchOf(pair)) continue;
       pair.hits++;
       if (i > 0 && pairs[i - 1]!.hits < pair.hits) { pairs[i] = pairs[i - 1]!; pairs[i - 1] = pair; }
       return true;
@@ -103,7 +105,7 @@ export class CellCollider {
   near(q: ArrayLike<number>, within_m: number, out: Contact[] = []): Contact[] {
     this.place(q);
     out.length = 0;
-    for (const pair of this.#pairs) if (this.distanceOf(pair, within_m) < within_m) out.push(pair.contact);
+    for (const pair of this.#pairs) if (this.distanceOf(pair, within_m, within_m) < within_m) out.push(pair.contact);
     return out;
   }
 
@@ -144,15 +146,39 @@ export class CellCollider {
     return out;
   }
 
-  /** Distance of one pair [m] in the posture last placed, if below `cutoff_m`, else Infinity. */
-  distanceOf(pair: SolidPair, cutoff_m: number): number {
+  /**
+   * Distance of one pair [m] in the posture last placed, if below `cutoff_m`, else Infinity.
+   *
+   * @param enough_m  a first find nearer than this ends the search, and the answer is then only a bound from above.
+   */
+  distanceOf(pair: SolidPair, cutoff_m: number, enough_m = 0): number {
     const { a, b, witness } = pair;
     if (farApart(a.box, b.box, cutoff_m)) return Infinity;
     const relative = between(a.worldFromBody, b.worldFromBody, this.#scratch.relative);
     this.#scratch.witness.set(witness);
-    const distance = solidDistance(a.solid, b.solid, relative, cutoff_m, this.#scratch, this.#points);
+    const distance = solidDistance(a.solid, b.solid, relative, cutoff_m, this.#scratch, this.#points, enough_m);
     if (distance < cutoff_m) witness.set(this.#scratch.witness);
     return distance;
+  }
+
+  /**
+   * Whether, in the posture last placed, every point of the pair's outer solid (the one farther along the arm) is more than
+   * `near_m` + `perMetre` r from the other, where r is the point's distance from the origin of its own frame.
+   */
+  keepsApart(pair: SolidPair, near_m: number, perMetre: number): boolean {
+    const outer = pair.a.carrier > pair.b.carrier ? pair.a : pair.b, inner = outer === pair.a ? pair.b : pair.a;
+    if (farApart(outer.box, inner.box, near_m + perMetre * outer.solid.radius_m)) return true;
+    const relative = between(outer.worldFromBody, inner.worldFromBody, this.#scratch.relative);
+    this.#scratch.witness.set(pair.tooNear);
+    const apart = solidKeepsApart(outer.solid, inner.solid, relative, near_m, perMetre, this.#scratch, this.#points);
+    if (!apart) pair.tooNear.set(this.#scratch.witness);
+    return apart;
+  }
+
+  /** Whether one pair is in contact in the posture last placed. */
+  touchOf({ a, b }: SolidPair): boolean {
+    if (farApart(a.box, b.box, 0)) return false;
+    return solidsTouch(a.solid, b.solid, between(a.worldFromBody, b.worldFromBody, this.#scratch.relative), this.#scratch);
   }
 
   /**
@@ -218,11 +244,6 @@ export class CellCollider {
     placeBody(body, this.#worldFromLink, this.#turn);
   }
 
-  #touch({ a, b }: SolidPair): boolean {
-    if (farApart(a.box, b.box, 0)) return false;
-    return solidsTouch(a.solid, b.solid, between(a.worldFromBody, b.worldFromBody, this.#scratch.relative), this.#scratch);
-  }
-
   #pointsInto({ a }: SolidPair, out: Clearance): void {
     movePoints(a.worldFromBody, this.#points, 0, 2, this.#points, 0);
     for (let k = 0; k < 3; k++) { out.pointA[k] = this.#points[k]!; out.pointB[k] = this.#points[3 + k]!; }
@@ -237,7 +258,7 @@ export class CellCollider {
       const [a, b] = [this.#bodies[i]!, this.#bodies[j]!], key = keyOf(a.name, b.name), before = known.get(key);
       if (this.#allowed.has(key) || !mayMeet(a, b)) continue;
       const same = before?.a === a && before.b === b;
-      this.#pairs.push(same ? before : { a, b, contact: { a: a.name, b: b.name }, witness: new Int32Array(2).fill(-1), hits: 0 });
+      this.#pairs.push(same ? before : { a, b, contact: { a: a.name, b: b.name }, witness: new Int32Array(2).fill(-1), tooNear: new Int32Array(2).fill(-1), hits: 0 });
     }
     this.#pairs.sort((p, q) => q.hits - p.hits);
   }

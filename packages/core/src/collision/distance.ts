@@ -1,7 +1,7 @@
 import type { Bvh } from "./bvh.ts";
 import { makeRoom, size, type PairScratch } from "./intersect.ts";
 import { movePoints, type Rigid } from "./relative.ts";
-import { triangleDistance2 } from "./triangle-distance.ts";
+import { segmentDistance2, triangleDistance2 } from "./triangle-distance.ts";
 
 /**
  * Distance between two surfaces [m] when it is below `cutoff_m`, else Infinity. 0 when they share a point.
@@ -10,19 +10,24 @@ import { triangleDistance2 } from "./triangle-distance.ts";
  * @param out      receives the nearest point of a and of b, both in a's frame [m]; unchanged for Infinity.
  * @param scratch  working memory. `scratch.witness` names a pair of triangles to begin with, when it holds numbers ≥ 0
  *                 (last time's nearest pair prunes best), and receives the nearest pair. The call allocates nothing.
+ * @param enough_m  the search ends with the first pair of triangles nearer than this: 0 for the true distance; the cut-off
+ *                  when it only matters whether anything is nearer.
  * @see Larsen, Gottschalk, Lin, Manocha, Fast distance queries with rectangular swept sphere volumes, ICRA 2000.
  */
-export function surfaceDistance(a: Bvh, b: Bvh, aFromB: Rigid, cutoff_m: number, scratch: PairScratch, out: Float64Array): number {
+export function surfaceDistance(
+  a: Bvh, b: Bvh, aFromB: Rigid, cutoff_m: number, scratch: PairScratch, out: Float64Array, enough_m = 0,
+): number {
   if (a.source.length === 0 || b.source.length === 0) return Infinity;
   makeRoom(scratch, a, b);
   const stack = scratch.stack, bounds = scratch.bounds, witness = scratch.witness, linksA = a.links, linksB = b.links;
+  const enough = enough_m * enough_m;
   let best = cutoff_m * cutoff_m, found = false;
   if (witness[0]! >= 0 && witness[0]! < a.source.length && witness[1]! >= 0 && witness[1]! < b.source.length) {
     movePoints(aFromB, b.corners, 9 * witness[1]!, 3, scratch.triangles, 0);
     const seed = triangleDistance2(a.corners, 9 * witness[0]!, scratch.triangles, 0, best, out);
     if (seed < best) { best = seed; found = true; }
   }
-  if (boxDistance2(a.boxes, 0, b.boxes, 0, aFromB) >= best) return found ? Math.sqrt(best) : Infinity;
+  if ((found && best < enough) || boxDistance2(a.boxes, 0, b.boxes, 0, aFromB) >= best) return found ? Math.sqrt(best) : Infinity;
   let nodeA = 0, nodeB = 0, top = 0;
   for (;;) {
     const countA = linksA[2 * nodeA + 1]!, countB = linksB[2 * nodeB + 1]!;
@@ -42,23 +47,79 @@ export function surfaceDistance(a: Bvh, b: Bvh, aFromB: Rigid, cutoff_m: number,
       if (Math.min(toFirst, toSecond) < best) { if (openA) nodeA = near; else nodeB = near; continue; }
     }
     do {
-      if (top === 0 || best === 0) return found ? Math.sqrt(best) : Infinity;
+      if (top === 0 || best === 0 || (found && best < enough)) return found ? Math.sqrt(best) : Infinity;
       nodeB = stack[--top]!; nodeA = stack[--top]!;
     } while (bounds[top >> 1]! >= best);
   }
 }
 
+/**
+ * Whether every point of `outer` keeps a distance from `inner` that grows with its own distance r from outer's origin:
+ * `near_m` + `perMetre` r. What turns about its own origin moves the more the farther out it is.
+ *
+ * @param scratch  as for `surfaceDistance`; `witness` is asked first and receives a pair of triangles that is too near.
+ */
+export function keepsApart(outer: Bvh, inner: Bvh, outerFromInner: Rigid, near_m: number, perMetre: number, scratch: PairScratch, out: Float64Array): boolean {
+  if (outer.source.length === 0 || inner.source.length === 0) return true;
+  makeRoom(scratch, outer, inner);
+  const stack = scratch.stack, linksA = outer.links, linksB = inner.links, reaches = outer.reaches;
+  const first = scratch.witness[0]!, second = scratch.witness[1]!;
+  if (first >= 0 && second >= 0) {
+    movePoints(outerFromInner, inner.corners, 9 * second, 3, scratch.triangles, 0);
+    const wanted = near_m + perMetre * farthestCorner(outer.corners, 9 * first);
+    if (triangleDistance2(outer.corners, 9 * first, scratch.triangles, 0, wanted * wanted, out) < wanted * wanted) return false;
+  }
+  let nodeA = 0, nodeB = 0, top = 0;
+  for (;;) {
+    const wanted = near_m + perMetre * reaches[nodeA]!;
+    if (boxDistance2(outer.boxes, 6 * nodeA, inner.boxes, 6 * nodeB, outerFromInner) < wanted * wanted) {
+      const countA = linksA[2 * nodeA + 1]!, countB = linksB[2 * nodeB + 1]!;
+      if (countA > 0 && countB > 0) {
+        const limit = wanted * wanted;
+        if (nearestInLeaves(outer, linksA[2 * nodeA]!, countA, inner, linksB[2 * nodeB]!, countB, outerFromInner, limit, scratch, out) < limit) return false;
+      } else if (countB > 0 || (countA === 0 && size(outer.boxes, 6 * nodeA) >= size(inner.boxes, 6 * nodeB))) {
+        stack[top++] = linksA[2 * nodeA]!; stack[top++] = nodeB;
+        nodeA++;
+        continue;
+      } else {
+        stack[top++] = nodeA; stack[top++] = linksB[2 * nodeB]!;
+        nodeB++;
+        continue;
+      }
+    }
+    if (top === 0) return true;
+    nodeB = stack[--top]!; nodeA = stack[--top]!;
+  }
+}
+
+function farthestCorner(c: Float64Array, t: number): number {
+  let squared = 0;
+  for (let i = t; i < t + 9; i += 3) squared = Math.max(squared, c[i]! * c[i]! + c[i + 1]! * c[i + 1]! + c[i + 2]! * c[i + 2]!);
+  return Math.sqrt(squared);
+}
+
 function nearestInLeaves(
   a: Bvh, fromA: number, countA: number, b: Bvh, fromB: number, countB: number, aFromB: Rigid, limit: number, scratch: PairScratch, out: Float64Array,
 ): number {
-  const moved = scratch.triangles;
-  movePoints(aFromB, b.corners, 9 * fromB, 3 * countB, moved, 0);
-  let best = limit;
-  for (let i = 0; i < countA; i++) for (let j = 0; j < countB; j++) {
-    const squared = triangleDistance2(a.corners, 9 * (fromA + i), moved, 9 * j, best, out);
-    if (squared >= best) continue;
-    best = squared;
-    scratch.witness[0] = fromA + i; scratch.witness[1] = fromB + j;
+  const moved = scratch.triangles, ball = scratch.ball;
+  let best = limit, reach = Math.sqrt(best);
+  for (let j = 0; j < countB; j++) {
+    movePoints(aFromB, b.balls, 4 * (fromB + j), 1, ball, 0);
+    const bx = ball[0]!, by = ball[1]!, bz = ball[2]!, br = b.balls[4 * (fromB + j) + 3]!;
+    let here = false;
+    for (let i = 0; i < countA; i++) {
+      const at = 4 * (fromA + i), dx = bx - a.balls[at]!, dy = by - a.balls[at + 1]!, dz = bz - a.balls[at + 2]!;
+      const far = a.balls[at + 3]! + br + reach;
+      if (dx * dx + dy * dy + dz * dz >= far * far) continue;
+      if (!here) { movePoints(aFromB, b.corners, 9 * (fromB + j), 3, moved, 0); here = true; }
+      // Slivers fill little of their balls but most of the capsules around their longest edges.
+      const apart = reach + a.heights[fromA + i]! + b.heights[fromB + j]!;
+      if (segmentDistance2(a.corners, 9 * (fromA + i), moved, 0) >= apart * apart) continue;
+      const squared = triangleDistance2(a.corners, 9 * (fromA + i), moved, 0, best, out);
+      if (squared >= best) continue;
+      best = squared; reach = Math.sqrt(best);
+      scratch.witness[0] = fromA + i; scratch.witness[1] = fromB + j;
+    }
   }
   return best;
 }

@@ -9,13 +9,14 @@ export interface PairScratch {
   readonly triangles: Float64Array;
   readonly relative: Rigid;
   readonly point: Float64Array;
+  readonly ball: Float64Array;
   /** Number of the two triangles that were found to touch, in the order of the trees. */
   readonly witness: Int32Array;
 }
 
 export const pairScratch = (): PairScratch => ({
   stack: new Int32Array(512), bounds: new Float64Array(256), triangles: new Float64Array(9 * LEAF_TRIANGLES), relative: rigid(),
-  point: new Float64Array(3), witness: new Int32Array(2),
+  point: new Float64Array(3), ball: new Float64Array(3), witness: new Int32Array(2),
 });
 
 /** Makes room for a walk down both trees: each step down leaves at most one pair behind. */

@@ -1,7 +1,7 @@
 import { isClosed } from "../shapes/measure.ts";
 import { weldMesh } from "../shapes/weld.ts";
 import { buildBvh, type Bvh } from "./bvh.ts";
-import { surfaceDistance } from "./distance.ts";
+import { keepsApart, surfaceDistance } from "./distance.ts";
 import { surfacesTouch, type PairScratch } from "./intersect.ts";
 import { pointInside } from "./inside.ts";
 import type { TriangleMesh } from "./mesh.ts";
@@ -40,13 +40,20 @@ export function solidsTouch(a: Solid, b: Solid, aFromB: Rigid, scratch: PairScra
  * Distance of two solids [m] when below `cutoff_m`, else Infinity; 0 when they share a point or one holds the other.
  * Parameters as in `surfaceDistance`.
  */
-export function solidDistance(a: Solid, b: Solid, aFromB: Rigid, cutoff_m: number, scratch: PairScratch, out: Float64Array): number {
-  const distance = surfaceDistance(a.bvh, b.bvh, aFromB, cutoff_m, scratch, out);
+export function solidDistance(
+  a: Solid, b: Solid, aFromB: Rigid, cutoff_m: number, scratch: PairScratch, out: Float64Array, enough_m = 0,
+): number {
+  const distance = surfaceDistance(a.bvh, b.bvh, aFromB, cutoff_m, scratch, out, enough_m);
   if (distance > 0 && oneInsideOther(a, b, aFromB, scratch)) {
     out.set(scratch.point, 0); out.set(scratch.point, 3);
     return 0;
   }
   return distance;
+}
+
+/** `keepsApart` for solids: what lies inside the other keeps no distance. */
+export function solidKeepsApart(outer: Solid, inner: Solid, outerFromInner: Rigid, near_m: number, perMetre: number, scratch: PairScratch, out: Float64Array): boolean {
+  return keepsApart(outer.bvh, inner.bvh, outerFromInner, near_m, perMetre, scratch, out) && !oneInsideOther(outer, inner, outerFromInner, scratch);
 }
 
 /** Whether a piece of either surface lies inside the other solid; where, in a's frame, is left in `scratch.point`. */

@@ -10,7 +10,9 @@ import { trianglesTouch } from "./triangles.ts";
  * @see Ericson, Real-Time Collision Detection, Morgan Kaufmann 2005, sections 5.1.5, 5.1.9, 5.1.10.
  */
 export function triangleDistance2(p: Float64Array, i: number, q: Float64Array, j: number, limit: number, out: Float64Array): number {
-  if (trianglesTouch(p, i, q, j)) {
+  const planes = planeGap2(p, i, q, j, limit);
+  if (planes >= limit) return Infinity;
+  if (planes === 0 && trianglesTouch(p, i, q, j)) {
     if (!crossing(p, i, q, j, out) && !crossing(q, j, p, i, out)) edges(p, i, q, j, Infinity, out);
     return 0;
   }
@@ -18,6 +20,37 @@ export function triangleDistance2(p: Float64Array, i: number, q: Float64Array, j
   best = corners(p, i, q, j, best, out, 0);
   best = corners(q, j, p, i, best, out, 3);
   return best < limit ? best : Infinity;
+}
+
+/** Squared distance of the segments that begin at p[i] and at q[j] [m²]. */
+export function segmentDistance2(p: Float64Array, i: number, q: Float64Array, j: number): number {
+  const rx = p[i]! - q[j]!, ry = p[i + 1]! - q[j + 1]!, rz = p[i + 2]! - q[j + 2]!;
+  const ux = p[i + 3]! - p[i]!, uy = p[i + 4]! - p[i + 1]!, uz = p[i + 5]! - p[i + 2]!;
+  const vx = q[j + 3]! - q[j]!, vy = q[j + 4]! - q[j + 1]!, vz = q[j + 5]! - q[j + 2]!;
+  const uu = ux * ux + uy * uy + uz * uz, vv = vx * vx + vy * vy + vz * vz, uv = ux * vx + uy * vy + uz * vz;
+  const ur = ux * rx + uy * ry + uz * rz, vr = vx * rx + vy * ry + vz * rz, area = uu * vv - uv * uv;
+  let s = area > 1e-14 * uu * vv ? clamp((uv * vr - ur * vv) / area) : 0;
+  let t = (uv * s + vr) / vv;
+  if (t < 0) { t = 0; s = clamp(-ur / uu); } else if (t > 1) { t = 1; s = clamp((uv - ur) / uu); }
+  const dx = rx + s * ux - t * vx, dy = ry + s * uy - t * vy, dz = rz + s * uz - t * vz;
+  return dx * dx + dy * dy + dz * dz;
+}
+
+/** Squared gap between the plane of either triangle and the other triangle, the larger of the two; 0 when both straddle. */
+function planeGap2(p: Float64Array, i: number, q: Float64Array, j: number, enough: number): number {
+  const first = gapToPlane2(p, i, q, j);
+  return first >= enough ? first : Math.max(first, gapToPlane2(q, j, p, i));
+}
+
+function gapToPlane2(p: Float64Array, i: number, q: Float64Array, j: number): number {
+  const x = p[i]!, y = p[i + 1]!, z = p[i + 2]!;
+  const ux = p[i + 3]! - x, uy = p[i + 4]! - y, uz = p[i + 5]! - z, vx = p[i + 6]! - x, vy = p[i + 7]! - y, vz = p[i + 8]! - z;
+  const nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+  const a = nx * (q[j]! - x) + ny * (q[j + 1]! - y) + nz * (q[j + 2]! - z);
+  const b = nx * (q[j + 3]! - x) + ny * (q[j + 4]! - y) + nz * (q[j + 5]! - z);
+  const c = nx * (q[j + 6]! - x) + ny * (q[j + 7]! - y) + nz * (q[j + 8]! - z);
+  const gap = a > 0 ? Math.min(a, b, c) : -Math.max(a, b, c);
+  return gap > 0 ? gap * gap / (nx * nx + ny * ny + nz * nz) : 0;
 }
 
 /** Least squared distance over the nine pairs of edges, when it is below `best`. */

@@ -1,11 +1,8 @@
-import { JointCountFault } from "../fault.ts";
 import type { SerialArm } from "../robots/arm.ts";
-import { compose, copyPose, identity, type Pose } from "../spatial/pose.ts";
-import { fromAxisAngle } from "../spatial/quaternion.ts";
+import { identity, type Pose } from "../spatial/pose.ts";
+import { armScratch, chainOf, walk, type ArmScratch } from "./chain.ts";
 
-/** Working memory of `flangePose` and its kin: one per caller, never shared between workers. */
-export interface ArmScratch { readonly turn: Pose; readonly joint: Pose }
-export const armScratch = (): ArmScratch => ({ turn: identity(), joint: identity() });
+export { armScratch, type ArmScratch } from "./chain.ts";
 
 /**
  * Pose of the flange in the robot base.
@@ -13,7 +10,7 @@ export const armScratch = (): ArmScratch => ({ turn: identity(), joint: identity
  *   baseFromFlange = Π_i ( parentFromJoint_i · Rot(axis_i, q_i) ) · lastJointFromFlange
  *
  * @param arm      n revolute joints, base first. Read only.
- * @param q        n joint angles [rad]. Range is not checked here: see `robots/limits.ts`.
+ * @param q        n joint angles [rad]. Range is not checked here: see the joints' limits.
  * @param out      receives the answer and is returned. Must not be a pose of `arm`.
  * @param scratch  working memory; with it and `out` the call allocates nothing.
  * @throws {JointCountFault} when q does not hold n angles.
@@ -22,17 +19,7 @@ export const armScratch = (): ArmScratch => ({ turn: identity(), joint: identity
 export function flangePose(
   arm: SerialArm, q: ArrayLike<number>, out: Pose<"base", "flange"> = identity(), scratch: ArmScratch = armScratch(),
 ): Pose<"base", "flange"> {
-  const joints = arm.joints, n = joints.length;
-  if (q.length !== n) throw new JointCountFault(arm.name, n, q.length);
-  const running: Pose = out;
-  copyPose(IDENTITY, running);
-  for (let i = 0; i < n; i++) {
-    const joint = joints[i]!;
-    compose(running, joint.parentFromJoint as Pose, running);
-    fromAxisAngle(joint.axis, q[i]!, scratch.turn.quaternion);
-    compose(running, scratch.turn, running);
-  }
-  compose(running, arm.lastJointFromFlange as Pose, running);
+  walk(chainOf(arm, q, scratch), q, out, null, null);
   return out;
 }
 
@@ -42,15 +29,5 @@ export function flangePose(
  * @param out  n + 1 poses, written in place.
  */
 export function linkPoses(arm: SerialArm, q: ArrayLike<number>, out: readonly Pose<"base", "link">[], scratch: ArmScratch = armScratch()): void {
-  const joints = arm.joints, n = joints.length;
-  if (q.length !== n) throw new JointCountFault(arm.name, n, q.length);
-  copyPose(IDENTITY as Pose<"base", "link">, out[0]!);
-  for (let i = 0; i < n; i++) {
-    const joint = joints[i]!, link: Pose = out[i + 1]!;
-    compose(out[i] as Pose, joint.parentFromJoint as Pose, link);
-    fromAxisAngle(joint.axis, q[i]!, scratch.turn.quaternion);
-    compose(link, scratch.turn, link);
-  }
+  walk(chainOf(arm, q, scratch), q, null, out, null);
 }
-
-const IDENTITY: Pose = identity();

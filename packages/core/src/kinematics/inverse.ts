@@ -1,10 +1,9 @@
 import type { Robot } from "../robots/robot.ts";
-import { compose, identity, inverse, type Pose } from "../spatial/pose.ts";
-import { angleBetween } from "../spatial/quaternion.ts";
-import { distance } from "../spatial/vector.ts";
+import { compose, identity, inverse, posesAgree, type Pose } from "../spatial/pose.ts";
 import { branchOfOrthoParallel, sameBranch, type Branch } from "./branch.ts";
+import { isSingular } from "./singularity.ts";
 import { armScratch, flangePose, type ArmScratch } from "./forward.ts";
-import { MAX_BRANCHES, SINGULAR_SINE, solveOrthoParallel } from "./ortho-parallel.ts";
+import { MAX_BRANCHES, solveOrthoParallel } from "./ortho-parallel.ts";
 import type { Reach, Solution } from "./reach.ts";
 import { span } from "./span.ts";
 
@@ -16,8 +15,8 @@ const TURN = 2 * Math.PI;
 const LIMIT_SLACK_RAD = 1e-9;
 
 /** Working memory of the solvers: one per caller. */
-export interface SolverScratch { readonly raw: Float64Array; readonly arm: ArmScratch; readonly pose: Pose<"base", "flange"> }
-export const solverScratch = (): SolverScratch => ({ raw: new Float64Array(6 * MAX_BRANCHES), arm: armScratch(), pose: identity() });
+export interface SolverScratch { readonly raw: Float64Array; readonly q: Float64Array; readonly arm: ArmScratch; readonly pose: Pose<"base", "flange"> }
+export const solverScratch = (): SolverScratch => ({ raw: new Float64Array(6 * MAX_BRANCHES), q: new Float64Array(6), arm: armScratch(), pose: identity() });
 
 export interface SolveOptions {
   /** Solutions come nearest first, and free angles stay as they are here (rows N-16, N-18). */
@@ -67,12 +66,13 @@ export function solveAll(robot: Robot, baseFromFlange: Pose<"base", "flange">, o
   if (inside.length === 0) return nearestLimit(robot, pool);
   if (branch !== undefined && wanted.length === 0) return nearestLimit(robot, pool);
   if (near !== undefined) inside.sort((a, b) => travel(a.q_rad, near) - travel(b.q_rad, near));
-  const sine = Math.abs(Math.sin(family.signs[4] * inside[0]!.q_rad[4]! - family.offsets_rad[4]));
-  return { kind: "reached", solutions: inside, singular: sine < SINGULAR_SINE, considered };
+  return { kind: "reached", solutions: inside, singular: inside.some(({ q_rad }) => isSingular(family, q_rad)), considered };
 }
 
 /**
- * The solution within limits that is nearest to `near` by total travel, for frame loops and dense paths.
+ * The solution within limits that is nearest to `near` by total travel, for frame loops and dense paths; put back through
+ * forward kinematics before it is handed out. Where the posture of `near` leaves its limits it may lie in another posture:
+ * compare `branchOf` where that would be a jump.
  *
  * @param out      receives the joint angles; untouched when there is none. May be `near`.
  * @param scratch  with it the call allocates nothing.
@@ -80,7 +80,7 @@ export function solveAll(robot: Robot, baseFromFlange: Pose<"base", "flange">, o
  */
 export function nearestSolution(robot: Robot, baseFromFlange: Pose<"base", "flange">, near: ArrayLike<number>, out: Float64Array, scratch = solverScratch()): boolean {
   const family = robot.family;
-  if (family.kind !== "ortho-parallel") return false;
+  if (family.kind !== "ortho-parallel" || !isUnit(baseFromFlange)) return false;
   const raw = scratch.raw, joints = robot.arm.joints;
   const count = solveOrthoParallel(family, baseFromFlange, raw, near);
   let best = -1, least = Infinity;
@@ -94,7 +94,9 @@ export function nearestSolution(robot: Robot, baseFromFlange: Pose<"base", "flan
     if (total < least) { least = total; best = s; }
   }
   if (best < 0) return false;
-  for (let j = 0; j < 6; j++) out[j] = raw[6 * best + j]!;
+  for (let j = 0; j < 6; j++) scratch.q[j] = raw[6 * best + j]!;
+  if (!isVerified(robot, scratch.q, baseFromFlange, scratch)) return false;
+  for (let j = 0; j < 6; j++) out[j] = scratch.q[j]!;
   return true;
 }
 
@@ -114,8 +116,7 @@ export function travel(a: ArrayLike<number>, b: ArrayLike<number>): number {
 }
 
 function isVerified(robot: Robot, q: Float64Array, wanted: Pose<"base", "flange">, scratch: SolverScratch): boolean {
-  const got = flangePose(robot.arm, q, scratch.pose, scratch.arm);
-  return distance(got.position, wanted.position) < VERIFIED.position_m && angleBetween(got.quaternion, wanted.quaternion) < VERIFIED.angle_rad;
+  return posesAgree(flangePose(robot.arm, q, scratch.pose, scratch.arm), wanted, VERIFIED.position_m, VERIFIED.angle_rad);
 }
 
 /** Equal up to whole turns, so that π and −π are one solution. */
@@ -164,6 +165,12 @@ export function outOfReach(robot: Robot, baseFromFlange: Pose<"base", "flange">)
   const { farthest_m, nearest_m, distance_m } = span(robot, baseFromFlange);
   if (distance_m > farthest_m) return { kind: "too-far", beyond_m: distance_m - farthest_m, reach_m: farthest_m };
   return { kind: "too-near", inside_m: nearest_m - distance_m, nearest_m };
+}
+
+/** False for NaN as well. */
+function isUnit({ quaternion: q }: Pose): boolean {
+  const length2 = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+  return length2 > 1 - 2e-6 && length2 < 1 + 2e-6;
 }
 
 function poseFlaw(pose: Pose): string | undefined {

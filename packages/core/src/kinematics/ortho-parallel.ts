@@ -4,12 +4,14 @@ import type { Pose } from "../spatial/pose.ts";
 /** Slots of the answer: solution s occupies out[6 s] … out[6 s + 5]. */
 export const MAX_BRANCHES = 8;
 
-/** Below this sine of the wrist bend (and this radius of the wrist centre about axis 1) an angle is free to choose. */
-export const SINGULAR_SINE = 5e-10;
-const SINGULAR_RADIUS_M = 1e-10;
-
-/** How far the elbow's cosine may exceed 1 by rounding at full stretch: 1e-9 m at arm lengths of a metre. */
-const STRETCH_SLACK = 2e-9;
+/** Below this sine of the wrist bend θ4 and θ6 turn about one line, and θ4 is free to choose. */
+export const SINGULAR_SINE = 2e-10;
+/** Nearer than this to axis 1 the wrist centre leaves θ1 free to choose [m]. */
+const SINGULAR_RADIUS_M = 4e-10;
+/** Below this sine of the wrist bend θ4 ± θ6 is known far better than either: θ6 is then taken from θ4 as found. */
+const NEAR_SINGULAR_SINE = 1e-3;
+/** A wrist centre this far outside the reach is a rounding of its edge [m]; what is left over stays below 1e-9. */
+const EDGE_M = 4e-10;
 
 const TURN = 2 * Math.PI;
 
@@ -54,69 +56,71 @@ export function solveOrthoParallel(geometry: OrthoParallelGeometry, baseFromFlan
   const cy = p[1] - r21 * t[0] - r22 * t[1] - r23 * tz;
   const z = p[2] - r31 * t[0] - r32 * t[1] - r33 * tz - c1;
 
-  const radius2 = cx * cx + cy * cy, u2 = radius2 - b * b;
-  if (u2 < -1e-12) return 0;
-  const u = u2 > 0 ? Math.sqrt(u2) : 0;
-  const onAxis = radius2 < SINGULAR_RADIUS_M * SINGULAR_RADIUS_M;
-  const heading = onAxis ? (near === undefined ? 0 : signs[0] * near[0]! - offsets[0]) : Math.atan2(cy, cx), aside = b === 0 ? 0 : Math.atan2(b, u);
-  const k2 = a2 * a2 + c3 * c3, k = Math.sqrt(k2), bend0 = Math.atan2(a2, c3);
-  const near4 = near === undefined ? 0 : signs[3] * near[3]! - offsets[3];
+  const radius2 = cx * cx + cy * cy, radius = Math.sqrt(radius2);
+  if (radius < Math.abs(b) - EDGE_M) return 0;
+  const u = radius2 > b * b ? Math.sqrt(radius2 - b * b) : 0, onAxis = radius < SINGULAR_RADIUS_M;
+  const heading = onAxis ? signs[0] * (near === undefined ? 0 : near[0]!) - offsets[0] : Math.atan2(cy, cx);
+  const aside = b === 0 ? 0 : Math.atan2(b, u);
+  const near4 = signs[3] * (near === undefined ? 0 : near[3]!) - offsets[3];
+  const k2 = a2 * a2 + c3 * c3, k = Math.sqrt(k2), cosBend0 = c3 / k, sinBend0 = a2 / k, bend0 = Math.atan2(a2, c3);
 
-  let count = 0;
+  // Formula angles go straight into `out`, and all are turned into the robot's at the end: numbers handed to a function
+  // that is not inlined would be allocated.
+  let at = 0;
   for (let shoulder = 0; shoulder < 2; shoulder++) {
+    const ahead = shoulder === 0 ? u : -u, x = ahead - a1;
+    const s2 = x * x + z * z, s = Math.sqrt(s2);
+    if (s > c2 + k + EDGE_M || s < Math.abs(c2 - k) - EDGE_M) continue;
     const t1 = shoulder === 0 ? heading - aside : heading + aside - Math.PI;
-    const x = (shoulder === 0 ? u : -u) - a1;
-    const cosine = (x * x + z * z - c2 * c2 - k2) / (2 * c2 * k);
-    if (cosine > 1 + STRETCH_SLACK || cosine < -1 - STRETCH_SLACK) continue;
-    const cosPhi = cosine > 1 ? 1 : cosine < -1 ? -1 : cosine;
-    const phi0 = Math.acos(cosPhi), sinPhi0 = Math.sin(phi0);
-    const toWrist = Math.atan2(x, z), toElbow = Math.atan2(k * sinPhi0, c2 + k * cosPhi);
-    const s1 = Math.sin(t1), k1 = Math.cos(t1);
+    const k1 = onAxis ? Math.cos(t1) : (cx * ahead + cy * b) / radius2, s1 = onAxis ? Math.sin(t1) : (cy * ahead - cx * b) / radius2;
+    const cosine = (s2 - c2 * c2 - k2) / (2 * c2 * k);
+    const cosPhi = cosine > 1 ? 1 : cosine < -1 ? -1 : cosine, sinPhi = Math.sqrt((1 - cosPhi) * (1 + cosPhi));
+    const phi = Math.atan2(sinPhi, cosPhi);
+    const across = k * sinPhi, along = c2 + k * cosPhi, length = Math.sqrt(across * across + along * along);
+    const toWrist = Math.atan2(x, z), toElbow = Math.atan2(across, along);
+    const cosWrist = s > 0 ? z / s : 1, sinWrist = s > 0 ? x / s : 0;
+    // Between shoulder–wrist and elbow–wrist: φ − toElbow.
+    const cosFore = length > 0 ? (cosPhi * along + sinPhi * across) / length : 0;
+    const sinFore = length > 0 ? (sinPhi * along - cosPhi * across) / length : 1;
     // Rows of Rz(θ1)ᵀ R that the wrist needs: the first and the third of R03ᵀ mix them.
-    const m11 = k1 * r11 + s1 * r21, m12 = k1 * r12 + s1 * r22, m13 = k1 * r13 + s1 * r23;
-    const n21 = -s1 * r11 + k1 * r21, n22 = -s1 * r12 + k1 * r22, n23 = -s1 * r13 + k1 * r23;
+    const m11 = k1 * r11 + s1 * r21, m12 = k1 * r12 + s1 * r22, m13 = k1 * r13 + s1 * r23, w23 = k1 * r23 - s1 * r13;
 
-    const elbows = sinPhi0 === 0 ? 1 : 2;
-    for (let elbow = 0; elbow < elbows; elbow++) {
-      const phi = elbow === 0 ? phi0 : -phi0;
-      const t2 = elbow === 0 ? toWrist - toElbow : toWrist + toElbow, t3 = phi - bend0;
-      const s23 = Math.sin(t2 + t3), k23 = Math.cos(t2 + t3);
+    const last = sinPhi === 0 ? 1 : -1;
+    for (let elbow = 1; elbow >= last; elbow -= 2) {
+      const t2 = toWrist - elbow * toElbow, t3 = elbow * phi - bend0;
+      const kf = cosWrist * cosFore - elbow * sinWrist * sinFore, sf = sinWrist * cosFore + elbow * cosWrist * sinFore;
+      const k23 = kf * cosBend0 + sf * sinBend0, s23 = sf * cosBend0 - kf * sinBend0;
       // W = R03ᵀ R = Ry(−θ2−θ3) Rz(−θ1) R
-      const w13 = k23 * m13 - s23 * r33, w23 = n23, w33 = s23 * m13 + k23 * r33;
-      const sin5 = Math.sqrt(w13 * w13 + w23 * w23);
-      if (sin5 < SINGULAR_SINE) {
-        const s4 = Math.sin(near4), k4 = Math.cos(near4);
-        const v11 = k23 * m11 - s23 * r31, v12 = k23 * m12 - s23 * r32;
-        const t5 = Math.atan2(k4 * w13 + s4 * w23, w33), t6 = Math.atan2(-s4 * v11 + k4 * n21, -s4 * v12 + k4 * n22);
-        count = write(out, count, signs, offsets, t1, t2, t3, near4, t5, t6);
-        continue;
+      const w13 = k23 * m13 - s23 * r33, w33 = s23 * m13 + k23 * r33;
+      const sin5 = Math.sqrt(w13 * w13 + w23 * w23), free = sin5 < SINGULAR_SINE;
+      let t4: number, t6: number;
+      if (sin5 > NEAR_SINGULAR_SINE) {
+        t4 = Math.atan2(w23, w13);
+        t6 = Math.atan2(s23 * m12 + k23 * r32, -(s23 * m11 + k23 * r31));
+      } else {
+        t4 = free ? near4 : Math.atan2(w23, w13);
+        const s4 = Math.sin(t4), k4 = Math.cos(t4);
+        const v11 = k23 * m11 - s23 * r31, v12 = k23 * m12 - s23 * r32, v21 = k1 * r21 - s1 * r11, v22 = k1 * r22 - s1 * r12;
+        t6 = Math.atan2(k4 * v21 - s4 * v11, k4 * v22 - s4 * v12);
       }
-      const t5 = Math.atan2(sin5, w33), t4 = Math.atan2(w23, w13);
-      const t6 = Math.atan2(s23 * m12 + k23 * r32, -(s23 * m11 + k23 * r31));
-      count = write(out, count, signs, offsets, t1, t2, t3, t4, t5, t6);
-      count = write(out, count, signs, offsets, t1, t2, t3, t4 + Math.PI, -t5, t6 + Math.PI);
+      const t5 = free ? (w33 > 0 ? 0 : Math.PI) : Math.atan2(sin5, w33);
+      out[at] = t1; out[at + 1] = t2; out[at + 2] = t3; out[at + 3] = t4; out[at + 4] = t5; out[at + 5] = t6;
+      at += 6;
+      if (free) continue;
+      out[at] = t1; out[at + 1] = t2; out[at + 2] = t3; out[at + 3] = t4 + Math.PI; out[at + 4] = -t5; out[at + 5] = t6 + Math.PI;
+      at += 6;
     }
   }
-  return count;
-}
-
-type Six = OrthoParallelGeometry["signs"];
-
-function write(out: Float64Array, count: number, signs: Six, offsets: Six, t1: number, t2: number, t3: number, t4: number, t5: number, t6: number): number {
-  const at = 6 * count;
-  out[at] = wrap((t1 + offsets[0]) * signs[0]);
-  out[at + 1] = wrap((t2 + offsets[1]) * signs[1]);
-  out[at + 2] = wrap((t3 + offsets[2]) * signs[2]);
-  out[at + 3] = wrap((t4 + offsets[3]) * signs[3]);
-  out[at + 4] = wrap((t5 + offsets[4]) * signs[4]);
-  out[at + 5] = wrap((t6 + offsets[5]) * signs[5]);
-  return count + 1;
-}
-
-/** Angles here are at most a few turns away: (−π, π] by adding or taking one at a time. */
-function wrap(angle: number): number {
-  let a = angle;
-  while (a > Math.PI) a -= TURN;
-  while (a <= -Math.PI) a += TURN;
-  return a;
+  for (let joint = 0; joint < 6; joint++) {
+    const sign = signs[joint]!, offset = offsets[joint]!;
+    for (let i = joint; i < at; i += 6) {
+      let angle = sign * (out[i]! + offset);
+      if (angle > Math.PI || angle <= -Math.PI) {
+        angle -= TURN * Math.floor((angle + Math.PI) / TURN);
+        if (angle <= -Math.PI) angle += TURN; else if (angle > Math.PI) angle -= TURN;
+      }
+      out[i] = angle;
+    }
+  }
+  return at / 6;
 }

@@ -6,7 +6,7 @@ export interface Span { readonly distance_m: number; readonly nearest_m: number;
 
 /**
  * Shoulder to wrist centre of a wanted pose, in the plane that faces it:  |c2 − k| ≤ √(x² + z²) ≤ c2 + k,  k = √(a2² + c3²).
- * For a shoulder with an offset a1 the better of front and back counts.
+ * For a shoulder with an offset a1 the better of front and back counts. An arm set aside by b cannot come nearer to axis 1 than b.
  */
 export function span(robot: Robot, baseFromFlange: Pose<"base", "flange">): Span {
   const family = robot.family;
@@ -15,7 +15,8 @@ export function span(robot: Robot, baseFromFlange: Pose<"base", "flange">): Span
   const flangeFromWrist = compose(inverse(formulaFromFlange), { position: [0, 0, -c4_m], quaternion: [0, 0, 0, 1] } as Pose<"formula", "wrist">);
   const [x, y, z] = compose(baseFromFlange, flangeFromWrist).position;
   const k = Math.sqrt(a2_m * a2_m + c3_m * c3_m), u = Math.sqrt(Math.max(0, x * x + y * y - b_m * b_m)), up = z - c1_m;
-  const farthest_m = c2_m + k, nearest_m = Math.abs(c2_m - k);
+  const farthest_m = c2_m + k, nearest_m = Math.abs(c2_m - k), aside = Math.sqrt(x * x + y * y);
+  if (aside < Math.abs(b_m)) return { distance_m: aside, nearest_m: Math.abs(b_m), farthest_m };
   const front = Math.sqrt((u - a1_m) ** 2 + up * up), back = Math.sqrt((u + a1_m) ** 2 + up * up);
   const miss = (d: number): number => Math.max(d - farthest_m, nearest_m - d);
   return { distance_m: miss(front) <= miss(back) ? front : back, nearest_m, farthest_m };

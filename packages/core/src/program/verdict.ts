@@ -15,7 +15,7 @@ export interface Finding {
   readonly joint?: number;
   readonly value: number;
   readonly limit: number;
-  readonly unit: "rad" | "m" | "rad/s" | "m/s" | "s" | "1";
+  readonly unit: "rad" | "m" | "rad/s" | "rad/s2" | "m/s" | "s" | "1";
   /** Seconds after the start of the program. */
   readonly at_s: number;
   readonly sentence: string;
@@ -25,12 +25,12 @@ export interface Finding {
 export type StepVerdict = "ok" | "warn" | "bad" | "unknown";
 export interface StepReport { readonly id: string; readonly verdict: StepVerdict; readonly findings: readonly Finding[] }
 
-/** What the checker says of a program. `ok` is true when no step is bad. */
+/** What the checker says of a program. `ok` is true when every step is ok or warned of: none bad, none unknown. */
 export interface Verdict {
   readonly ok: boolean;
   readonly steps: readonly StepReport[];
   readonly duration_s: number;
-  /** Least distance between solids over the whole program; null when it was not measured. */
+  /** Least distance seen between the robot and the cell over the whole program; null when it was not measured. */
   readonly clearance_m: number | null;
   /** What the result rests on, one sentence each. */
   readonly assumptions: readonly string[];

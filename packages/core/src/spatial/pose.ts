@@ -59,3 +59,16 @@ export function copyPose<A extends string, B extends string>(from: Pose<A, B>, o
   for (let i = 0; i < 4; i++) out.quaternion[i] = from.quaternion[i]!;
   return out;
 }
+
+/** Whether two poses differ by less than a distance [m] and an angle [rad, up to π]. Cheaper than measuring both. */
+export function posesAgree(a: Pose, b: Pose, within_m: number, within_rad: number): boolean {
+  const p = a.position, o = b.position, q = a.quaternion, r = b.quaternion;
+  const dx = p[0] - o[0], dy = p[1] - o[1], dz = p[2] - o[2];
+  if (!(dx * dx + dy * dy + dz * dz < within_m * within_m)) return false;
+  // The vector part of a⁻¹ b is as long as the sine of half the angle.
+  const x = q[3] * r[0] - q[0] * r[3] - q[1] * r[2] + q[2] * r[1];
+  const y = q[3] * r[1] + q[0] * r[2] - q[1] * r[3] - q[2] * r[0];
+  const z = q[3] * r[2] - q[0] * r[1] + q[1] * r[0] - q[2] * r[3];
+  const limit = within_rad < 1e-3 ? within_rad / 2 : Math.sin(within_rad / 2);
+  return x * x + y * y + z * z < limit * limit;
+}

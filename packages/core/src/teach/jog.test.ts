@@ -94,7 +94,8 @@ test("N-18 from the singular start posture every direction that stays in reach i
   const above = degs(0, -90 - 40, 90 + 80, 30, 50, 0); // wrist centre near axis 1
   above[1] = -Math.PI / 2 - Math.atan2(0.65 * Math.sin(radians(80)), 0.45 + 0.65 * Math.cos(radians(80)));
   for (const start of [home, bent, above]) {
-    for (const linear of [[0.1, 0, -0.05], [0, 0.1, -0.05], [-0.07, 0.07, -0.1], [0, -0.1, -0.02]] as const) {
+    for (const linear of [[0.1, 0, -0.05], [0, 0.1, -0.05], [-0.07, 0.07, -0.1], [0, -0.1, -0.02], [0, 0.001, -0.0005]] as const) {
+      const enough = 100 * DT * Math.hypot(...linear) / 2;
       const q = start.slice(), before = tcpOf(plain, q), scratch = jogScratch();
       for (let i = 0; i < 400; i++) {
         const from = q.slice(), at = tcpOf(plain, q), step = jogStep(plain, q, tip([...linear]), DT, q, scratch);
@@ -102,9 +103,25 @@ test("N-18 from the singular start posture every direction that stays in reach i
         expect(withinSpeed(from, q, DT)).toBe(true);
         const moved = distance(at.position, tcpOf(plain, q).position);
         expect(moved).toBeLessThanOrEqual(Math.hypot(...linear) * DT + 1e-8);
-        if (step.kind === "blocked" || distance(before.position, tcpOf(plain, q).position) > 0.05) break;
+        if (step.kind === "blocked" || distance(before.position, tcpOf(plain, q).position) > enough) break;
       }
-      expect(distance(before.position, tcpOf(plain, q).position)).toBeGreaterThan(0.05);
+      expect(distance(before.position, tcpOf(plain, q).position)).toBeGreaterThan(enough);
+    }
+  }
+});
+
+test("N-18 turning out of the straight wrist works about every axis, at full and at creeping speed", () => {
+  for (const [x, y, z] of [[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.6, -0.8, 0], [-0.48, 0.6, 0.64]] as const) {
+    for (const rate of [0.5, 0.005]) {
+      const q = degs(10, -120, 150, 20, 0, 25), before = tcpOf(plain, q), scratch = jogScratch();
+      for (let i = 0; i < 200; i++) {
+        const from = q.slice();
+        expect(jogStep(plain, q, tip([0, 0, 0], [x * rate, y * rate, z * rate]), DT, q, scratch)).toMatchObject({ kind: "moved", blocked: [] });
+        expect(withinSpeed(from, q, DT)).toBe(true);
+        if (angleBetween(before.quaternion, tcpOf(plain, q).quaternion) > 50 * DT * rate) break;
+      }
+      expect(angleBetween(before.quaternion, tcpOf(plain, q).quaternion)).toBeGreaterThan(50 * DT * rate);
+      expect(distance(before.position, tcpOf(plain, q).position)).toBeLessThan(1e-6);
     }
   }
 });

@@ -88,9 +88,9 @@ export class HermitePath {
       for (let k = 0; k <= count && stop === undefined; k++) {
         const s = from + h * k;
         if (k > 0) for (let j = 0; j < n; j++) q[j]! += this.q1[(this.nodes - 1) * n + j]! * h;
-        if (!this.reach(path, tcpFromFlange, s, q) && !(k > 0 && this.creep(path, tcpFromFlange, s - h, s, q))) {
-          stop = { kind: "out-of-reach", s, goal: copyOf(this.goal) };
-          break;
+        if (!this.reach(path, tcpFromFlange, s, q)) {
+          const blocked = k > 0 ? this.creep(path, tcpFromFlange, s - h, s, q) : s;
+          if (blocked !== undefined) { stop = { kind: "out-of-reach", s: blocked, goal: copyOf(this.goal) }; break; }
         }
         this.addNode(path, tcpFromFlange, s, s0 + h * k, q);
       }
@@ -117,15 +117,18 @@ export class HermitePath {
     return this.follower.meet(this.goal, q);
   }
 
-  /** The same in small steps from s0, where the last node is. */
-  private creep(path: PosePath, tcpFromFlange: Pose<"tcp", "flange">, s0: number, s: number, q: Float64Array): boolean {
+  /** The same in small steps from s0, where the last node is. Returns the place that cannot be reached, if there is one. */
+  private creep(path: PosePath, tcpFromFlange: Pose<"tcp", "flange">, s0: number, s: number, q: Float64Array): number | undefined {
     const n = this.joints, at = (this.nodes - 1) * n;
     for (let j = 0; j < n; j++) q[j] = this.q[at + j]!;
-    for (let k = 1; k <= SUBSTEPS; k++) if (!this.reach(path, tcpFromFlange, s0 + ((s - s0) * k) / SUBSTEPS, q)) return false;
-    return true;
+    for (let k = 1; k <= SUBSTEPS; k++) {
+      const place = s0 + ((s - s0) * k) / SUBSTEPS;
+      if (!this.reach(path, tcpFromFlange, place, q)) return place;
+    }
+    return undefined;
   }
 
-  /** dq/ds of a posture on a pose path at s. Leaves the TCP's velocity per s in `tcpSpeed`. */
+  /** dq/ds of a posture on a pose path at s. Returns |dp/ds| of the TCP. */
   slope(path: PosePath, tcpFromFlange: Pose<"tcp", "flange">, s: number, q: ArrayLike<number>, out: Float64Array): number {
     posePoint(path, s, this.tcpPose, this.scratch);
     poseTwist(path, s, this.twist, this.scratch);

@@ -7,3 +7,4 @@ export * from "./planner.ts";
 export * from "./run-timing.ts";
 export * from "./timing.ts";
 export * from "./run.ts";
+export * from "./plan-path.ts";

@@ -107,5 +107,8 @@ export class PlanWriter {
     for (const one of slowed) this.notes.push({ step: parts[one.move]!.step, at_s: start_s + parts[one.move]!.start_s, slowed: one });
   }
 
+  /** Goes on from another posture, for drawing what comes behind a step that cannot be carried out. */
+  jumpTo(q_rad: ArrayLike<number>): void { this.q.set(q_rad); }
+
   plan(robot: string): Plan { return { robot, duration_s: this.t_s, segments: this.segments }; }
 }

@@ -4,7 +4,7 @@ import { compose, identity, type Pose } from "../spatial/pose.ts";
 import { distance, norm, scale, subtract, type Vector3 } from "../spatial/vector.ts";
 import { Follower } from "./follow.ts";
 import { arcPath, curvePath, geometryScratch, linePath, posePoint, poseTwist, turnBetween, TURN_M_PER_RAD, type PosePath } from "./geometry.ts";
-import { settle, type Goal } from "./goal.ts";
+import { GoalFinder, type Goal } from "./goal.ts";
 import { HermitePath, type Stop } from "./hermite-path.ts";
 import type { Move } from "./moves.ts";
 
@@ -40,6 +40,7 @@ export class RunPath {
   readonly path: HermitePath;
   private readonly robot: Robot;
   private readonly follower: Follower;
+  private readonly goals: GoalFinder;
   private readonly scratch = geometryScratch();
   private readonly q: Float64Array;
   private startFlange: Pose<"base", "flange"> = identity();
@@ -47,6 +48,7 @@ export class RunPath {
   constructor(robot: Robot, tolerance_m: number) {
     this.robot = robot;
     this.follower = new Follower(robot.arm);
+    this.goals = new GoalFinder(robot, this.follower);
     this.path = new HermitePath(this.follower, tolerance_m);
     this.q = new Float64Array(robot.arm.joints.length);
   }
@@ -83,7 +85,7 @@ export class RunPath {
     for (let i = 0; i < moves.length; i++) {
       const move = moves[i]!, from = this.startOf(moves, i);
       if (move.step.path === "ptp") {
-        const start: Float64Array = q ?? q0, goal = settle(this.robot, this.follower, move, start);
+        const start: Float64Array = q ?? q0, goal = this.goals.find(move, start);
         if (goal.kind === "none") return { kind: "goal", move: i, goal };
         legs.push({ move, q0: start, q1: goal.q_rad, length: this.jointLength(start, goal.q_rad, move) });
         q = goal.q_rad;

@@ -2,7 +2,7 @@ import { flangePose } from "../kinematics/forward.ts";
 import type { Robot } from "../robots/robot.ts";
 import { compose } from "../spatial/pose.ts";
 import { distance } from "../spatial/vector.ts";
-import { settle } from "./goal.ts";
+import { GoalFinder } from "./goal.ts";
 import { Follower } from "./follow.ts";
 import { timeJointLeg } from "./joint-leg.ts";
 import type { Move } from "./moves.ts";
@@ -25,14 +25,14 @@ export class RunPlanner {
   private readonly robot: Robot;
   private readonly path: RunPath;
   private readonly timer: RunTimer;
-  private readonly follower: Follower;
+  private readonly goals: GoalFinder;
   private readonly limits;
 
   constructor(robot: Robot, tolerance_m = PATH_TOLERANCE_M) {
     this.robot = robot;
     this.path = new RunPath(robot, tolerance_m);
     this.timer = new RunTimer(robot);
-    this.follower = new Follower(robot.arm);
+    this.goals = new GoalFinder(robot, new Follower(robot.arm));
     this.limits = planningLimits(robot);
   }
 
@@ -51,7 +51,7 @@ export class RunPlanner {
   private lay(moves: readonly Move[], q0: Float64Array): RunAnswer {
     const first = moves[0];
     if (moves.length === 1 && first !== undefined && first.step.path === "ptp") {
-      const goal = settle(this.robot, this.follower, first, q0);
+      const goal = this.goals.find(first, q0);
       if (goal.kind === "none") return { kind: "stopped", stop: { kind: "goal", move: 0, goal } };
       return { kind: "timed", run: timeJointLeg(first, q0, goal.q_rad, this.limits, this.robot) };
     }

@@ -1,3 +1,4 @@
+import { explainReach } from "../kinematics/explain.ts";
 import type { Reach } from "../kinematics/reach.ts";
 import type { Robot } from "../robots/robot.ts";
 import { degrees, millimetres } from "../spatial/units.ts";
@@ -19,7 +20,7 @@ export function explainStop(stop: RunStop, move: Move, robot: Robot): Stuck {
         hint: "Tilt or turn the tool, or choose another posture of the arm.",
       };
     case "goal":
-      return { step, code: `reach.${stop.goal.reach.kind}`, sentence: `Step “${step}” ends where ${robot.name} cannot be.`, hint: "Bring the target nearer, or tilt the tool.", reach: stop.goal.reach };
+      return { step, code: `reach.${stop.goal.reach.kind}`, sentence: `Step “${step}”: ${explainReach(stop.goal.reach)}`, hint: "Bring the target nearer, or tilt the tool.", reach: stop.goal.reach };
     case "path": {
       const [x, y, z] = stop.stop.goal.position, place = `${mm(x)}, ${mm(y)}, ${mm(z)} mm`, percent = Math.round(stop.share * 100);
       return stop.stop.kind === "posture-jump"

@@ -1,8 +1,5 @@
 import { Fault, type TextFault, type TextPlace } from "@twincell/core";
 
-/** Line and column of a text, counted from 1. */
-export const place = (line: number, column: number): TextPlace => ({ line, column });
-
 /** A fault as a reader of a language reports it: where, what was expected there, and one sentence. */
 export function textFault(at: TextPlace, expected: string, sentence: string): TextFault {
   return { line: at.line, column: at.column, expected, sentence };

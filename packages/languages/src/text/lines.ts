@@ -6,7 +6,7 @@ export function textLines(text: string): string[] {
 }
 
 const DASHES = /[\u2010-\u2015\u2212\uFE63\uFF0D]/g;
-const BLANKS = /[\u00A0\u1680\u2000-\u200A\u202F\u205F\u3000\t]/g;
+const BLANKS = /[\u00A0\u1680\u2000-\u200A\u202F\u205F\u3000\uFEFF\t]/g;
 
 /**
  * Typographic dashes as ASCII minus and typographic blanks as ASCII blanks: what a PDF or a word processor makes of

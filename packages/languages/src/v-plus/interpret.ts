@@ -1,12 +1,15 @@
-import type { Interpreted, Pose, Robot } from "@twincell/core";
+import type { Executed, Interpreted, Pose, Robot } from "@twincell/core";
 import { TextError, textFault } from "../text/index.ts";
 import { readSource } from "./read/source.ts";
 import { jointConvention } from "./robots.ts";
 import { Machine } from "./run/machine.ts";
 import type { Tools } from "./run/state.ts";
 
-/** How far a program is run beforehand to meet its tools and its faults. A program that moves for ever goes on longer. */
-const BEFOREHAND = 20_000;
+/**
+ * How far a program is run beforehand to meet its tools and its faults: enough to see that it runs on the spot.
+ * A program that moves for ever goes on longer.
+ */
+const BEFOREHAND = { steps: 5_000, statements: 150_000 } as const;
 
 /**
  * Executes V+ text: a disk file (its first program) or a list of terminal commands. Locations count from the shoulder of
@@ -20,10 +23,13 @@ export function interpretVPlus(text: string, robot: Robot, worldFromBase: Pose<"
   const read = readSource(text);
   if (read.kind === "not-understood") return read;
   const tools: Tools = {};
-  const run = (): Generator<{ readonly line: number }, void> => new Machine(read.source, robot, convention, worldFromBase, tools).run();
+  const run = (): Generator<Executed, void> => new Machine(read.source, robot, convention, worldFromBase, tools).run();
   try {
-    let count = 0;
-    for (const _ of run()) if (++count >= BEFOREHAND) break;
+    let steps = 0, statements = 0;
+    for (const { step } of run()) {
+      if (step !== undefined) steps++;
+      if (steps >= BEFOREHAND.steps || ++statements >= BEFOREHAND.statements) break;
+    }
   } catch (cause) {
     if (!(cause instanceof TextError)) throw cause;
     return { kind: "not-understood", faults: [cause.fault] };

@@ -72,9 +72,7 @@ export function edgeTraceCell(): CellDocument {
     ],
     frames: [{
       name: "carton",
-      worldFromFrame: pose([
-        0.45, -0.2, 0.5,
-      ]),
+      worldFromFrame: pose([0.45, -0.2, 0.5]),
     }],
     allowedPairs: [],
     programs: [emptyProgram(ROBOT, "Edge trace")],

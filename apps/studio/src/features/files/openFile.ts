@@ -1,5 +1,6 @@
 import { notify } from "../../stores/notices.ts";
 import { openCellText } from "../../stores/opening.ts";
+import { importText } from "../../stores/importing.ts";
 import { words } from "../../words/index.ts";
 
 /** Opens a chosen or dropped file by what it is. Whatever is wrong with it is one sentence; what was open stays open. */
@@ -7,7 +8,10 @@ export async function openFile(file: File): Promise<void> {
   const kind = /\.([a-z0-9]+)$/i.exec(file.name)?.[1]?.toLowerCase() ?? "";
   try {
     if (kind === "json") openCellText(await file.text(), file.name);
-    else notify("bad", words.file.unknownKind(file.name), words.file.unknownHint);
+    else if (kind === "v2" || kind === "pg" || kind === "txt") {
+      const [fault] = importText(await file.text(), file.name);
+      if (fault !== undefined) notify("bad", words.file.notCell(file.name, fault), words.file.notCellHint);
+    } else notify("bad", words.file.unknownKind(file.name), words.file.unknownHint);
   } catch (trouble) {
     notify("bad", words.file.unreadable(file.name), trouble instanceof Error ? trouble.message : undefined);
   }

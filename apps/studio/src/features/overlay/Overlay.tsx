@@ -1,4 +1,3 @@
-import { Focus } from "lucide-react";
 import { useEffect, useRef } from "react";
 import { useStore } from "zustand";
 import { onFrame } from "../../live/frames.ts";
@@ -16,7 +15,7 @@ import "./overlay.css";
 
 /** What floats over the view: what a click does, and where the TCP is. */
 export function Overlay({ phone }: { phone: boolean }) {
-  return <>{!phone && <Hint />}<Readout /><TraceTool /><CameraName /></>;
+  return <>{!phone && <Hint />}<Readout /><TraceTool /></>;
 }
 
 function Hint() {
@@ -31,11 +30,6 @@ function TraceTool() {
   return <button className="btn trace-toggle" aria-pressed={active} title={words.trace.tip} onClick={() => runCommand("trace.toggle")}><TraceGlyph />{words.trace.tool}<span className="kbd" aria-hidden>T</span></button>;
 }
 const TraceGlyph = () => <svg viewBox="0 0 16 16" aria-hidden fill="none" stroke="currentColor"><path d="M2.5 11 8 14l5.5-3V5L8 2 2.5 5z" opacity=".55" /><path d="M2.5 5 8 8l5.5-3" strokeWidth="2.2" /></svg>;
-
-function CameraName() {
-  const camera = useStore(viewStore, state => state.camera);
-  return <button className="btn quiet tight camera-toggle" title={words.view.camera} onClick={() => runCommand("view.camera")}><Focus />{camera === "main" ? words.view.main : words.view.close}</button>;
-}
 
 /** Six numbers written straight into the page when the robot moved; React draws them once. */
 function Readout() {

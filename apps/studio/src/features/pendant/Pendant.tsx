@@ -20,7 +20,7 @@ const FRAMES: readonly JogFrame[] = ["joint", "base", "tool", "user", "world"];
 const AXES = [0, 1, 2, 3, 4, 5] as const;
 
 /** What a robot programmer's hands know. */
-export function Pendant({ phone = false }: { phone?: boolean }) {
+export function Pendant() {
   const frame = useStore(jogStore, state => state.frame), blocked = useStore(jogStore, state => state.blocked);
   const noUser = useStore(cellStore, state => (state.document?.frames.length ?? 0) === 0);
   return (
@@ -32,7 +32,7 @@ export function Pendant({ phone = false }: { phone?: boolean }) {
         <Axes />
         {blocked ? <p className="pendant-blocked" role="alert">{blocked.sentence}</p> : frame !== "joint" && <JointGauges />}
         <Manner />
-        <PointButtons phone={phone} />
+        <PointButtons />
       </div>
     </section>
   );

@@ -9,7 +9,7 @@ import { Tip } from "../../ui/Tip.tsx";
 import { words } from "../../words/index.ts";
 
 /** Aids, home, record, touch up, gripper, last message. */
-export function PointButtons({ phone }: { phone: boolean }) {
+export function PointButtons() {
   const aid = useStore(jogStore, state => state.aid), count = useStore(aidStore, state => state.count), message = useStore(controlStore, state => state.message);
   const canTouchUp = useStore(selectionStore, state => state.selected?.kind === "step") && commandStore.getState().commands.get("program.touch-up")?.can?.() !== false;
   return (
@@ -18,14 +18,17 @@ export function PointButtons({ phone }: { phone: boolean }) {
         <span className="point-label">{words.jog.record}</span>
         <Tip words={words.jog.recordTip} keys="P"><button className="btn" onClick={() => runCommand("program.record-ptp")}><CircleDot />{words.jog.recordPtp}</button></Tip>
         <Tip words={words.jog.recordTip} keys="Shift+P"><button className="btn" onClick={() => runCommand("program.record-lin")}><CircleDot />{words.jog.recordLin}</button></Tip>
-        <Tip words={canTouchUp ? words.jog.touchUpTip : words.jog.touchUpNone}><button className="btn" aria-disabled={!canTouchUp} onClick={() => runCommand("program.touch-up")}><LocateFixed />{!phone && words.jog.touchUp}{phone && <span className="visually-hidden">{words.jog.touchUp}</span>}</button></Tip>
+      </div>
+      <div className="point-row">
+        <span className="point-label" />
+        <Tip words={canTouchUp ? words.jog.touchUpTip : words.jog.touchUpNone}><button className="btn" aria-disabled={!canTouchUp} onClick={() => runCommand("program.touch-up")}><LocateFixed />{words.jog.touchUp}</button></Tip>
+        <Tip words={words.jog.readyTip} keys="H"><button className="btn" onClick={() => runCommand("jog.ready")}><Home />{words.jog.ready}</button></Tip>
       </div>
       <div className="point-row">
         <span className="point-label">{words.jog.aids}</span>
         <button className="btn icon" aria-label={words.jog.aidPrevious} onClick={() => runCommand("jog.aid-previous")}><ChevronLeft /></button>
         <span className="aid-now" role="status">{aid === null ? words.jog.aidFree : words.jog.aid(aid + 1, count)}</span>
         <button className="btn icon" aria-label={words.jog.aidNext} onClick={() => runCommand("jog.aid-next")}><ChevronRight /></button>
-        <Tip words={words.jog.readyTip} keys="H"><button className="btn" onClick={() => runCommand("jog.ready")}><Home />{words.jog.ready}</button></Tip>
       </div>
       <div className="point-row">
         <span className="point-label">{words.jog.gripper}</span>

@@ -1,10 +1,8 @@
 import { type EdgePick, edgeLoop, edgeNearRay, type FeatureEdges, featureEdges, inverse, rotate, conjugate, transformPoint, type Vector3 } from "@twincell/core";
 import { type ObjectRecord, type Shape, shapeMesh } from "@twincell/project";
-import type { TraceState } from "../../stores/trace.ts";
+import { SHARP_RAD, type TraceState } from "../../stores/trace.ts";
 import type { Ray } from "../handle/drag-maths.ts";
 
-/** Faces that bend by less than this belong to one surface [rad]. */
-const SHARP_RAD = 0.5;
 const known = new WeakMap<Shape, FeatureEdges>();
 
 /** The sharp edges of a shape, found once. */

@@ -11,14 +11,18 @@ const RULES: TokenRules<Kind> = [
   ["sign", /==|<>|<=|>=|\*\*|[-+*/=<>()[\],:]/y],
 ];
 
+/** Longer than any statement; it also bounds how deep an expression can be. */
+const LINE_LENGTH = 1024;
+
 /** Walks over the tokens of one line. Words compare without regard to case. */
 export class Cursor {
   private readonly tokens: readonly Token<Kind>[];
   private readonly end: TextPlace;
   private at = 0;
 
-  /** @throws {TextError} at a character that has no meaning in V+. */
+  /** @throws {TextError} at a character that has no meaning in V+, or when the line is too long for anybody. */
   constructor(text: string, line: number) {
+    if (text.length > LINE_LENGTH) throw new TextError({ line, column: LINE_LENGTH + 1 }, `a line of at most ${LINE_LENGTH} characters`, `Line ${line} has ${text.length} characters.`);
     this.tokens = lineTokens(plainText(text), line, RULES);
     this.end = { line, column: text.length + 1 };
   }

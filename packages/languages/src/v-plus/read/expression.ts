@@ -3,7 +3,7 @@ import type { Cursor } from "./cursor.ts";
 import type { Expression, Variable } from "./syntax.ts";
 
 /** Names longer than this are not V+. */
-export const NAME_LENGTH = 15;
+const NAME_LENGTH = 15;
 /** Brackets inside brackets: more than anybody writes, less than the stack holds. */
 const DEPTH = 60;
 
@@ -31,13 +31,13 @@ function chain(cursor: Cursor, joins: (word: string) => boolean, part: () => Exp
 
 function not(cursor: Cursor, depth: number): Expression {
   const { line, column } = cursor.here;
-  let times = 0;
-  while (cursor.accept("NOT")) times++;
+  let nots = 0;
+  while (cursor.accept("NOT")) nots++;
   let value = chain(cursor, word => COMPARE.has(word),
     () => chain(cursor, word => word === "+" || word === "-",
       () => chain(cursor, word => word === "*" || word === "/" || word === "MOD",
         () => signed(cursor, depth))));
-  for (; times > 0; times--) value = { kind: "unary", sign: "NOT", of: value, line, column };
+  for (; nots > 0; nots--) value = { kind: "unary", sign: "NOT", of: value, line, column };
   return value;
 }
 

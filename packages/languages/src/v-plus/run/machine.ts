@@ -239,13 +239,14 @@ const newFrame = (routine: Routine): Frame => ({ routine, at: 0, last: [], step:
 
 /**
  * How far from its end a motion begins to turn into the next one. V+ has no radius: the next motion sets in when this one
- * begins to slow down, v · T / 2 before its end, T the time from full joint speed to rest.
+ * begins to slow down, v² / 2a before its end, where a takes the arm from full speed to rest in its ramp.
  */
 function continuousPath(robot: Robot, { speed }: MoveStep): number {
   const ramp_s = Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2));
-  const speed_mps = "mps" in speed ? speed.mps : "ratio" in speed ? speed.ratio * JOINT_MOTION_MPS : JOINT_MOTION_MPS / 10;
-  return Math.min(speed_mps * ramp_s / 2, LARGEST_CORNER_M);
+  const full_mps = robot.maxTcpSpeed_mps, speed_mps = "mps" in speed ? speed.mps : "ratio" in speed ? speed.ratio * full_mps : SLOW_MPS;
+  return Math.min(speed_mps ** 2 * ramp_s / (2 * full_mps), LARGEST_CORNER_M);
 }
-/** Typical TCP speed of a joint motion at 100 %, and the largest corner that is cut. */
-const JOINT_MOTION_MPS = 2;
+/** A motion of given duration says nothing of its speed: it is taken for a slow one. */
+const SLOW_MPS = 0.25;
+/** A corner is never cut by more: at full speed the rule above asks for more than most motions are long. */
 const LARGEST_CORNER_M = 0.05;

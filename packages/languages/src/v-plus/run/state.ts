@@ -109,7 +109,7 @@ export class ControllerState implements Memory {
     this.flange = this.flangeAt(joints_deg);
     // The joints say which posture it is; a later transformation is reached from there.
     this.branch = {};
-    return { q: this.radiansOf(joints_deg), ...(this.tool.name === "flange" ? {} : { tool: this.tool.name }) };
+    return { q: this.radiansOf(joints_deg), tool: this.tool.name };
   }
 
   private toTransform(location: Transform): Target {

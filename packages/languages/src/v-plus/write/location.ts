@@ -1,31 +1,10 @@
-import { degrees, millimetres, type JointLimits, type Pose, type Quaternion, type Robot } from "@twincell/core";
+import { degrees, millimetres, toVplusYpr, type JointLimits, type Pose, type Robot } from "@twincell/core";
 import { singleText } from "../../text/index.ts";
 import type { JointConvention } from "../robots.ts";
 
-/** Below this sine of the half angle, pitch is 0 or 180° and only yaw ± roll is defined. */
-const FLAT = 1e-9;
-
-/**
- * Yaw, pitch and roll [rad] of R = Rz(yaw) · Ry(pitch) · Rz(roll), pitch in [0, π], from
- *
- *   w, z = cos(pitch/2) · (cos, sin)((yaw + roll)/2)      y, −x = sin(pitch/2) · (cos, sin)((yaw − roll)/2)
- *
- * At pitch 0 or 180° roll is 0.
- */
-export function yawPitchRoll([x, y, z, w]: Quaternion): [number, number, number] {
-  const upright = Math.hypot(z, w), tilted = Math.hypot(x, y);
-  const pitch = 2 * Math.atan2(tilted, upright);
-  if (tilted < FLAT) return [wrapped(2 * Math.atan2(z, w)), pitch, 0];
-  if (upright < FLAT) return [wrapped(2 * Math.atan2(-x, y)), pitch, 0];
-  const sum = Math.atan2(z, w), difference = Math.atan2(-x, y);
-  return [wrapped(sum + difference), pitch, wrapped(sum - difference)];
-}
-
-const wrapped = (angle: number): number => angle > Math.PI ? angle - 2 * Math.PI : angle <= -Math.PI ? angle + 2 * Math.PI : angle;
-
 /** TRANS(x,y,z,yaw,pitch,roll) in mm and degrees. */
 export function transText({ position, quaternion }: Pose): string {
-  const numbers = [...position.map(millimetres), ...yawPitchRoll(quaternion).map(degrees)];
+  const numbers = [...position.map(millimetres), ...toVplusYpr(quaternion)];
   return `TRANS(${numbers.map(tidy).join(",")})`;
 }
 

@@ -1,0 +1,43 @@
+import { checkProgram, linkSolids, type Verdict } from "@twincell/core";
+import { cellGeometry } from "@twincell/project";
+import { given } from "../io/arguments.ts";
+import { writeOne } from "../io/output.ts";
+import { readCell, readProgram } from "../io/program.ts";
+import { UseFault, type Command } from "../io/usage.ts";
+
+export const checkCommand: Command = {
+  name: "check",
+  summary: "judge a program: reach, limits, speed, branches, collision",
+  usage: `twincell check PROGRAM [--cell CELL] [--margin M] [--junit FILE]
+
+Writes VERDICT {"ok","steps":[{"id","verdict","findings":[…]}],…} and ends with 1 when any step is bad.
+
+  --cell CELL     the saved cell to keep clear of; without it collisions are not looked at
+  --margin M      distance to keep from everything, in metres (default 0)
+  --junit FILE    the same as a JUnit report, one test case per step`,
+  async run(args) {
+    const options = given(args, { cell: { type: "string" }, margin: { type: "string" }, junit: { type: "string" }, json: { type: "boolean" } });
+    const [path] = options.positionals, cellPath = options.text("cell"), margin_m = options.number("margin") ?? 0, junit = options.text("junit");
+    if (path === undefined) throw new UseFault("PROGRAM is missing.", "Give the path of a program file.");
+    if (margin_m < 0) throw new UseFault(`--margin wants 0 or more, not ${margin_m}.`);
+    const { program, robot } = await readProgram(path);
+    const cell = cellPath === undefined ? undefined : cellGeometry(await readCell(cellPath), linkSolids(robot));
+    const { verdict } = checkProgram(program, robot, { margin_m, ...(cell ? { cell } : {}) });
+    if (junit !== undefined) await writeOne(junit, junitReport(program.name, verdict));
+    process.stdout.write(`${JSON.stringify(verdict)}\n`);
+    return verdict.ok ? 0 : 1;
+  },
+};
+
+const escaped = (text: string): string => text.replace(/[<>&"']/g, char => `&#${char.charCodeAt(0)};`);
+
+/** One test case per step; a bad step is a failure, one nobody evaluated is skipped. */
+function junitReport(name: string, verdict: Verdict): string {
+  const cases = verdict.steps.map(({ id, verdict: says, findings }) => {
+    const sentences = escaped(findings.map(finding => finding.sentence).join(" "));
+    const inside = says === "bad" ? `<failure message="${sentences}"/>` : says === "unknown" ? "<skipped/>" : findings.length ? `<system-out>${sentences}</system-out>` : "";
+    return `  <testcase classname="${escaped(name)}" name="${escaped(id)}">${inside}</testcase>`;
+  });
+  const bad = verdict.steps.filter(step => step.verdict === "bad").length, unknown = verdict.steps.filter(step => step.verdict === "unknown").length;
+  return `<?xml version="1.0" encoding="UTF-8"?>\n<testsuite name="${escaped(name)}" tests="${cases.length}" failures="${bad}" skipped="${unknown}">\n${cases.join("\n")}\n</testsuite>\n`;
+}

@@ -1,0 +1,41 @@
+import { pose } from "@twincell/core";
+import { proveText } from "@twincell/languages";
+import { given } from "../io/arguments.ts";
+import { dialectOf } from "../io/dialect.ts";
+import { writeWhole } from "../io/output.ts";
+import { readCell, readProgram } from "../io/program.ts";
+import { UseFault, type Command } from "../io/usage.ts";
+
+export const postCommand: Command = {
+  name: "post",
+  summary: "a program in a controller's own language",
+  usage: `twincell post PROGRAM --to DIALECT -o DIR [--cell CELL]
+
+Writes the files into DIR, all of them or none, and tells on standard output what they are. The program text is executed by the
+dialect's own interpreter and compared with the plan first; text that does not say the same is not written (exit 1).
+
+  --cell CELL     where the robot stands (default: in the origin)`,
+  async run(args) {
+    const options = given(args, { to: { type: "string" }, out: { type: "string", short: "o" }, cell: { type: "string" }, json: { type: "boolean" } });
+    const [path] = options.positionals, folder = options.text("out"), cellPath = options.text("cell");
+    if (path === undefined) throw new UseFault("PROGRAM is missing.", "Give the path of a program file.");
+    if (folder === undefined) throw new UseFault("-o DIR is missing.", "Give the folder to write to.");
+    const dialect = dialectOf("to", options.text("to")), { program, robot } = await readProgram(path);
+    const worldFromBase = cellPath === undefined ? pose<"world", "base">() : (await readCell(cellPath)).robot.worldFromBase;
+
+    const emitted = dialect.emit(program, robot, worldFromBase);
+    if (emitted.kind === "cannot") {
+      process.stderr.write(`twincell: ${emitted.step ? `Step ${emitted.step}: ` : ""}${emitted.sentence} ${emitted.hint}\n`);
+      return 1;
+    }
+    const proofs = emitted.files.filter(file => /^\s*\.PROGRAM/im.test(file.text)).map(file => proveText(dialect, file, program, robot, worldFromBase));
+    const wrong = proofs.find(proof => proof.kind !== "proven");
+    if (wrong) {
+      process.stderr.write(`twincell: ${wrong.sentence} Nothing was written.\n`);
+      return 1;
+    }
+    const paths = await writeWhole(folder, emitted.files);
+    process.stdout.write(`${JSON.stringify({ dialect: dialect.id, files: paths, warnings: emitted.warnings, proof: proofs.flatMap(proof => (proof.kind === "proven" ? [{ file: proof.file, worst_m: proof.worst_m, worst_rad: proof.worst_rad }] : [])) })}\n`);
+    return 0;
+  },
+};

@@ -1,0 +1,54 @@
+import type { Repair, Verdict } from "@twincell/core";
+import { useEffect, useState } from "react";
+import { useStore } from "zustand";
+import { cellStore } from "../../stores/cell.ts";
+import { runCommand } from "../../stores/commands.ts";
+import { programOf } from "../../stores/document.ts";
+import { firstRepairs, repairStep } from "../../stores/program.ts";
+import { select } from "../../stores/selection.ts";
+import { previewStep, seek } from "../../stores/seek.ts";
+import { words } from "../../words/index.ts";
+import { whyCards, type Why } from "./why.ts";
+
+const FIRST = 12;
+
+/** Subject, fact with number, way out. */
+export function WhyCards({ verdict }: { verdict: Verdict }) {
+  const program = useStore(cellStore, state => programOf(state.document)), [all, setAll] = useState(false);
+  if (!program) return null;
+  const cards = whyCards(verdict, program), repairs = firstRepairs(verdict);
+  if (cards.length === 0) return <p className="why-fine"><i className="mark" data-verdict={verdict.ok ? "ok" : "unknown"} aria-hidden />{verdict.ok ? words.check.fine : words.check.notYet}</p>;
+  return (
+    <>
+      {repairs.length > 1 && <button className="btn" onClick={() => runCommand("check.repair-all")}>{words.check.repairAll(repairs.length)}</button>}
+      {(all ? cards : cards.slice(0, FIRST)).map(card => <WhyCard key={card.key} card={card} />)}
+      {!all && cards.length > FIRST && <button className="btn quiet" onClick={() => setAll(true)}>{words.check.more(cards.length - FIRST)}</button>}
+    </>
+  );
+}
+
+function WhyCard({ card }: { card: Why }) {
+  const { finding } = card, look = (): void => { select({ kind: "step", id: card.step }); seek(finding.at_s); };
+  const [shown, setShown] = useState<Repair | null>(null);
+  useEffect(() => {
+    if (!shown) return undefined;
+    const leave = (event: KeyboardEvent): void => { if (event.key === "Escape") { setShown(null); previewStep(null); } };
+    window.addEventListener("keydown", leave);
+    return () => { window.removeEventListener("keydown", leave); };
+  }, [shown]);
+  useEffect(() => () => previewStep(null), []);
+  const own = card.repairs.filter(each => each.id === card.step);
+  return (
+    <article className="why" data-tone={card.verdict}>
+      <button className="why-fact" onClick={look}><i className="mark" data-verdict={card.verdict} aria-hidden /><span><b>{finding.sentence}</b>{card.steps.length > 1 && <span className="muted"> {words.check.affected(card.steps.length)}</span>}</span></button>
+      {own.map(({ id, repair }) => (
+        <div className="why-repair" key={repair.sentence}>
+          <span className="muted">{repair.sentence}</span>
+          {repair.replace && <button className="btn tight" aria-pressed={shown === repair} onClick={() => { const next = shown === repair ? null : repair; setShown(next); previewStep(next?.replace ?? null); }}>{words.common.show}</button>}
+          <button className="btn tight primary" onClick={() => { previewStep(null); repairStep(id, repair); }}>{words.common.apply}</button>
+        </div>
+      ))}
+      {shown && <p className="small muted">{words.check.shown}</p>}
+    </article>
+  );
+}

@@ -1,0 +1,88 @@
+import { CellCollider, linkSolids, type Robot } from "@twincell/core";
+import { vPlus } from "@twincell/languages";
+import { cellGeometry, type CellDocument } from "@twincell/project";
+import { cellStore } from "../stores/cell.ts";
+import { registerCommands } from "../stores/commands.ts";
+import { controlStore } from "../stores/control.ts";
+import { flangeFromTcpOf, programOf, robotOf } from "../stores/document.ts";
+import { notify } from "../stores/notices.ts";
+import { playStore } from "../stores/play.ts";
+import { sound } from "../stores/sound.ts";
+import { onStop } from "../stores/stop.ts";
+import { viewStore } from "../stores/view.ts";
+import { words } from "../words/index.ts";
+import { browserShelf } from "./archive.ts";
+import { leaveRobot, takeRobot } from "./owner.ts";
+import { controlCell, type CellControl } from "./run.ts";
+import { pageScheduler } from "./scheduler.ts";
+import { travelBack, type TravelBack } from "./travel-back.ts";
+
+const shelf = browserShelf();
+let control: CellControl | null = null, made: Solids | null = null;
+
+/** What the controller and its guard are made from. */
+type Solids = Pick<CellDocument, "robot" | "objects" | "tools" | "tool" | "allowedPairs">;
+const same = (a: Solids, b: Solids): boolean => a.robot === b.robot && a.objects === b.objects && a.tools === b.tools && a.tool === b.tool && a.allowedPairs === b.allowedPairs;
+
+/** Contact of the robot with itself or its surroundings. */
+function contactTest(document: CellDocument, robot: Robot): (q_rad: Float64Array) => boolean {
+  const collider = new CellCollider(cellGeometry(document, linkSolids(robot)), robot.arm);
+  collider.allowContactsAt(robot.home_rad);
+  return q_rad => !collider.collides(q_rad);
+}
+
+/** The controller of the open cell; made anew when robot, tool or surroundings change, but never under a run. */
+export function theControl(): CellControl | null {
+  const { document } = cellStore.getState(), robot = robotOf(document);
+  if (!document || !robot) return null;
+  if (control && made && (same(made, document) || controlStore.getState().running)) return control;
+  control?.close();
+  made = document;
+  control = controlCell(
+    { dialect: vPlus, scheduler: pageScheduler, shelf, clock_ms: () => Date.now() },
+    { robot, worldFromBase: document.robot.worldFromBase, flangeFromTcp: flangeFromTcpOf(document), isSafe: contactTest(document, robot) },
+  );
+  control.setOverride(playStore.getState().speed);
+  return control;
+}
+
+export const theHistory: TravelBack = travelBack(shelf, pageScheduler);
+
+/** Runs the program's exported text; says in words how it ended. */
+export async function startRun(): Promise<void> {
+  const { document } = cellStore.getState(), program = programOf(document), running = theControl();
+  if (!document || !program || !running) return;
+  if (program.steps.length === 0) { notify("info", words.run.nothing); return; }
+  takeRobot("run", () => { running.stop(); });
+  viewStore.setState({ mode: "run" });
+  const began = performance.now(), outcome = await running.run(program, document.name);
+  leaveRobot("run");
+  switch (outcome.kind) {
+    case "done": sound("done"); notify("done", words.run.done(((performance.now() - began) / 1000).toFixed(2)), words.run.kept); break;
+    case "stopped": notify("warn", words.run.stopped(outcome.why.sentence), outcome.why.hint); break;
+    case "refused": notify("bad", words.run.refused(outcome.why.sentence), outcome.why.hint); break;
+    case "not-emitted": notify("bad", `${words.run.notEmitted} ${outcome.sentence}`, outcome.hint); break;
+    case "not-understood": notify("bad", `${words.run.notUnderstood} ${outcome.sentence}`, outcome.hint); break;
+  }
+}
+
+/** Starts what runs and recordings need as long as the page lives. */
+export function startCellControl(): void {
+  theControl();
+  void theHistory.refresh();
+  onStop(() => { control?.stop(); theHistory.pause(); });
+  playStore.subscribe((state, before) => { if (state.speed !== before.speed) control?.setOverride(state.speed); });
+  viewStore.subscribe((state, before) => {
+    if (before.mode === "history" && state.mode !== "history") theHistory.pause();
+    if (state.mode === "history" && before.mode !== "history") takeRobot("history", () => { theHistory.pause(); });
+  });
+  registerCommands([
+    { id: "run.start", group: "play", words: words.commands.startRun, keys: ["Mod+Enter"], run: () => { void startRun(); } },
+    {
+      id: "run.reset", group: "play", words: words.control.reset, run: () => {
+        const outcome = theControl()?.reset();
+        if (outcome && outcome.kind !== "done") notify("bad", outcome.why.sentence, outcome.why.hint);
+      },
+    },
+  ]);
+}

@@ -1,0 +1,114 @@
+import { manualScheduler, robotById } from "@twincell/core";
+import { vPlus } from "@twincell/languages";
+import { tracedCartonCell } from "@twincell/project";
+import { openRecording } from "@twincell/recording";
+import { expect, test } from "vitest";
+import { controlStore } from "../stores/control.ts";
+import { historyStore } from "../stores/history.ts";
+import { listRuns, runBytes, type Shelf } from "./archive.ts";
+import { showJoints, theLive } from "./live.ts";
+import { controlCell, prepareRun } from "./run.ts";
+
+const robot = robotById("staubli_rx90l")!, cell = tracedCartonCell(), program = cell.programs[0]!;
+const worldFromBase = cell.robot.worldFromBase, flangeFromTcp = cell.tools[0]!.flangeFromTcp;
+
+function memoryShelf(): Shelf {
+  const kept = new Map<string, unknown>();
+  return {
+    async set(key, value) { kept.set(key, structuredClone(value)); },
+    async get(key) { return kept.get(key); },
+    async keys() { return [...kept.keys()]; },
+    async remove(keys) { for (const key of keys) kept.delete(key); },
+  };
+}
+function bench(isSafe?: (q: Float64Array) => boolean) {
+  const scheduler = manualScheduler(), shelf = memoryShelf();
+  showJoints(robot.home_rad);
+  const control = controlCell({ dialect: vPlus, scheduler, shelf, clock_ms: () => 1_700_000_000_000 + scheduler.now_s() * 1000 }, { robot, worldFromBase, flangeFromTcp, ...(isSafe ? { isSafe } : {}) });
+  return { scheduler, shelf, control };
+}
+
+test("T-23 T-25 the exported text runs to its end, the twin within 0.001°, and the run is recorded", async () => {
+  const { scheduler, shelf, control } = bench();
+  const outcome = control.run(program, cell.name);
+  expect(controlStore.getState().running).toBe(true);
+  await scheduler.elapse(5);
+  expect(controlStore.getState().line).toBeGreaterThan(0);
+  expect([...theLive().q_rad]).toEqual([...control.twin.jointAngles()]);
+  await scheduler.elapse(120);
+  expect(await outcome).toEqual({ kind: "done" });
+  expect(controlStore.getState()).toMatchObject({ running: false });
+  expect((controlStore.getState().twinError_rad * 180) / Math.PI).toBeLessThan(0.001);
+  const [run] = await listRuns(shelf);
+  expect(run).toMatchObject({ ending: "done", name: `${cell.name} · ${program.name}` });
+  expect(historyStore.getState().runs.map(({ id }) => id)).toEqual([run!.id]);
+  const opened = openRecording(await runBytes(shelf, run!.id), { scheduler });
+  expect(opened.kind).toBe("recording");
+  if (opened.kind !== "recording") return;
+  expect(opened.recording.duration_s).toBeGreaterThan(5);
+  expect(opened.recording.events.map(({ kind }) => kind)).toEqual(["run", "done"]);
+  control.close();
+}, 60_000);
+
+test("lines of the text keep the ids of the program's steps", () => {
+  const lines = new Map<string, number>();
+  const prepared = prepareRun(vPlus, program, { robot, worldFromBase }, (step, line) => lines.set(step, line));
+  if (prepared.kind !== "ready") throw new Error(prepared.sentence);
+  expect([...prepared.steps()].map(step => step.id)).toEqual(program.steps.map(step => step.id));
+  expect([...lines.keys()]).toEqual(program.steps.map(step => step.id));
+});
+
+test("stop ends the run on its path, says so, and nothing goes on by itself", async () => {
+  const { scheduler, shelf, control } = bench();
+  const outcome = control.run(program, cell.name);
+  await scheduler.elapse(3);
+  control.stop();
+  await scheduler.elapse(2);
+  expect(await outcome).toMatchObject({ kind: "stopped" });
+  const standing = [...theLive().q_rad];
+  await scheduler.elapse(5);
+  expect([...theLive().q_rad]).toEqual(standing);
+  expect(await listRuns(shelf)).toMatchObject([{ ending: "stopped" }]);
+  control.close();
+});
+
+test("T-10 an emergency stop refuses runs until reset", async () => {
+  const { scheduler, control } = bench();
+  control.stop(true);
+  await scheduler.elapse(1);
+  expect(await control.run(program, cell.name)).toMatchObject({ kind: "refused" });
+  expect(controlStore.getState().safety).toBe("emergency-stop");
+  expect(control.reset().kind).toBe("done");
+  await scheduler.elapse(0.02);
+  const again = control.run(program, cell.name);
+  await scheduler.elapse(3);
+  expect(controlStore.getState()).toMatchObject({ running: true, safety: "normal" });
+  control.stop();
+  await scheduler.elapse(1);
+  await again;
+  control.close();
+});
+
+test("T-43 the guard stops before contact and leads back to where it was safe", async () => {
+  const { scheduler, control } = bench(q => q[1]! < robot.home_rad[1]! + 0.4);
+  const outcome = control.run(program, cell.name);
+  await scheduler.elapse(10);
+  expect(await outcome).toMatchObject({ kind: "stopped" });
+  expect(control.twin.jointAngle(2)).toBeLessThan(robot.home_rad[1]! + 0.4);
+  control.close();
+});
+
+test("override 0 holds the robot and more lets it go on", async () => {
+  const { scheduler, control } = bench();
+  const outcome = control.run(program, cell.name);
+  await scheduler.elapse(2);
+  control.setOverride(0);
+  await scheduler.elapse(1);
+  const held = [...theLive().q_rad];
+  await scheduler.elapse(3);
+  expect([...theLive().q_rad]).toEqual(held);
+  control.setOverride(1);
+  await scheduler.elapse(120);
+  expect(await outcome).toEqual({ kind: "done" });
+  control.close();
+}, 60_000);

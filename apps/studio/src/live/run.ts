@@ -1,0 +1,151 @@
+import { createGuard, createTwin, createVirtualController, textSteps, type Guard, type Twin, type VirtualController } from "@twincell/controllers";
+import type { CommandOutcome, Dialect, EmittedFile, Pose, Program, Robot, Scheduler, Step } from "@twincell/core";
+import { createRunRecorder, type RunRecorder } from "@twincell/recording";
+import { controlStore } from "../stores/control.ts";
+import { historyStore, type RunEnding } from "../stores/history.ts";
+import { listRuns, openRunFile, type RunFile, type Shelf } from "./archive.ts";
+import { showJoints, theLive } from "./live.ts";
+
+/** What a run needs to know of the cell. */
+export interface RunSetting {
+  readonly robot: Robot;
+  readonly worldFromBase: Pose<"world", "base">;
+  readonly flangeFromTcp: Pose<"flange", "tcp">;
+  /** Whether nothing touches at those joint angles; the guard asks along the motion (rows T-42 … T-44). */
+  readonly isSafe?: (q_rad: Float64Array) => boolean;
+}
+
+export interface RunWorld {
+  readonly dialect: Dialect;
+  readonly scheduler: Scheduler;
+  readonly shelf: Shelf;
+  /** Wall clock, milliseconds since 1970. */
+  readonly clock_ms: () => number;
+}
+
+/** The text that runs, and which step each of its lines came from. */
+export type Prepared =
+  | { readonly kind: "ready"; readonly file: EmittedFile; readonly steps: () => Iterable<Step>; readonly context: Pick<Program, "tools" | "frames"> }
+  | { readonly kind: "not-emitted" | "not-understood"; readonly sentence: string; readonly hint: string };
+
+const TELL_EVERY_S = 0.1;
+
+/**
+ * Emits the program, interprets that very text, and gives the steps it amounts to. A step of the text keeps the id of the
+ * program step its line was written for, so that screen and recording speak of the same thing.
+ */
+export function prepareRun(dialect: Dialect, program: Program, { robot, worldFromBase }: Pick<RunSetting, "robot" | "worldFromBase">, onLine: (step: string, line: number) => void): Prepared {
+  const emitted = dialect.emit(program, robot, worldFromBase);
+  if (emitted.kind === "cannot") return { kind: "not-emitted", sentence: emitted.sentence, hint: emitted.hint };
+  const file = runnable(emitted.files);
+  const interpreted = dialect.interpret(file.text, robot, worldFromBase);
+  if (interpreted.kind === "not-understood") {
+    const [first] = interpreted.faults;
+    return { kind: "not-understood", sentence: first ? `Line ${first.line}, column ${first.column}: ${first.sentence}` : "", hint: "Export the text and look at that line." };
+  }
+  const text = textSteps(interpreted.run);
+  function* steps(): Generator<Step> {
+    for (const step of text.steps) {
+      const line = text.lineOf(step.id), id = file.lines[line - 1] || step.id;
+      onLine(id, line);
+      yield { ...step, id };
+    }
+  }
+  return { kind: "ready", file, steps, context: interpreted.context };
+}
+
+/** The program proper comes with a list of its points; the program is the file that says what to do with most of its lines. */
+const runnable = (files: readonly EmittedFile[]): EmittedFile => files.find(file => /^\s*\.PROGRAM/im.test(file.text)) ?? files[0]!;
+
+/** The virtual controller of the page, its guard and its twin, for as long as the cell is open. */
+export interface CellControl {
+  /** Carries out the program's exported text. Resolves when it is done, stopped or refused. */
+  run(program: Program, cellName: string): Promise<CommandOutcome | Exclude<Prepared, { kind: "ready" }>>;
+  stop(emergency?: boolean): void;
+  reset(): CommandOutcome;
+  /** 0 … 1; 0 holds. */
+  setOverride(part: number): CommandOutcome;
+  /** The mode switch at the robot. */
+  setMode(mode: "manual" | "automatic"): void;
+  readonly twin: Twin;
+  readonly guard: Guard;
+  close(): void;
+}
+
+export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromTcp, isSafe }: RunSetting): CellControl {
+  const { scheduler } = world, begun_s = scheduler.now_s();
+  const virtual: VirtualController = createVirtualController({ robot, scheduler, name: `Virtual ${robot.name.split(" ").at(-1)!}`, worldFromBase, start_rad: theLive().q_rad });
+  const guard = createGuard({ controller: virtual, scheduler, flangeFromTcp, brakingTime_s: virtual.brakingTime_s, ...(isSafe ? { isSafe } : {}) });
+  const seat = guard.seat("you");
+  seat.take();
+  let running = false, told_s = -1, recorder: RunRecorder | null = null;
+  const lines = new Map<string, number>();
+  const twin = createTwin({
+    real: seat.robot, scheduler,
+    mirror: {
+      // Jogging and playback move the robot on screen too; the twin shows it only while it is the one that runs.
+      show: sample => { if (running) showJoints(sample.q_rad); },
+      read: out => { out.set(running ? theLive().q_rad : virtual.jointAngles()); return out; },
+    },
+  });
+
+  const off = twin.onSample(sample => {
+    recorder?.record(sample);
+    const now_s = scheduler.now_s(), known = controlStore.getState();
+    const urgent = sample.safety !== known.safety || sample.mode !== known.mode || (running && sample.step !== known.step && sample.step !== "");
+    if (!urgent && now_s - told_s < TELL_EVERY_S) return;
+    told_s = now_s;
+    const { mirror_rad, command_rad } = twin.accuracy;
+    controlStore.setState({
+      mode: sample.mode, safety: sample.safety, step: sample.step, line: lines.get(sample.step) ?? 0, message: sample.message,
+      latency_ms: Math.max(0, (now_s - begun_s - sample.time_s) * 1000), twinError_rad: Math.max(mirror_rad, command_rad),
+    });
+  });
+  const offNotice = guard.onNotice(why => { recorder?.event(why.code, why.sentence, "warning"); controlStore.setState({ message: why.sentence }); });
+  controlStore.setState({ controller: virtual.name, running: false, message: "", safety: "normal", mode: "automatic", line: 0, step: "" });
+
+  async function run(program: Program, cellName: string): Promise<CommandOutcome | Exclude<Prepared, { kind: "ready" }>> {
+    lines.clear();
+    const prepared = prepareRun(world.dialect, program, { robot, worldFromBase }, (step, line) => lines.set(step, line));
+    if (prepared.kind !== "ready") return prepared;
+    // A virtual robot may jump (row T-18): it starts from where the robot on screen stands.
+    const jumped = virtual.jumpTo(theLive().q_rad);
+    if (jumped.kind !== "done") return jumped;
+
+    const startedAt = new Date(world.clock_ms()), id = startedAt.toISOString().replace(/[:.]/g, "-");
+    const file = openRunFile(world.shelf, id), name = `${cellName} · ${program.name}`;
+    recorder = createRunRecorder(file.sink, { robot, startedAt_ns: BigInt(startedAt.getTime()) * 1_000_000n, program: program.name, cell: cellName, chunk_s: 0.5 });
+    const from_s = scheduler.now_s();
+    const note = (ending: RunEnding): void => { file.note({ id, name, startedAt: startedAt.toISOString(), duration_s: scheduler.now_s() - from_s, bytes: file.sink.position, ending }); };
+    note("running");
+    recorder.event("run", `The run of ${program.name} began.`);
+    running = true;
+    twin.clearLog();
+    controlStore.setState({ running: true, twinError_rad: 0 });
+    const outcome = await twin.run(prepared.steps(), prepared.context);
+    running = false;
+    await endRecording(file, outcome, note);
+    controlStore.setState({ running: false, message: outcome.kind === "done" ? "" : outcome.why.sentence });
+    return outcome;
+  }
+
+  async function endRecording(file: RunFile, outcome: CommandOutcome, note: (ending: RunEnding) => void): Promise<void> {
+    const done = recorder!;
+    recorder = null;
+    done.event(outcome.kind, outcome.kind === "done" ? "The run is done." : outcome.why.sentence, outcome.kind === "done" ? "info" : "warning");
+    done.finish();
+    note(outcome.kind);
+    const trouble = await file.settled() ?? done.problem?.sentence ?? null;
+    if (trouble !== null) controlStore.setState({ message: trouble });
+    historyStore.setState({ runs: await listRuns(world.shelf) });
+  }
+
+  return {
+    run, twin, guard,
+    stop(emergency = false) { guard.stop(emergency); },
+    reset: () => seat.robot.reset(),
+    setOverride: part => twin.setSpeed(Math.round(Math.min(1, Math.max(0, part)) * 100)),
+    setMode: mode => { virtual.atTheRobot.setMode(mode); },
+    close() { off(); offNotice(); guard.close(); twin.close(); virtual.close(); },
+  };
+}

@@ -1,0 +1,59 @@
+import type { SerialArm } from "../robots/arm.ts";
+import { identity, type Pose } from "../spatial/pose.ts";
+import { rotate } from "../spatial/quaternion.ts";
+import type { Vector3 } from "../spatial/vector.ts";
+import { armScratch, chainOf, walk, type ArmScratch } from "./chain.ts";
+
+/** Working memory of `jacobian`: one per caller. */
+export interface JacobianScratch {
+  readonly arm: ArmScratch;
+  /** Axis and origin of every joint in the base, six numbers each. */
+  readonly axes: Float64Array;
+  readonly baseFromFlange: Pose<"base", "flange">;
+  readonly tip: Vector3;
+}
+export const jacobianScratch = (joints = 6): JacobianScratch =>
+  ({ arm: armScratch(), axes: new Float64Array(6 * joints), baseFromFlange: identity(), tip: [0, 0, 0] });
+
+/**
+ * Geometric Jacobian of the tool tip in the robot base: joint speeds to speed of the tip [m/s] and turning rate [rad/s].
+ *
+ *   column i = ( z_i × (tip − o_i) ; z_i ),   z_i axis and o_i origin of joint i in the base
+ *
+ * @param arm            n revolute joints. Read only.
+ * @param q              n joint angles [rad].
+ * @param flangeFromTip  the tip seen in the flange [m]; the flange itself when null.
+ * @param out            6 n numbers, row major: three rows of speed, three of turning rate. Returned.
+ * @param scratch        made for n joints; afterwards it also holds `baseFromFlange`. With it and `out` the call allocates nothing.
+ * @throws {JointCountFault} when q does not hold n angles.
+ * @see Lynch & Park, Modern Robotics, Cambridge 2017, ch. 5.1.
+ */
+export function jacobian(
+  arm: SerialArm, q: ArrayLike<number>, flangeFromTip: Vector3 | null = null,
+  out: Float64Array = new Float64Array(6 * arm.joints.length), scratch: JacobianScratch = jacobianScratch(arm.joints.length),
+): Float64Array {
+  const n = arm.joints.length, axes = scratch.axes, flange = scratch.baseFromFlange, tip = scratch.tip;
+  walk(chainOf(arm, q, scratch.arm), q, flange, null, axes);
+  if (flangeFromTip === null) { tip[0] = 0; tip[1] = 0; tip[2] = 0; } else rotate(flange.quaternion, flangeFromTip, tip);
+  const px = flange.position[0] + tip[0], py = flange.position[1] + tip[1], pz = flange.position[2] + tip[2];
+  for (let i = 0; i < n; i++) {
+    const at = 6 * i, zx = axes[at]!, zy = axes[at + 1]!, zz = axes[at + 2]!;
+    const rx = px - axes[at + 3]!, ry = py - axes[at + 4]!, rz = pz - axes[at + 5]!;
+    out[i] = zy * rz - zz * ry;
+    out[n + i] = zz * rx - zx * rz;
+    out[2 * n + i] = zx * ry - zy * rx;
+    out[3 * n + i] = zx; out[4 * n + i] = zy; out[5 * n + i] = zz;
+  }
+  return out;
+}
+
+/** What the hand feels: the tip's speed [m/s] and turning rate [rad/s] at joint speeds, six numbers: J · q̇. */
+export function tipTwist(jacobianRows: Float64Array, speeds_rad_s: ArrayLike<number>, out: Float64Array = new Float64Array(6)): Float64Array {
+  const n = jacobianRows.length / 6;
+  for (let row = 0; row < 6; row++) {
+    let sum = 0;
+    for (let i = 0; i < n; i++) sum += jacobianRows[row * n + i]! * speeds_rad_s[i]!;
+    out[row] = sum;
+  }
+  return out;
+}

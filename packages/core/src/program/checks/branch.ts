@@ -1,0 +1,49 @@
+import { branchOf, sameBranch, type Branch } from "../../kinematics/branch.ts";
+import { radians } from "../../spatial/units.ts";
+import type { Repair } from "../verdict.ts";
+import { jointMove, postureRepairs } from "./repairs.ts";
+import { deg, motions, type CheckScene } from "./scene.ts";
+
+/** A joint move to a pose that turns a joint further than this has turned the arm over [rad]. */
+const BIG_TURN_RAD = radians(150);
+/** Joint angles this near to the taught ones are the taught ones [rad]. */
+const SAME_RAD = 1e-4;
+
+/** Postures that are not the taught ones at the end of a path, and joint moves that turn the arm over on the way to a pose. */
+export function checkBranch(scene: CheckScene): void {
+  const n = scene.robot.arm.joints.length;
+  for (const segment of motions(scene)) {
+    const move = scene.layout.moves.get(segment.step), rows = segment.times_s.length;
+    if (move === undefined) continue;
+    const first = segment.q_rad.subarray(0, n), last = segment.q_rad.subarray((rows - 1) * n);
+    const at_s = segment.start_s + segment.duration_s;
+    let joint = 0;
+    for (let j = 1; j < n; j++) if (Math.abs(last[j]! - first[j]!) > Math.abs(last[joint]! - first[joint]!)) joint = j;
+    if (move.step.path === "ptp") {
+      const way = Math.abs(last[joint]! - first[joint]!), before = branchOf(scene.robot, first), after = branchOf(scene.robot, last);
+      if (move.q_rad === undefined && way > BIG_TURN_RAD && before !== undefined && after !== undefined && !sameBranch(before, after)) {
+        scene.add(segment.step, "warn", { code: "branch.turn-over", joint: joint + 1, value: way, limit: BIG_TURN_RAD, unit: "rad", at_s, sentence: `Joint ${joint + 1} turns by ${deg(way)} while the arm changes from ${words(before)} to ${words(after)}.`, repairs: postureRepairs(scene, move) });
+      }
+      continue;
+    }
+    // A straight or circular path keeps its posture; where it blends on, the end is not the taught point.
+    if (move.step.blend_m > 0) continue;
+    const taught = move.q_rad, arrived = branchOf(scene.robot, last);
+    if (taught !== undefined) {
+      let off = 0;
+      for (let j = 1; j < n; j++) if (Math.abs(last[j]! - taught[j]!) > Math.abs(last[off]! - taught[off]!)) off = j;
+      if (Math.abs(last[off]! - taught[off]!) > SAME_RAD) {
+        scene.add(segment.step, "bad", { code: "branch.other", joint: off + 1, value: last[off]!, limit: taught[off]!, unit: "rad", at_s, sentence: `Joint ${off + 1} would be at ${deg(last[off]!)} at the end of the path; it was taught at ${deg(taught[off]!)}.`, repairs: asJointMove(scene, segment.step) });
+      }
+    } else if (move.branch !== undefined && arrived !== undefined && !sameBranch(arrived, move.branch)) {
+      scene.add(segment.step, "bad", { code: "branch.other", value: 1, limit: 0, unit: "1", at_s, sentence: `The path ends with ${words(arrived)}; it was taught with ${words(move.branch)}.`, repairs: asJointMove(scene, segment.step) });
+    }
+  }
+}
+
+const words = (branch: Branch): string => `shoulder ${branch.shoulder}, elbow ${branch.elbow}, wrist ${branch.wrist}`;
+
+function asJointMove(scene: CheckScene, id: string): Repair[] {
+  const step = scene.layout.moves.get(id)?.step;
+  return step === undefined ? [] : [{ sentence: "Make it a joint move.", replace: jointMove(step, step.target) }];
+}

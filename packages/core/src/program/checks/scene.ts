@@ -1,0 +1,28 @@
+import type { Robot } from "../../robots/robot.ts";
+import { degrees } from "../../spatial/units.ts";
+import type { PlanContext } from "../../trajectory/moves.ts";
+import type { MotionSegment } from "../../trajectory/plan.ts";
+import type { Program } from "../program.ts";
+import type { Finding } from "../verdict.ts";
+import type { Layout } from "./layout.ts";
+
+export type Severity = "warn" | "bad";
+
+/** What every check is given, and where it puts what it finds. */
+export interface CheckScene {
+  readonly program: Program;
+  readonly robot: Robot;
+  readonly context: PlanContext;
+  readonly layout: Layout;
+  add(step: string, severity: Severity, finding: Finding): void;
+}
+
+/** A motion of the plan with the step it belongs to. */
+export function* motions(scene: CheckScene): Generator<MotionSegment> {
+  for (const segment of scene.layout.plan.segments) if (segment.kind === "motion" && segment.times_s.length > 1) yield segment;
+}
+
+export const deg = (angle_rad: number): string => `${degrees(angle_rad).toFixed(1)}°`;
+export const seconds = (t_s: number): string => `${t_s.toFixed(2)} s`;
+/** A speed in m/s with as many digits as it needs. */
+export const metresPerSecond = (mps: number): string => `${mps < 0.1 ? mps.toPrecision(2) : mps.toFixed(2)} m/s`;

@@ -1,0 +1,58 @@
+import { degrees } from "../../spatial/units.ts";
+import type { MoveStep, Speed } from "../program.ts";
+import type { Repair } from "../verdict.ts";
+import { metresPerSecond, motions, seconds, type CheckScene } from "./scene.ts";
+
+/** Commanded speeds that a joint cannot follow (rows L-26, L-56), and joint speeds of the plan itself. */
+export function checkSpeed(scene: CheckScene): void {
+  const joints = scene.robot.arm.joints, n = joints.length;
+  for (const { step, at_s, slowed } of scene.layout.notes) {
+    const move = scene.layout.moves.get(step)?.step;
+    const repairs = move === undefined ? [] : slower(scene, move, slowed.wanted / slowed.limit);
+    const { joint, wanted, limit } = slowed;
+    scene.add(step, "bad", slowed.unit === "rad/s"
+      ? { code: "speed.joint", joint, value: wanted, limit, unit: "rad/s", at_s, sentence: `Joint ${joint} would turn at ${rate(wanted)}; its limit is ${rate(limit)}.`, repairs }
+      : { code: "speed.acceleration", joint, value: wanted, limit, unit: "rad/s2", at_s, sentence: `Joint ${joint} would accelerate at ${rate(wanted)}²; its limit is ${rate(limit)}².`, repairs });
+  }
+  for (const segment of motions(scene)) {
+    for (let j = 0; j < n; j++) {
+      let top = 0, at = 0;
+      for (let i = 0; i < segment.times_s.length; i++) {
+        const speed = Math.abs(segment.qd_rad_s[i * n + j]!);
+        if (speed > top) { top = speed; at = i; }
+      }
+      const limit = joints[j]!.limits.speed_rad_s;
+      if (top > limit * (1 + 1e-6)) {
+        const at_s = segment.start_s + segment.times_s[at]!, move = scene.layout.moves.get(segment.step)?.step;
+        const repairs = move === undefined ? [] : slower(scene, move, top / limit);
+        scene.add(segment.step, "bad", { code: "speed.joint", joint: j + 1, value: top, limit, unit: "rad/s", at_s, sentence: `Joint ${j + 1} would turn at ${rate(top)}; its limit is ${rate(limit)}.`, repairs });
+      }
+    }
+  }
+}
+
+const rate = (speed_rad_s: number): string => `${degrees(speed_rad_s).toFixed(1)}°/s`;
+
+/** The step with a speed that every joint can follow, and a little to spare. */
+function slower(scene: CheckScene, step: MoveStep, factor: number): Repair[] {
+  const spare = 1.02, speed = step.speed;
+  const replace = (next: Speed, sentence: string): Repair[] => [{ sentence, replace: { ...step, speed: next } }];
+  if ("mps" in speed) {
+    const mps = floored(speed.mps / (factor * spare));
+    return replace({ mps }, `Lower the speed to ${metresPerSecond(mps)}.`);
+  }
+  if ("ratio" in speed) {
+    const ratio = floored(speed.ratio / (factor * spare));
+    return replace({ ratio }, `Lower the speed to ${(ratio * 100).toPrecision(2)} %.`);
+  }
+  // A duration that was too short was not kept: the plan's own is the shortest there is.
+  const least_s = scene.layout.plan.segments.filter(segment => segment.step === step.id).reduce((sum, segment) => sum + segment.duration_s, 0);
+  const time_s = Math.ceil(least_s * spare * 100) / 100;
+  return replace({ time_s }, `Give it ${seconds(time_s)}.`);
+}
+
+/** Rounded down to two digits. */
+function floored(x: number): number {
+  const unit = 10 ** (Math.floor(Math.log10(x)) - 1);
+  return Number((Math.floor(x / unit) * unit).toPrecision(2));
+}

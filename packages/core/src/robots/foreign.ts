@@ -1,0 +1,43 @@
+import { pose } from "../spatial/pose.ts";
+import { norm } from "../spatial/vector.ts";
+import type { SerialArm } from "./arm.ts";
+import { orthoParallelFromArm } from "./derive.ts";
+import type { KinematicFamily, Robot } from "./robot.ts";
+
+/** Speed of the tool tip at full speed where nobody says it [m/s]. */
+const ASSUMED_TCP_SPEED_MPS = 2;
+
+/** What is known of a robot beside its arm. What is left out is assumed, and said so in `Robot.assumptions`. */
+export type KnownOfRobot = Partial<Omit<Robot, "arm" | "family" | "assumptions">> & { readonly assumptions?: readonly string[] };
+
+/** A robot around an arm that came from a file: closed form where its axes allow, home at zero or as near as the limits allow. */
+export function robotFromArm(arm: SerialArm, known: KnownOfRobot = {}): Robot {
+  const family: KinematicFamily = orthoParallelFromArm(arm) ?? { kind: "general" };
+  const assumptions = [...(known.assumptions ?? [])];
+  const assume = <T>(value: T | undefined, assumed: T, sentence: string): T => {
+    if (value === undefined) assumptions.push(sentence);
+    return value ?? assumed;
+  };
+  const reach_m = reachOf(arm, family), length = `${(reach_m * 1000).toFixed(0)} mm`;
+  return {
+    id: known.id ?? arm.name, name: known.name ?? arm.name, vendor: known.vendor ?? "", arm, family,
+    frames: known.frames ?? { base: "base", tip: "flange" },
+    baseFromVendorWorld: known.baseFromVendorWorld ?? pose(),
+    home_rad: known.home_rad ?? arm.joints.map(({ limits }) => Math.min(limits.upper_rad, Math.max(limits.lower_rad, 0))),
+    payload_kg: assume(known.payload_kg, 0, "The payload is not known: 0 kg is shown."),
+    payloadMax_kg: known.payloadMax_kg ?? known.payload_kg ?? 0,
+    reach_m: assume(known.reach_m, reach_m, `The reach is not published: ${length} follows from the lengths of the links.`),
+    reachMeasuredTo: known.reachMeasuredTo ?? (family.kind === "ortho-parallel" ? "wrist" : "flange"),
+    repeatability_m: assume(known.repeatability_m, 0, "The repeatability is not known: 0 mm is shown."),
+    maxTcpSpeed_mps: assume(known.maxTcpSpeed_mps, ASSUMED_TCP_SPEED_MPS, `The largest speed of the tool tip is not known: ${ASSUMED_TCP_SPEED_MPS} m/s is assumed.`),
+    sources: known.sources ?? { "arm": "The axes, limits and speeds of the robot file that was opened." },
+    shapeError_m: known.shapeError_m ?? 0,
+    assumptions,
+  };
+}
+
+/** From axis 1 to the wrist centre of the stretched arm; for another arm the sum of its links, which no reach exceeds. */
+function reachOf(arm: SerialArm, family: KinematicFamily): number {
+  if (family.kind === "ortho-parallel") return Math.abs(family.a1_m) + family.c2_m + Math.hypot(family.a2_m, family.c3_m);
+  return arm.joints.slice(1).reduce((sum, joint) => sum + norm(joint.parentFromJoint.position), norm(arm.lastJointFromFlange.position));
+}

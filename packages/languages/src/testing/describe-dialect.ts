@@ -1,0 +1,149 @@
+import { emptyProgram, seededRandom, type Dialect, type EmittedFile, type MoveStep, type Pose, type Program, type Robot, type TextFault } from "@twincell/core";
+import { describe, expect, test } from "vitest";
+import { proveText } from "../prove.ts";
+import { randomProgram } from "./programs.ts";
+
+export interface DialectBench {
+  /** A robot that speaks the language, and where it stands. */
+  readonly robot: Robot;
+  readonly worldFromBase: Pose<"world", "base">;
+  /** Paths that the dialect does not declare under `cannot`. */
+  readonly paths: readonly MoveStep["path"][];
+  /** The file that a controller executes, among those emitted. */
+  readonly runnable: (files: readonly EmittedFile[]) => EmittedFile;
+}
+
+const PATHS: readonly MoveStep["path"][] = ["ptp", "lin", "circ", "spline"];
+const SEEDS = [1, 2, 3, 4, 5, 6, 7, 8];
+const STEPS = 40;
+const DAMAGES = 300;
+/** Longest that any damaged text may keep a reader busy. */
+const PATIENCE_MS = 5_000;
+/** What damage is made of: signs that mean something somewhere, and signs that mean nothing anywhere. */
+const SCRAPS = [..." ()[],:;=#$.\"-–+*/<>0123456789eE\n\t\0ÿ", "END", "FOR", "IF", "DO", "GOTO 1\n", "1e999", "MOVE", "(((((((("];
+
+/** What every dialect must do, whatever its language. Differences are declared in `cannot`, with the reason. */
+export function describeDialect(dialect: Dialect, bench: DialectBench): void {
+  const { robot, worldFromBase, paths } = bench;
+  const emit = (program: Program): readonly EmittedFile[] => {
+    const emitted = dialect.emit(program, robot, worldFromBase);
+    if (emitted.kind === "cannot") throw new Error(`${emitted.step}: ${emitted.sentence}`);
+    return emitted.files;
+  };
+  const runnable = (program: Program): EmittedFile => bench.runnable(emit(program));
+  const random = (seed: number): Program => randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths });
+  const parse = (text: string): Program => {
+    const parsed = dialect.parse(text, robot, worldFromBase);
+    if (parsed.kind === "not-understood") throw new Error(JSON.stringify(parsed.faults));
+    return parsed.program;
+  };
+  const expectProven = (file: EmittedFile, program: Program): void => {
+    const proof = proveText(dialect, file, program, robot, worldFromBase);
+    expect(proof.kind, proof.sentence).toBe("proven");
+  };
+
+  describe(`dialect ${dialect.name}`, () => {
+    test.each(SEEDS)("emitted text, executed, meets every target within 0.01 mm and 0.001° (seed %d)", seed => {
+      expectProven(runnable(random(seed)), random(seed));
+    });
+
+    test.each(SEEDS)("emit, parse, emit gives the same runnable text (seed %d)", seed => {
+      const first = runnable(random(seed)), program = parse(first.text);
+      expect(runnable(program).text).toBe(first.text);
+      expectProven(first, program);
+    });
+
+    test("an empty program is a text that does nothing", () => {
+      expect(parse(runnable(emptyProgram(robot.id)).text).steps).toEqual([]);
+    });
+
+    test.each(SEEDS)("the text depends on the program alone, is ASCII, and says for every line which step it belongs to (seed %d)", seed => {
+      const program = random(seed), files = emit(program), ids = new Set(program.steps.map(step => step.id));
+      expect(emit(structuredClone(program))).toEqual(files);
+      for (const { name, text, lines } of files) {
+        expect(text, name).toMatch(/^[\r\n\t -~]*$/);
+        expect(lines, name).toHaveLength(text.split("\n").length - 1);
+        expect(lines.filter(id => id !== "" && !ids.has(id)), name).toEqual([]);
+      }
+      const file = bench.runnable(files), covered = new Set(file.lines);
+      expect([...ids].filter(id => !covered.has(id))).toEqual([]);
+      const proof = proveText(dialect, file, program, robot, worldFromBase);
+      expect(proof.kind).toBe("proven");
+      if (proof.kind === "proven") for (const { id, line } of proof.steps) expect(file.lines[line - 1]).toBe(id);
+    });
+
+    const impossible = PATHS.filter(path => !paths.includes(path));
+    test(`what it cannot is declared and stops the export at its step: ${impossible.join(", ") || "nothing"}`, () => {
+      const q = [...robot.home_rad];
+      const step = (id: string, path: MoveStep["path"]): MoveStep => ({ id, type: "move", path, target: { q }, via: { q }, speed: { ratio: 0.1 }, blend_m: 0 });
+      for (const path of impossible) {
+        expect(dialect.cannot.map(({ what }) => what)).toContain(path);
+        const emitted = dialect.emit({ ...emptyProgram(robot.id), steps: [step("a", "ptp"), step("b", path), step("c", "ptp")] }, robot, worldFromBase);
+        expect(emitted).toMatchObject({ kind: "cannot", step: "b" });
+      }
+    });
+
+    test("another robot is refused with a sentence", () => {
+      const stranger: Robot = { ...robot, id: "stranger", name: "Stranger" };
+      expect(dialect.emit(random(1), stranger).kind).toBe("cannot");
+      expect(dialect.interpret(runnable(random(1)).text, stranger).kind).toBe("not-understood");
+    });
+
+    test("damaged text never throws, never hangs, and every fault has its place", () => {
+      const next = seededRandom(99), below = (count: number): number => Math.floor(next() * count);
+      const sources = emit(random(2)).map(file => file.text.slice(0, 1500));
+      for (let i = 0; i < DAMAGES; i++) {
+        let text = sources[i % sources.length]!;
+        for (let k = 1 + below(4); k > 0; k--) {
+          const at = below(text.length), cut = next() < 0.5 ? below(30) : 0;
+          text = text.slice(0, at) + SCRAPS[below(SCRAPS.length)]! + text.slice(at + cut);
+        }
+        const started = performance.now();
+        for (const answer of [dialect.parse(text, robot, worldFromBase), dialect.interpret(text, robot, worldFromBase)]) {
+          if (answer.kind === "not-understood") expectPlaces(answer.faults, text);
+        }
+        expect(performance.now() - started).toBeLessThan(PATIENCE_MS);
+      }
+    });
+
+    test("text of quite another sort is refused", () => {
+      for (const text of ["{\"format\":\"twincell.program\"}", "lorem ipsum dolor sit amet", "\0\0\0", "(".repeat(5000), `x = ${"(".repeat(5000)}1\n`, `x = ${"-".repeat(50000)}1\n`]) {
+        const answer = dialect.interpret(text, robot);
+        if (answer.kind === "not-understood") expectPlaces(answer.faults, text);
+        if (!text.includes("--")) expect(answer.kind, text.slice(0, 40)).toBe("not-understood");
+      }
+    });
+  });
+}
+
+function expectPlaces(faults: readonly TextFault[], text: string): void {
+  const lines = text.split(/\r\n|\n|\r/);
+  expect(faults.length).toBeGreaterThan(0);
+  for (const { line, column, expected, sentence } of faults) {
+    expect(line).toBeGreaterThanOrEqual(1);
+    expect(line).toBeLessThanOrEqual(lines.length + 1);
+    expect(column).toBeGreaterThanOrEqual(1);
+    expect(column).toBeLessThanOrEqual((lines[line - 1] ?? "").length + 1);
+    expect(expected).not.toBe("");
+    expect(sentence).toMatch(/[.]$/);
+  }
+}
+
+/** Texts that a faulty emitter would have written: each must be told from the right one. */
+export function describeMutations(dialect: Dialect, bench: DialectBench, mutations: Readonly<Record<string, (text: string) => string>>): void {
+  describe(`faults put into ${dialect.name} text are found by executing it`, () => {
+    test.each(Object.entries(mutations))("%s", (_, mutate) => {
+      let changed = 0;
+      for (const seed of SEEDS) {
+        const program = randomProgram(bench.robot, { seed, steps: STEPS, worldFromBase: bench.worldFromBase, paths: bench.paths });
+        const emitted = dialect.emit(program, bench.robot, bench.worldFromBase);
+        if (emitted.kind === "cannot") throw new Error(emitted.sentence);
+        const file = bench.runnable(emitted.files), text = mutate(file.text);
+        if (text === file.text) continue;
+        changed++;
+        expect(proveText(dialect, { ...file, text }, program, bench.robot, bench.worldFromBase).kind, `seed ${seed}`).not.toBe("proven");
+      }
+      expect(changed).toBeGreaterThan(SEEDS.length / 2);
+    });
+  });
+}

@@ -1,0 +1,17 @@
+import { identity, type Dialect } from "@twincell/core";
+import { CANNOT, emitVPlus } from "./emit.ts";
+import { interpretVPlus } from "./interpret.ts";
+import { parseVPlus } from "./parse.ts";
+
+/** V+ of Adept MC and Stäubli CS7 controllers. */
+export const vPlus: Dialect = {
+  id: "v-plus",
+  brand: "Stäubli / Adept",
+  name: "V+",
+  extensions: [".v2", ".pg", ".vp", ".txt"],
+  maturity: "proven",
+  cannot: CANNOT,
+  emit: (program, robot, worldFromBase = identity()) => emitVPlus(program, robot, worldFromBase),
+  parse: (text, robot, worldFromBase = identity()) => parseVPlus(text, robot, worldFromBase),
+  interpret: (text, robot, worldFromBase = identity()) => interpretVPlus(text, robot, worldFromBase),
+};
