@@ -2,12 +2,13 @@ import { useFrame, useThree } from "@react-three/fiber";
 import type { Vector3 as Vector } from "@twincell/core";
 import { type RefObject, useEffect, useMemo } from "react";
 import { PerspectiveCamera, Quaternion } from "three";
-import { theLive } from "../live/live.ts";
+import { onTouching, theLive } from "../live/live.ts";
 import { viewStore } from "../stores/view.ts";
 import { closeCameraPosition } from "./camera/close-camera.ts";
 import { turnCube } from "./camera/view-cube.tsx";
 import type { FrameMeter } from "./frame-meter.ts";
 import type { PictureFrame } from "./picture.ts";
+import { Sharpness } from "./sharpness.ts";
 
 const place: Vector = [0, 0, 0];
 
@@ -16,7 +17,7 @@ export function RenderLoop({ meter, picture, cube }: { readonly meter: FrameMete
   const close = useMemo(() => new PerspectiveCamera(40, 1.4, 0.02, 60), []);
   const overview = useMemo(() => new PerspectiveCamera(36, 1.4, 0.05, 60), []);
   const clock = useMemo(() => ({ start: 0, turned: new Quaternion(0, 0, 0, 0) }), []);
-  const invalidate = useThree(state => state.invalidate);
+  const invalidate = useThree(state => state.invalidate), sharpness = useMemo(() => new Sharpness(), []);
 
   // Nothing is drawn while nothing changes: one comparison per display frame keeps watch.
   useEffect(() => {
@@ -27,8 +28,8 @@ export function RenderLoop({ meter, picture, cube }: { readonly meter: FrameMete
       handle = requestAnimationFrame(watch);
     };
     handle = requestAnimationFrame(watch);
-    const stop = viewStore.subscribe(() => invalidate());
-    return () => { cancelAnimationFrame(handle); stop(); };
+    const stops = [viewStore.subscribe(() => invalidate()), onTouching(() => invalidate())];
+    return () => { cancelAnimationFrame(handle); for (const stop of stops) stop(); };
   }, [invalidate]);
 
   useFrame(() => { clock.start = performance.now(); }, -2000);
@@ -38,6 +39,7 @@ export function RenderLoop({ meter, picture, cube }: { readonly meter: FrameMete
     if (gl.xr.isPresenting) {
       gl.render(scene, camera);
     } else {
+      sharpness.choose(gl, camera, invalidate);
       const view = viewStore.getState(), { worldFromTcp } = theLive();
       closeCameraPosition(worldFromTcp, view.closePlacement, view.closeTilt_rad, place);
       close.position.set(place[0], place[2], -place[1]);

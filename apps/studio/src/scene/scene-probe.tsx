@@ -1,6 +1,6 @@
 import { useThree } from "@react-three/fiber";
 import { useEffect } from "react";
-import { type Camera, Vector3 } from "three";
+import { type Camera, type Scene, Vector3, type WebGLRenderer } from "three";
 import type { Vector3 as WorldVector } from "@twincell/core";
 import type { FrameMeter } from "./frame-meter.ts";
 import { toScene } from "./world-space.ts";
@@ -12,6 +12,8 @@ export interface SceneProbe {
   readonly frames: number;
   readonly meter: FrameMeter;
   readonly camera: Camera;
+  readonly gl: WebGLRenderer;
+  readonly scene: Scene;
   /** Draw calls and triangles of the last frame. */
   drawn(): { readonly calls: number; readonly triangles: number };
 }
@@ -31,6 +33,8 @@ export function Probe({ meter }: { readonly meter: FrameMeter }) {
       get frames() { return meter.frames; },
       meter,
       get camera() { return get().camera; },
+      get gl() { return get().gl; },
+      get scene() { return get().scene; },
       drawn() { const { render } = get().gl.info; return { calls: render.calls, triangles: render.triangles }; },
     };
     return () => { delete window.twincellScene; };

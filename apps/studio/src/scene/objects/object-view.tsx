@@ -39,7 +39,7 @@ function Wall({ geometry, edges, color, size_m, theme }: {
   readonly geometry: BufferGeometry; readonly edges: EdgesGeometry; readonly color: string; readonly size_m: readonly [number, number, number] | null; readonly theme: SceneTheme;
 }) {
   const mesh = useRef<Mesh>(null), lines = useRef<LineSegments>(null);
-  const paint = useMemo(() => theme.floor.clone().lerp(new Color(color), theme.dark ? 0.1 : 0.4), [color, theme]);
+  const paint = useMemo(() => theme.floor.clone().multiplyScalar(theme.dark ? 1.5 : 1).lerp(new Color(color), theme.dark ? 0.06 : 0.4), [color, theme]);
   useFrame(({ camera }) => {
     if (!mesh.current || !lines.current || !size_m) return;
     const hides = wallHides(mesh.current, size_m, MIDDLE, camera);
@@ -48,7 +48,7 @@ function Wall({ geometry, edges, color, size_m, theme }: {
   }, -7);
   return (
     <>
-      <mesh ref={mesh} geometry={geometry} receiveShadow><meshStandardMaterial color={paint} roughness={0.95} envMapIntensity={0.5} /></mesh>
+      <mesh ref={mesh} geometry={geometry} receiveShadow><meshLambertMaterial color={paint} /></mesh>
       <lineSegments ref={lines} geometry={edges} userData={{ unpainted: true }} raycast={() => undefined}><lineBasicMaterial color={theme.text} transparent opacity={theme.dark ? 0.22 : 0.3} /></lineSegments>
     </>
   );

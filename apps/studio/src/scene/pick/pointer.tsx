@@ -11,7 +11,7 @@ import { viewStore } from "../../stores/view.ts";
 import type { FrameMeter } from "../frame-meter.ts";
 import { dragged, type Grip, type Ray } from "../handle/drag-maths.ts";
 import { handleAxes } from "../handle/tcp-handle.tsx";
-import { type Interaction, type PointerLabel, sayAtPointer } from "../interaction.ts";
+import { type HandlePart, type Interaction, type PointerLabel, sayAtPointer } from "../interaction.ts";
 import { toWorld } from "../world-space.ts";
 import { WORDS } from "../words.ts";
 import { chosenEdges, edgeUnder } from "./edges.ts";
@@ -128,16 +128,16 @@ export function Pointer({ interaction, label, world, handle, document, meter }: 
     const root = world.current;
     if (!root || viewStore.getState().camera !== "main") return;
     const ray = aim();
-    const part = handle.current.length > 0 ? work.caster.intersectObjects([...handle.current], false)[0]?.object.userData.part : undefined;
-    interaction.hoveredPart = part ?? null;
-    const found = part ? null : nearestThing(work.caster, root), thing: Thing | null = found?.holder.userData.thing ?? null;
-    if (traceStore.getState().active) lookForEdge(ray, found?.hit.distance ?? Infinity, part !== undefined);
+    const part = partUnder(work.caster, handle.current);
+    interaction.hoveredPart = part;
+    const found = part !== null ? null : nearestThing(work.caster, root), thing: Thing | null = found?.holder.userData.thing ?? null;
+    if (traceStore.getState().active) lookForEdge(ray, found?.hit.distance ?? Infinity, part !== null);
     const { hovered } = selectionStore.getState();
     if (JSON.stringify(hovered) !== JSON.stringify(thing)) hover(thing);
     const edge = traceStore.getState().hovered;
-    const text = part ? WORDS.handle[interaction.hoveredPart!] : edge ? "" : thing ? thingWords(thing, document) : "";
+    const text = part !== null ? WORDS.handle[part] : edge ? "" : thing ? thingWords(thing, document) : "";
     sayAtPointer(label, text, "plain", interaction.px, interaction.py);
-    gl.domElement.style.cursor = part ? "grab" : edge || thing ? "pointer" : "";
+    gl.domElement.style.cursor = part !== null ? "grab" : edge || thing ? "pointer" : "";
   };
 
   const lookForEdge = (ray: Ray, depth_m: number, hidden: boolean): void => {
@@ -184,6 +184,16 @@ export function Pointer({ interaction, label, world, handle, document, meter }: 
     sayAtPointer(label, outcome.kind === "blocked" ? outcome.sentence : moveWords(grip, theLive().worldFromTcp), outcome.kind === "blocked" ? "blocked" : "plain", interaction.px, interaction.py);
   };
   return null;
+}
+
+/** Where parts of the handle cover one another, what is smaller wins: the ball, then arrows, squares, rings. */
+function partUnder(caster: Raycaster, targets: readonly Mesh[]): HandlePart | null {
+  let best: HandlePart | null = null, rank = Infinity;
+  for (const target of targets) {
+    const part: HandlePart = target.userData.part, ranked = part === "free" ? 0 : part.length === 1 ? 1 : part.startsWith("r") ? 3 : 2;
+    if (ranked < rank && caster.intersectObject(target, false).length > 0) { best = part; rank = ranked; }
+  }
+  return best;
 }
 
 /** How far the tool went since it was taken, in the coordinate that is dragged. */

@@ -1,17 +1,20 @@
 import { useMemo } from "react";
-import { MeshStandardMaterial } from "three";
+import { MeshLambertMaterial } from "three";
 import type { SceneTheme } from "../theme.ts";
 
 const RADIUS_M = 11;
 
-/** The floor with its grid (0.25 m fine, 1 m bold), one draw call, fading into the distance. */
+/**
+ * Large surfaces are shaded the cheap way: they fill the picture, and on a phone or without a graphics card every pixel counts.
+ * The floor with its grid (0.25 m fine, 1 m bold), one draw call, fading into the distance.
+ */
 export function Floor({ theme }: { readonly theme: SceneTheme }) {
   const material = useMemo(() => floorMaterial(theme), [theme]);
   return <mesh receiveShadow material={material} userData={{ unpickable: true }}><circleGeometry args={[RADIUS_M, 96]} /></mesh>;
 }
 
-function floorMaterial(theme: SceneTheme): MeshStandardMaterial {
-  const material = new MeshStandardMaterial({ color: theme.floor, roughness: 0.94, metalness: 0, transparent: true, envMapIntensity: 0.6 });
+function floorMaterial(theme: SceneTheme): MeshLambertMaterial {
+  const material = new MeshLambertMaterial({ color: theme.floor.clone().multiplyScalar(theme.dark ? 1.75 : 1), transparent: true });
   material.onBeforeCompile = shader => {
     shader.uniforms.gridColor = { value: theme.grid };
     shader.vertexShader = shader.vertexShader.replace("#include <common>", "#include <common>\nvarying vec2 vFloor;").replace("#include <begin_vertex>", "#include <begin_vertex>\nvFloor = position.xy;");

@@ -1,8 +1,9 @@
 import { useFrame, useThree } from "@react-three/fiber";
-import { useEffect, useRef } from "react";
+import { useEffect, useMemo, useRef } from "react";
 import { type DirectionalLight, PMREMGenerator } from "three";
 import { RoomEnvironment } from "three/examples/jsm/environments/RoomEnvironment.js";
 import { theLive } from "../../live/live.ts";
+import { drawsInSoftware } from "../software.ts";
 import type { SceneTheme } from "../theme.ts";
 
 /** Half the side of the square that the key light's shadow map covers [m]. */
@@ -21,7 +22,8 @@ export function Light({ theme, anyChange }: { readonly theme: SceneTheme; readon
     generator.dispose();
     return () => { scene.environment = null; target.dispose(); };
   }, [gl, scene]);
-  useEffect(() => { scene.environmentIntensity = theme.dark ? 0.5 : 0.46; }, [scene, theme]);
+  useEffect(() => { scene.environmentIntensity = theme.dark ? 0.42 : 0.4; }, [scene, theme]);
+  const sides = useMemo(() => (drawsInSoftware(gl) ? 1024 : 2048), [gl]);
   useEffect(() => { key.current?.target.updateMatrixWorld(); gl.shadowMap.autoUpdate = false; drawn.current = -1; }, [gl, anyChange]);
 
   // The shadow map is drawn again only when something moved: turning the camera costs nothing.
@@ -33,12 +35,11 @@ export function Light({ theme, anyChange }: { readonly theme: SceneTheme; readon
   return (
     <>
       <directionalLight ref={key} position={[2.5, -2.5, 4.5]} intensity={theme.dark ? 2.3 : 1.75} color="#fff4e6" castShadow
-        shadow-mapSize={[2048, 2048]} shadow-radius={4} shadow-bias={-0.0003} shadow-normalBias={0.012}
+        shadow-mapSize={[sides, sides]} shadow-radius={4} shadow-bias={-0.0003} shadow-normalBias={0.012}
         shadow-camera-left={-SHADOW_HALF_M} shadow-camera-right={SHADOW_HALF_M} shadow-camera-top={SHADOW_HALF_M} shadow-camera-bottom={-SHADOW_HALF_M} shadow-camera-near={1} shadow-camera-far={9}>
         <object3D attach="target" position={[0.45, 0, 0.4]} />
       </directionalLight>
-      <directionalLight position={[-3, 2, 2.4]} intensity={theme.dark ? 0.5 : 0.25} color="#cfe2ff" />
-      <hemisphereLight args={["#dfe9f2", "#3a3d40", theme.dark ? 0.22 : 0.2]} />
+      <hemisphereLight args={["#e6eef6", "#4a4d50", theme.dark ? 0.9 : 1.15]} />
     </>
   );
 }

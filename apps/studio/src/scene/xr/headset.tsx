@@ -47,11 +47,8 @@ export function Headset({ wish, document, interaction, world }: {
 /** The panel rides on the left hand: above a controller, or on the inside of a bare wrist. */
 function Wrist() {
   const controller = useXRInputSourceState("controller", "left"), hand = useXRInputSourceState("hand", "left");
-  if (controller?.inputSource.gripSpace) {
-    return <XRSpace space={controller.inputSource.gripSpace}><group position={[0.02, 0.1, -0.06]} rotation={[-0.75, 0.15, 0]}><WristPanel /></group></XRSpace>;
-  }
-  if (hand) {
-    return <XRSpace space="wrist"><group position={[0.03, 0.07, -0.02]} rotation={[-1.2, 0, 0]}><WristPanel /></group></XRSpace>;
-  }
+  const grip = controller?.inputSource.gripSpace, wrist = hand?.inputSource.hand.get("wrist");
+  if (grip) return <XRSpace key="controller" space={grip}><group position={[0.02, 0.1, -0.06]} rotation={[-0.75, 0.15, 0]}><WristPanel /></group></XRSpace>;
+  if (wrist) return <XRSpace key="hand" space={wrist}><group position={[0.03, 0.08, -0.04]} rotation={[-0.75, 0.15, 0]}><WristPanel /></group></XRSpace>;
   return null;
 }
