@@ -10,7 +10,7 @@ export function transText({ position, quaternion }: Pose): string {
 
 /** #PPOINT(j1,…,jn) in degrees as V+ counts them: no blanks, ASCII minus, seven significant digits, no exponent (rows N-54 … N-56). */
 export function ppointText(q_rad: ArrayLike<number>, { signs, offsets_deg }: JointConvention): string {
-  return `#PPOINT(${Array.from(q_rad, (q, i) => singleText(signs[i]! * degrees(q) + offsets_deg[i]!)).join(",")})`;
+  return `#PPOINT(${Array.from(q_rad, (q, i) => tidy(signs[i]! * degrees(q) + offsets_deg[i]!)).join(",")})`;
 }
 
 /** A millionth of a millimetre or of a degree is arithmetic, not a wish. */
