@@ -4,9 +4,12 @@ import { armScratch, flangePose, type ArmScratch } from "../kinematics/forward.t
 import { outOfReach } from "../kinematics/inverse.ts";
 import { MAX_BRANCHES, solveOrthoParallel } from "../kinematics/ortho-parallel.ts";
 import type { Reach } from "../kinematics/reach.ts";
+import { singularDistances } from "../kinematics/singularity.ts";
+import { wristCentre } from "../kinematics/span.ts";
 import type { OrthoParallelGeometry, Robot } from "../robots/robot.ts";
 import { compose, identity, inverse, type Pose } from "../spatial/pose.ts";
 import { fromAxisAngle, multiply, normalizeQuaternion, rotate, type Quaternion } from "../spatial/quaternion.ts";
+import { wrapAngle } from "../spatial/units.ts";
 import { norm, normalize, scale, type Vector3 } from "../spatial/vector.ts";
 import { jogJoints } from "./jog-joints.ts";
 import type { JogBlock, Jogged } from "./jogged.ts";
@@ -32,13 +35,13 @@ export interface JogScratch {
   readonly baseFromFlange: Pose<"base", "flange">; readonly worldFromTcp: Pose<"world", "tcp">; readonly wanted: Pose<"world", "tcp">;
   readonly worldFromFlange: Pose<"world", "flange">; readonly baseFromTcp: Pose<"base", "tcp">;
   readonly baseFromWorld: Pose<"base", "world">; readonly tcpFromFlange: Pose<"tcp", "flange">;
-  readonly linear: Vector3; readonly angular: Vector3; readonly masked: Vector3; readonly axis: Vector3; readonly turn: Quaternion;
+  readonly linear: Vector3; readonly angular: Vector3; readonly masked: Vector3; readonly axis: Vector3; readonly turns: Vector3; readonly turn: Quaternion;
 }
 export const jogScratch = (): JogScratch => ({
   raw: new Float64Array(6 * MAX_BRANCHES), best: new Float64Array(6), start: new Float64Array(6), ahead: new Float64Array(6), turned: new Float64Array(6), arm: armScratch(),
   baseFromFlange: identity(), worldFromTcp: identity(), wanted: identity(),
   worldFromFlange: identity(), baseFromTcp: identity(), baseFromWorld: identity(), tcpFromFlange: identity(),
-  linear: [0, 0, 0], angular: [0, 0, 0], masked: [0, 0, 0], axis: [0, 0, 0], turn: [0, 0, 0, 1],
+  linear: [0, 0, 0], angular: [0, 0, 0], masked: [0, 0, 0], axis: [0, 0, 0], turns: [0, 0, 0], turn: [0, 0, 0, 1],
 });
 
 const NONE: readonly JogBlock[] = [];
@@ -46,6 +49,8 @@ const AXES = ["x", "y", "z"] as const;
 /** A step shortened below this [m, rad] is looked at twice: on a singularity the arm must turn in place instead. */
 const ALL_BUT_STANDING = 1e-6;
 const SHORTEST = 1e-12;
+/** This near to a singularity [m, sine] the tip does not notice its joints being turned in place. */
+const ON_SINGULARITY = 1e-8;
 /** A turn in place below this share of the joint speeds is rounding. */
 const LEAST_TURN = 1e-3;
 /** Rounding of limits given in degrees. */
@@ -126,21 +131,21 @@ function towards(cell: JogCell, frame: Quaternion, x: boolean, y: boolean, z: bo
   masked[0] = x ? linear[0] : 0; masked[1] = y ? linear[1] : 0; masked[2] = z ? linear[2] : 0;
   rotate(frame, masked, masked);
   const length = norm(masked) + (turns ? norm(scratch.angular) : 0);
-  let turn1 = 0, turn4 = 0;
   for (let fraction = 1; fraction >= SHORTEST;) {
     const reach = solveAt(cell, masked, turns, fraction, scratch);
     if (reach !== undefined) return reach;
     const load = speedLoad(cell.robot, start, best, dt_s);
     if (load <= 1) {
-      if (fraction < 1 && fraction * length < ALL_BUT_STANDING && turnInPlace(cell, turn1, turn4, dt_s, out, scratch)) return 0;
+      const turned = fraction < 1 && fraction * length < ALL_BUT_STANDING && turnInPlace(cell.robot, dt_s, out, scratch);
+      if (turned !== false) return turned === true ? 0 : turned;
       out.set(best);
       return fraction;
     }
-    turn1 = best[0]! - start[0]!; turn4 = best[3]! - start[3]!;
+    scratch.turns[0] = best[0]! - start[0]!; scratch.turns[1] = best[3]! - start[3]!; scratch.turns[2] = best[5]! - start[5]!;
     fraction *= Math.max(0.05, Math.min(0.9, 0.98 / load));
   }
-  turnInPlace(cell, turn1, turn4, dt_s, out, scratch);
-  return 0;
+  const turned = turnInPlace(cell.robot, dt_s, out, scratch);
+  return typeof turned === "boolean" ? 0 : turned;
 }
 
 /** Solves the start pose moved by that fraction; `best` receives the solution nearest to the start, or a reason is returned. */
@@ -174,9 +179,12 @@ function nearest(robot: Robot, family: OrthoParallelGeometry, count: number, { r
     if (preferred) { least = total; chosen = s; chosenJoint = outside; }
   }
   for (let j = 0; j < 6; j++) best[j] = raw[6 * chosen + j]!;
-  if (chosenJoint === 0) return undefined;
-  const { lower_rad, upper_rad } = robot.arm.joints[chosenJoint - 1]!.limits, wanted_rad = best[chosenJoint - 1]!;
-  return { kind: "outside-limits", joint: chosenJoint, wanted_rad, limit_rad: wanted_rad < lower_rad ? lower_rad : upper_rad, branch: branchOfOrthoParallel(family, best) };
+  return chosenJoint === 0 ? undefined : outsideLimits(robot, family, best, chosenJoint);
+}
+
+function outsideLimits(robot: Robot, family: OrthoParallelGeometry, q: Float64Array, joint: number): Reach {
+  const { lower_rad, upper_rad } = robot.arm.joints[joint - 1]!.limits, wanted_rad = q[joint - 1]!;
+  return { kind: "outside-limits", joint, wanted_rad, limit_rad: wanted_rad < lower_rad ? lower_rad : upper_rad, branch: branchOfOrthoParallel(family, q) };
 }
 
 /** First joint (from 1) that would leave its limits, or go further out of them; 0 when none does. */
@@ -196,30 +204,56 @@ function speedLoad(robot: Robot, from: Float64Array, to: Float64Array, dt_s: num
 }
 
 /**
- * On a singularity the wanted direction needs other angles of the free joints (1 and 4) however short the step is.
- * Turns these towards them while the tip stands still: where they are free, the solver leaves them where it is told to.
+ * On a singularity the wanted direction needs other angles of the free joints however short the step is: turns them towards
+ * these while the tip stands still to 1e-8 (m, rad). `turns` is how far joints 1, 4 and 6 want to go.
  *
- * @returns false, with `out` and `best` as they were, where they are not free.
+ * @returns false, with `out` and `best` as they were, where no joint is free; why not, where one stands at its limit.
  */
-function turnInPlace(cell: JogCell, turn1: number, turn4: number, dt_s: number, out: Float64Array, scratch: JogScratch): boolean {
-  const { start, best, ahead, arm, baseFromFlange, raw, turned } = scratch, robot = cell.robot, family = robot.family;
+function turnInPlace(robot: Robot, dt_s: number, out: Float64Array, scratch: JogScratch): boolean | Reach {
+  const { start, best, turned, turns } = scratch, family = robot.family;
   if (family.kind !== "ortho-parallel") return false;
+  const { wrist, shoulder_m } = singularDistances(family, start);
   turned.set(best);
-  flangePose(robot.arm, start, baseFromFlange, arm);
-  const speeds = robot.arm.joints, load = Math.max(Math.abs(turn1) / speeds[0]!.limits.speed_rad_s, Math.abs(turn4) / speeds[3]!.limits.speed_rad_s) / dt_s;
-  for (let part = Math.min(1, 0.999 / load), tries = 0; tries < 8; part /= 2, tries++) {
+  const atShoulder = shoulder_m < ON_SINGULARITY && Math.abs(turns[0]) > ON_SINGULARITY;
+  const done = atShoulder ? turnShoulder(robot, family, dt_s, scratch) : wrist < ON_SINGULARITY && turnWrist(robot, family, dt_s, scratch);
+  if (done === true) out.set(best); else best.set(turned);
+  return done;
+}
+
+/** Wrist centre on axis 1: the solver leaves joints 1 and 4 where it is told to, once the centre is on the axis to the last digit. */
+function turnShoulder(robot: Robot, family: OrthoParallelGeometry, dt_s: number, scratch: JogScratch): boolean | Reach {
+  const { start, best, ahead, baseFromFlange, raw, turns } = scratch;
+  flangePose(robot.arm, start, baseFromFlange, scratch.arm);
+  const centre = wristCentre(family, baseFromFlange);
+  baseFromFlange.position[0] -= centre[0]; baseFromFlange.position[1] -= centre[1];
+  for (let part = partWithin(robot, turns[0], turns[1], 0, dt_s), tries = 0; tries < 8; part /= 2, tries++) {
     ahead.set(start);
-    ahead[0] = start[0]! + turn1 * part; ahead[3] = start[3]! + turn4 * part;
+    ahead[0] = start[0]! + turns[0] * part; ahead[3] = start[3]! + turns[1] * part;
     const count = solveOrthoParallel(family, baseFromFlange, raw, ahead);
-    if (count === 0 || nearest(robot, family, count, scratch) !== undefined) continue;
-    const taken = speedLoad(robot, start, best, dt_s);
-    if (taken > 1) continue;
-    if (taken < LEAST_TURN) break;
-    out.set(best);
-    return true;
+    const reach = count === 0 ? undefined : nearest(robot, family, count, scratch);
+    if (reach !== undefined) return reach;
+    const load = speedLoad(robot, start, best, dt_s);
+    if (load <= 1) return load > LEAST_TURN;
   }
-  best.set(turned);
   return false;
+}
+
+/** Wrist straight: axes 4 and 6 are one line, and what one turns the other turns back. */
+function turnWrist(robot: Robot, family: OrthoParallelGeometry, dt_s: number, scratch: JogScratch): boolean | Reach {
+  const { start, best, turns } = scratch, part = partWithin(robot, 0, turns[1], turns[2], dt_s);
+  best.set(start);
+  best[3] = start[3]! + turns[1] * part; best[5] = start[5]! + turns[2] * part;
+  // The bend that is left over would point elsewhere after the turn: it is taken out.
+  const bend = wrapAngle(family.signs[4] * start[4]! - family.offsets_rad[4]);
+  if (Math.abs(bend) < ON_SINGULARITY) best[4] = start[4]! - family.signs[4] * bend;
+  const outside = jointOutside(robot, best, 0, start);
+  return outside === 0 ? speedLoad(robot, start, best, dt_s) > LEAST_TURN : outsideLimits(robot, family, best, outside);
+}
+
+/** The share of these turns of joints 1, 4 and 6 that their speeds allow in one step. */
+function partWithin(robot: Robot, turn1: number, turn4: number, turn6: number, dt_s: number): number {
+  const joints = robot.arm.joints, load = (turn: number, joint: number): number => Math.abs(turn) / (joints[joint]!.limits.speed_rad_s * dt_s);
+  return Math.min(1, 0.999 / Math.max(load(turn1, 0), load(turn4, 3), load(turn6, 5)));
 }
 
 /** Unit quaternion worldFromFrame of the axes a jog runs along. */
