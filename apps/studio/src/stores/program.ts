@@ -52,7 +52,7 @@ export const touchUp = (id: string, q_rad: ArrayLike<number>, tool: string): boo
   ...step, target: tool === "flange" ? { q: Array.from(q_rad) } : { q: Array.from(q_rad), tool },
 }));
 export const renameStep = (id: string, name: string): boolean => changeStep(id, words.undo.rename, step => {
-  const { name: _old, ...rest } = step;
+  const { name: _, ...rest } = step;
   return name.trim() === "" ? rest : { ...rest, name: name.trim() };
 });
 
