@@ -1,4 +1,5 @@
 import { describe, expect, test } from "vitest";
+import { seededRandom } from "../random.ts";
 import { robotById } from "../robots/library/index.ts";
 import { planProgram } from "../trajectory/planner.ts";
 import { samplePlan } from "../trajectory/sample.ts";
@@ -77,6 +78,29 @@ describe("stepper", () => {
       }
     }
     expect(stepper.advance(DT, 1, q).moving).toBe(false);
+  });
+
+  test("a stop at any instant of any program ends within the braking time", () => {
+    const random = seededRandom(9), between = (a: number, b: number): number => a + (b - a) * random();
+    const braking_s = Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2));
+    for (let round = 0; round < 60; round++) {
+      const list = Array.from({ length: 6 }, (_, i): Step => ({
+        id: `s${i}`, type: "move", path: i > 0 && random() < 0.6 ? "lin" : "ptp", target: at(between(0.45, 0.65), between(-0.3, 0.3), between(0.3, 0.55)),
+        speed: random() < 0.5 ? { mps: between(0.3, 3) } : { ratio: 1 }, blend_m: random() < 0.7 ? between(0.001, 0.05) : 0,
+      }));
+      const { plan } = planProgram({ ...program, steps: list }, robot), stepper = new Stepper(robot, program, list, robot.home_rad), q = new Float64Array(6);
+      const until_s = between(0.05, 0.95) * plan.duration_s;
+      for (let t = 0; t < until_s; t += DT) stepper.advance(DT, 1, q);
+      stepper.stop();
+      let a = q.slice(), b = a, cycles = 0;
+      for (let state = stepper.advance(DT, 1, q); state.kind === "running"; state = stepper.advance(DT, 1, q)) {
+        // The rate changes once a slice while the plan goes on within it: a quarter over is what that can cost.
+        if (cycles++ > 0) for (let j = 0; j < 6; j++) expect(Math.abs(q[j]! - 2 * b[j]! + a[j]!) / DT ** 2).toBeLessThan(robot.arm.joints[j]!.limits.acceleration_rad_s2 * 1.25);
+        a = b;
+        b = q.slice();
+      }
+      expect(cycles * DT).toBeLessThanOrEqual(braking_s + 2 * DT);
+    }
   });
 
   test("T-31 the gripper follows its step, and the step in force is named", () => {

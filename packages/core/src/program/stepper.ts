@@ -1,6 +1,6 @@
 import type { Robot } from "../robots/robot.ts";
 import { resolveMove, passes, type PlanContext } from "../trajectory/moves.ts";
-import type { Segment } from "../trajectory/plan.ts";
+import type { MotionSegment as Motion, Segment } from "../trajectory/plan.ts";
 import { GRIPPER_S } from "../trajectory/planner.ts";
 import { RunPlanner } from "../trajectory/run.ts";
 import { intervalAccelerations, sampleSegment, segmentKnot } from "../trajectory/sample.ts";
@@ -44,6 +44,8 @@ export class Stepper {
   private readonly q: Float64Array;
   private readonly qd: Float64Array;
   private readonly bend: Float64Array;
+  private readonly most: Float64Array;
+  private readonly least: Float64Array;
   private waiting: Step | undefined = undefined;
   private segments: readonly Segment[] = [];
   private segment = 0;
@@ -63,6 +65,8 @@ export class Stepper {
     this.q = Float64Array.from(q0);
     this.qd = new Float64Array(this.q.length);
     this.bend = new Float64Array(2 * this.q.length);
+    this.most = new Float64Array(this.q.length);
+    this.least = new Float64Array(this.q.length);
     this.state = { kind: "running", step: "", moving: false, gripperClosed: options.gripperClosed ?? false, rate: 0, fault: undefined };
   }
 
@@ -110,7 +114,7 @@ export class Stepper {
   get posture(): Float64Array { return this.q; }
 
   /** Plays a motion for up to `left_s`; returns what is left of it. */
-  private follow(segment: Extract<Segment, { kind: "motion" }>, wanted: number, left_s: number): number {
+  private follow(segment: Motion, wanted: number, left_s: number): number {
     const state = this.state, before = state.rate, rate = this.nextRate(segment, wanted, left_s), mean = (before + rate) / 2;
     const end_s = segment.duration_s - this.t_s;
     if (mean * left_s >= end_s) {
@@ -131,23 +135,39 @@ export class Stepper {
    * The rate after dt on its way to `wanted`:  |q̈ λ² + q̇ λ̇| ≤ a for every joint. λ̇ = 0 is always allowed, because the
    * plan itself keeps the limits.
    */
-  private nextRate(segment: Extract<Segment, { kind: "motion" }>, wanted: number, dt_s: number): number {
+  private nextRate(segment: Motion, wanted: number, dt_s: number): number {
     const rate = this.state.rate, n = this.q.length;
     if (rate === wanted) return wanted;
     sampleSegment(segment, this.t_s, this.q, this.qd);
-    const i = segmentKnot(segment, this.t_s), times = segment.times_s, h = times[i + 1]! - times[i]!, u = h > 0 ? (this.t_s - times[i]!) / h : 0;
-    intervalAccelerations(segment, i, n, this.bend);
+    // What the plan itself asks for within this slice: at its start, and in every interval it enters.
+    const reach_s = this.t_s + Math.max(rate, wanted) * dt_s, first = segmentKnot(segment, this.t_s), times = segment.times_s;
+    this.most.fill(Number.NEGATIVE_INFINITY);
+    this.least.fill(Number.POSITIVE_INFINITY);
+    for (let i = first; i + 1 < times.length && times[i]! <= reach_s; i++) this.seeBends(segment, i);
+    const next = this.segments[this.segment + 1];
+    if (reach_s > segment.duration_s && next?.kind === "motion" && next.times_s.length > 1) this.seeBends(next, 0);
     let change = Number.POSITIVE_INFINITY;
     for (let j = 0; j < n; j++) {
-      const speed = this.qd[j]!, limit = this.robot.arm.joints[j]!.limits.acceleration_rad_s2;
-      if (Math.abs(speed) < 1e-9) continue;
-      const bend = (this.bend[j]! + (this.bend[n + j]! - this.bend[j]!) * u) * rate * rate;
+      const limit = this.robot.arm.joints[j]!.limits.acceleration_rad_s2;
+      // The speed may still grow within the slice.
+      const speed = this.qd[j]!, growth = Math.max(0, speed > 0 ? this.most[j]! : -this.least[j]!), fastest = Math.abs(speed) + growth * (reach_s - this.t_s);
+      if (fastest < 1e-9) continue;
       // λ̇ adds q̇ λ̇: what is left of the limit on the side it pushes to.
-      const pushes = wanted > rate ? Math.sign(speed) : -Math.sign(speed), room = limit - pushes * bend;
-      change = Math.min(change, Math.max(0, room) / Math.abs(speed));
+      const forward = wanted > rate === speed > 0, bend = (forward ? this.most[j]! : -this.least[j]!) * rate * rate;
+      change = Math.min(change, Math.max(0, limit - bend) / fastest);
     }
     const step = change * dt_s;
     return wanted > rate ? Math.min(wanted, rate + step) : Math.max(wanted, rate - step);
+  }
+
+  /** Widens `most` and `least` by the accelerations of one interval of a plan. */
+  private seeBends(segment: Motion, i: number): void {
+    const n = this.q.length;
+    intervalAccelerations(segment, i, n, this.bend);
+    for (let j = 0; j < n; j++) {
+      this.most[j] = Math.max(this.most[j]!, this.bend[j]!, this.bend[n + j]!);
+      this.least[j] = Math.min(this.least[j]!, this.bend[j]!, this.bend[n + j]!);
+    }
   }
 
   private leave(): void {

@@ -1,6 +1,6 @@
 import type { Pose } from "../spatial/pose.ts";
 import { angleBetween, conjugate, fromAxisAngle, multiply, rotate, slerp, type Quaternion } from "../spatial/quaternion.ts";
-import { addScaled, cross, distance, dot, norm, normalize, scale, subtract, type Vector3 } from "../spatial/vector.ts";
+import { addScaled, cross, distance, dot, norm, normalize, subtract, type Vector3 } from "../spatial/vector.ts";
 
 /** Where the tool only turns, one radian counts as this much path [m]: at 0.25 m/s it turns with 2.5 rad/s. */
 export const TURN_M_PER_RAD = 0.1;
@@ -44,7 +44,7 @@ export function arcPath(from: Pose, via: Vector3, to: Pose): Arc | undefined {
   const a = subtract(via, from.position), b = subtract(to.position, from.position), normal = cross(a, b);
   const area2 = dot(normal, normal);
   if (area2 < 1e-12 * dot(a, a) * dot(b, b) || area2 === 0) return undefined;
-  // Circumcentre seen from the start: (|b|² (n × a)… ) with n = a × b.
+  // Circumcentre − start = ( |b|² n × a + |a|² b × n ) / 2 |n|²,  n = a × b.
   const centre: Vector3 = [...from.position];
   addScaled(centre, cross(normal, a), dot(b, b) / (2 * area2), centre);
   addScaled(centre, cross(b, normal), dot(a, a) / (2 * area2), centre);
@@ -132,5 +132,3 @@ export function shiftTwist(twist: Float64Array, offset: Vector3): void {
 
 /** The TCP-to-flange offset seen in base directions. */
 export const offsetInBase = (baseFromTcp: Pose, tcpFromFlange: Pose, out: Vector3 = [0, 0, 0]): Vector3 => rotate(baseFromTcp.quaternion, tcpFromFlange.position, out);
-
-export const scaled = (v: Vector3, factor: number): Vector3 => scale(v, factor);
