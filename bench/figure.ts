@@ -27,3 +27,9 @@ export function microseconds(calls: number, repeats: number, call: (i: number) =
     return Number(process.hrtime.bigint() - began) / 1000 / calls;
   });
 }
+
+/** As `microseconds`, after as many rounds of warm-up as the compiler needs to settle; those are not counted. */
+export function settled(calls: number, repeats: number, warmUp: number, call: (i: number) => void): number[] {
+  microseconds(calls, warmUp, call);
+  return microseconds(calls, repeats, call);
+}

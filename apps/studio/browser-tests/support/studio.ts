@@ -1,6 +1,8 @@
 import { spawn, type ChildProcess } from "node:child_process";
 import { existsSync, mkdirSync } from "node:fs";
 import { fileURLToPath } from "node:url";
+import type {} from "../../src/console.ts";
+import type {} from "../../src/scene/scene-probe.tsx";
 import { chromium, type Browser, type BrowserContext, type Page } from "playwright-core";
 
 const root = fileURLToPath(new URL("../../../../", import.meta.url));
@@ -74,6 +76,11 @@ export class Studio {
     await this.browser.close();
     this.server.kill("SIGTERM");
   }
+}
+
+/** Resolves when the cell is on screen: document open, geometry drawn. */
+export async function drawn(page: Page): Promise<void> {
+  await page.waitForFunction(() => window.twincell.stores.cellStore.getState().document !== null && (window.twincellScene?.frames ?? 0) > 1, null, { timeout: 60_000, polling: 100 });
 }
 
 export interface StudioPage { readonly page: Page; readonly context: BrowserContext; readonly problems: string[] }

@@ -12,6 +12,8 @@ const ROUNDING_M = 1e-12;
 export interface Bvh {
   /** 6 numbers a node: centre x, y, z and half lengths x, y, z [m]. */
   readonly boxes: Float64Array;
+  /** No point of a node's box is farther than this from the origin of the frame [m]. */
+  readonly reaches: Float64Array;
   /** 2 numbers a node: second child and 0, or in a leaf first triangle and number of triangles. */
   readonly links: Int32Array;
   /** 9 numbers a triangle, in the order of the leaves, each beginning with its longest edge [m]. */
@@ -92,8 +94,13 @@ class Builder {
       this.#copyCorners(this.#order[i]!, corners, 9 * i);
       heights[i] = boundTriangle(corners, 9 * i, balls, 4 * i);
     }
+    const boxes = Float64Array.from(this.#boxes), reaches = new Float64Array(boxes.length / 6);
+    for (let n = 0; n < reaches.length; n++) {
+      const far = [0, 1, 2].map(k => Math.abs(boxes[6 * n + k]!) + boxes[6 * n + 3 + k]!);
+      reaches[n] = Math.hypot(far[0]!, far[1]!, far[2]!);
+    }
     return {
-      boxes: Float64Array.from(this.#boxes), links: Int32Array.from(this.#links), corners, balls, heights, source: this.#order, depth: this.#depth,
+      boxes, reaches, links: Int32Array.from(this.#links), corners, balls, heights, source: this.#order, depth: this.#depth,
     };
   }
 

@@ -6,7 +6,7 @@ import { bodiesOf, farApart, objectBody, placeBody, reachesOf, SolidShelf, WORLD
 import type { CellGeometry, CellObject, Contact } from "./cell.ts";
 import { pairScratch } from "./intersect.ts";
 import { between, movePoints } from "./relative.ts";
-import { solidDistance, solidsTouch } from "./solid.ts";
+import { solidDistance, solidKeepsApart, solidsTouch } from "./solid.ts";
 
 /** The tool touches a work piece when it is nearer than this (row N-51) [m]. */
 export const TOUCH_M = 0.0005;
@@ -29,6 +29,8 @@ export interface SolidPair {
   readonly contact: Contact;
   /** Nearest triangles last time, where the next search begins. */
   readonly witness: Int32Array;
+  /** Triangles that were too near in a motion last time, the outer solid's first. */
+  readonly tooNear: Int32Array;
   /** Grows each time the pair is in contact; pairs that meet often are asked first. */
   hits: number;
 }
@@ -159,6 +161,20 @@ export class CellCollider {
     return distance;
   }
 
+  /**
+   * Whether, in the posture last placed, every point of the pair's outer solid (the one farther along the arm) is more than
+   * `near_m` + `perMetre` r from the other, where r is the point's distance from the origin of its own frame.
+   */
+  keepsApart(pair: SolidPair, near_m: number, perMetre: number): boolean {
+    const outer = pair.a.carrier > pair.b.carrier ? pair.a : pair.b, inner = outer === pair.a ? pair.b : pair.a;
+    if (farApart(outer.box, inner.box, near_m + perMetre * outer.solid.radius_m)) return true;
+    const relative = between(outer.worldFromBody, inner.worldFromBody, this.#scratch.relative);
+    this.#scratch.witness.set(pair.tooNear);
+    const apart = solidKeepsApart(outer.solid, inner.solid, relative, near_m, perMetre, this.#scratch, this.#points);
+    if (!apart) pair.tooNear.set(this.#scratch.witness);
+    return apart;
+  }
+
   /** Whether one pair is in contact in the posture last placed. */
   touchOf({ a, b }: SolidPair): boolean {
     if (farApart(a.box, b.box, 0)) return false;
@@ -242,7 +258,7 @@ export class CellCollider {
       const [a, b] = [this.#bodies[i]!, this.#bodies[j]!], key = keyOf(a.name, b.name), before = known.get(key);
       if (this.#allowed.has(key) || !mayMeet(a, b)) continue;
       const same = before?.a === a && before.b === b;
-      this.#pairs.push(same ? before : { a, b, contact: { a: a.name, b: b.name }, witness: new Int32Array(2).fill(-1), hits: 0 });
+      this.#pairs.push(same ? before : { a, b, contact: { a: a.name, b: b.name }, witness: new Int32Array(2).fill(-1), tooNear: new Int32Array(2).fill(-1), hits: 0 });
     }
     this.#pairs.sort((p, q) => q.hits - p.hits);
   }

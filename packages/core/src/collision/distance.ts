@@ -53,6 +53,51 @@ export function surfaceDistance(
   }
 }
 
+/**
+ * Whether every point of `outer` keeps a distance from `inner` that grows with its own distance r from outer's origin:
+ * `near_m` + `perMetre` r. What turns about its own origin moves the more the farther out it is.
+ *
+ * @param scratch  as for `surfaceDistance`; `witness` is asked first and receives a pair of triangles that is too near.
+ */
+export function keepsApart(outer: Bvh, inner: Bvh, outerFromInner: Rigid, near_m: number, perMetre: number, scratch: PairScratch, out: Float64Array): boolean {
+  if (outer.source.length === 0 || inner.source.length === 0) return true;
+  makeRoom(scratch, outer, inner);
+  const stack = scratch.stack, linksA = outer.links, linksB = inner.links, reaches = outer.reaches;
+  const first = scratch.witness[0]!, second = scratch.witness[1]!;
+  if (first >= 0 && second >= 0) {
+    movePoints(outerFromInner, inner.corners, 9 * second, 3, scratch.triangles, 0);
+    const wanted = near_m + perMetre * farthestCorner(outer.corners, 9 * first);
+    if (triangleDistance2(outer.corners, 9 * first, scratch.triangles, 0, wanted * wanted, out) < wanted * wanted) return false;
+  }
+  let nodeA = 0, nodeB = 0, top = 0;
+  for (;;) {
+    const wanted = near_m + perMetre * reaches[nodeA]!;
+    if (boxDistance2(outer.boxes, 6 * nodeA, inner.boxes, 6 * nodeB, outerFromInner) < wanted * wanted) {
+      const countA = linksA[2 * nodeA + 1]!, countB = linksB[2 * nodeB + 1]!;
+      if (countA > 0 && countB > 0) {
+        const limit = wanted * wanted;
+        if (nearestInLeaves(outer, linksA[2 * nodeA]!, countA, inner, linksB[2 * nodeB]!, countB, outerFromInner, limit, scratch, out) < limit) return false;
+      } else if (countB > 0 || (countA === 0 && size(outer.boxes, 6 * nodeA) >= size(inner.boxes, 6 * nodeB))) {
+        stack[top++] = linksA[2 * nodeA]!; stack[top++] = nodeB;
+        nodeA++;
+        continue;
+      } else {
+        stack[top++] = nodeA; stack[top++] = linksB[2 * nodeB]!;
+        nodeB++;
+        continue;
+      }
+    }
+    if (top === 0) return true;
+    nodeB = stack[--top]!; nodeA = stack[--top]!;
+  }
+}
+
+function farthestCorner(c: Float64Array, t: number): number {
+  let squared = 0;
+  for (let i = t; i < t + 9; i += 3) squared = Math.max(squared, c[i]! * c[i]! + c[i + 1]! * c[i + 1]! + c[i + 2]! * c[i + 2]!);
+  return Math.sqrt(squared);
+}
+
 function nearestInLeaves(
   a: Bvh, fromA: number, countA: number, b: Bvh, fromB: number, countB: number, aFromB: Rigid, limit: number, scratch: PairScratch, out: Float64Array,
 ): number {

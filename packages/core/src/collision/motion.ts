@@ -1,4 +1,4 @@
-import { WORLD } from "./bodies.ts";
+import { WORLD, type Body } from "./bodies.ts";
 import type { CellCollider, SolidPair } from "./cell-collider.ts";
 
 /** A motion of the joints in time. */
@@ -20,6 +20,8 @@ export type MotionVerdict =
 export interface MotionOptions {
   /** Wanted distance [m]. Between links and objects the robot's shape error comes on top. 0 asks for no contact only. */
   readonly margin_m?: number;
+  /** Which pairs keep the margin; the others only must not touch. All pairs by default. */
+  readonly keepsMargin?: (pair: SolidPair) => boolean;
   /** How near to the margin the answer may be undecided; it then counts as contact [m]. */
   readonly resolution_m?: number;
   readonly maxChecks?: number;
@@ -30,7 +32,7 @@ export interface MotionOptions {
  *
  * While t moves by Δ, no point of a pair moves relative to the other by more than  Σ_k rate_k Δ ρ_k  over the joints k
  * between them, where ρ_k bounds the distance from axis k. A pair farther apart than that at the middle of an interval
- * keeps its margin throughout it; otherwise the interval is halved, the earlier half first. A thin obstacle cannot be
+ * keeps its margin throughout it (each point measured by its own ρ: what is near an axis hardly moves); otherwise the interval is halved, the earlier half first. A thin obstacle cannot be
  * stepped over.
  *
  * @see Schwarzer, Saha, Latombe, Exact collision checking of robot paths, WAFR 2002.
@@ -38,9 +40,10 @@ export interface MotionOptions {
 export function checkMotion(
   collider: CellCollider, motion: JointMotion, from: number, to: number, options: MotionOptions = {},
 ): MotionVerdict {
-  const { margin_m = 0, resolution_m = 0.0002, maxChecks = 100_000 } = options;
+  const { margin_m = 0, resolution_m = 0.0002, maxChecks = 100_000, keepsMargin = () => true } = options;
   const pairs = collider.pairs, rates = pairs.map(pair => relativeRate(pair, motion.maxRate));
-  const margins = pairs.map(pair => margin_m + (margin_m > 0 && isLinkAndObject(pair) ? collider.shapeError_m : 0));
+  const turns = pairs.map(pair => relativeTurn(pair, motion.maxRate));
+  const margins = pairs.map(pair => (margin_m > 0 && keepsMargin(pair) ? margin_m + (isLinkAndObject(pair) ? collider.shapeError_m : 0) : 0));
   const q = new Float64Array(motion.maxRate.length);
   const stack: Interval[] = [{ from, to, open: pairs.map((_, i) => i) }];
   let checks = 0;
@@ -53,8 +56,7 @@ export function checkMotion(
     checks++;
     for (const i of interval.open) {
       const pair = pairs[i]!, margin = margins[i]!, drift = rates[i]! * half;
-      // Whether it is nearer than the drift is all that matters: the first pair of triangles that is ends the search.
-      if (collider.distanceOf(pair, margin + drift, margin + drift) > margin + drift) continue;
+      if (collider.keepsApart(pair, margin + drift - turns[i]! * half * radiusOf(pair), turns[i]! * half)) continue;
       if (drift <= resolution_m) {
         const distance_m = collider.distanceOf(pair, margin + resolution_m);
         return { kind: "contact", at: middle, a: pair.contact.a, b: pair.contact.b, distance_m, margin_m: margin, checks };
@@ -79,12 +81,24 @@ export function checkJointLine(collider: CellCollider, fromQ: ArrayLike<number>,
   return checkMotion(collider, { sample, maxRate }, 0, 1, options);
 }
 
-/** Bound on the speed of any point of one solid seen from the other [m per unit of t]. */
-function relativeRate({ a, b }: SolidPair, maxRate: ArrayLike<number>): number {
-  const outer = a.carrier > b.carrier ? a : b, inner = outer === a ? b : a;
+const outerOf = ({ a, b }: SolidPair): Body => (a.carrier > b.carrier ? a : b);
+const radiusOf = (pair: SolidPair): number => outerOf(pair).solid.radius_m;
+/** The joints between the two solids of a pair, from the first that moves one of them seen from the other. */
+const firstBetween = ({ a, b }: SolidPair): number => Math.max(0, Math.min(a.carrier, b.carrier));
+
+/** Bound on the speed of any point of the outer solid seen from the other [m per unit of t]. */
+function relativeRate(pair: SolidPair, maxRate: ArrayLike<number>): number {
+  const outer = outerOf(pair);
   let rate = 0;
-  for (let k = inner.carrier === WORLD ? 0 : inner.carrier; k < outer.carrier; k++) rate += maxRate[k]! * outer.reach_m[k]!;
+  for (let k = firstBetween(pair); k < outer.carrier; k++) rate += maxRate[k]! * outer.reach_m[k]!;
   return rate;
+}
+
+/** Bound on how fast the outer solid turns seen from the other [rad per unit of t]: a point r from its origin is Σ rate (R − r) slower. */
+function relativeTurn(pair: SolidPair, maxRate: ArrayLike<number>): number {
+  let turn = 0;
+  for (let k = firstBetween(pair); k < outerOf(pair).carrier; k++) turn += maxRate[k]!;
+  return turn;
 }
 
 const isLinkAndObject = ({ a, b }: SolidPair): boolean => a.carrier === WORLD ? b.kind === "link" : b.carrier === WORLD && a.kind === "link";

@@ -1,7 +1,7 @@
 import { isClosed } from "../shapes/measure.ts";
 import { weldMesh } from "../shapes/weld.ts";
 import { buildBvh, type Bvh } from "./bvh.ts";
-import { surfaceDistance } from "./distance.ts";
+import { keepsApart, surfaceDistance } from "./distance.ts";
 import { surfacesTouch, type PairScratch } from "./intersect.ts";
 import { pointInside } from "./inside.ts";
 import type { TriangleMesh } from "./mesh.ts";
@@ -49,6 +49,11 @@ export function solidDistance(
     return 0;
   }
   return distance;
+}
+
+/** `keepsApart` for solids: what lies inside the other keeps no distance. */
+export function solidKeepsApart(outer: Solid, inner: Solid, outerFromInner: Rigid, near_m: number, perMetre: number, scratch: PairScratch, out: Float64Array): boolean {
+  return keepsApart(outer.bvh, inner.bvh, outerFromInner, near_m, perMetre, scratch, out) && !oneInsideOther(outer, inner, outerFromInner, scratch);
 }
 
 /** Whether a piece of either surface lies inside the other solid; where, in a's frame, is left in `scratch.point`. */

@@ -42,6 +42,13 @@ function directionOf(vector: Vector3): number {
   return along < 0 ? NONE : vector.every((value, i) => i === along || value === 0) ? along : ANY;
 }
 
+const TURNS_PER_RAD = 1 / (2 * Math.PI);
+/** 2π in two parts: whole multiples of the first are exact. */
+const TURN_HIGH = 4 * 1.57079632673412561417, TURN_LOW = 4 * 6.07710050650619224932e-11;
+/** Sine and cosine up to π/4 (fdlibm, kernels k_sin and k_cos). */
+const S1 = -1.66666666666666324348e-1, S2 = 8.33333333332248946124e-3, S3 = -1.98412698298579493134e-4, S4 = 2.75573137070700676789e-6, S5 = -2.50507602534068634195e-8, S6 = 1.58969099521155010221e-10;
+const C1 = 4.16666666666666019037e-2, C2 = -1.38888888888741095749e-3, C3 = 2.48015872894767294178e-5, C4 = -2.75573143513906633035e-7, C5 = 2.08757232129817482790e-9, C6 = -1.13596475577881948265e-11;
+
 /**
  * running ← running · fixed · Rot(axis, angle), row after row of `chain`, in local numbers: what is stored and loaded
  * again between two joints costs as much as the sines.
@@ -86,7 +93,11 @@ export function walk(
       axes[joint * 6 + 2] = az + w * tz + x * ty - y * tx;
       axes[joint * 6 + 3] = ox; axes[joint * 6 + 4] = oy; axes[joint * 6 + 5] = oz;
     }
-    const half = q[joint]! / 2, s = Math.sin(half), c = Math.cos(half);
+    // Half turns are taken off the half angle, and a fourth of the turn goes through the polynomials: no branch to mispredict.
+    const angle = q[joint]!, n = Math.floor(angle * TURNS_PER_RAD + 0.5), r = 0.25 * (angle - n * TURN_HIGH - n * TURN_LOW), r2 = r * r, r4 = r2 * r2;
+    const sr = r + r * r2 * (S1 + r2 * S2 + r4 * (S3 + r2 * S4 + r4 * (S5 + r2 * S6)));
+    const cr = 1 - 0.5 * r2 + r4 * (C1 + r2 * C2 + r4 * (C3 + r2 * C4 + r4 * (C5 + r2 * C6)));
+    const sign = 1 - 2 * (n & 1), s = sign * 2 * sr * cr, c = sign * (1 - 2 * sr * sr);
     if (kind === Z) {
       const b = chain[at + 9]! * s, nx = x * c + y * b, nz = z * c + w * b;
       y = y * c - x * b; w = w * c - z * b; x = nx; z = nz;

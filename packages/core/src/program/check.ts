@@ -21,7 +21,7 @@ export interface CheckOptions {
   readonly worldFromBase?: Pose<"world", "base">;
   /** Posture the program starts from; the robot's home by default. */
   readonly start_rad?: ArrayLike<number>;
-  /** Distance kept from everything [m]; 0 asks for no contact only. */
+  /** Distance the robot keeps from the cell [m], its shape error on top; 0 asks for no contact only. */
   readonly margin_m?: number;
   /** Called with 0 … 1 now and then. */
   readonly onProgress?: (share: number) => void;

@@ -1,3 +1,4 @@
+import { readFileSync } from "node:fs";
 import fc from "fast-check";
 import { describe, expect, test } from "vitest";
 import { jsonFault } from "./json-place.ts";
@@ -130,5 +131,27 @@ describe("jsonFault", () => {
     const spoilt = fc.tuple(fc.json(), fc.nat(), fc.constantFrom("", ",", "}", "]", "\"", "\\", "1", ".", "e", ":", "\u0001", "-"))
       .map(([text, at, by]) => { const i = at % (text.length + 1); return text.slice(0, i) + by + text.slice(i + (by === "" ? 1 : 0)); });
     fc.assert(fc.property(fc.oneof(spoilt, fc.string(), fc.json()), text => { expect(jsonFault(text) === undefined).toBe(isJson(text)); }), { seed: SEED, numRuns: 3000 });
+  });
+});
+
+describe("docs/program.schema.json", () => {
+  interface Schema { readonly properties?: Readonly<Record<string, Schema & { readonly const?: unknown }>>; readonly oneOf?: readonly Schema[]; readonly $defs?: Readonly<Record<string, Schema>> }
+  const schema = JSON.parse(readFileSync(new URL("../../../../docs/program.schema.json", import.meta.url), "utf8")) as Schema;
+  /** The fields the reader names when it meets one it does not know. */
+  const readerKnows = (value: unknown): string[] => {
+    const found = faultsOf(value).map(fault => /has no field “zz”; it can have (.*)\.$/.exec(fault.sentence)?.[1]).find(list => list !== undefined);
+    return (found ?? "").split(", ").sort();
+  };
+  const fieldsOf = (part: Schema | undefined): string[] => Object.keys(part?.properties ?? {}).sort();
+
+  test("names the fields the reader knows, no more and no fewer", () => {
+    expect(fieldsOf(schema)).toEqual(readerKnows({ ...good, zz: 1 }));
+    const kinds = schema.$defs?.step?.oneOf ?? [];
+    expect(kinds.map(kind => kind.properties?.type?.const)).toEqual(["move", "wait", "gripper"]);
+    const samples = [good.steps[0], good.steps[2], good.steps[3]];
+    kinds.forEach((kind, i) => { expect(fieldsOf(kind)).toEqual(readerKnows({ ...good, steps: [{ ...samples[i], zz: 1 }] })); });
+    expect(fieldsOf(schema.$defs?.poseTarget)).toEqual(readerKnows(firstStep({ target: { pose: good.tools.torch, zz: 1 } })));
+    expect(fieldsOf(schema.$defs?.jointTarget)).toEqual(readerKnows(firstStep({ target: { q: [], zz: 1 } })));
+    expect(fieldsOf(schema.$defs?.pose)).toEqual(readerKnows({ ...good, tools: { torch: { ...good.tools.torch, zz: 1 } } }));
   });
 });

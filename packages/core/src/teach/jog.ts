@@ -44,7 +44,7 @@ export const jogScratch = (): JogScratch => ({
 const NONE: readonly JogBlock[] = [];
 const AXES = ["x", "y", "z"] as const;
 /** A step shortened below this [m, rad] is looked at twice: on a singularity the arm must turn in place instead. */
-const ALL_BUT_STANDING = 1e-8;
+const ALL_BUT_STANDING = 1e-6;
 const SHORTEST = 1e-12;
 /** A turn in place below this share of the joint speeds is rounding. */
 const LEAST_TURN = 1e-3;
@@ -52,6 +52,8 @@ const LEAST_TURN = 1e-3;
 const LIMIT_SLACK_RAD = 1e-9;
 /** At a singularity two branches meet; within this travel they are the same posture. */
 const SAME_TRAVEL_RAD = 1e-6;
+/** Weight of joints 2 and 3 in telling which solution continues the posture. */
+const FOLLOWS_WRIST = 1000;
 const TURN = 2 * Math.PI;
 
 /**
@@ -154,7 +156,10 @@ function solveAt(cell: JogCell, shift: Vector3, turns: boolean, fraction: number
   return count === 0 ? outOfReach(cell.robot, baseFromFlange) : nearest(cell.robot, family, count, scratch);
 }
 
-/** Copies the solution of least travel into `best`; of two that are as good as equal, one inside the limits. */
+/**
+ * Copies the solution that continues the posture into `best`: joints 2 and 3, which no singularity of wrist or shoulder makes
+ * leap, decide first, then least travel; of two that are as good as equal, one inside the limits.
+ */
 function nearest(robot: Robot, family: OrthoParallelGeometry, count: number, { raw, best, start }: JogScratch): Reach | undefined {
   let least = Infinity, chosen = 0, chosenJoint = 0;
   for (let s = 0; s < count; s++) {
@@ -162,7 +167,7 @@ function nearest(robot: Robot, family: OrthoParallelGeometry, count: number, { r
     for (let j = 0; j < 6; j++) {
       const turned = raw[6 * s + j]! + TURN * Math.round((start[j]! - raw[6 * s + j]!) / TURN);
       raw[6 * s + j] = turned;
-      total += Math.abs(turned - start[j]!);
+      total += Math.abs(turned - start[j]!) * (j === 1 || j === 2 ? FOLLOWS_WRIST : 1);
     }
     const outside = jointOutside(robot, raw, 6 * s, start);
     const preferred = total < least - SAME_TRAVEL_RAD || (total < least + SAME_TRAVEL_RAD && chosenJoint > 0 && outside === 0);
@@ -202,7 +207,7 @@ function turnInPlace(cell: JogCell, turn1: number, turn4: number, dt_s: number, 
   turned.set(best);
   flangePose(robot.arm, start, baseFromFlange, arm);
   const speeds = robot.arm.joints, load = Math.max(Math.abs(turn1) / speeds[0]!.limits.speed_rad_s, Math.abs(turn4) / speeds[3]!.limits.speed_rad_s) / dt_s;
-  for (let part = Math.min(1, 1 / load), tries = 0; tries < 8; part /= 2, tries++) {
+  for (let part = Math.min(1, 0.999 / load), tries = 0; tries < 8; part /= 2, tries++) {
     ahead.set(start);
     ahead[0] = start[0]! + turn1 * part; ahead[3] = start[3]! + turn4 * part;
     const count = solveOrthoParallel(family, baseFromFlange, raw, ahead);

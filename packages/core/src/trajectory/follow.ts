@@ -52,7 +52,8 @@ export class Follower {
   meet(goal: Pose<"base", "flange">, q: Float64Array): boolean {
     const n = q.length;
     for (let turn = 0; turn < MOST_STEPS; turn++) {
-      this.look(q);
+      this.place(q);
+      this.differentiate();
       if (this.measure(goal) < MET) return true;
       if (!this.solve(this.error)) return false;
       let longest = 0;
@@ -67,27 +68,31 @@ export class Follower {
   /**
    * Joint speeds that move the flange with a twist: J q̇ = (v, ω), both in base directions.
    *
+   * @param met  q is where the last call of `meet` ended well: its Jacobian is still there.
    * @param out  n speeds, per unit of whatever the twist counts in.
    */
-  speeds(q: ArrayLike<number>, twist: Float64Array, out: Float64Array): void {
-    this.look(q);
+  speeds(q: ArrayLike<number>, twist: Float64Array, out: Float64Array, met = false): void {
+    if (!met) { this.place(q); this.differentiate(); }
     this.solve(twist);
     out.set(this.step);
   }
 
   /** How far the flange at `q` is from the goal [m], [rad], the larger of the two. */
   miss(q: ArrayLike<number>, goal: Pose<"base", "flange">): number {
-    this.look(q);
+    this.place(q);
     return this.measure(goal);
   }
 
-  /** Fills flange pose and Jacobian of `q`. */
-  private look(q: ArrayLike<number>): void {
-    const n = this.arm.joints.length, links = this.links, J = this.jacobian, axis = this.axis;
-    linkPoses(this.arm, q, links, this.scratch);
-    const last: Pose = links[n]!;
+  /** Fills the poses of links and flange of `q`. */
+  private place(q: ArrayLike<number>): void {
+    linkPoses(this.arm, q, this.links, this.scratch);
+    const last: Pose = this.links[this.arm.joints.length]!;
     compose(last, this.arm.lastJointFromFlange as Pose, this.flange as Pose);
-    const p = this.flange.position;
+  }
+
+  /** Fills the Jacobian of the posture placed last. */
+  private differentiate(): void {
+    const n = this.arm.joints.length, links = this.links, J = this.jacobian, axis = this.axis, p = this.flange.position;
     for (let j = 0; j < n; j++) {
       const link = links[j + 1]!, o = link.position;
       rotate(link.quaternion, this.arm.joints[j]!.axis, axis);

@@ -128,19 +128,19 @@ export class HermitePath {
     return undefined;
   }
 
-  /** dq/ds of a posture on a pose path at s. Returns |dp/ds| of the TCP. */
-  slope(path: PosePath, tcpFromFlange: Pose<"tcp", "flange">, s: number, q: ArrayLike<number>, out: Float64Array): number {
-    posePoint(path, s, this.tcpPose, this.scratch);
+  /** dq/ds of a posture on a pose path at s. Returns |dp/ds| of the TCP. `met`: `reach` has just put q there. */
+  slope(path: PosePath, tcpFromFlange: Pose<"tcp", "flange">, s: number, q: ArrayLike<number>, out: Float64Array, met = false): number {
+    if (!met) posePoint(path, s, this.tcpPose, this.scratch);
     poseTwist(path, s, this.twist, this.scratch);
     const t = this.twist, speed = Math.sqrt(t[0]! * t[0]! + t[1]! * t[1]! + t[2]! * t[2]!);
     shiftTwist(this.twist, offsetInBase(this.tcpPose, tcpFromFlange, this.offset));
-    this.follower.speeds(q, this.twist, out);
+    this.follower.speeds(q, this.twist, out, met);
     return speed;
   }
 
   private addNode(path: PosePath, tcpFromFlange: Pose<"tcp", "flange">, s: number, place: number, q: Float64Array): void {
     const at = this.node(place), n = this.joints;
-    this.tcp[at] = this.slope(path, tcpFromFlange, s, q, this.speeds);
+    this.tcp[at] = this.slope(path, tcpFromFlange, s, q, this.speeds, true);
     this.q.set(q, at * n);
     this.q1.set(this.speeds, at * n);
   }

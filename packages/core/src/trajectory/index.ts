@@ -8,3 +8,5 @@ export * from "./run-timing.ts";
 export * from "./timing.ts";
 export * from "./run.ts";
 export * from "./plan-path.ts";
+export * from "./judge.ts";
+export * from "./deviation.ts";

@@ -98,13 +98,14 @@ export class PlanWriter {
   }
 
   run(parts: readonly MotionSegment[], slowed: readonly Slowed[]): void {
-    const start_s = this.t_s, n = this.q.length;
+    const n = this.q.length, begun_s = this.t_s;
     for (const part of parts) {
-      this.segments.push({ ...part, start_s: start_s + part.start_s });
-      this.t_s = start_s + part.start_s + part.duration_s;
+      // Summed one by one, so that each part begins at the very number the one before ends at.
+      this.segments.push({ ...part, start_s: this.t_s });
+      this.t_s += part.duration_s;
       this.q.set(part.q_rad.subarray(part.q_rad.length - n));
     }
-    for (const one of slowed) this.notes.push({ step: parts[one.move]!.step, at_s: start_s + parts[one.move]!.start_s, slowed: one });
+    for (const one of slowed) this.notes.push({ step: parts[one.move]!.step, at_s: begun_s + parts[one.move]!.start_s, slowed: one });
   }
 
   /** Goes on from another posture, for drawing what comes behind a step that cannot be carried out. */

@@ -2,6 +2,7 @@ import type { Robot } from "../robots/robot.ts";
 import type { MoveStep, Speed } from "../program/program.ts";
 import type { HermitePath, Piece } from "./hermite-path.ts";
 import type { MotionSegment } from "./plan.ts";
+import { intervalAccelerations } from "./sample.ts";
 import { PathTimer, type TimingGrid, type TimingLimits } from "./timing.ts";
 
 /**
@@ -10,7 +11,11 @@ import { PathTimer, type TimingGrid, type TimingLimits } from "./timing.ts";
  */
 const SPEED_SHARE = 0.999, ACCELERATION_SHARE = 0.98;
 /** Intervals of the timing grid on a piece, and on one that begins or ends at rest. */
-const INTERVALS = 6, INTERVALS_AT_REST = 16;
+const INTERVALS = 4, INTERVALS_AT_REST = 12;
+/** How often the grid is made denser when the cubics between its nodes are over a limit. */
+const MOST_DENSE = 4;
+/** Least ṡ² inside a run. */
+const SLOWEST = 1e-10;
 /** Nodes closer than this share of a piece are one. */
 const NEAR = 1e-6;
 /** Halvings of an interval in time at most, so that the cubic in time meets the cubic along the path. */
@@ -77,14 +82,43 @@ export class RunTimer {
   time(path: HermitePath, steps: readonly MoveStep[], q0: Float64Array, tcpSlope: (move: number, q: Float64Array, q1: Float64Array) => number): TimedRun {
     const paces = steps.map(step => paceOf(step.speed, step.path, this.robot)), slowed: Slowed[] = [];
     if (path.nodes < 2) return { parts: steps.map(step => this.standing(step, q0)), slowed, duration_s: 0 };
-    this.spread(path);
-    this.capSpeeds(path, paces, tcpSlope, slowed);
-    const grid: TimingGrid = { nodes: this.nodes, joints: this.joints, s: this.s, q1: this.q1, q2: this.q2, cap: this.cap };
-    this.timer.fastest(grid, 0, 0, this.x);
-    let stretch = 1;
-    if (steps.length === 1 && paces[0]!.time_s > 0) stretch = this.stretchOf(paces[0]!.time_s, slowed);
-    else if (paces.some(pace => pace.time_s > 0)) this.tune(grid, paces, slowed);
-    return this.emit(path, steps, stretch, slowed);
+    let run: TimedRun | undefined, over = 1;
+    for (let density = 1; density <= MOST_DENSE; density *= 2) {
+      slowed.length = 0;
+      this.spread(path, density);
+      this.capSpeeds(path, paces, tcpSlope, slowed);
+      const grid: TimingGrid = { nodes: this.nodes, joints: this.joints, s: this.s, q1: this.q1, q2: this.q2, cap: this.cap };
+      this.timer.fastest(grid, 0, 0, this.x);
+      // A node inside the run that rounding left at standstill would never be passed.
+      for (let i = 1; i + 1 < this.nodes; i++) if (this.x[i]! < SLOWEST) this.x[i] = SLOWEST;
+      let stretch = 1;
+      if (steps.length === 1 && paces[0]!.time_s > 0) stretch = this.stretchOf(paces[0]!.time_s, slowed);
+      else if (paces.some(pace => pace.time_s > 0)) this.tune(grid, paces, slowed);
+      run = this.emit(path, steps, stretch, slowed);
+      // The grid holds the limits at its nodes; what the cubics do between them is looked at here.
+      over = this.worstShare(run.parts);
+      if (over <= 1) return run;
+    }
+    return this.emit(path, steps, over, slowed);
+  }
+
+  /** How far, as a factor of time, the cubics of the parts are over the published limits; at most 1 when they are not. */
+  private worstShare(parts: readonly MotionSegment[]): number {
+    const joints = this.robot.arm.joints, n = this.joints, bend = new Float64Array(2 * n);
+    let worst = 0;
+    for (const part of parts) {
+      for (let i = 0; i + 1 < part.times_s.length; i++) {
+        intervalAccelerations(part, i, n, bend);
+        const h = part.times_s[i + 1]! - part.times_s[i]!;
+        for (let j = 0; j < n; j++) {
+          const { speed_rad_s, acceleration_rad_s2 } = joints[j]!.limits, at = i * n + j;
+          const middle = h > 0 ? (1.5 * (part.q_rad[at + n]! - part.q_rad[at]!)) / h - (part.qd_rad_s[at]! + part.qd_rad_s[at + n]!) / 4 : 0;
+          const acceleration = Math.max(Math.abs(bend[j]!), Math.abs(bend[n + j]!));
+          worst = Math.max(worst, Math.sqrt(acceleration / acceleration_rad_s2), Math.abs(middle) / speed_rad_s, Math.abs(part.qd_rad_s[at]!) / speed_rad_s);
+        }
+      }
+    }
+    return worst;
   }
 
   private standing(step: MoveStep, q0: Float64Array): MotionSegment {
@@ -93,13 +127,13 @@ export class RunTimer {
   }
 
   /** Fills the grid: nodes closer together where the run stands still, one at every change of move. */
-  private spread(path: HermitePath): void {
+  private spread(path: HermitePath, density: number): void {
     this.nodes = 0;
     const last = path.pieces.length - 1;
     for (let k = 0; k <= last; k++) {
       const piece = path.pieces[k]!, a = path.s[piece.first]!, b = path.s[piece.last]!;
       const rests = (k === 0 ? 1 : 0) + (k === last ? 2 : 0), dense = piece.last - piece.first;
-      const count = rests === 0 ? Math.max(INTERVALS, dense) : Math.max(INTERVALS_AT_REST, 2 * dense);
+      const count = density * (rests === 0 ? Math.max(INTERVALS, dense) : Math.max(INTERVALS_AT_REST, 2 * dense));
       let i = piece.first, split = piece.before !== piece.after;
       const near = (b - a) * NEAR;
       for (let m = 0; m <= count; m++) {
@@ -296,6 +330,9 @@ class Emission {
   }
 
   private push(knot: number, s: number, rate: number): void {
+    // An interval of the grid may reach over a node of the path. Equal places are borders of pieces, which it does not.
+    const places = this.path.s;
+    while (s > places[knot + 1]! && knot + 2 < this.path.nodes && places[knot + 2]! > places[knot + 1]!) knot++;
     this.path.evaluate(knot, s, 0, this.a, this.a1, this.a2);
     this.times.push(this.t * this.stretch);
     for (let j = 0; j < this.joints; j++) { this.q.push(this.a[j]!); this.qd.push((this.a1[j]! * rate) / this.stretch); }

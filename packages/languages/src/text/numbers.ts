@@ -1,16 +1,19 @@
 /** What a single-precision number holds: seven significant digits. */
 const DIGITS = 7;
 
+/** Of a degree or a millimetre: far below what any robot resolves. Rounding errors of a computed zero end here. */
+const SMALLEST = 1e-6;
+
 /**
  * A number as a single-precision controller prints it: rounded to single precision, then to seven significant digits,
- * decimal point, no exponent, no trailing zeros, no minus before zero.
+ * decimal point, no exponent, no trailing zeros, no minus before zero. Less than a millionth is 0.
  *
  * @throws {RangeError} when the number is not finite: nobody may write that into a program.
  */
 export function singleText(value: number): string {
   const single = Math.fround(value);
   if (!Number.isFinite(single)) throw new RangeError(`${value} cannot be written in single precision.`);
-  return decimalText(single, DIGITS);
+  return Math.abs(single) < SMALLEST ? "0" : decimalText(single, DIGITS);
 }
 
 /** A number with that many significant digits, without exponent and without trailing zeros. */

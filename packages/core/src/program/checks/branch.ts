@@ -2,7 +2,7 @@ import { branchOf, sameBranch, type Branch } from "../../kinematics/branch.ts";
 import { radians } from "../../spatial/units.ts";
 import type { Repair } from "../verdict.ts";
 import { jointMove, postureRepairs } from "./repairs.ts";
-import { deg, motions, type CheckScene } from "./scene.ts";
+import { deg, type CheckScene } from "./scene.ts";
 
 /** A joint move to a pose that turns a joint further than this has turned the arm over [rad]. */
 const BIG_TURN_RAD = radians(150);
@@ -12,7 +12,9 @@ const SAME_RAD = 1e-4;
 /** Postures that are not the taught ones at the end of a path, and joint moves that turn the arm over on the way to a pose. */
 export function checkBranch(scene: CheckScene): void {
   const n = scene.robot.arm.joints.length;
-  for (const segment of motions(scene)) {
+  for (const segment of scene.layout.plan.segments) {
+    // A move of no length counts as well: its taught posture may still be another one.
+    if (segment.kind === "rest") continue;
     const move = scene.layout.moves.get(segment.step), rows = segment.times_s.length;
     if (move === undefined) continue;
     const first = segment.q_rad.subarray(0, n), last = segment.q_rad.subarray((rows - 1) * n);

@@ -13,7 +13,7 @@ import { motions, seconds, type CheckScene } from "./scene.ts";
 
 export interface CollisionOptions {
   readonly cell: CellGeometry;
-  /** Distance every watched pair keeps [m]; 0 asks for no contact only. */
+  /** Distance the robot keeps from the cell [m]; 0 asks for no contact only. Its own parts must not touch. */
   readonly margin_m: number;
   readonly onProgress?: (share: number) => void;
   readonly cancelled?: () => boolean;
@@ -71,7 +71,7 @@ class Prover {
   prove(segment: MotionSegment): MotionVerdict {
     topSpeeds(segment, this.rates);
     const motion: JointMotion = { sample: (t, out) => { sampleSegment(segment, t, out); }, maxRate: this.rates };
-    return checkMotion(this.collider, motion, 0, segment.duration_s, { margin_m: this.margin_m });
+    return checkMotion(this.collider, motion, 0, segment.duration_s, { margin_m: this.margin_m, keepsMargin: robotAndCell });
   }
 }
 

@@ -1,5 +1,6 @@
 import { explainReach } from "../../kinematics/explain.ts";
 import { solveAll } from "../../kinematics/inverse.ts";
+import { span } from "../../kinematics/span.ts";
 import type { Reach } from "../../kinematics/reach.ts";
 import { explainStop } from "../../trajectory/stop.ts";
 import type { Finding } from "../verdict.ts";
@@ -25,6 +26,8 @@ export function checkReach(scene: CheckScene): void {
   // A blend cuts the corner: the target itself is never visited, yet it was taught and must be reachable.
   for (const move of scene.layout.moves.values()) {
     if (move.step.blend_m === 0 || move.q_rad !== undefined || move.step.path === "ptp" || scene.robot.family.kind === "general") continue;
+    const { distance_m, nearest_m, farthest_m } = span(scene.robot, move.baseFromFlange);
+    if (distance_m <= farthest_m && distance_m >= nearest_m) continue;
     const reach = solveAll(scene.robot, move.baseFromFlange);
     if (away(reach)) scene.add(move.step.id, "bad", reachFinding(reach, startOf(scene, move.step.id), reachRepairs(scene, move, reach)));
   }

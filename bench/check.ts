@@ -1,0 +1,63 @@
+import {
+  checkProgram, emptyProgram, linkSolids, robotById, seededRandom, type Pose, type Program, type Quaternion, type Robot, type Step, type Vector3,
+} from "@twincell/core";
+import { cellGeometry, edgeTraceCell } from "@twincell/project";
+import { figure, type Figure } from "./figure.ts";
+
+const POSES = 10_000, ROUNDS = 5;
+/** Joint moves sweep far: seconds of motion count there, not poses. */
+const JOINT_MOVES = 200;
+
+/**
+ * A program of 10,000 poses checked whole: postures, limits, speeds, singular postures, and contact proven along every
+ * motion against the robot itself, table, carton and walls of the edge-trace cell: straight moves 2 mm apart, blended like
+ * a traced edge, and the same with a stop at each pose. Beside it 200 far joint moves between seeded postures.
+ */
+export function run(): Promise<Figure[]> {
+  const cell = edgeTraceCell(), robot = robotById(cell.robot.id);
+  if (!robot) throw new Error(`The library has no ${cell.robot.id}.`);
+  const geometry = cellGeometry(cell, linkSolids(robot)), worldFromBase = cell.robot.worldFromBase;
+  const figures: Figure[] = [];
+  const programs: readonly (readonly [string, Program])[] = [
+    ["10k", traced(robot, 0.002)], ["10k-stops", traced(robot, 0)], [`joints-${JOINT_MOVES}`, jointMoves(robot)],
+  ];
+  for (const [name, program] of programs) {
+    for (const withCell of [false, true]) {
+      const times: number[] = [];
+      let note = "";
+      for (let round = 0; round < ROUNDS; round++) {
+        const begun_ms = performance.now();
+        const { verdict } = checkProgram(program, robot, withCell ? { cell: geometry } : { worldFromBase });
+        times.push(performance.now() - begun_ms);
+        const count = (kind: string): number => verdict.steps.filter(step => step.verdict === kind).length;
+        note = `${program.steps.length} poses, ${count("ok")} ok, ${count("warn")} warn, ${count("bad")} bad, ${count("unknown")} unknown, ${verdict.duration_s.toFixed(0)} s of motion${withCell ? ", collision on" : ""}`;
+      }
+      figures.push(figure(`check/${name}${withCell ? "" : "-no-collision"}`, "ms", times, note));
+    }
+  }
+  return Promise.resolve(figures);
+}
+
+/** Loops of straight moves, 2 mm apart, over a plane 0.25 m above the table. */
+function traced(robot: Robot, blend_m: number): Program {
+  const steps: Step[] = [], down: Quaternion = [1, 0, 0, 0];
+  const target = (position: Vector3): { pose: Pose<"frame", "tcp">; frame: string; tool: string } => ({ pose: { position, quaternion: down }, frame: "world", tool: "flange" });
+  steps.push({ id: "s0", type: "move", path: "ptp", target: target([0.65, 0, 0.75]), speed: { ratio: 0.5 }, blend_m: 0 });
+  for (let i = 1; i < POSES; i++) {
+    const turn = i * 0.02, radius = 0.1 + 0.02 * Math.sin(turn / 40);
+    steps.push({
+      id: `s${i}`, type: "move", path: "lin", speed: { mps: 0.1 }, blend_m,
+      target: target([0.55 + radius * Math.cos(turn), radius * Math.sin(turn), 0.75 + 0.01 * Math.sin(turn / 7)]),
+    });
+  }
+  return { ...emptyProgram(robot.id, "Traced"), steps };
+}
+
+/** Joint moves from one seeded posture to the next, all inside the limits and not far from home. */
+function jointMoves(robot: Robot): Program {
+  const random = seededRandom(11), centre = [0, -0.9, 2.2, 0, 0.6, 0], reach = [1, 0.15, 0.15, 1.5, 0.8, 2];
+  const steps: Step[] = Array.from({ length: JOINT_MOVES }, (_, i) => ({
+    id: `s${i}`, type: "move", path: "ptp", target: { q: centre.map((c, j) => c + (random() * 2 - 1) * reach[j]!) }, speed: { ratio: 1 }, blend_m: 0,
+  }));
+  return { ...emptyProgram(robot.id, "Joint moves"), steps };
+}
