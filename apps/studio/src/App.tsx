@@ -46,6 +46,7 @@ export function App() {
           {!phone && <Coach />}
           <Welcome />
           <Notices />
+          <span className="visually-hidden" id="reorder-hint">{words.tree.reorderHint}</span>
         </main>
         {phone
           ? <Sheet key="sheet" />
@@ -57,7 +58,6 @@ export function App() {
         <Files />
         <Shortcuts />
         <GamepadWatch />
-        <span className="visually-hidden" id="reorder-hint">{words.tree.reorderHint}</span>
       </div>
     </Tooltip.Provider>
   );

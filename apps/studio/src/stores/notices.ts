@@ -5,11 +5,15 @@ export interface Notice { readonly id: number; readonly tone: "info" | "warn" | 
 export interface NoticeState { readonly notices: readonly Notice[] }
 export const noticeStore = createStore<NoticeState>(() => ({ notices: [] }));
 
+/** What went well is old news as soon as something else goes well; problems stay beside it. */
+const quiet = (notice: Notice): boolean => notice.tone === "info" || notice.tone === "done";
+const stays = (notice: Notice): boolean => !quiet(notice);
+
 let next = 1;
 export function notify(tone: Notice["tone"], sentence: string, hint?: string): number {
   const id = next++;
   const notice: Notice = hint === undefined ? { id, tone, sentence } : { id, tone, sentence, hint };
-  noticeStore.setState(state => ({ notices: [...state.notices.slice(-4), notice] }));
+  noticeStore.setState(state => ({ notices: [...state.notices.filter(other => stays(other) || !quiet(notice)).slice(-3), notice] }));
   return id;
 }
 export const dismiss = (id: number): void => noticeStore.setState(state => ({ notices: state.notices.filter(notice => notice.id !== id) }));

@@ -29,7 +29,7 @@ export const en = {
     title: "Controller", commander: "Commanded by", mode: "Mode", latency: "Latency", safety: "Safety", state: "State", speed: "Speed",
     modes: { manual: "manual", automatic: "automatic", remote: "remote" },
     safetyStates: { normal: "normal", "guard-stop": "guard open: robot held", "protective-stop": "protective stop", "emergency-stop": "emergency stop: drives off" },
-    running: "runs a program", idle: "at rest", you: "you", unknown: "not measured yet", ms: (ms: number) => `${ms < 10 ? ms.toFixed(1) : ms.toFixed(0)} ms`, reset: "Reset after stop",
+    running: "runs a program", idle: "at rest", you: "you", commands: (who: string) => (who === "you" ? "you command" : `${who} commands`), unknown: "not measured yet", ms: (ms: number) => `${ms < 10 ? ms.toFixed(1) : ms.toFixed(0)} ms`, reset: "Reset after stop",
     virtualNote: "This controller lives in the page. Nothing outside moves.",
   },
   tree: {
@@ -53,7 +53,7 @@ export const en = {
     done: (label: string) => `Undone: ${label}.`, redone: (label: string) => `Done again: ${label}.`, nothing: "There is nothing to undo.", nothingAhead: "There is nothing to redo.",
   },
   field: {
-    notUnderstood: (text: string, unit: string) => `“${text}” is not a length of time, angle or distance I can read. Type a number, for instance 25${unit && ` ${unit}`}, +10 or 90/4.`,
+    notUnderstood: (text: string, unit: string) => `“${text}” is not a number I can read. Type one, for instance 25${unit && ` ${unit}`}, +10 or 90/4.`,
     atLeast: (name: string, limit: string, unit: string) => `${name} is at least ${limit} ${unit}.`, atMost: (name: string, limit: string, unit: string) => `${name} is at most ${limit} ${unit}.`,
   },
   inspector: {
@@ -116,10 +116,10 @@ export const en = {
   file: {
     save: "Save to file", load: "Open file …", example: "Open the edge-trace example", fresh: "New empty cell", drop: "Drop a cell, program or CAD file to open it.", opened: (name: string) => `${name} is open.`, saved: (name: string) => `${name} was saved to your downloads.`, lifted: (text: string) => `The file was brought up to date: ${text}`, tooNew: (version: number, newest: number) => `This file says version ${version}; this Twincell reads up to version ${newest}.`, tooNewHint: "Open it with a newer Twincell.",
     notCell: (name: string, why: string) => `${name} was not opened. ${why}`, notCellHint: "What you had is still open.", fullDisk: "The browser has no room left to keep this cell.", fullDiskHint: "Nothing is lost: it stays open. Save it to a file, or delete old runs in History.", noKeep: (why: string) => `The browser did not keep the cell: ${why}`, noKeepHint: "Nothing is lost: it stays open. Save it to a file.",
-    damaged: "The cell kept in this browser could not be read; an earlier copy was opened.", lost: "The cell kept in this browser could not be read; the example was opened instead.", unreadable: (name: string) => `${name} could not be read from the disk.`, mesh: (name: string, faces: number) => `${name} was added with ${faces.toLocaleString("en")} triangles.`, unknownKind: (name: string) => `${name} is neither a cell, nor a program, nor an STL or URDF file I can read.`, unknownHint: "Drop a .json cell saved by Twincell, a V+ text (.v2, .pg, .txt), or an STL mesh.",
+    damaged: "The cell kept in this browser could not be read; an earlier copy was opened.", lost: "The cell kept in this browser could not be read; the example was opened instead.", unreadable: (name: string) => `${name} could not be read from the disk.`, mesh: (name: string, faces: number) => `${name} was added with ${faces.toLocaleString("en")} triangles.`, unknownKind: (name: string) => `${name} is neither a cell, nor a V+ program, nor an STL or OBJ mesh.`, unknownHint: "Drop a .json cell saved by Twincell, a V+ text (.v2, .pg, .txt), or an STL or OBJ mesh.",
   },
   welcome: {
-    title: "Start with a cell", example: "Open an example", exampleSays: "A Stäubli RX90L, a carton on a table, four edges to trace.", drop: "Drop a robot or CAD file", dropSays: "STL meshes become objects. Or start with the robot alone.", connect: "Connect a controller", connectSays: "The virtual RX90L is connected. Real controllers come later.", connected: "connected", empty: "Empty cell", choose: "Choose a file",
+    title: "Start with a cell", example: "Open an example", exampleSays: "A Stäubli RX90L, a carton on a table, four edges to trace.", drop: "Drop a CAD file", dropSays: "STL and OBJ meshes become objects; cells and V+ texts open.", connect: "Connect a controller", connectSays: "The virtual RX90L is connected. Real controllers come later.", connected: "connected", empty: "Empty cell", choose: "Choose a file",
   },
   export: {
     title: "Export", dialect: "Language", files: "Files", text: "Text", warnings: "Notes", none: "No notes.", download: "Download all", copy: "Copy text", step: (name: string) => `from ${name}`, cannot: "This program cannot be written in this language:", manifest: "Manifest", lines: (n: number) => plural(n, "line"), copied: "The text is in the clipboard.", notCopied: "The browser did not allow copying.", notCopiedHint: "Select the text and copy it by hand.",
@@ -141,7 +141,7 @@ export const en = {
   },
   commands: {
     stop: "Stop everything", undo: "Undo", redo: "Redo", save: "Save to file", load: "Open file …", example: "Open the edge-trace example", fresh: "New empty cell", palette: "All commands", shortcuts: "Keyboard shortcuts", controls: "Controls: keys and gamepad", export: "Export V+", import: "Import V+ text",
-    teach: "Teach", check: "Check", run: "Run", history: "History", theme: "Light or dark", mute: "Sounds on or off", camera: "Main or close camera", headset: "Enter the headset", trace: "Trace edges", recordPtp: "Record point, PTP", recordLin: "Record point, LIN", touchUp: "Touch up the selected point", wait: "Add a wait", gripperClose: "Add: close gripper", gripperOpen: "Add: open gripper",
+    teach: "Teach", check: "Check", run: "Run", history: "History", theme: "Theme: light or dark", mute: "Sounds on or off", camera: "Main or close camera", headset: "Enter the headset", trace: "Trace edges", recordPtp: "Record point, PTP", recordLin: "Record point, LIN", touchUp: "Touch up the selected point", wait: "Add a wait", gripperClose: "Add: close gripper", gripperOpen: "Add: open gripper",
     ready: "Do Ready: go home", zero: "All joints to zero", aidNext: "Next orientation aid", aidPrevious: "Previous orientation aid", remove: "Delete what is selected", duplicate: "Duplicate the selected step", clear: "Clear the program", play: "Play or pause", stepOn: "Next step", stepBack: "Previous step", start: "To the start", checkNow: "Check now", repairAll: "Repair all", plots: "Plots", up: "Move the step up", down: "Move the step down", rename: "Rename", startRun: "Run on the virtual controller", frame: (name: string) => `Jog in ${name}`, coach: "Show the coach again", box: "Add a box", deselect: "Leave",
   },
   sheet: { label: "Tools", jog: "Jog", program: "Program", why: "Why", run: "Run", dead: "Hold to move" },

@@ -1,6 +1,7 @@
 import { notify } from "../../stores/notices.ts";
 import { openCellText } from "../../stores/opening.ts";
 import { importText } from "../../stores/importing.ts";
+import { importMesh } from "../../live/mesh-import.ts";
 import { words } from "../../words/index.ts";
 
 /** Opens a chosen or dropped file by what it is. Whatever is wrong with it is one sentence; what was open stays open. */
@@ -8,6 +9,7 @@ export async function openFile(file: File): Promise<void> {
   const kind = /\.([a-z0-9]+)$/i.exec(file.name)?.[1]?.toLowerCase() ?? "";
   try {
     if (kind === "json") openCellText(await file.text(), file.name);
+    else if (kind === "stl" || kind === "obj") await importMesh(file.name, kind, new Uint8Array(await file.arrayBuffer()));
     else if (kind === "v2" || kind === "pg" || kind === "txt") {
       const [fault] = importText(await file.text(), file.name);
       if (fault !== undefined) notify("bad", words.file.notCell(file.name, fault), words.file.notCellHint);

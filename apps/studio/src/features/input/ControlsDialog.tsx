@@ -47,7 +47,8 @@ function Tables() {
       <section><h3 className="heading">{words.pad.keyboard}</h3>
         {HELD_ACTIONS.map(action => (
           <div className="control-line" key={action}><span>{words.pad.actions[action]}</span>
-            <button className="btn tight" aria-label={words.pad.rebind(words.pad.actions[action])} aria-pressed={waiting?.kind === "key" && waiting.action === action} onClick={() => setWaiting({ kind: "key", action })}>
+            <button className="btn tight" aria-pressed={waiting?.kind === "key" && waiting.action === action} onClick={() => setWaiting({ kind: "key", action })}>
+              <span className="visually-hidden">{words.pad.rebind(words.pad.actions[action])}: </span>
               {waiting?.kind === "key" && waiting.action === action ? words.pad.press : <span className="kbd">{keyOf(action)}</span>}
             </button></div>
         ))}
@@ -58,7 +59,8 @@ function Tables() {
           const button = buttonOf(action), value = button === undefined ? 0 : pad?.buttons[Number(button)] ?? 0;
           return (
             <div className="control-line" key={action} data-live={value >= DOWN}><span>{words.pad.actions[action]}</span><span className="control-level" aria-hidden><i style={{ width: `${value * 100}%` }} /></span>
-              <button className="btn tight" aria-label={words.pad.rebind(words.pad.actions[action])} aria-pressed={waiting?.kind === "button" && waiting.action === action} onClick={() => setWaiting({ kind: "button", action })}>
+              <button className="btn tight" aria-pressed={waiting?.kind === "button" && waiting.action === action} onClick={() => setWaiting({ kind: "button", action })}>
+                <span className="visually-hidden">{words.pad.rebind(words.pad.actions[action])}: </span>
                 {waiting?.kind === "button" && waiting.action === action ? words.pad.pressButton : button === undefined ? words.pad.unbound : words.pad.button(Number(button))}
               </button></div>
           );

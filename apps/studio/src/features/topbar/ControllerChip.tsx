@@ -10,13 +10,13 @@ export function ControllerChip({ brief }: { brief: boolean }) {
   const control = useStore(controlStore), override = useStore(playStore, state => state.speed);
   const latency = control.latency_ms === null ? null : words.control.ms(control.latency_ms);
   const says = control.safety === "normal"
-    ? [words.control.modes[control.mode], latency, words.control.title && `${control.commander} ${control.commander === words.control.you ? "command" : "commands"}`].filter(Boolean).join(" · ")
+    ? [words.control.modes[control.mode], latency, words.control.commands(control.commander)].filter(Boolean).join(" · ")
     : words.control.safetyStates[control.safety];
   return (
     <Popover.Root>
       <Popover.Trigger asChild>
-        <button className="chip" data-safety={control.safety} data-running={control.running} aria-label={`${words.control.title}: ${control.controller}, ${says}`}>
-          <i aria-hidden /><span>{control.controller}</span>{!brief && <span className="chip-more">{says}</span>}
+        <button className="chip" data-safety={control.safety} data-running={control.running}>
+          <i aria-hidden /><span>{control.controller}</span>{brief ? <span className="visually-hidden">{says}</span> : <span className="chip-more">{says}</span>}
         </button>
       </Popover.Trigger>
       <Popover.Portal>

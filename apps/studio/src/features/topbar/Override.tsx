@@ -13,7 +13,7 @@ export function Override() {
   return (
     <Popover.Root>
       <Popover.Trigger asChild>
-        <button className="chip" aria-label={`${words.top.speed} ${percent} %`}><span className="dim">{words.top.speed}</span><b className="override-number">{percent} %</b></button>
+        <button className="chip"><span className="dim">{words.top.speed}</span><b className="override-number">{percent} %</b></button>
       </Popover.Trigger>
       <Popover.Portal>
         <Popover.Content className="pop" sideOffset={8} collisionPadding={8} style={{ width: 260 }}>

@@ -20,6 +20,7 @@ const MENU: readonly (readonly string[])[] = [["file.save", "file.load", "file.e
 export function TopBar({ phone }: { phone: boolean }) {
   return (
     <header className="topbar area-top">
+      <h1 className="visually-hidden">{words.app.name}</h1>
       <CellMenu />
       {!phone && <><CellName /><UndoRedo /></>}
       <div className="topbar-space" />
@@ -42,7 +43,7 @@ function CellMenu() {
   const commands = useStore(commandStore, state => state.commands);
   return (
     <DropdownMenu.Root modal={false}>
-      <DropdownMenu.Trigger asChild><button className="brand" aria-label={words.top.menu}><i aria-hidden /><span>{words.app.name}</span></button></DropdownMenu.Trigger>
+      <DropdownMenu.Trigger asChild><button className="brand" aria-label={`${words.app.name}: ${words.top.menu}`}><i aria-hidden /><span>{words.app.name}</span></button></DropdownMenu.Trigger>
       <DropdownMenu.Portal>
         <DropdownMenu.Content className="menu" align="start" sideOffset={6}>
           {MENU.map((ids, i) => (
@@ -79,10 +80,10 @@ function RightEnd() {
   const { theme, muted } = useStore(viewStore);
   return (
     <>
-      <Tip words={words.top.headsetTip}><button className="btn topbar-headset" onClick={() => runCommand("view.headset")}><Headset /><span>{words.top.headset}</span></button></Tip>
+      <Tip words={words.top.headsetTip}><button className="btn topbar-headset" aria-label={words.top.headset} onClick={() => runCommand("view.headset")}><Headset /><span>{words.top.headset}</span></button></Tip>
       <Tip words={words.top.theme}><button className="btn quiet icon" aria-label={words.top.theme} onClick={() => runCommand("view.theme")}>{theme === "dark" ? <Sun /> : <Moon />}</button></Tip>
       <Tip words={muted ? words.top.unmute : words.top.mute}><button className="btn quiet icon" aria-label={words.top.mute} aria-pressed={muted} onClick={() => runCommand("view.mute")}>{muted ? <VolumeX /> : <Volume2 />}</button></Tip>
-      <Tip words={words.top.palette}><button className="topbar-palette" aria-label={words.top.palette} onClick={() => runCommand("help.palette")}><span className="kbd">{showKeys("Mod+K")}</span></button></Tip>
+      <Tip words={words.top.palette}><button className="topbar-palette" aria-label={words.top.palette} onClick={() => runCommand("help.palette")}><span className="kbd" aria-hidden>{showKeys("Mod+K")}</span></button></Tip>
     </>
   );
 }

@@ -1,4 +1,4 @@
-import { Cable, FileUp, Shapes } from "lucide-react";
+import { Cable, FileUp } from "lucide-react";
 import { useStore } from "zustand";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
@@ -18,7 +18,6 @@ export function Welcome() {
         <button className="welcome-way" onClick={() => runCommand("file.load")}><span className="welcome-glyph" aria-hidden><FileUp /></span><b>{words.welcome.drop}</b><span>{words.welcome.dropSays}</span></button>
         <div className="welcome-way" data-quiet><span className="welcome-glyph" aria-hidden><Cable /></span><b>{words.welcome.connect}</b><span>{words.welcome.connectSays}</span></div>
       </div>
-      <p className="small dim"><Shapes size={13} aria-hidden /> {words.tree.empty}</p>
     </section>
   );
 }
