@@ -1,7 +1,7 @@
 import { createReadStream, existsSync } from "node:fs";
 import { cp, mkdir, readFile, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
-import { dirname, join, normalize } from "node:path";
+import { dirname, join, normalize, resolve } from "node:path";
 import type { Plugin } from "vite";
 
 /** Controllers and hands that are drawn as themselves; every other one falls back to the generic models. */
@@ -18,7 +18,7 @@ export function controllerProfiles(): Plugin {
   let outDir = "dist";
   return {
     name: "twincell-controller-profiles",
-    configResolved(config) { outDir = join(config.root, config.build.outDir); },
+    configResolved(config) { outDir = resolve(config.root, config.build.outDir); },
     configureServer(server) {
       server.middlewares.use("/profiles", (request, response, next) => {
         const path = normalize(decodeURIComponent((request.url ?? "/").split("?")[0]!)), file = join(source, path);

@@ -21,9 +21,9 @@ const box = new Box3();
 
 /**
  * How far from the middle of a box the camera must be, looking along `direction`, for all eight corners to be inside the
- * picture. A margin just below 1 lets empty corners touch its rim.
+ * picture. The margin leaves room for what lies over its rim.
  */
-export function fitDistance(bounds: Box3, direction: Vector3, camera: PerspectiveCamera, margin = 0.97): number {
+export function fitDistance(bounds: Box3, direction: Vector3, camera: PerspectiveCamera, margin = 1.17): number {
   const forward = direction.clone().normalize(), up = Math.abs(forward.y) > 0.999 ? new Vector3(0, 0, -1) : new Vector3(0, 1, 0);
   const right = new Vector3().crossVectors(forward, up).normalize(), above = new Vector3().crossVectors(right, forward);
   const tall = Math.tan((camera.fov * Math.PI) / 360), wide = tall * camera.aspect, centre = bounds.getCenter(new Vector3());
