@@ -110,7 +110,7 @@ export const en = {
     start: "To the first point", io: "Gripper",
   },
   history: {
-    title: "Runs", none: "No run yet. Every run is recorded and appears here.", open: "Open run", endings: { done: "done", stopped: "stopped", refused: "refused", running: "runs now", "cut-off": "cut off" }, remove: "Delete run", download: "Download .mcap", events: "Events", noEvents: "Nothing happened in this run but motion.", loading: "The recording is being read …", unreadable: "The recording could not be read:", choose: "Open a run to look back at any moment of it.",
+    title: "Runs", moment: "Moment of the run", none: "No run yet. Every run is recorded and appears here.", open: "Open run", endings: { done: "done", stopped: "stopped", refused: "refused", running: "runs now", "cut-off": "cut off" }, remove: "Delete run", download: "Download .mcap", events: "Events", noEvents: "Nothing happened in this run but motion.", loading: "The recording is being read …", unreadable: "The recording could not be read:", choose: "Open a run to look back at any moment of it.",
     size: (bytes: number) => (bytes < 1e6 ? `${Math.round(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`), full: "There is no room left in this browser for the recording of this run.", fullHint: "Delete older runs, or download them first.", name: (cell: string, n: number) => `${cell}, run ${n}`, deleted: "The run was deleted.", back: "Back to now",
   },
   file: {
