@@ -72,8 +72,8 @@ export interface CellControl {
   close(): void;
 }
 
-/** Robot and guard share the page's own clock: a page that draws slowly is late with both, and no link is lost. */
-const PAGE_SILENCE_S = 1;
+/** Robot and guard share the page: one that draws slowly is late with both, and there is no link between them to lose. */
+const PAGE_SILENCE_S = Infinity;
 
 export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromTcp, isSafe }: RunSetting): CellControl {
   const { scheduler } = world, begun_s = scheduler.now_s();
