@@ -83,12 +83,12 @@ describe("a file that is not what it says", () => {
   test("V+ text with faults in the import dialog: line, column and sentence of each, and the text stays", async () => {
     const { page } = open, before = await documentOf(page), text = ".PROGRAM a()\nMOVE #PPOINT(1,2,3\nFLY home\n.END\n";
     await page.evaluate(() => window.twincell.run("export.import"));
-    await page.getByLabel("V+ text").fill(text);
+    await page.getByRole("textbox", { name: "V+ text" }).fill(text);
     await page.getByRole("button", { name: "Import", exact: true }).click();
     const faults = page.getByRole("dialog").getByRole("alert").locator("li");
     await faults.first().waitFor();
     expect((await faults.allTextContents())[0]).toMatch(/^Line 2, column \d+: .+\.$/);
-    expect(await page.getByLabel("V+ text").inputValue()).toBe(text);
+    expect(await page.getByRole("textbox", { name: "V+ text" }).inputValue()).toBe(text);
     expect(await documentOf(page)).toBe(before);
     await page.keyboard.press("Escape");
     await page.getByRole("dialog").waitFor({ state: "detached" });
@@ -166,10 +166,10 @@ describe("a browser that cannot do everything", () => {
     await page.locator(".scene-note[role=alert]").waitFor();
     expect(await page.locator(".scene-note").textContent()).toMatch(/3D view could not start/);
     await isAlive(page);
-    await page.getByRole("button", { name: "Jog X up" }).focus();
-    const z = await page.evaluate(() => window.twincell.live.now().revision);
+    await page.evaluate(() => window.twincell.stores.jogStore.setState({ frame: "joint" }));
+    const revision = await page.evaluate(() => window.twincell.live.now().revision);
     await page.keyboard.down("s");
-    await page.waitForFunction(before => window.twincell.live.now().revision > before, z);
+    await page.waitForFunction(before => window.twincell.live.now().revision > before, revision);
     await page.keyboard.up("s");
     await page.evaluate(() => window.twincell.run("program.record-ptp"));
     await page.keyboard.press("Control+e");
@@ -216,7 +216,8 @@ test("STOP: a part that throws is named, and everything else is still brought to
   await page.locator("button.stop").dispatchEvent("pointerdown", { button: 0 });
   await waitForNotice(page, /did not answer to STOP: A planted trouble\.$/);
   await waitForNotice(page, /^Everything was stopped\.$/);
-  expect(await page.evaluate(() => window.twincell.stores.controlStore.getState().message)).toMatch(/stopped/);
+  // The virtual controller registered after the playhead: it was still asked.
+  await page.waitForFunction(() => /stopped/.test(window.twincell.stores.controlStore.getState().message));
   const at = await page.evaluate(() => [...window.twincell.live.now().q_rad]);
   await page.evaluate(() => new Promise<void>(done => { let left = 6; const next = (): void => { if (left-- <= 0) done(); else requestAnimationFrame(next); }; next(); }));
   expect(await page.evaluate(() => [...window.twincell.live.now().q_rad])).toEqual(at);

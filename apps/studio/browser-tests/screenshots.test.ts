@@ -24,8 +24,10 @@ let studio: Studio;
 beforeAll(async () => { studio = await Studio.start(); });
 afterAll(async () => { await studio?.stop(); });
 
+/** Waits until so many frames are drawn and what moves has come to rest. */
 async function frames(page: Page, count: number): Promise<void> {
   await page.evaluate(left => new Promise<void>(done => { const next = (): void => { if (left-- <= 0) done(); else requestAnimationFrame(next); }; next(); }), count);
+  await page.evaluate(() => Promise.allSettled(document.getAnimations().filter(each => each.effect?.getComputedTiming().iterations !== Infinity).map(each => each.finished)));
 }
 
 describe.each(SIZES)("the studio at $name", size => {
