@@ -78,7 +78,7 @@ export function startCellControl(): void {
     if (state.mode === "history" && before.mode !== "history") takeRobot("history", () => { theHistory.pause(); });
   });
   registerCommands([
-    { id: "run.start", group: "play", words: words.commands.startRun, keys: ["Mod+Enter"], run: () => { void startRun(); } },
+    { id: "run.start", group: "play", words: words.commands.startRun, keys: ["Mod+Shift+Enter"], run: () => { void startRun(); } },
     {
       id: "run.reset", group: "play", words: words.control.reset, run: () => {
         const outcome = theControl()?.reset();
