@@ -173,7 +173,7 @@ describe("a browser that cannot do everything", () => {
     await page.keyboard.up("s");
     await page.evaluate(() => window.twincell.run("program.record-ptp"));
     await page.keyboard.press("Control+e");
-    await page.getByRole("region", { name: /V\+ text/ }).waitFor();
+    await page.getByRole("region", { name: /edge_trace/ }).waitFor();
     await context.close();
   });
 

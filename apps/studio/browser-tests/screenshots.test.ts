@@ -9,11 +9,11 @@ const TRACED = saveDocument(tracedCartonCell());
 const MODES: readonly StudioMode[] = ["teach", "check", "run", "history"];
 const THEMES = ["dark", "light"] as const;
 const SIZES: readonly (OpenOptions & { readonly name: string; readonly width: number; readonly height: number })[] = [
-  { name: "1280x800", width: 1280, height: 800 }, { name: "1920x1080", width: 1920, height: 1080 },
+  { name: "1280x800", width: 1280, height: 800 }, { name: "1920x1080", width: 1920, height: 1080 }, { name: "820x1180", width: 820, height: 1180 },
   { name: "390x844", width: 390, height: 844, touch: true }, { name: "844x390", width: 844, height: 390, touch: true },
 ];
 /** What floats over the view, each at a place of its own. */
-const FLOATING = [".view-cube", ".view-fit", ".hint", ".readout", ".readout-frame", ".picture", ".trace-toggle", ".coach", ".notice"];
+const FLOATING = [".view-cube", ".view-fit", ".hint", ".readout", ".readout-frame", ".picture", ".trace-toggle", ".coach", ".notice", ".topbar > *"];
 /** Shown whole or not at all. */
 const WHOLE = ".topbar *, .hint, .hint *, .sheet-tabs *, .btn, .seg-item, .readout dd";
 /** For a thumb. */
