@@ -143,7 +143,7 @@ describe("by keyboard alone", () => {
       seen.add(stop.name);
     }
     expect(unseen).toEqual([]);
-    for (const name of ["Skip to the program", "Cell menu", "Name of the cell", "STOP", "Export V+", "Jog X up"]) expect([...seen]).toContain(name);
+    for (const name of ["Skip to the program", "Twincell: Cell menu", "Name of the cell", "STOP", "Export V+", "Jog X up"]) expect([...seen]).toContain(name);
     await page.context().close();
   });
 });

@@ -8,7 +8,7 @@ const GOOD = saveDocument(edgeTraceCell());
 const changed = (change: (cell: Record<string, unknown>) => Record<string, unknown>): string => JSON.stringify(change(JSON.parse(GOOD)));
 const nested = (depth: number): string => `${"[".repeat(depth)}${"]".repeat(depth)}`;
 /** The picture costs most where the processor draws it. */
-const SMALL = { width: 800, height: 420 };
+const SMALL = { width: 920, height: 420 };
 
 let studio: Studio;
 beforeAll(async () => { studio = await Studio.start(); });
