@@ -29,6 +29,7 @@ const Viewport = lazy(() => import("./scene/Viewport.tsx").then(scene => ({ defa
 const Export = lazy(() => import("./features/export/Export.tsx"));
 const Run = lazy(() => import("./features/run/Run.tsx"));
 const History = lazy(() => import("./features/history/History.tsx"));
+const Rewind = lazy(() => import("./features/history/Rewind.tsx"));
 
 /** The shell: four modes around one scene. Nothing here changes many times a second. */
 export function App() {
@@ -74,8 +75,8 @@ function RightSide() {
     case "history": return <Suspense><History /></Suspense>;
   }
 }
-/** History has its own timeline, beside the runs. */
+/** In History the time is that of the open run. */
 function BottomSide() {
-  if (useStore(viewStore, state => state.mode) === "history") return null;
-  return <footer className="area-bottom" aria-label={words.app.region.time}><Timeline /></footer>;
+  const history = useStore(viewStore, state => state.mode === "history");
+  return <footer className="area-bottom" aria-label={words.app.region.time}>{history ? <Suspense><Rewind /></Suspense> : <Timeline />}</footer>;
 }

@@ -6,6 +6,7 @@ import { watchCollisions } from "./live/collision.ts";
 import { startFollowing } from "./live/follow.ts";
 import { tick } from "./live/frames.ts";
 import { endGlide } from "./live/glide.ts";
+import { startHandPath } from "./live/hand-path.ts";
 import { releaseAll } from "./live/held.ts";
 import { startJogging } from "./live/jogger.ts";
 import { pause, startPlayhead } from "./live/playhead.ts";
@@ -22,6 +23,7 @@ export function boot(): void {
   startFollowing();
   startPlayhead();
   startJogging();
+  startHandPath();
   startPreview();
   startSounds();
   for (const bringToRest of [releaseAll, endGlide, pause]) onStop(bringToRest);

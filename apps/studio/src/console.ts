@@ -1,4 +1,5 @@
 import { hold, release, releaseAll } from "./live/held.ts";
+import { linkMeter } from "./live/link-meter.ts";
 import { showJoints, theLive, touchingNow } from "./live/live.ts";
 import { playheadNow } from "./live/playhead.ts";
 import { aidStore } from "./stores/aids.ts";
@@ -14,16 +15,18 @@ import { jogStore } from "./stores/jog.ts";
 import { noticeStore } from "./stores/notices.ts";
 import { openCellText } from "./stores/opening.ts";
 import { playStore } from "./stores/play.ts";
+import { postStore } from "./stores/post.ts";
 import { seek } from "./stores/seek.ts";
 import { selectionStore } from "./stores/selection.ts";
 import { soundStore } from "./stores/sound.ts";
 import { traceStore } from "./stores/trace.ts";
 import { viewStore } from "./stores/view.ts";
+import { watchStore } from "./stores/watch.ts";
 
 /** What the browser's console and tests can reach: every store, the live state, and the commands by name. */
 const twincell = {
-  stores: { aidStore, bindingStore, cellStore, commandStore, controlStore, dialogStore, gamepadStore, historyStore, jogStore, noticeStore, playStore, selectionStore, soundStore, traceStore, viewStore },
-  live: { now: theLive, touching: touchingNow, showJoints, hold, release, releaseAll, playhead: playheadNow },
+  stores: { aidStore, bindingStore, cellStore, commandStore, controlStore, dialogStore, gamepadStore, historyStore, jogStore, noticeStore, playStore, postStore, selectionStore, soundStore, traceStore, viewStore, watchStore },
+  live: { now: theLive, touching: touchingNow, showJoints, hold, release, releaseAll, playhead: playheadNow, link: linkMeter },
   document: { commit, undo, redo, show: showDocument, open: openCellText },
   run: runCommand, seek,
 };

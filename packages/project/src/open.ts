@@ -66,7 +66,7 @@ function twice(list: string, key: string, names: readonly string[]): string[] {
 
 function sentence(issue: z.core.$ZodIssue): string {
   const path = issue.path.reduce<string>((so, key) => typeof key === "number" ? `${so}[${key}]` : so === "" ? String(key) : `${so}.${String(key)}`, "");
-  const said = issue.message.replace(/[.]$/, "");
+  const said = issue.message.replace(/[.]$/, "").replace(/^Invalid input: expected (.+), received (.+)$/, (_, wanted: string, found: string) => `expected ${wanted}, found ${found === "undefined" ? "nothing" : found}`);
   return `${path === "" ? "The cell" : path}: ${said}.`;
 }
 

@@ -4,6 +4,7 @@ import { fileURLToPath } from "node:url";
 import type {} from "../../src/console.ts";
 import type {} from "../../src/scene/scene-probe.tsx";
 import { chromium, type Browser, type BrowserContext, type Page } from "playwright-core";
+export type { Page };
 
 const root = fileURLToPath(new URL("../../../../", import.meta.url));
 const PLACES = [process.env["TWINCELL_CHROMIUM"], "/usr/bin/chromium", "/usr/bin/google-chrome"];
@@ -20,6 +21,8 @@ export interface OpenOptions {
   /** Added to the page before it starts. */
   readonly script?: string;
   readonly query?: string;
+  /** Called with the page while it is still empty. */
+  readonly before?: (page: Page) => void;
 }
 
 /** The studio as users get it: served by the command line, shown by a real Chromium. */
@@ -70,6 +73,7 @@ export class Studio {
         addEventListener("DOMContentLoaded",()=>document.head.append(Object.assign(document.createElement("style"),{textContent:"[data-webxr_runtime]{background:#000}[data-webxr_runtime] canvas{position:absolute!important;inset:0!important;width:100%!important;height:100%!important}"})))}` });
     }
     if (options.script) await page.addInitScript({ content: options.script });
+    options.before?.(page);
     await page.goto(this.url + (options.query ?? ""));
     return { page, context, problems };
   }

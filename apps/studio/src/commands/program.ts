@@ -6,6 +6,7 @@ import type { Command } from "../stores/commands.ts";
 import { theProgram, theRobot } from "../stores/document.ts";
 import { notify } from "../stores/notices.ts";
 import { addGripper, addWait, clearProgram, copySteps, deleteSteps, recordPoint, stepWords, touchUp } from "../stores/program.ts";
+import { recordMoving, recordStore } from "../stores/record.ts";
 import { seekStep } from "../stores/seek.ts";
 import { selectionStore } from "../stores/selection.ts";
 import { sound } from "../stores/sound.ts";
@@ -32,6 +33,7 @@ function gripper(closed: boolean): void {
 export const programCommands = (): readonly Command[] => [
   { id: "program.record-ptp", group: "program", words: words.commands.recordPtp, keys: ["P"], can: hasProgram, run: () => record("ptp") },
   { id: "program.record-lin", group: "program", words: words.commands.recordLin, keys: ["Shift+P"], can: hasProgram, run: () => record("lin") },
+  { id: "program.record-moving", group: "program", words: words.commands.recordMoving, keys: ["Shift+R"], can: hasProgram, run: () => recordMoving(!recordStore.getState().moving) },
   {
     id: "program.touch-up", group: "program", words: words.commands.touchUp, keys: ["Shift+U"], can: () => isMove(selectedStep()),
     run: () => { const id = selectedStep(); if (id && touchUp(id, theLive().q_rad, cellStore.getState().document?.tool ?? "flange")) notify("done", words.jog.touched(nameOf(id))); },

@@ -1,5 +1,5 @@
 import { manualScheduler, robotById, type JointSample } from "@twincell/core";
-import { createRunRecorder } from "@twincell/recording";
+import { createRunRecorder, readRecording } from "@twincell/recording";
 import { expect, test } from "vitest";
 import { historyStore } from "../stores/history.ts";
 import { noticeStore } from "../stores/notices.ts";
@@ -37,7 +37,7 @@ test("T-54 travel back: the pose at any moment is the recorded one", async () =>
   const shelf = memoryShelf();
   await recordInto(shelf, 201, true).settled();
   viewStore.setState({ mode: "history" });
-  const back = travelBack(shelf, manualScheduler());
+  const back = travelBack(shelf, manualScheduler(), bytes => Promise.resolve(readRecording(bytes)));
   await back.refresh();
   expect(historyStore.getState().runs).toMatchObject([{ id: "r1", ending: "done" }]);
   await back.open("r1");
@@ -53,7 +53,7 @@ test("a closed tab loses at most the piece under way, and says that the run was 
   const shelf = memoryShelf();
   await recordInto(shelf, 175, false).settled();
   expect(await listRuns(shelf)).toMatchObject([{ ending: "cut-off" }]);
-  const back = travelBack(shelf, manualScheduler());
+  const back = travelBack(shelf, manualScheduler(), bytes => Promise.resolve(readRecording(bytes)));
   await back.open("r1");
   expect(historyStore.getState().duration_s).toBeGreaterThanOrEqual(1.75 - 0.5 - 0.02);
 });
@@ -62,7 +62,7 @@ test("a full disk is one sentence; what was kept can be opened", async () => {
   const shelf = memoryShelf(4);
   const file = recordInto(shelf, 500, true);
   expect(await file.settled()).toBe("The browser has no room left for this recording.");
-  const back = travelBack(shelf, manualScheduler());
+  const back = travelBack(shelf, manualScheduler(), bytes => Promise.resolve(readRecording(bytes)));
   await back.open("r1");
   expect(historyStore.getState().duration_s).toBeGreaterThan(0);
 });
@@ -71,7 +71,7 @@ test("bytes that are no recording are told, and nothing stays open", async () =>
   const shelf = memoryShelf();
   await shelf.set("meta:bad", { ...record, id: "bad" });
   await shelf.set("piece:bad:00000000", new Uint8Array([1, 2, 3]));
-  const back = travelBack(shelf, manualScheduler());
+  const back = travelBack(shelf, manualScheduler(), bytes => Promise.resolve(readRecording(bytes)));
   await back.open("bad");
   expect(historyStore.getState().open).toBeNull();
   expect(noticeStore.getState().notices.at(-1)?.tone).toBe("bad");

@@ -13,6 +13,7 @@ import { viewStore } from "../stores/view.ts";
 import { words } from "../words/index.ts";
 import { browserShelf } from "./archive.ts";
 import { leaveRobot, takeRobot } from "./owner.ts";
+import { readInWorker } from "./recording-reader.ts";
 import { controlCell, type CellControl } from "./run.ts";
 import { pageScheduler } from "./scheduler.ts";
 import { travelBack, type TravelBack } from "./travel-back.ts";
@@ -46,7 +47,7 @@ export function theControl(): CellControl | null {
   return control;
 }
 
-export const theHistory: TravelBack = travelBack(shelf, pageScheduler);
+export const theHistory: TravelBack = travelBack(shelf, pageScheduler, readInWorker);
 
 /** Runs the program's exported text; says in words how it ended. */
 export async function startRun(): Promise<void> {
@@ -77,7 +78,7 @@ export function startCellControl(): void {
     if (state.mode === "history" && before.mode !== "history") takeRobot("history", () => { theHistory.pause(); });
   });
   registerCommands([
-    { id: "run.start", group: "play", words: words.commands.startRun, keys: ["Mod+Enter"], run: () => { void startRun(); } },
+    { id: "run.start", group: "play", words: words.commands.startRun, keys: ["Mod+Shift+Enter"], run: () => { void startRun(); } },
     {
       id: "run.reset", group: "play", words: words.control.reset, run: () => {
         const outcome = theControl()?.reset();

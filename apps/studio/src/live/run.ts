@@ -4,6 +4,7 @@ import { createRunRecorder, type RunRecorder } from "@twincell/recording";
 import { controlStore } from "../stores/control.ts";
 import { historyStore, type RunEnding } from "../stores/history.ts";
 import { listRuns, openRunFile, type RunFile, type Shelf } from "./archive.ts";
+import { linkMeter } from "./link-meter.ts";
 import { showJoints, theLive } from "./live.ts";
 
 /** What a run needs to know of the cell. */
@@ -72,8 +73,8 @@ export interface CellControl {
   close(): void;
 }
 
-/** Robot and guard share the page's own clock: a page that draws slowly is late with both, and no link is lost. */
-const PAGE_SILENCE_S = 1;
+/** Robot and guard share the page: one that draws slowly is late with both, and there is no link between them to lose. */
+const PAGE_SILENCE_S = Infinity;
 
 export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromTcp, isSafe }: RunSetting): CellControl {
   const { scheduler } = world, begun_s = scheduler.now_s();
@@ -87,7 +88,11 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
     real: seat.robot, scheduler,
     mirror: {
       // Jogging and playback move the robot on screen too; the twin shows it only while it is the one that runs.
-      show: sample => { if (running) showJoints(sample.q_rad); },
+      show: sample => {
+        if (!running) return;
+        showJoints(sample.q_rad);
+        linkMeter.add(sample.sequence, (scheduler.now_s() - begun_s - sample.time_s) * 1000);
+      },
       read: out => { out.set(running ? theLive().q_rad : virtual.jointAngles()); return out; },
     },
   });
@@ -124,6 +129,7 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
     recorder.event("run", `The run of ${program.name} began.`);
     running = true;
     twin.clearLog();
+    linkMeter.reset();
     controlStore.setState({ running: true, twinError_rad: 0 });
     const outcome = await twin.run(prepared.steps(), prepared.context);
     running = false;

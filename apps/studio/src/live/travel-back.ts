@@ -1,10 +1,11 @@
-import { openRecording, type RecordedRun } from "@twincell/recording";
+import { playable, type RecordedRun } from "@twincell/recording";
 import type { Scheduler } from "@twincell/core";
 import { historyStore } from "../stores/history.ts";
 import { notify } from "../stores/notices.ts";
 import { viewStore } from "../stores/view.ts";
 import { listRuns, removeRun, runBytes, type Shelf } from "./archive.ts";
 import { showJoints } from "./live.ts";
+import type { ReadRecording } from "./recording-reader.ts";
 
 const TELL_EVERY_S = 0.1;
 
@@ -22,7 +23,7 @@ export interface TravelBack {
   remove(id: string): Promise<void>;
 }
 
-export function travelBack(shelf: Shelf, scheduler: Scheduler): TravelBack {
+export function travelBack(shelf: Shelf, scheduler: Scheduler, read: ReadRecording): TravelBack {
   let run: RecordedRun | null = null, told_s = -1;
 
   const tell = (force: boolean): void => {
@@ -43,8 +44,9 @@ export function travelBack(shelf: Shelf, scheduler: Scheduler): TravelBack {
     async open(id) {
       close();
       historyStore.setState({ open: id, opening: true });
-      const opened = openRecording(await runBytes(shelf, id), { scheduler });
+      const taken = await read(await runBytes(shelf, id));
       if (historyStore.getState().open !== id) return;
+      const opened = taken.kind === "read" ? playable(taken.data, { scheduler }) : taken;
       if (opened.kind === "not-a-recording") {
         close();
         notify("bad", opened.sentence, "Download the file to keep it, or delete the run.");

@@ -2,6 +2,7 @@ import { useFrame, useThree } from "@react-three/fiber";
 import type { Vector3 as Vector } from "@twincell/core";
 import { type RefObject, useEffect, useMemo } from "react";
 import { PerspectiveCamera, Quaternion } from "three";
+import { takeEffort_ms } from "../live/effort.ts";
 import { onTouching, theLive } from "../live/live.ts";
 import { viewStore } from "../stores/view.ts";
 import { closeCameraPosition } from "./camera/close-camera.ts";
@@ -70,7 +71,7 @@ export function RenderLoop({ meter, picture, cube }: { readonly meter: FrameMete
     const drawn = performance.now();
     if (cube.current && !camera.quaternion.equals(clock.turned)) { clock.turned.copy(camera.quaternion); turnCube(cube.current, camera); }
     meter.addDraw(drawn - drawing);
-    meter.addScript(performance.now() - drawn);
+    meter.addScript(performance.now() - drawn + takeEffort_ms());
     meter.endFrame();
   }, 1);
   return null;

@@ -25,7 +25,7 @@ export class Sharpness {
     if (revision !== this.#revision || !this.#seen.equals(camera.matrixWorld)) this.#moved_ms = now_ms;
     this.#revision = revision;
     this.#seen.copy(camera.matrixWorld);
-    const coarse = now_ms - this.#moved_ms < REST_MS, ratio = coarse ? COARSE : this.#full;
+    const coarse = now_ms - this.#moved_ms < REST_MS, ratio = coarse ? Math.min(COARSE, this.#full) : this.#full;
     if (gl.getPixelRatio() !== ratio) gl.setPixelRatio(ratio);
     if (!coarse) return;
     clearTimeout(this.#timer);

@@ -16,12 +16,12 @@ const edit = (label: string, change: (program: Program) => Program, gesture?: st
   commit(label, document => withProgram(document, change), gesture);
 
 /** Adds steps, selects the last of them and says whether there was a program to add them to. */
-export function addSteps(label: string, make: (program: Program) => readonly Step[], change: (program: Program) => Program = program => program): boolean {
+export function addSteps(label: string, make: (program: Program) => readonly Step[], change: (program: Program) => Program = program => program, gesture?: string): boolean {
   const program = theProgram();
   if (!program) return false;
   const steps = make(program), at = insertionIndex(program);
   const last = steps.at(-1);
-  if (!last || !edit(label, before => change(insertSteps(before, at, steps)))) return false;
+  if (!last || !edit(label, before => change(insertSteps(before, at, steps)), gesture)) return false;
   select({ kind: "step", id: last.id });
   return true;
 }

@@ -47,7 +47,7 @@ export const en = {
     kinds: { ratio: "% of joints", mps: "TCP speed", time_s: "duration" },
   },
   undo: {
-    recordPoint: "Record point", addWait: "Add wait", addGripper: "Add gripper step", touchUp: "Touch up point", rename: "Rename", deleteSteps: (n: number) => `Delete ${plural(n, "step")}`, duplicate: "Duplicate",
+    recordPoint: "Record point", recordPath: "Record path", addWait: "Add wait", addGripper: "Add gripper step", touchUp: "Touch up point", rename: "Rename", deleteSteps: (n: number) => `Delete ${plural(n, "step")}`, duplicate: "Duplicate",
     reorder: "Reorder", clear: "Clear program", repair: "Apply repair", repairAll: "Repair all", moveObject: "Move object", size: "Change size", tool: "Choose tool", trace: "Trace edges", speed: "Change speed", blend: "Change blend",
     path: "Change path", target: "Change target", wait: "Change wait", addObject: "Add object", deleteObject: "Delete object", import: "Import program", cellName: "Rename cell", moveRobot: "Move robot", gripper: "Change gripper",
     done: (label: string) => `Undone: ${label}.`, redone: (label: string) => `Done again: ${label}.`, nothing: "There is nothing to undo.", nothingAhead: "There is nothing to redo.",
@@ -68,6 +68,8 @@ export const en = {
     ready: "Do Ready", readyTip: "Moves to the home position", zero: "All joints to zero", aidNext: "Next orientation", aidPrevious: "Previous orientation", aid: (n: number, of: number) => `Aid ${n} of ${of}`, aidFree: "Tool free", aids: "Orientation",
     record: "Record", recordPtp: "PTP", recordLin: "LIN", recordTip: "Records where the robot stands", touchUp: "Touch up", touchUpTip: "The selected point becomes where the robot stands", touchUpNone: "Select the point that is to be touched up.",
     gripperOpen: "Open", gripperClose: "Close", gripper: "Gripper", message: "Last message", quiet: "No message.", noUser: "The cell has no user frame yet.", dead: "On this virtual controller the held button is itself the dead-man.",
+    recordMoving: "While moving", recordMovingTip: "Records the way of the hand: a point every 1 mm or 1° while the robot is jogged or dragged", pathGroup: "Recorded path", pathRecorded: (n: number) => `${plural(n, "point")} of the way were recorded.`,
+    pathFull: (n: number) => `${n} points were recorded without letting go; recording has ended.`, pathFullHint: "Switch it on again to record more.",
     recorded: (name: string) => `${name} was recorded.`, touched: (name: string) => `${name} was touched up.`, busy: "The robot is running a program; jogging waits until it is done or stopped.", noIk: "Moving in a straight line needs the inverse of this robot, which the library does not have.",
     speedOf: (percent: number) => `${percent} % of 250 mm/s`, stepOf: (mm: string, deg: string) => `${mm} mm · ${deg}°`,
     atLimit: (joint: number, deg: string, limit: string) => `Joint ${joint} is at ${deg}°; its limit is ${limit}°.`, gripperClosed: "closed", gripperOpened: "open", aidUnreachable: (n: number, why: string) => `Orientation aid ${n} cannot be taken here. ${why}`,
@@ -89,6 +91,8 @@ export const en = {
     touching: (names: string) => `Contact: ${names}.`,
   },
   trace: {
+    process: "Process", processNone: "As set below", processSays: "Starting values, to be tuned to your material and tool.",
+    processes: { "arc-welding": "Arc welding", deburring: "Deburring", soldering: "Soldering", chamfering: "Chamfering", gluing: "Gluing", "water-jet": "Water jet", inspection: "Inspection" },
     title: "Trace edges", tool: "Trace", tip: "Click edges of an object and get points along them", tilt: "Tool angle", leadIn: "Lead-in", leadOut: "Lead-out", chord: "Chord tolerance", tolerance: "Path tolerance", motion: "Motion", joint: "PTP between points", straight: "LIN", speed: "Speed",
     loop: "Whole loop", chosen: "Chosen edges", none: "Click an edge in the view. Shift takes its whole loop.", make: "Make points", clear: "Clear", working: "Points are being laid …", edge: (n: number, mm: string) => `Edge ${n} · ${mm} mm`, remove: (n: number) => `Take edge ${n} out`,
     made: (points: number, edges: number, inserted: number) => `${plural(points, "point")} on ${plural(edges, "edge")}; ${inserted} of them inserted to stay within tolerance.`, deviation: (mm: string, tolerance: string) => `Largest deviation from the edge: ${mm} mm (allowed ${tolerance} mm).`,
@@ -110,7 +114,7 @@ export const en = {
     start: "To the first point", io: "Gripper",
   },
   history: {
-    title: "Runs", none: "No run yet. Every run is recorded and appears here.", open: "Open run", endings: { done: "done", stopped: "stopped", refused: "refused", running: "runs now", "cut-off": "cut off" }, remove: "Delete run", download: "Download .mcap", events: "Events", noEvents: "Nothing happened in this run but motion.", loading: "The recording is being read …", unreadable: "The recording could not be read:", choose: "Open a run to look back at any moment of it.",
+    title: "Runs", moment: "Moment of the run", none: "No run yet. Every run is recorded and appears here.", open: "Open run", endings: { done: "done", stopped: "stopped", refused: "refused", running: "runs now", "cut-off": "cut off" }, remove: "Delete run", download: "Download .mcap", events: "Events", noEvents: "Nothing happened in this run but motion.", loading: "The recording is being read …", unreadable: "The recording could not be read:", choose: "Open a run to look back at any moment of it.",
     size: (bytes: number) => (bytes < 1e6 ? `${Math.round(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`), full: "There is no room left in this browser for the recording of this run.", fullHint: "Delete older runs, or download them first.", name: (cell: string, n: number) => `${cell}, run ${n}`, deleted: "The run was deleted.", back: "Back to now",
   },
   file: {
@@ -119,7 +123,7 @@ export const en = {
     damaged: "The cell kept in this browser could not be read; an earlier copy was opened.", lost: "The cell kept in this browser could not be read; the example was opened instead.", unreadable: (name: string) => `${name} could not be read from the disk.`, mesh: (name: string, faces: number) => `${name} was added with ${faces.toLocaleString("en")} triangles.`, unknownKind: (name: string) => `${name} is neither a cell, nor a V+ program, nor an STL or OBJ mesh.`, unknownHint: "Drop a .json cell saved by Twincell, a V+ text (.v2, .pg, .txt), or an STL or OBJ mesh.",
   },
   welcome: {
-    title: "Start with a cell", example: "Open an example", exampleSays: "A Stäubli RX90L, a carton on a table, four edges to trace.", drop: "Drop a CAD file", dropSays: "STL and OBJ meshes become objects; cells and V+ texts open.", connect: "Connect a controller", connectSays: "The virtual RX90L is connected. Real controllers come later.", connected: "connected", empty: "Empty cell", choose: "Choose a file",
+    title: "Start with a cell", example: "Open an example", exampleSays: "A Stäubli RX90L, a carton on a table, four edges to trace.", drop: "Drop a CAD file", dropSays: "STL, OBJ and PLY meshes become objects; cells and V+ texts open.", connect: "Connect a controller", connectSays: "The virtual RX90L is connected. Real controllers come later.", connected: "connected", empty: "Empty cell", choose: "Choose a file",
   },
   export: {
     title: "Export", dialect: "Language", files: "Files", text: "Text", warnings: "Notes", none: "No notes.", download: "Download all", copy: "Copy text", step: (name: string) => `from ${name}`, cannot: "This program cannot be written in this language:", manifest: "Manifest", lines: (n: number) => plural(n, "line"), copied: "The text is in the clipboard.", notCopied: "The browser did not allow copying.", notCopiedHint: "Select the text and copy it by hand.",
@@ -141,7 +145,7 @@ export const en = {
   },
   commands: {
     stop: "Stop everything", undo: "Undo", redo: "Redo", save: "Save to file", load: "Open file …", example: "Open the edge-trace example", fresh: "New empty cell", palette: "All commands", shortcuts: "Keyboard shortcuts", controls: "Controls: keys and gamepad", export: "Export V+", import: "Import V+ text",
-    teach: "Teach", check: "Check", run: "Run", history: "History", theme: "Theme: light or dark", mute: "Sounds on or off", camera: "Main or close camera", headset: "Enter the headset", trace: "Trace edges", recordPtp: "Record point, PTP", recordLin: "Record point, LIN", touchUp: "Touch up the selected point", wait: "Add a wait", gripperClose: "Add: close gripper", gripperOpen: "Add: open gripper",
+    teach: "Teach", check: "Check", run: "Run", history: "History", theme: "Theme: light or dark", mute: "Sounds on or off", camera: "Main or close camera", headset: "Enter the headset", trace: "Trace edges", recordPtp: "Record point, PTP", recordLin: "Record point, LIN", recordMoving: "Record while moving: on or off", touchUp: "Touch up the selected point", wait: "Add a wait", gripperClose: "Add: close gripper", gripperOpen: "Add: open gripper",
     ready: "Do Ready: go home", zero: "All joints to zero", aidNext: "Next orientation aid", aidPrevious: "Previous orientation aid", remove: "Delete what is selected", duplicate: "Duplicate the selected step", clear: "Clear the program", play: "Play or pause", stepOn: "Next step", stepBack: "Previous step", start: "To the start", checkNow: "Check now", repairAll: "Repair all", plots: "Plots", up: "Move the step up", down: "Move the step down", rename: "Rename", startRun: "Run on the virtual controller", frame: (name: string) => `Jog in ${name}`, coach: "Show the coach again", box: "Add a box", deselect: "Leave",
   },
   sheet: { label: "Tools", jog: "Jog", program: "Program", why: "Why", run: "Run", dead: "Hold to move" },

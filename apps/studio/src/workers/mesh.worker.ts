@@ -1,12 +1,14 @@
 import { meshBounds } from "@twincell/core";
-import { readObj, readStl } from "@twincell/formats";
+import { readObj, readPly, readStl } from "@twincell/formats";
 import { encodeMesh } from "@twincell/project";
 import type { FromReader, ToReader } from "./mesh-messages.ts";
+
+const READERS = { stl: readStl, obj: readObj, ply: readPly } as const;
 
 addEventListener("message", ({ data: { kind, bytes } }: MessageEvent<ToReader>) => {
   let answer: FromReader;
   try {
-    const read = kind === "stl" ? readStl(bytes) : readObj(bytes);
+    const read = READERS[kind](bytes);
     if (read.kind === "read") {
       const { likelyScale } = read.report, mesh = { positions: read.mesh.positions.map(length => length * likelyScale), indices: read.mesh.indices };
       answer = { kind: "read", encoded: encodeMesh(mesh), report: read.report, lowest: meshBounds(mesh).lower };

@@ -45,6 +45,14 @@ const along = (plan: Plan, step: string, looks: number): Pose[] => {
 
 const START = move("start", "ptp", at([0.6, 0, 0.3]), { ratio: 1 });
 
+test("a passed joint move to where the robot already stands takes no time and spoils nothing after it", () => {
+  const home = robot.home_rad, next = home.map(angle => angle + 0.1);
+  const plan = planOf([move("here", "ptp", { q: home }, { mps: 0.1 }, 0.001), move("there", "ptp", { q: next }, { mps: 0.1 }, 0.001), move("still", "ptp", { q: next }, { mps: 0.1 }, 0.001), move("back", "ptp", { q: home }, { mps: 0.1 })]);
+  const straight = planOf([move("there", "ptp", { q: next }, { mps: 0.1 }), move("back", "ptp", { q: home }, { mps: 0.1 })]);
+  expect(Math.abs(plan.duration_s / straight.duration_s - 1)).toBeLessThan(0.01);
+  expect(plan.segments.every(segment => segment.kind === "motion" && segment.q_rad.every(Number.isFinite))).toBe(true);
+});
+
 describe("laws of motion", () => {
   test("G-07 L-51 the cubic: π(½) = ½, π̇(½) = 1.5, π̈(0) = 6, at rest at both ends", () => {
     expect(cubicLaw(0.5)).toEqual({ value: 0.5, speed: 1.5, acceleration: 0 });

@@ -175,6 +175,8 @@ export class RunPath {
   /** How far along each leg its corner begins and ends. Half of a leg at most, so that two corners never meet. */
   private corner(leg: Leg, next: Leg): { readonly leave: number; readonly join: number } {
     const blend = leg.move.step.blend_m;
+    // A move to where the robot stands has no direction a curve could leave in.
+    if (leg.length <= SHORTEST_M || next.length <= SHORTEST_M) return { leave: leg.length, join: 0 };
     if (leg.path !== undefined && next.path !== undefined) {
       const d = Math.min(blend, leg.length / 2, next.length / 2);
       return { leave: leg.length - d, join: d };

@@ -1,10 +1,8 @@
-import { triangulate, type Point2 } from "@twincell/core";
 import { answering, Refusal, type NotUnderstood } from "../refusal.ts";
 import { shorten } from "../xml.ts";
+import { addPolygon, MOST_CORNERS } from "./polygon.ts";
 import { finishMesh, type MeshRead } from "./report.ts";
 import { latin1 } from "./text.ts";
-
-const MOST_CORNERS = 2000;
 
 /** Reads the surface of a Wavefront OBJ: vertices and faces. Faces with more than three corners are cut into triangles. */
 export function readObj(bytes: Uint8Array): MeshRead | NotUnderstood {
@@ -41,24 +39,5 @@ function addFace(words: readonly string[], positions: readonly number[], indices
     if (!/^-?\d+$/.test(written) || index < 0 || index >= count) throw new Refusal(`A face names vertex ${shorten(word)}; ${count} vertices come before it.`, line);
     return index;
   });
-  if (corners.length === 3) { indices.push(corners[0]!, corners[1]!, corners[2]!); return; }
-  for (const corner of triangulate(flattened(corners, positions))) indices.push(corners[corner]!);
-}
-
-/** The face seen along its Newell normal, counter-clockwise: dropping the normal's largest axis keeps it simple. */
-function flattened(corners: readonly number[], positions: readonly number[]): Point2[] {
-  const normal = [0, 0, 0];
-  corners.forEach((corner, i) => {
-    const next = corners[(i + 1) % corners.length]!;
-    for (let k = 0; k < 3; k++) {
-      const u = (k + 1) % 3, v = (k + 2) % 3;
-      normal[k]! += positions[3 * corner + u]! * positions[3 * next + v]! - positions[3 * next + u]! * positions[3 * corner + v]!;
-    }
-  });
-  const size = normal.map(Math.abs), axis = size.indexOf(Math.max(...size)), u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const forward = normal[axis]! >= 0;
-  return corners.map(corner => {
-    const [x, y] = [positions[3 * corner + u]!, positions[3 * corner + v]!];
-    return forward ? [x, y] : [y, x];
-  });
+  addPolygon(corners, positions, indices);
 }

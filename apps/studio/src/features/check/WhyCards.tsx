@@ -1,10 +1,10 @@
-import type { Repair, Verdict } from "@twincell/core";
+import type { Program, Repair, Verdict } from "@twincell/core";
 import { useEffect, useState } from "react";
 import { useStore } from "zustand";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { programOf } from "../../stores/document.ts";
-import { firstRepairs, repairStep } from "../../stores/program.ts";
+import { firstRepairs, repairStep, stepWords } from "../../stores/program.ts";
 import { select } from "../../stores/selection.ts";
 import { previewStep, seek } from "../../stores/seek.ts";
 import { words } from "../../words/index.ts";
@@ -21,13 +21,20 @@ export function WhyCards({ verdict }: { verdict: Verdict }) {
   return (
     <>
       {repairs.length > 1 && <button className="btn" onClick={() => runCommand("check.repair-all")}>{words.check.repairAll(repairs.length)}</button>}
-      {(all ? cards : cards.slice(0, FIRST)).map(card => <WhyCard key={card.key} card={card} />)}
+      {(all ? cards : cards.slice(0, FIRST)).map(card => <WhyCard key={card.key} card={card} subject={subjectOf(program, card)} />)}
       {!all && cards.length > FIRST && <button className="btn quiet" onClick={() => setAll(true)}>{words.check.more(cards.length - FIRST)}</button>}
     </>
   );
 }
 
-function WhyCard({ card }: { card: Why }) {
+/** The group it happens in, or the step itself. */
+function subjectOf(program: Program, card: Why): string {
+  const index = program.steps.findIndex(step => step.id === card.step), step = program.steps[index];
+  const point = step ? stepWords(step, index) : card.step, group = card.group === undefined ? undefined : program.groups[card.group]?.name;
+  return group === undefined || point.startsWith(group) ? point : `${group} · ${point}`;
+}
+
+function WhyCard({ card, subject }: { card: Why; subject: string }) {
   const { finding } = card, look = (): void => { select({ kind: "step", id: card.step }); seek(finding.at_s); };
   const [shown, setShown] = useState<Repair | null>(null);
   useEffect(() => {
@@ -40,7 +47,7 @@ function WhyCard({ card }: { card: Why }) {
   const own = card.repairs.filter(each => each.id === card.step);
   return (
     <article className="why" data-tone={card.verdict}>
-      <button className="why-fact" onClick={look}><i className="mark" data-verdict={card.verdict} aria-hidden /><span><b>{finding.sentence}</b>{card.steps.length > 1 && <span className="muted"> {words.check.affected(card.steps.length)}</span>}</span></button>
+      <button className="why-fact" onClick={look}><i className="mark" data-verdict={card.verdict} aria-hidden /><span><span className="why-subject">{subject}</span><b>{finding.sentence}</b>{card.steps.length > 1 && <span className="muted"> {words.check.affected(card.steps.length)}</span>}</span></button>
       {own.map(({ id, repair }) => (
         <div className="why-repair" key={repair.sentence}>
           <span className="muted">{repair.sentence}</span>

@@ -9,7 +9,7 @@ import { words } from "../../words/index.ts";
 import { openFile } from "./openFile.ts";
 import "./files.css";
 
-const KINDS = ".json,.v2,.pg,.txt,.stl,.obj";
+const KINDS = ".json,.v2,.pg,.txt,.stl,.obj,.ply";
 
 /** Save, open and drop. */
 export function Files() {

@@ -9,7 +9,7 @@ export async function openFile(file: File): Promise<void> {
   const kind = /\.([a-z0-9]+)$/i.exec(file.name)?.[1]?.toLowerCase() ?? "";
   try {
     if (kind === "json") openCellText(await file.text(), file.name);
-    else if (kind === "stl" || kind === "obj") await importMesh(file.name, kind, new Uint8Array(await file.arrayBuffer()));
+    else if (kind === "stl" || kind === "obj" || kind === "ply") await importMesh(file.name, kind, new Uint8Array(await file.arrayBuffer()));
     else if (kind === "v2" || kind === "pg" || kind === "txt") {
       const [fault] = importText(await file.text(), file.name);
       if (fault !== undefined) notify("bad", words.file.notCell(file.name, fault), words.file.notCellHint);

@@ -1,4 +1,4 @@
-import { Download, Pause, Play, Trash2 } from "lucide-react";
+import { Download, Trash2 } from "lucide-react";
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { useRef } from "react";
 import { useStore } from "zustand";
@@ -6,13 +6,11 @@ import { theHistory } from "../../live/cell-control.ts";
 import { historyStore, type RunRecord } from "../../stores/history.ts";
 import { notify } from "../../stores/notices.ts";
 import { download } from "../../ui/download.ts";
-import { Slide } from "../../ui/Slide.tsx";
 import { words } from "../../words/index.ts";
 import "./history.css";
 
 const when = new Intl.DateTimeFormat("en-GB", { day: "numeric", month: "short", hour: "2-digit", minute: "2-digit" });
 const ROW_PX = 52;
-const SPEEDS = [0.25, 1, 4] as const;
 const seconds = (t_s: number): string => `${t_s.toFixed(2)} s`;
 
 /** Every run that was recorded in this browser, and any moment of the one that is open. */
@@ -24,14 +22,14 @@ export default function History() {
     <section aria-label={words.history.title}>
       <h2 className="heading"><span className="grow">{words.history.title}</span></h2>
       <div className="section history">
-      {runs.length === 0 && <p className="muted">{words.history.none}</p>}
-      {runs.length > 0 && open === null && <p className="small muted">{words.history.choose}</p>}
-      {open !== null && <Moment />}
-      <div ref={box} className="history-list" role="list" aria-label={words.history.title}>
-        <div style={{ height: rows.getTotalSize(), position: "relative" }}>
-          {rows.getVirtualItems().map(row => <RunRow key={runs[row.index]!.id} run={runs[row.index]!} open={runs[row.index]!.id === open} top_px={row.start} />)}
+        {runs.length === 0 && <p className="muted">{words.history.none}</p>}
+        {runs.length > 0 && open === null && <p className="small muted">{words.history.choose}</p>}
+        {open !== null && <Moment />}
+        <div ref={box} className="history-list" role="list" aria-label={words.history.title}>
+          <div style={{ height: rows.getTotalSize(), position: "relative" }}>
+            {rows.getVirtualItems().map(row => <RunRow key={runs[row.index]!.id} run={runs[row.index]!} open={runs[row.index]!.id === open} top_px={row.start} />)}
+          </div>
         </div>
-      </div>
       </div>
     </section>
   );
@@ -55,20 +53,12 @@ function RunRow({ run, open, top_px }: { readonly run: RunRecord; readonly open:
   );
 }
 
-/** The open run: slider, play, speed, what happened. */
+/** What happened in the open run, and when. */
 function Moment() {
-  const { t_s, duration_s, playing, opening, events, step, speed } = useStore(historyStore);
+  const opening = useStore(historyStore, state => state.opening), events = useStore(historyStore, state => state.events), step = useStore(historyStore, state => state.step);
   if (opening) return <p role="status" className="muted">{words.history.loading}</p>;
   return (
     <div className="history-moment">
-      <Slide label={words.history.title} value={t_s} min={0} max={Math.max(duration_s, 0.001)} step={0.001} says={seconds(t_s)} onChange={theHistory.seek} />
-      <div className="history-time">
-        <button className="btn" onClick={() => { if (playing) theHistory.pause(); else theHistory.play(); }}>{playing ? <Pause /> : <Play />}{playing ? words.time.pause : words.time.play}</button>
-        <span className="history-speeds" role="group" aria-label={words.time.speed}>
-          {SPEEDS.map(factor => <button key={factor} className="btn tight" aria-pressed={speed === factor} onClick={() => { theHistory.setSpeed(factor); }}>{factor} ×</button>)}
-        </span>
-        <output>{seconds(t_s)} <span className="dim">/ {seconds(duration_s)}</span></output>
-      </div>
       {step && <p className="small muted">{words.inspector.step}: {step}</p>}
       <h3>{words.history.events}</h3>
       {events.length === 0 && <p className="small muted">{words.history.noEvents}</p>}

@@ -30,7 +30,8 @@ export function GamepadWatch() {
         notify("warn", words.pad.lost, words.pad.lostHint);
         return;
       }
-      const now: PadReading = { buttons: pad.buttons.map(button => Math.max(button.value, button.pressed ? 1 : 0)), axes: [...pad.axes] };
+      // A trigger counts as pressed long before it is down; its value is what tilts. Some pads know only pressed.
+      const now: PadReading = { buttons: pad.buttons.map(({ value, pressed }) => (value > 0 || !pressed ? value : 1)), axes: [...pad.axes] };
       if (before === null || name !== pad.id) { name = pad.id; notify("info", words.pad.found(pad.id)); }
       const step = padStep(now, before, bindingStore.getState(), back);
       const listens = viewStore.getState().mode === "teach" && dialogStore.getState().open === null;

@@ -1,8 +1,9 @@
-import { ChevronLeft, ChevronRight, CircleDot, Home, LocateFixed } from "lucide-react";
+import { ChevronLeft, ChevronRight, CircleDot, Home, LocateFixed, Spline } from "lucide-react";
 import { useStore } from "zustand";
 import { commandStore, runCommand } from "../../stores/commands.ts";
 import { controlStore } from "../../stores/control.ts";
 import { jogStore } from "../../stores/jog.ts";
+import { recordStore } from "../../stores/record.ts";
 import { selectionStore } from "../../stores/selection.ts";
 import { aidStore } from "../../stores/aids.ts";
 import { Tip } from "../../ui/Tip.tsx";
@@ -10,7 +11,7 @@ import { words } from "../../words/index.ts";
 
 /** Aids, home, record, touch up, gripper, last message. */
 export function PointButtons() {
-  const aid = useStore(jogStore, state => state.aid), count = useStore(aidStore, state => state.count), message = useStore(controlStore, state => state.message);
+  const aid = useStore(jogStore, state => state.aid), count = useStore(aidStore, state => state.count), message = useStore(controlStore, state => state.message), moving = useStore(recordStore, state => state.moving);
   const canTouchUp = useStore(selectionStore, state => state.selected?.kind === "step") && commandStore.getState().commands.get("program.touch-up")?.can?.() !== false;
   return (
     <>
@@ -18,6 +19,10 @@ export function PointButtons() {
         <span className="point-label">{words.jog.record}</span>
         <Tip words={words.jog.recordTip} keys="P"><button className="btn" onClick={() => runCommand("program.record-ptp")}><CircleDot />{words.jog.recordPtp}</button></Tip>
         <Tip words={words.jog.recordTip} keys="Shift+P"><button className="btn" onClick={() => runCommand("program.record-lin")}><CircleDot />{words.jog.recordLin}</button></Tip>
+      </div>
+      <div className="point-row">
+        <span className="point-label" />
+        <Tip words={words.jog.recordMovingTip} keys="Shift+R"><button className="btn" aria-pressed={moving} onClick={() => runCommand("program.record-moving")}><Spline />{words.jog.recordMoving}</button></Tip>
       </div>
       <div className="point-row">
         <span className="point-label" />

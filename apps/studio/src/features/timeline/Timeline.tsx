@@ -87,7 +87,7 @@ function Track({ blocks, duration_s }: { blocks: readonly Block[]; duration_s: n
       {blocks.map(block => (
         <div key={block.key} className="block" data-block={block.step} data-verdict={block.rest && block.verdict !== "bad" ? "rest" : block.verdict} data-on={block.step === selected} title={block.name}
           style={{ left: `${(block.start_s / duration_s) * 100}%`, width: `${(block.duration_s / duration_s) * 100}%` }}
-        ><span><i className="mark" data-verdict={block.verdict} aria-hidden />{block.findings > 0 ? words.time.over(block.name, block.findings) : block.name}</span></div>
+        ><span><i className="mark" data-verdict={block.verdict} aria-hidden /><span className="block-name">{block.findings > 0 ? words.time.over(block.name, block.findings) : block.name}</span></span></div>
       ))}
       <div className="playhead" ref={head} role="slider" tabIndex={0} aria-label={words.time.scrubber} aria-valuemin={0} aria-valuemax={Number(duration_s.toFixed(2))} aria-valuenow={0} onKeyDown={onKey} />
     </div>

@@ -18,11 +18,14 @@ import "./topbar.css";
 const MODES: readonly StudioMode[] = ["teach", "check", "run", "history"];
 const MENU: readonly (readonly string[])[] = [["file.save", "file.load", "file.example", "file.new"], ["export.open", "export.import"], ["help.controls", "help.shortcuts", "help.coach"]];
 
+/** A phone has no room for these beside the menu. */
+const PHONE_MENU: readonly (readonly string[])[] = [["edit.undo", "edit.redo"], ...MENU, ["view.theme", "view.mute", "help.palette"]];
+
 export function TopBar({ phone }: { phone: boolean }) {
   return (
     <header className="topbar area-top">
       <h1 className="visually-hidden">{words.app.name}</h1>
-      <CellMenu />
+      <CellMenu phone={phone} />
       {!phone && <><CellName /><UndoRedo /></>}
       <div className="topbar-space" />
       {!phone && <Modes />}
@@ -40,14 +43,14 @@ function Modes() {
   return <Segments className="seg" label={words.mode.label} value={mode} onChange={showMode} options={MODES.map(value => ({ value, words: words.mode[value] }))} />;
 }
 
-function CellMenu() {
+function CellMenu({ phone }: { phone: boolean }) {
   const commands = useStore(commandStore, state => state.commands);
   return (
     <DropdownMenu.Root modal={false}>
       <DropdownMenu.Trigger asChild><button className="brand" aria-label={`${words.app.name}: ${words.top.menu}`}><i aria-hidden /><span>{words.app.name}</span></button></DropdownMenu.Trigger>
       <DropdownMenu.Portal>
         <DropdownMenu.Content className="menu" align="start" sideOffset={6}>
-          {MENU.map((ids, i) => (
+          {(phone ? PHONE_MENU : MENU).map((ids, i) => (
             <DropdownMenu.Group key={i}>
               {i > 0 && <DropdownMenu.Separator className="menu-line" />}
               {ids.map(id => commands.get(id)).map(command => command && (

@@ -1,8 +1,9 @@
 import { X } from "lucide-react";
 import { useStore } from "zustand";
 import { runCommand } from "../../stores/commands.ts";
+import { PROCESS_NAMES, PROCESSES, processOf, type ProcessName } from "../../stores/processes.ts";
 import { traceStore, type TraceOptions } from "../../stores/trace.ts";
-import { Segments } from "../../ui/Choice.tsx";
+import { Chooser, Segments } from "../../ui/Choice.tsx";
 import { showNumber } from "../../ui/expression.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../words/index.ts";
@@ -35,6 +36,8 @@ export function TracePanel() {
         {last && <p className="small muted" role="status">{words.trace.made(last.points, last.edges, last.inserted)} {options.motion === "joint" && words.trace.deviation(showNumber(last.deviation_m, "length", 3), showNumber(options.pathTolerance_m, "length", 2))}</p>}
         <details open={chosen.length === 0 && !last}>
           <summary className="small muted">{words.trace.options}</summary>
+          <Line name={words.trace.process}><Process options={options} /></Line>
+          <p className="small dim">{words.trace.processSays}</p>
           <Line name={words.trace.tilt}><NumberField label={words.trace.tilt} quantity="angle" decimals={1} value={options.tilt_rad} min={0} max={Math.PI / 2} onChange={tilt_rad => change({ tilt_rad })} /></Line>
           <Line name={words.trace.leadIn}><NumberField label={words.trace.leadIn} quantity="length" decimals={1} value={options.leadIn_m} min={0} max={0.5} onChange={leadIn_m => change({ leadIn_m })} /></Line>
           <Line name={words.trace.leadOut}><NumberField label={words.trace.leadOut} quantity="length" decimals={1} value={options.leadOut_m} min={0} max={0.5} onChange={leadOut_m => change({ leadOut_m })} /></Line>
@@ -46,5 +49,11 @@ export function TracePanel() {
       </div>
     </section>
   );
+}
+const CHOICES = PROCESS_NAMES.map(value => ({ value, words: words.trace.processes[value] }));
+/** Fills in the values of a process; a changed value belongs to none. */
+function Process({ options }: { options: TraceOptions }) {
+  const now = processOf(options);
+  return <Chooser<ProcessName | "own"> label={words.trace.process} value={now ?? "own"} options={now ? CHOICES : [{ value: "own", words: words.trace.processNone }, ...CHOICES]} onChange={name => { if (name !== "own") change(PROCESSES[name]); }} />;
 }
 const Line = ({ name, children }: { name: string; children: React.ReactNode }) => <div className="pair"><span className="label">{name}</span>{children}</div>;

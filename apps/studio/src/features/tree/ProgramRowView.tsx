@@ -29,9 +29,9 @@ export function ProgramRowView(props: Props) {
               style={row.kind === "step" && row.inside ? { paddingLeft: 30 } : undefined} onClick={props.onChoose} onKeyDown={props.onKey} onDoubleClick={() => props.onRename(true)}
             >
               <Glyph row={row} />
-              <span className="name">{name}{row.kind === "group" && <span className="dim"> {words.tree.points(row.steps.length)}</span>}</span>
+              <span className="name">{name}</span>
               <span className="visually-hidden">{words.tree.verdicts[row.verdict]}</span>
-              {path && <span className="kind">{words.step.path[path]}</span>}
+              {row.kind === "group" ? <span className="kind">{words.tree.points(row.steps.length)}</span> : path && <span className="kind">{words.step.path[path]}</span>}
             </button>
           )}
           {row.kind === "group" && <button className="btn quiet icon tight row-toggle" data-open={row.open} tabIndex={-1} aria-label={row.open ? words.tree.collapse : words.tree.expand} onClick={props.onToggle}><ChevronRight /></button>}
