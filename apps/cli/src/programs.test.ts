@@ -1,0 +1,163 @@
+import { spawnSync } from "node:child_process";
+import { chmodSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { afterAll, describe, expect, test } from "vitest";
+
+const root = fileURLToPath(new URL("../../../", import.meta.url));
+const PROGRAM = "examples/01-edge-trace/program.json", CELL = "examples/01-edge-trace/cell.json", IN_CELL = ["--cell", CELL];
+const folder = mkdtempSync(join(tmpdir(), "twincell-cli-"));
+afterAll(() => { rmSync(folder, { recursive: true, force: true }); });
+
+interface Moment { readonly t: number; readonly position: readonly number[]; readonly step: string; readonly line?: number }
+interface Taught { name: string; steps: { id: string; type: string; path?: string; target?: Record<string, unknown> }[] }
+
+/** The command as users run it. */
+function twincell(...args: readonly string[]) {
+  const run = spawnSync(process.execPath, ["apps/cli/src/main.ts", ...args], { cwd: root, encoding: "utf8", maxBuffer: 1 << 28 });
+  return { code: run.status ?? -1, out: run.stdout, err: run.stderr, sentences: run.stderr.trim().split("\n").filter(line => line !== "") };
+}
+const moments = (text: string): Moment[] => text.trim().split("\n").map(line => JSON.parse(line) as Moment);
+/** The taught example with something changed, as a file. */
+function changed(name: string, change: (program: Taught) => void): string {
+  const program = JSON.parse(readFileSync(`${root}${PROGRAM}`, "utf8")) as Taught, path = join(folder, `${name}.json`);
+  change(program);
+  writeFileSync(path, JSON.stringify(program));
+  return path;
+}
+const pointed = (program: Taught, id: string, position: readonly number[]): void => {
+  program.steps.find(step => step.id === id)!.target = { pose: { position, quaternion: [0, 1, 0, 0] }, tool: "torch" };
+};
+
+describe("check", () => {
+  test("a good program is judged step by step, exit 0", () => {
+    const { code, out, err } = twincell("check", PROGRAM, ...IN_CELL), verdict = JSON.parse(out) as { ok: boolean; steps: { id: string; verdict: string }[] };
+    expect({ code, err, ok: verdict.ok }).toEqual({ code: 0, err: "", ok: true });
+    expect(verdict.steps.map(step => step.id)).toEqual((JSON.parse(readFileSync(`${root}${PROGRAM}`, "utf8")) as Taught).steps.map(step => step.id));
+  });
+  test("a step out of reach is named, exit 1, and is a failure in the JUnit report", () => {
+    const path = changed("too-far", program => { pointed(program, "s4", [4, 0, 1]); }), report = join(folder, "deep", "report.xml");
+    const { code, out } = twincell("check", path, ...IN_CELL, "--junit", report), xml = readFileSync(report, "utf8");
+    const bad = (JSON.parse(out) as { steps: { id: string; verdict: string; findings: { sentence: string }[] }[] }).steps.filter(step => step.verdict === "bad");
+    expect(code).toBe(1);
+    expect(bad.map(step => step.id)).toContain("s4");
+    expect(bad[0]!.findings[0]!.sentence).toMatch(/\d.*\.$/);
+    expect(xml).toMatch(/<testcase classname="Edge trace" name="s4"><failure message="[^"]+"\/>/);
+    expect(xml).toContain(`failures="${bad.length}"`);
+    expect(readdirSync(join(folder, "deep"))).toEqual(["report.xml"]);
+  });
+  test("names with marks of XML do not break the report", () => {
+    const path = changed("marks", program => { program.name = `a<b & "c"`; }), report = join(folder, "marks.xml");
+    expect(twincell("check", path, "--junit", report).code).toBe(0);
+    expect(readFileSync(report, "utf8")).not.toMatch(/<b |& /);
+  });
+});
+
+describe("post, run, parse", () => {
+  test("the posted text says at the end of every step what simulate says, within 0.01 mm", () => {
+    const posted = twincell("post", PROGRAM, "--to", "v-plus", "-o", join(folder, "post"), ...IN_CELL);
+    expect(posted.code, posted.err).toBe(0);
+    const { files } = JSON.parse(posted.out) as { files: string[] }, text = files.find(file => file.endsWith(".v2"))!;
+    expect(readdirSync(join(folder, "post")).sort()).toEqual(files.map(file => file.slice(folder.length + "/post/".length)).sort());
+    const planned = moments(twincell("simulate", PROGRAM, ...IN_CELL, "--period", "0.001").out), ran = twincell("run", text, "--robot", "staubli_rx90l", "--dialect", "v-plus", ...IN_CELL, "--period", "0.001");
+    expect(ran.code, ran.err).toBe(0);
+    const plannedEnds = ends(planned, each => each.step), ranEnds = ends(moments(ran.out), each => String(each.line));
+    const moves = (JSON.parse(readFileSync(`${root}${PROGRAM}`, "utf8")) as Taught).steps.filter(step => step.type === "move").length;
+    expect(plannedEnds.length).toBeGreaterThanOrEqual(moves - 1);
+    // In their order: the end of each step is an end in the text, after that of the step before it.
+    let at = 0;
+    for (const wanted of plannedEnds) {
+      const found = ranEnds.findIndex((got, i) => i >= at && distance(wanted.position, got.position) < 0.00001);
+      expect(found, `end of step ${wanted.step}`).toBeGreaterThanOrEqual(at);
+      at = found;
+    }
+  });
+  test("parse gives a program that simulates to the same end", () => {
+    const text = join(folder, "post", "edge_trace.v2"), parsed = twincell("parse", text, "--robot", "staubli_rx90l", "--dialect", "v-plus");
+    expect(parsed.code, parsed.err).toBe(0);
+    const path = join(folder, "parsed.json");
+    writeFileSync(path, parsed.out);
+    const was = moments(twincell("simulate", PROGRAM).out).at(-1)!, is = moments(twincell("simulate", path).out).at(-1)!;
+    expect(distance(was.position, is.position)).toBeLessThan(0.00001);
+  });
+  test("text that cannot be read is named with line and column, exit 2", () => {
+    const path = join(folder, "wrong.v2");
+    writeFileSync(path, ".PROGRAM a()\n  MOVE (\n.END\n");
+    for (const command of ["parse", "run"]) {
+      const { code, sentences } = twincell(command, path, "--robot", "staubli_rx90l", "--dialect", "v-plus");
+      expect(code).toBe(2);
+      expect(sentences).toEqual([expect.stringMatching(/line 2, column \d+:/) as string]);
+    }
+  });
+  test("a program that cannot be carried out is not written, exit 1 with the step", () => {
+    const path = changed("post-too-far", program => { pointed(program, "s4", [4, 0, 1]); }), target = join(folder, "none");
+    const { code, sentences } = twincell("post", path, "--to", "v-plus", "-o", target);
+    expect(code).toBe(1);
+    expect(sentences[0]).toContain("s4");
+    expect(() => readdirSync(target)).toThrow();
+  });
+  test("a place that cannot be written to is one sentence, exit 2, and nothing is left behind", () => {
+    const file = join(folder, "file");
+    writeFileSync(file, "mine");
+    for (const target of [file, join(file, "below")]) {
+      const { code, sentences } = twincell("post", PROGRAM, "--to", "v-plus", "-o", target);
+      expect({ code, sentences }).toEqual({ code: 2, sentences: [expect.stringContaining("is a file, not a folder") as string] });
+    }
+    expect(readFileSync(file, "utf8")).toBe("mine");
+    const taken = join(folder, "taken");
+    mkdirSync(join(taken, "edge_trace.v2"), { recursive: true });
+    expect(twincell("post", PROGRAM, "--to", "v-plus", "-o", taken)).toMatchObject({ code: 2, sentences: [expect.stringContaining("it is a folder") as string] });
+    expect(readdirSync(taken)).toEqual(["edge_trace.v2"]);
+    expect(twincell("check", PROGRAM, "--junit", join(file, "report.xml"))).toMatchObject({ code: 2, sentences: [expect.stringContaining("is a file, not a folder") as string] });
+  });
+  test.skipIf(process.getuid?.() === 0)("a folder of somebody else's is one sentence, exit 2 (not as root)", () => {
+    const closed = join(folder, "closed");
+    mkdirSync(closed);
+    chmodSync(closed, 0o555);
+    expect(twincell("post", PROGRAM, "--to", "v-plus", "-o", closed)).toMatchObject({ code: 2, sentences: [expect.stringContaining("may not write there") as string] });
+    expect(readdirSync(closed)).toEqual([]);
+  });
+});
+
+test("simulate stops at the step that cannot be carried out and names it, exit 1", () => {
+  const path = changed("simulate-too-far", program => { pointed(program, "s4", [4, 0, 1]); }), { code, out, sentences } = twincell("simulate", path);
+  expect(code).toBe(1);
+  expect(sentences).toEqual([expect.stringMatching(/^twincell: Step s4: /) as string]);
+  expect(moments(out).length).toBeGreaterThan(10);
+  expect(out).not.toContain("NaN");
+});
+
+test("dialects says of each what it cannot", () => {
+  const { code, out } = twincell("dialects"), [first] = moments(out);
+  expect(code).toBe(0);
+  expect(first).toMatchObject({ id: "v-plus", emits: true, parses: true, interprets: true });
+});
+
+const withNaN = (): string => {
+  const path = join(folder, "nan.json");
+  writeFileSync(path, readFileSync(`${root}${PROGRAM}`, "utf8").replace('"speed":{"ratio":0.3}', '"speed":{"ratio":NaN}'));
+  return path;
+};
+test.each([
+  ["a number that is none", () => ["check", withNaN()], /nan\.json/],
+  ["an angle that is none", () => ["check", changed("null", program => { program.steps[1]!.target = { q: [0, null, 0, 0, 0, 0], tool: "torch" }; })], /steps.*1/],
+  ["a robot nobody knows", () => ["simulate", changed("robot", program => { Object.assign(program, { robot: "nobody" }); })], /no robot "nobody"/],
+  ["a file that is not there", () => ["check", "nowhere.json"], /no file nowhere\.json/],
+  ["a cell that is not there", () => ["check", PROGRAM, "--cell", "nowhere.json"], /no file nowhere\.json/],
+  ["a program in place of a cell", () => ["check", PROGRAM, "--cell", PROGRAM], /program\.json/],
+  ["a dialect nobody speaks", () => ["post", PROGRAM, "--to", "latin", "-o", folder], /no dialect "latin"/],
+  ["no folder", () => ["post", PROGRAM, "--to", "v-plus"], /-o DIR is missing/],
+  ["a period of nothing", () => ["simulate", PROGRAM, "--period", "0"], /--period/],
+  ["a benchmark that is none", () => ["bench", "nobody"], /no benchmark "nobody".*frame/],
+] as const)("%s is one sentence, exit 2", (_what, args, says) => {
+  const { code, out, sentences } = twincell(...args());
+  expect({ code, out, count: sentences.length }).toEqual({ code: 2, out: "", count: 1 });
+  expect(sentences[0]).toMatch(says);
+});
+
+/** The last moment of each stretch that belongs to one step or line. */
+function ends(all: readonly Moment[], of: (moment: Moment) => string): Moment[] {
+  return all.filter((moment, i) => of(moment) !== (i + 1 < all.length ? of(all[i + 1]!) : undefined) && moment.step !== "");
+}
+const distance = (a: readonly number[], b: readonly number[]): number => Math.hypot(...a.map((value, i) => value - b[i]!));
