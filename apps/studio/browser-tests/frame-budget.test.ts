@@ -1,10 +1,12 @@
 import { saveDocument, tracedCartonCell } from "@twincell/project";
+import type { Vector3 } from "@twincell/core";
 import { afterAll, beforeAll, expect, test } from "vitest";
-import { ledger, type LedgerReading, quantile } from "./support/ledger.ts";
+import { cpuDuring } from "./support/cpu.ts";
+import { ledger, quantile } from "./support/ledger.ts";
 import { drawn, Studio, type Page } from "./support/studio.ts";
 
-/** bench/frame.ts measures; this holds the line. */
-const P95_MS = 3, LONG_MS = 50, ROUNDS = 8;
+/** bench/frame.ts measures; this holds the line. Processor time: other processes do not count. */
+const P95_MS = 3, WORST_MS = 25, LONG_MS = 50, ROUNDS = 4;
 
 let studio: Studio, page: Page, problems: readonly string[];
 beforeAll(async () => {
@@ -21,28 +23,23 @@ const judged = () => page.waitForFunction(name => {
   return cellStore.getState().document?.name === name && verdict !== null && checking === null;
 }, tracedCartonCell().name, { timeout: 60_000, polling: 100 });
 
-async function during(act: () => Promise<unknown>): Promise<LedgerReading> {
-  await page.evaluate(() => { window.twincellLedger.reset(); });
-  await act();
-  await page.waitForTimeout(300);
-  return page.evaluate(() => window.twincellLedger.read());
-}
-
-/** The least busy of some rounds: other processes may take the core for a while, our own script is there in every round. */
-async function leastP95(): Promise<{ readonly p95_ms: number; readonly frames: number }> {
-  const rounds: LedgerReading[] = [];
-  for (let i = 0; i < ROUNDS; i++) rounds.push(await during(() => page.waitForTimeout(1200)));
-  return { p95_ms: Math.min(...rounds.map(({ script_ms }) => quantile(script_ms, 0.95))), frames: rounds.reduce((sum, { script_ms }) => sum + script_ms.length, 0) };
+/** The least busy of some rounds: what our script costs it costs in every round. */
+async function rounds(): Promise<{ readonly p95_ms: number; readonly worst_ms: number; readonly frames: number }> {
+  const all: (readonly number[])[] = [];
+  for (let i = 0; i < ROUNDS; i++) all.push((await cpuDuring(page, () => page.waitForTimeout(2000))).script_ms);
+  const least = (part: number): number => Math.min(...all.map(script_ms => quantile(script_ms, part)));
+  return { p95_ms: least(0.95), worst_ms: least(1), frames: all.flat().length };
 }
 
 test("script per frame stays within 3 ms while the program plays and collisions are looked at", async () => {
   await page.evaluate(() => { window.twincell.seek(0); window.twincell.run("play.toggle"); });
   await page.waitForTimeout(3000);
-  const before = await page.evaluate(() => window.twincell.live.now().revision), { p95_ms, frames } = await leastP95();
+  const before = await page.evaluate(() => window.twincell.live.now().revision), { p95_ms, worst_ms, frames } = await rounds();
   expect(await page.evaluate(() => window.twincell.live.now().revision)).toBeGreaterThan(before + 20);
   expect(await page.evaluate(() => window.twincell.stores.watchStore.getState().took_ms)).toBeGreaterThan(0);
   expect(frames).toBeGreaterThan(40);
   expect(p95_ms).toBeLessThanOrEqual(P95_MS);
+  expect(worst_ms).toBeLessThanOrEqual(WORST_MS);
   await page.evaluate(() => { window.twincell.run("play.toggle"); });
 });
 
@@ -50,8 +47,9 @@ test("script per frame stays within 3 ms while the exported text runs on the twi
   await page.evaluate(() => { window.twincell.seek(0); window.twincell.run("run.start"); });
   await page.waitForFunction(() => window.twincell.stores.controlStore.getState().running, null, { polling: 50 });
   await page.waitForTimeout(3000);
-  const { p95_ms } = await leastP95();
+  const { p95_ms, worst_ms } = await rounds();
   expect(p95_ms).toBeLessThanOrEqual(P95_MS);
+  expect(worst_ms).toBeLessThanOrEqual(WORST_MS);
   const { samples, lost, ages_ms } = await page.evaluate(() => { const { samples: count, lost: missing, ages_ms: ages } = window.twincell.live.link; return { samples: count, lost: missing, ages_ms: ages }; });
   expect(samples).toBeGreaterThan(1000);
   expect(lost).toBe(0);
@@ -61,22 +59,22 @@ test("script per frame stays within 3 ms while the exported text runs on the twi
   await page.waitForFunction(() => window.twincell.stores.historyStore.getState().runs.some(run => run.ending !== "running"), null, { polling: 50 });
 });
 
-/** The least of three: what our script does it does every time. */
-async function longest(act: () => Promise<unknown>, undo: () => Promise<unknown>): Promise<readonly string[]> {
-  let least: readonly string[] | null = null;
+/** Tasks with more than 50 ms of our script [ms]; the least of three: what our script does it does every time. */
+async function long(act: () => Promise<unknown>, undo: () => Promise<unknown>): Promise<readonly number[]> {
+  let least: readonly number[] = [];
   for (let i = 0; i < 3; i++) {
-    const { longTasks } = await during(act), ours = longTasks.filter(task => task.script_ms > LONG_MS).map(task => `${task.what}: ${task.script_ms.toFixed(0)} ms of ${task.took_ms.toFixed(0)} ms`);
-    if (least === null || ours.length < least.length) least = ours;
+    const { tasks_ms } = await cpuDuring(page, async () => { await act(); await page.waitForTimeout(200); }), ours = tasks_ms.filter(ms => ms > LONG_MS);
+    if (i === 0 || ours.length < least.length) least = ours;
     if (least.length === 0) break;
     await undo();
   }
-  return least ?? [];
+  return least;
 }
 
 test("checking happens away from the page", async () => {
   await page.evaluate(() => { window.twincell.stores.viewStore.setState({ mode: "check" }); });
   const check = async (): Promise<void> => { await page.evaluate(() => { window.twincell.run("check.now"); }); await judged(); };
-  expect(await longest(check, async () => { /* The next check begins anew by itself. */ })).toEqual([]);
+  expect(await long(check, async () => { /* The next check begins anew by itself. */ })).toEqual([]);
 });
 
 test("exporting happens away from the page", async () => {
@@ -85,18 +83,21 @@ test("exporting happens away from the page", async () => {
     await page.waitForFunction(() => window.twincell.stores.postStore.getState().emitted !== null, null, { polling: 50, timeout: 30_000 });
   };
   const close = () => page.keyboard.press("Escape");
-  expect(await longest(exporting, close)).toEqual([]);
+  expect(await long(exporting, close)).toEqual([]);
   await close();
 });
 
 test("opening a recording happens away from the page", async () => {
-  const { runs } = await page.evaluate(() => window.twincell.stores.historyStore.getState());
   await page.evaluate(() => { window.twincell.stores.viewStore.setState({ mode: "history" }); });
+  const { runs } = await page.evaluate(() => window.twincell.stores.historyStore.getState());
   const open = async (): Promise<void> => {
-    await page.getByRole("button", { name: runs[0]!.name }).first().click();
+    await page.locator(".history-open").first().click();
     await page.waitForFunction(() => { const { open: id, opening, duration_s } = window.twincell.stores.historyStore.getState(); return id !== null && !opening && duration_s > 0; }, null, { polling: 50, timeout: 30_000 });
   };
-  expect(await longest(open, async () => { /* The run is opened once more. */ })).toEqual([]);
+  expect(runs.length).toBeGreaterThan(0);
+  const reader = page.waitForEvent("worker", worker => worker.url().includes("recording.worker"));
+  expect(await long(open, async () => { /* The run is opened once more. */ })).toEqual([]);
+  await reader;
 });
 
 test("making points from edges happens away from the page", async () => {
@@ -104,7 +105,7 @@ test("making points from edges happens away from the page", async () => {
   const carton = tracedCartonCell().objects.find(object => object.id === "carton")!, size_m = carton.shape.kind === "box" ? carton.shape.size_m : [0, 0, 0];
   const [x, y, z] = carton.worldFromObject.position;
   // On the near top edge, a third along.
-  const point = [x - size_m[0]! / 2, y - size_m[1]! / 6, z + size_m[2]! / 2] as const;
+  const point: Vector3 = [x - size_m[0]! / 2, y - size_m[1]! / 6, z + size_m[2]! / 2];
   const make = async (): Promise<void> => {
     const at = await page.evaluate(where => window.twincellScene!.project(where), point);
     await page.mouse.move(at.x - 3, at.y - 2);
@@ -118,6 +119,18 @@ test("making points from edges happens away from the page", async () => {
     await page.waitForFunction(() => window.twincell.stores.traceStore.getState().last !== null, null, { polling: 50, timeout: 60_000 });
     await judged();
   };
-  expect(await longest(make, () => page.evaluate(() => { window.twincell.stores.traceStore.setState({ last: null }); window.twincell.document.undo(); }))).toEqual([]);
+  expect(await long(make, () => page.evaluate(() => { window.twincell.stores.traceStore.setState({ last: null }); window.twincell.document.undo(); }))).toEqual([]);
   expect(problems).toEqual([]);
+});
+
+test("the measure sees script that takes too long", async () => {
+  await page.evaluate(() => {
+    const busy = (ms: number): void => { for (const until = performance.now() + ms; performance.now() < until;); };
+    const everyFrame = (): void => { busy(12); requestAnimationFrame(everyFrame); };
+    requestAnimationFrame(everyFrame);
+    setInterval(() => { busy(250); }, 700);
+  });
+  const { script_ms, tasks_ms } = await cpuDuring(page, () => page.waitForTimeout(2000));
+  expect(quantile(script_ms, 0.95)).toBeGreaterThan(P95_MS);
+  expect(tasks_ms.filter(ms => ms > LONG_MS).length).toBeGreaterThan(0);
 });

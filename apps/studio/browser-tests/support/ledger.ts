@@ -68,6 +68,7 @@ function install(asTheyAre: boolean): void {
     setInterval(() => {
       const at = now(), due = [...waiting.values()];
       waiting.clear();
+      console.timeStamp("frame");
       for (const call of due) callFrame(call, at);
     }, 1000 / 60);
   }
