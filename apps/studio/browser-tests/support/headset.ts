@@ -17,19 +17,22 @@ export class Person {
    * the emulator believes the window to be: small, since every pixel of it is drawn by the processor.
    */
   async enter(width = 400, height = 240): Promise<void> {
-    await this.page.evaluate(([w, h]) => {
-      Object.defineProperty(window, "innerWidth", { value: w, configurable: true });
-      Object.defineProperty(window, "innerHeight", { value: h, configurable: true });
-    }, [width, height]);
+    const kept = await this.page.evaluateHandle(([w, h]) => {
+      const own = { innerWidth: Object.getOwnPropertyDescriptor(window, "innerWidth")!, innerHeight: Object.getOwnPropertyDescriptor(window, "innerHeight")! };
+      Object.defineProperties(window, { innerWidth: { value: w, configurable: true }, innerHeight: { value: h, configurable: true } });
+      return own;
+    }, [width, height] as const);
     await this.page.getByRole("button", { name: "Headset" }).click();
     await this.page.waitForFunction(() => window.twincell.stores.viewStore.getState().inHeadset && window.twincellScene!.gl.xr.getSession()?.inputSources.length === 2);
+    await kept.evaluate(own => { Object.defineProperties(window, own); });
     await this.page.waitForFunction(() => window.twincellScene!.scene.getObjectByName("wrist-panel") !== undefined);
     await this.frames(4);
   }
 
+  /** Frames inside the headset; outside, where nothing is drawn while nothing changes, there is nothing to wait for. */
   async frames(count = 2): Promise<void> {
     const until = await this.page.evaluate(more => window.twincellScene!.frames + more, count);
-    await this.page.waitForFunction(all => window.twincellScene!.frames >= all, until);
+    await this.page.waitForFunction(all => window.twincellScene!.frames >= all || !window.twincellScene!.gl.xr.isPresenting, until);
   }
 
   /** Where a point of the world is for the headset. */

@@ -14,8 +14,9 @@ import { WORDS } from "../words.ts";
 /** Capitals are 23 mm high at this distance and nearer, and as large to the eye farther away. */
 const READ_FROM_M = 1.2;
 const METRES_PER_PIXEL = 0.001, WORDS_PX = 32;
-const ABOVE_M = 0.2;
-const tip = new Vector3();
+/** Clear of the tool and the wrist that carries it. */
+const ABOVE_M = 0.2, TOWARDS_M = 0.22;
+const tip = new Vector3(), eye = new Vector3();
 
 /** Why the tool does not go on, said at the tool and turned to whoever looks. */
 export function WhyCard() {
@@ -27,11 +28,13 @@ export function WhyCard() {
     const at = card.current;
     if (!at) return;
     toScene(theLive().worldFromTcp.position, tip);
-    const scale = Math.max(1, tip.distanceTo(camera.position) / READ_FROM_M);
-    at.position.copy(tip);
+    // In a headset the camera rides on the place where the person stands.
+    eye.setFromMatrixPosition(camera.matrixWorld);
+    const scale = Math.max(1, tip.distanceTo(eye) / READ_FROM_M);
+    at.position.copy(eye).sub(tip).setLength(TOWARDS_M).add(tip);
     at.position.y += ABOVE_M * scale;
     at.scale.setScalar(scale);
-    at.rotation.y = Math.atan2(camera.position.x - tip.x, camera.position.z - tip.z);
+    at.rotation.y = Math.atan2(eye.x - tip.x, eye.z - tip.z);
   }, -8);
   return (
     <group ref={card} visible={sentence !== undefined} name="why-card">

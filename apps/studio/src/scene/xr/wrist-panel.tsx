@@ -16,7 +16,7 @@ import { watchStore } from "../../stores/watch.ts";
 import { WORDS } from "../words.ts";
 import type { KeyAim } from "./grabber.ts";
 
-const READ_EVERY_S = 0.2;
+const READ_EVERY_S = 0.3;
 /** Capitals of 32 px are 12 mm high: at half an arm's length as large as 29 mm at 1.2 m. */
 const METRES_PER_PIXEL = 0.0005;
 const WORDS_PX = 32;
@@ -81,7 +81,7 @@ function State() {
   return <Text id="state" fontSize={WORDS_PX} color={blocked || touching ? "#ff8a82" : "#b9c4ca"}>{words}</Text>;
 }
 
-/** Place of the tool tip, read five times a second. */
+/** Place of the tool tip, read three times a second. */
 function ReadOut() {
   const [text, setText] = useState<readonly [string, string]>(["", ""]), since = useRef(READ_EVERY_S), seen = useRef(-1);
   useFrame((_, dt_s) => {
