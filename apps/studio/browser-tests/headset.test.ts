@@ -34,7 +34,7 @@ afterAll(async () => { await studio.stop(); });
 describe("N-63 X-42 in an emulated Quest 3", () => {
   let page: Page, context: BrowserContext, person: Person, problems: string[], eye: number[];
   beforeAll(async () => {
-    ({ page, context, problems } = await studio.open({ headset: true, width: 900, height: 480 }));
+    ({ page, context, problems } = await studio.open({ headset: true, width: 960, height: 480 }));
     await drawn(page);
     await stand(page, OVER_CARTON_DEG);
     person = new Person(page);
@@ -223,7 +223,6 @@ describe("N-63 X-42 in an emulated Quest 3", () => {
     await page.keyboard.press("Control+z");
     expect(await recorded(page)).toHaveLength(1);
     expect(problems).toEqual([]);
-    await context.close();
   });
 });
 
@@ -258,7 +257,7 @@ describe("what a person sees", () => {
 
 describe("T-48 on another headset, with bare hands", () => {
   test("an emulated Quest 2 enters; a pinch takes the tool without moving it and carries it", async () => {
-    const { page, context, problems } = await studio.open({ headset: "metaQuest2", width: 900, height: 480 });
+    const { page, context, problems } = await studio.open({ headset: "metaQuest2", width: 960, height: 480 });
     await drawn(page);
     await stand(page, OVER_CARTON_DEG);
     const person = new Person(page);
