@@ -3,7 +3,7 @@ import type { Vector3 } from "@twincell/core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 import { cpuDuring } from "./support/cpu.ts";
 import { ledger, quantile } from "./support/ledger.ts";
-import { drawn, Studio, type Page } from "./support/studio.ts";
+import { drawn, type Page, picture, Studio } from "./support/studio.ts";
 
 /** bench/frame.ts measures; this holds the line. Processor time: other processes do not count. */
 const P95_MS = 3, WORST_MS = 25, LONG_MS = 50, ROUNDS = 4;
@@ -101,16 +101,25 @@ test("opening a recording happens away from the page", async () => {
 });
 
 test("making points from edges happens away from the page", async () => {
-  await page.evaluate(() => { window.twincell.stores.viewStore.setState({ mode: "teach" }); window.twincell.run("trace.toggle"); });
+  await page.evaluate(() => { window.twincell.stores.viewStore.setState({ mode: "teach" }); window.twincell.seek(0); window.twincell.run("trace.toggle"); });
   const carton = tracedCartonCell().objects.find(object => object.id === "carton")!, size_m = carton.shape.kind === "box" ? carton.shape.size_m : [0, 0, 0];
   const [x, y, z] = carton.worldFromObject.position;
   // On the near top edge, a third along.
   const point: Vector3 = [x - size_m[0]! / 2, y - size_m[1]! / 6, z + size_m[2]! / 2];
+  // The view may still be on its way when the mode changes: pointed at anew until the edge answers.
+  const hover = async (): Promise<{ readonly x: number; readonly y: number }> => {
+    for (let i = 0; i < 40; i++) {
+      const at = await page.evaluate(where => window.twincellScene!.project(where), point);
+      await page.mouse.move(at.x - 3, at.y - 2);
+      await page.mouse.move(at.x, at.y);
+      await page.waitForTimeout(250);
+      if (await page.evaluate(() => window.twincell.stores.traceStore.getState().hovered !== null)) return at;
+    }
+    await page.screenshot({ path: picture("frame-budget-no-edge") });
+    throw new Error("The edge does not answer to the pointer.");
+  };
   const make = async (): Promise<void> => {
-    const at = await page.evaluate(where => window.twincellScene!.project(where), point);
-    await page.mouse.move(at.x - 3, at.y - 2);
-    await page.mouse.move(at.x, at.y);
-    await page.waitForFunction(() => window.twincell.stores.traceStore.getState().hovered !== null, null, { polling: 50 });
+    const at = await hover();
     await page.mouse.click(at.x, at.y);
     await page.waitForFunction(() => window.twincell.stores.traceStore.getState().chosen.length === 1, null, { polling: 50 });
     const before = await page.evaluate(() => window.twincell.stores.traceStore.getState().last);
@@ -125,12 +134,14 @@ test("making points from edges happens away from the page", async () => {
 
 test("the measure sees script that takes too long", async () => {
   await page.evaluate(() => {
-    const busy = (ms: number): void => { for (const until = performance.now() + ms; performance.now() < until;); };
-    const everyFrame = (): void => { busy(12); requestAnimationFrame(everyFrame); };
+    // So much work, not so much time: a busy machine does not shorten it.
+    let sum = 0;
+    const work = (sines: number): void => { for (let i = 0; i < sines; i++) sum += Math.sin(i); };
+    const everyFrame = (): void => { work(400_000); requestAnimationFrame(everyFrame); };
     requestAnimationFrame(everyFrame);
-    setInterval(() => { busy(250); }, 700);
+    setInterval(() => { work(8_000_000); document.title = String(sum); }, 500);
   });
-  const { script_ms, tasks_ms } = await cpuDuring(page, () => page.waitForTimeout(2000));
+  const { script_ms, tasks_ms } = await cpuDuring(page, () => page.waitForTimeout(3000));
   expect(quantile(script_ms, 0.95)).toBeGreaterThan(P95_MS);
   expect(tasks_ms.filter(ms => ms > LONG_MS).length).toBeGreaterThan(0);
 });

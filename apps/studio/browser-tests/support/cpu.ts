@@ -25,13 +25,17 @@ export async function cpuDuring(page: Page, act: () => Promise<unknown>): Promis
   session.on("Tracing.dataCollected", ({ value }) => { events.push(...value as unknown as TraceEvent[]); });
   await session.send("Tracing.start", { transferMode: "ReportEvents", traceConfig: { includedCategories: ["devtools.timeline", "toplevel"], excludedCategories: ["*"] } });
   const began_ms = performance.now();
-  await page.evaluate(() => { console.timeStamp("here"); });
-  await act();
-  const seconds = (performance.now() - began_ms) / 1000;
-  const complete = new Promise(resolve => { session.once("Tracing.tracingComplete", resolve); });
-  await session.send("Tracing.end");
-  await complete;
-  await session.detach();
+  let seconds = 0;
+  try {
+    await page.evaluate(() => { console.timeStamp("here"); });
+    await act();
+    seconds = (performance.now() - began_ms) / 1000;
+  } finally {
+    const complete = new Promise(resolve => { session.once("Tracing.tracingComplete", resolve); });
+    await session.send("Tracing.end");
+    await complete;
+    await session.detach();
+  }
   return { ...sums(events), seconds };
 }
 
