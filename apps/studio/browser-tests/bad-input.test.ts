@@ -8,7 +8,7 @@ const GOOD = saveDocument(edgeTraceCell());
 const changed = (change: (cell: Record<string, unknown>) => Record<string, unknown>): string => JSON.stringify(change(JSON.parse(GOOD)));
 const nested = (depth: number): string => `${"[".repeat(depth)}${"]".repeat(depth)}`;
 /** The picture costs most where the processor draws it. */
-const SMALL = { width: 800, height: 420 };
+const SMALL = { width: 920, height: 420 };
 
 let studio: Studio;
 beforeAll(async () => { studio = await Studio.start(); });
@@ -173,7 +173,7 @@ describe("a browser that cannot do everything", () => {
     await page.keyboard.up("s");
     await page.evaluate(() => window.twincell.run("program.record-ptp"));
     await page.keyboard.press("Control+e");
-    await page.getByRole("region", { name: /V\+ text/ }).waitFor();
+    await page.getByRole("region", { name: /edge_trace/ }).waitFor();
     await context.close();
   });
 

@@ -13,7 +13,7 @@ const WORK_RAD = [-8, 0, 135, -5, 86, 85].map(radians);
 /** How near to a wanted place a thumb steers. */
 const BY_HAND_M = 0.0003;
 /** A small picture has many frames a second where the processor draws it. */
-const SMALL = { width: 800, height: 420 };
+const SMALL = { width: 920, height: 420 };
 /** Counts the tones a page starts, behind the sound store. */
 const EARS = "{const start=OscillatorNode.prototype.start;window.tonesStarted=0;OscillatorNode.prototype.start=function(when){window.tonesStarted++;return start.call(this,when)}}";
 declare global { interface Window { tonesStarted: number } }

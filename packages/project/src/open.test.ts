@@ -90,3 +90,8 @@ describe("opening a cell", () => {
     fc.assert(fc.property(fc.jsonValue(), value => { openDocument(JSON.stringify({ format: "twincell.cell", version: 1, ...(typeof value === "object" ? value : {}) })); }), { seed: 8, numRuns: 200 });
   });
 });
+
+test("a hundred thousand brackets are a sentence, not an overflow", () => {
+  const deep = `{"format":${"[".repeat(100_000)}${"]".repeat(100_000)}}`;
+  expect(openDocument(deep)).toMatchObject({ kind: "not-a-cell" });
+});

@@ -16,8 +16,8 @@ export interface OpenOptions {
   readonly height?: number;
   readonly theme?: "dark" | "light";
   readonly touch?: boolean;
-  /** Installs an emulated Quest 3 before the page starts. */
-  readonly headset?: boolean;
+  /** Installs an emulated headset before the page starts: a Quest 3, or the one that is named. */
+  readonly headset?: boolean | "oculusQuest1" | "metaQuest2" | "metaQuestPro";
   /** Added to the page before it starts. */
   readonly script?: string;
   readonly query?: string;
@@ -68,7 +68,9 @@ export class Studio {
     page.on("request", request => { if (!request.url().startsWith(this.url) && !/^(data|blob):/.test(request.url())) problems.push(`The page asked for ${request.url()}.`); });
     if (options.headset) {
       await page.addInitScript({ path: `${root}node_modules/iwer/build/iwer.min.js` });
-      await page.addInitScript({ content: "{const d=new IWER.XRDevice(IWER.metaQuest3);d.installRuntime({forceInstall:true});d.position.set(0,1.6,0);window.xrDevice=d}" });
+      await page.addInitScript({ content: `{const d=new IWER.XRDevice(IWER.${options.headset === true ? "metaQuest3" : options.headset});d.installRuntime({forceInstall:true});d.position.set(0,1.6,0);window.xrDevice=d;
+        // The emulator shows the page's own canvas in its own frame: let the picture fill it.
+        addEventListener("DOMContentLoaded",()=>document.head.append(Object.assign(document.createElement("style"),{textContent:"[data-webxr_runtime]{background:#000}[data-webxr_runtime] canvas{position:absolute!important;inset:0!important;width:100%!important;height:100%!important}"})))}` });
     }
     if (options.script) await page.addInitScript({ content: options.script });
     options.before?.(page);

@@ -1,5 +1,6 @@
 import type { Command } from "../stores/commands.ts";
 import { openDialog } from "../stores/dialogs.ts";
+import { headsetStore } from "../stores/headset.ts";
 import { showMode, toggleCamera, toggleMuted, toggleTheme, viewStore, wishHeadset, type StudioMode } from "../stores/view.ts";
 import { words } from "../words/index.ts";
 
@@ -11,7 +12,7 @@ export const viewCommands = (): readonly Command[] => [
   { id: "view.plots", group: "view", words: words.commands.plots, run: () => viewStore.setState(({ plots }) => ({ plots: !plots })) },
   { id: "view.theme", group: "view", words: words.commands.theme, run: toggleTheme },
   { id: "view.mute", group: "view", words: words.commands.mute, keys: ["M"], run: toggleMuted },
-  { id: "view.headset", group: "view", words: words.commands.headset, run: wishHeadset },
+  { id: "view.headset", group: "view", words: words.commands.headset, can: () => headsetStore.getState().ready === true, run: wishHeadset },
   { id: "help.palette", group: "help", words: words.commands.palette, keys: ["Mod+K"], run: () => openDialog("palette") },
   { id: "help.shortcuts", group: "help", words: words.commands.shortcuts, keys: ["?"], run: () => openDialog("shortcuts") },
   { id: "help.controls", group: "help", words: words.commands.controls, run: () => openDialog("controls") },

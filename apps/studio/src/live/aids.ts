@@ -1,4 +1,4 @@
-import { aidOrientation, nextAid, type Pose } from "@twincell/core";
+import { aidAxis, aidOrientation, nextAid, type Pose, type Vector3 } from "@twincell/core";
 import { cellStore } from "../stores/cell.ts";
 import { theRobot } from "../stores/document.ts";
 import { jogStore } from "../stores/jog.ts";
@@ -15,6 +15,13 @@ function pieceNow(): Pose<"world", "object"> {
   const objects = cellStore.getState().document?.objects ?? [], { selected } = selectionStore.getState();
   const piece = (selected?.kind === "object" ? objects.find(object => object.id === selected.id) : undefined) ?? objects.find(object => object.role === "workpiece");
   return piece?.worldFromObject ?? { position: [0, 0, 0], quaternion: [0, 0, 0, 1] };
+}
+
+const axis: Vector3 = [0, 0, 0];
+/** Tool axis in the world of the aid that is chosen, lent until the next call; null when the tool is free. */
+export function chosenAidAxis(): Readonly<Vector3> | null {
+  const { aid } = jogStore.getState();
+  return aid === null ? null : aidAxis(pieceNow(), aid, axis);
 }
 
 /** Turns the tool to the next or previous orientation aid about its tip (rows N-31, N-35, N-52); says why when it cannot. */

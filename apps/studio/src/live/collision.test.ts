@@ -7,7 +7,7 @@ import { watchStore } from "../stores/watch.ts";
 import type { FromWatcher, ToWatcher } from "../workers/messages.ts";
 import { watchCollisions, type Watcher } from "./collision.ts";
 import { tick } from "./frames.ts";
-import { showJoints, touchingNow } from "./live.ts";
+import { showJoints, theLive, touchingNow } from "./live.ts";
 
 /** Answers when told to, so that a slow worker can be played. */
 function slowWatcher(): Watcher & { readonly asked: ToWatcher[]; answer(): void } {
@@ -62,4 +62,15 @@ test("N-47 N-48 N-49 a contact sounds once, names what is touched, and lets go o
   show(HOME);
   expect([...touchingNow()]).toEqual([]);
   expect(watchStore.getState().contacts).toEqual([]);
+});
+
+test("N-50 a contact is only an alert: what is touched stays where it stands, and the robot where it was shown", () => {
+  const watcher = slowWatcher(), before = structuredClone(cellStore.getState().document), { document } = cellStore.getState();
+  stop = watchCollisions(watcher);
+  showJoints(INTO_WALL); frame(); watcher.answer();
+  for (let i = 0; i < 60; i++) { showJoints(INTO_WALL.map(q => q + 0.002 * i)); frame(); watcher.answer(); }
+  expect([...touchingNow()]).toContain("wall-left");
+  expect(cellStore.getState().document).toBe(document);
+  expect(document).toEqual(before);
+  expect([...theLive().q_rad]).toEqual(INTO_WALL.map(q => q + 0.002 * 59));
 });

@@ -15,12 +15,18 @@ const MOVED: DragOutcome = { kind: "moved" }, ON_THE_WAY: DragOutcome = { kind: 
 
 /** A hand that jumps (tracking lost, two pointers taken for one) moves the robot by no more than this in one call. */
 const LONGEST_STEP_M = 0.08;
+/** Per coordinate, so that the three together keep to it too. */
+const LONGEST_SIDE_M = LONGEST_STEP_M / Math.sqrt(3);
 const LONGEST_TURN_RAD = 0.3;
 /** Near a singularity a small step of the tool would throw a joint round: then the drag is blocked instead. */
 const LONGEST_JOINT_STEP_RAD = 0.6;
 const HALVINGS = 7;
 /** The coordinate that meets a limit rests this long, so that the person notices (row N-40). */
 const PAUSE_MS = 500;
+/** Numbers in a sentence change with every movement: they are read this often. */
+const TELL_EVERY_MS = 150;
+const REFUSED_MS = 3000;
+let met = false, told_ms = 0;
 
 interface Followed { readonly robot: Robot; readonly baseFromWorld: Pose<"base", "world">; readonly flangeFromTcp: Pose<"flange", "tcp"> }
 let followed: Followed | null = null;
@@ -98,24 +104,38 @@ export function dragTcp(worldFromTcp: Pose<"world", "tcp">): DragOutcome {
 
   const why = reason(followed, step, live.q_rad);
   const target: Pose<"world", "tcp"> = { position: [from.position[0], from.position[1], from.position[2]], quaternion: [from.quaternion[0], from.quaternion[1], from.quaternion[2], from.quaternion[3]] };
-  for (let k = 0; k < 3; k++) { target.position[k] = step.position[k]!; advance(followed, target); copyPose(from, target); }
-  for (let k = 0; k < 4; k++) target.quaternion[k] = step.quaternion[k]!;
+  // Each for itself: one that is pulled far beyond its limit does not slow the others down.
+  for (let k = 0; k < 3; k++) {
+    target.position[k] = from.position[k]! + Math.max(-LONGEST_SIDE_M, Math.min(LONGEST_SIDE_M, worldFromTcp.position[k]! - from.position[k]!));
+    advance(followed, target);
+    copyPose(from, target);
+  }
+  slerp(from.quaternion, worldFromTcp.quaternion, Math.min(1, LONGEST_TURN_RAD / Math.max(turn, 1e-12)), target.quaternion);
   advance(followed, target);
   showJoints(best);
   block(why);
   return why;
 }
 
-/** Says once that a limit was met: sentence, sound and pause are the same as for jogging. */
+/** Sounds once when a limit is met, and keeps the reason in sight as long as the hand pulls against it. */
 function block(why: Blocked): void {
   const now_ms = performance.now(), { blocked } = jogStore.getState();
-  if (blocked?.sentence === why.sentence) return;
-  if (!blocked || blocked.until_ms < now_ms) sound("limit");
+  if (!met) sound("limit");
+  else if (blocked && now_ms - told_ms < TELL_EVERY_MS) return;
+  met = true;
+  told_ms = now_ms;
   const until_ms = now_ms + PAUSE_MS;
   jogStore.setState({ blocked: why.joint === undefined ? { sentence: why.sentence, until_ms } : { sentence: why.sentence, joint: why.joint, until_ms } });
 }
 function free(): void {
+  met = false;
   if (jogStore.getState().blocked) jogStore.setState({ blocked: null });
+}
+
+/** Says why a drag was ended by itself. */
+export function refuseDrag(sentence: string): void {
+  sound("limit");
+  jogStore.setState({ blocked: { sentence, until_ms: performance.now() + REFUSED_MS } });
 }
 
 /**

@@ -3,15 +3,18 @@ import type { Vector3 as Vector } from "@twincell/core";
 import { type RefObject, useEffect, useMemo } from "react";
 import { PerspectiveCamera, Quaternion } from "three";
 import { takeEffort_ms } from "../live/effort.ts";
+import { chosenAidAxis } from "../live/aids.ts";
 import { onTouching, theLive } from "../live/live.ts";
+import { jogStore } from "../stores/jog.ts";
 import { viewStore } from "../stores/view.ts";
-import { closeCameraPosition } from "./camera/close-camera.ts";
+import { closeCameraPosition, closeCameraSide, closeCameraUp } from "./camera/close-camera.ts";
 import { turnCube } from "./camera/view-cube.tsx";
 import type { FrameMeter } from "./frame-meter.ts";
 import type { PictureFrame } from "./picture.ts";
 import { Sharpness } from "./sharpness.ts";
+import { toScene } from "./world-space.ts";
 
-const place: Vector = [0, 0, 0];
+const place: Vector = [0, 0, 0], side: Vector = [0, 0, 0], up: Vector = [0, 0, 0];
 
 /** Renders the frame: the view, and the other camera as a picture in it. Measures script and draw time apart. */
 export function RenderLoop({ meter, picture, cube }: { readonly meter: FrameMeter; readonly picture: PictureFrame; readonly cube: RefObject<HTMLDivElement | null> }) {
@@ -29,7 +32,7 @@ export function RenderLoop({ meter, picture, cube }: { readonly meter: FrameMete
       handle = requestAnimationFrame(watch);
     };
     handle = requestAnimationFrame(watch);
-    const stops = [viewStore.subscribe(() => invalidate()), onTouching(() => invalidate())];
+    const stops = [viewStore.subscribe(() => invalidate()), onTouching(() => invalidate()), jogStore.subscribe(({ aid }, before) => { if (aid !== before.aid) invalidate(); })];
     return () => { cancelAnimationFrame(handle); for (const stop of stops) stop(); };
   }, [invalidate]);
 
@@ -42,10 +45,10 @@ export function RenderLoop({ meter, picture, cube }: { readonly meter: FrameMete
     } else {
       sharpness.choose(gl, camera, invalidate);
       const view = viewStore.getState(), { worldFromTcp } = theLive();
-      closeCameraPosition(worldFromTcp, view.closePlacement, view.closeTilt_rad, place);
-      close.position.set(place[0], place[2], -place[1]);
-      // Straight down there is no "up" but the way the camera came from.
-      close.up.set(-Math.SQRT1_2 * Math.sin(view.closeTilt_rad), Math.cos(view.closeTilt_rad), -Math.SQRT1_2 * Math.sin(view.closeTilt_rad));
+      closeCameraSide(chosenAidAxis(), side);
+      closeCameraPosition(worldFromTcp, view.closePlacement, view.closeTilt_rad, side, place);
+      toScene(place, close.position);
+      toScene(closeCameraUp(view.closeTilt_rad, side, up), close.up);
       close.lookAt(worldFromTcp.position[0], worldFromTcp.position[2], -worldFromTcp.position[1]);
       const large = view.camera === "main" ? camera : close;
       close.aspect = size.width / size.height;

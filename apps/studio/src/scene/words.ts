@@ -20,6 +20,10 @@ export const WORDS = {
   noHeadset: "This browser has no WebXR.",
   noHeadsetSecure: "A headset needs a secure page: open it over https or on localhost.",
   noHeadsetDevice: "No headset answers this browser.",
+  blocked: "At its limit",
+  inContact: "In contact",
+  touch: (one: string, other: string): string => `${one.charAt(0).toUpperCase()}${one.slice(1)} touches ${other}.`,
+  handJumped: (jump_m: number): string => `The hand was lost and found ${jump_m.toFixed(1)} m away, so the tool was let go. Take it again.`,
   record: "Record", deletePoint: "Delete last", play: "Play", pause: "Pause", stop: "STOP", leave: "Leave", tilt: "tilt",
   points: (count: number): string => `${count} ${count === 1 ? "point" : "points"}`,
 } as const;

@@ -5,9 +5,10 @@ import { words } from "../words/index.ts";
 
 /**
  * A dialog that leaves the top bar alone: not modal in the DOM's sense, so STOP and the controller chip stay
- * reachable by pointer, key and screen reader while it is open.
+ * reachable by pointer, key and screen reader while it is open. `reading`: nothing in it takes the focus, so the body itself
+ * does, to be scrolled by keys.
  */
-export function Frame({ open, title, onClose, children, foot, width }: { open: boolean; title: string; onClose: () => void; children: ReactNode; foot?: ReactNode; width?: number }) {
+export function Frame({ open, title, onClose, children, foot, width, reading = false }: { open: boolean; title: string; onClose: () => void; children: ReactNode; foot?: ReactNode; width?: number; reading?: boolean }) {
   return (
     <Dialog.Root open={open} onOpenChange={next => { if (!next) onClose(); }} modal={false}>
       <Dialog.Portal>
@@ -20,7 +21,7 @@ export function Frame({ open, title, onClose, children, foot, width }: { open: b
             <Dialog.Title asChild><h2>{title}</h2></Dialog.Title>
             <Dialog.Close asChild><button className="btn quiet icon" aria-label={words.common.close}><X /></button></Dialog.Close>
           </div>
-          <div className="dialog-body">{children}</div>
+          <div className="dialog-body" {...(reading ? { tabIndex: 0, role: "region", "aria-label": title } : {})}>{children}</div>
           {foot && <div className="dialog-foot">{foot}</div>}
         </Dialog.Content>
       </Dialog.Portal>

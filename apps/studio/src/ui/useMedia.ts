@@ -7,5 +7,5 @@ export function useMedia(query: string): boolean {
     () => matchMedia(query).matches,
   );
 }
-/** A phone either way up, or a narrow window. */
-export const PHONE = "(max-width: 760px), (max-height: 480px) and (pointer: coarse)";
+/** A phone either way up, a tablet held upright, or a narrow window. */
+export const PHONE = "(max-width: 900px), (max-height: 480px) and (pointer: coarse)";

@@ -21,7 +21,7 @@ export const en = {
   saving: { saved: "saved", saving: "saving …", unsaved: "not saved yet", problem: "not saved", tip: "Kept in this browser after every change." },
   top: {
     rename: "Name of the cell", menu: "Cell menu", speed: "Speed", speedTip: "Speed override. 0 % holds the robot.", stop: "STOP", stopTip: "Stops everything that moves. Also: Pause, or Esc twice.",
-    headset: "Headset", headsetTip: "Enter the cell at 1:1", headsetNone: "This browser has no WebXR headset to enter. Open the page in the headset's own browser, over HTTPS.",
+    headset: "Headset", headsetTip: "Enter the cell at 1:1",
     palette: "All commands", theme: "Light or dark", mute: "Mute sounds", unmute: "Sounds on", stopped: "Everything was stopped.", stoppedHint: "Motion goes on only when you command it again.",
     stopTrouble: "One part did not answer to STOP:",
   },

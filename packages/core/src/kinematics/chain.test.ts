@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { flangePose, pose, seededRandom, type SerialArm } from "../index.ts";
+import { angleBetween, armScratch, compose, distance, flangePose, fromAxisAngle, identity, inverse, linkPoses, pose, robotById, seededRandom, type Pose, type SerialArm } from "../index.ts";
 
 const limits = { lower_rad: -100, upper_rad: 100, speed_rad_s: 1, acceleration_rad_s2: 1 };
 const turntable: SerialArm = { name: "turntable", joints: [{ name: "1", axis: [0, 0, 1], parentFromJoint: pose(), limits }], lastJointFromFlange: pose() };
@@ -16,4 +16,27 @@ test("a joint's own sine and cosine are the engine's to 5e-16 over many turns, s
   expect(worst).toBeLessThan(5e-16);
   expect(flangePose(turntable, [NaN]).quaternion[3]).toBeNaN();
   expect(flangePose(turntable, [0]).quaternion).toEqual([0, 0, 0, 1]);
+});
+
+test("N-05 the links are a hierarchy: each follows its parent, and a joint carries along what is behind it and nothing before it", () => {
+  const { arm } = robotById("staubli_rx90l")!, random = seededRandom(5), scratch = armScratch();
+  const links = (q: readonly number[]): Pose<"base", "link">[] => {
+    const out = Array.from({ length: 7 }, () => identity<"base", "link">());
+    linkPoses(arm, q, out, scratch);
+    return out;
+  };
+  const gap = (a: Pose, b: Pose): number => Math.max(distance(a.position, b.position), angleBetween(a.quaternion, b.quaternion));
+  for (let k = 0; k < 100; k++) {
+    const q = arm.joints.map(({ limits: { lower_rad, upper_rad } }) => lower_rad + (upper_rad - lower_rad) * random()), before = links(q);
+    for (const [i, joint] of arm.joints.entries()) {
+      const linkFromNext: Pose<"link", "link"> = compose<"link", "joint", "link">(pose(joint.parentFromJoint.position, joint.parentFromJoint.quaternion), pose([0, 0, 0], fromAxisAngle(joint.axis, q[i]!)));
+      expect(gap(before[i + 1]!, compose(before[i]!, linkFromNext))).toBeLessThan(1e-7);
+      const after = links(q.with(i, q[i]! + 0.3)), carried = compose(after[i + 1]!, inverse(before[i + 1]!));
+      for (let link = 0; link <= 6; link++) {
+        if (link <= i) expect(after[link]).toEqual(before[link]);
+        else expect(gap(after[link]!, compose(carried, before[link]!))).toBeLessThan(1e-7);
+      }
+      expect(gap(after[i + 1]!, before[i + 1]!)).toBeGreaterThan(0.29);
+    }
+  }
 });

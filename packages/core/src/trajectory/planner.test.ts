@@ -94,6 +94,20 @@ describe("planProgram", () => {
     expect(before).toBeCloseTo(length, 9);
   });
 
+  test("N-19 between two poses the tool goes at the given speed and never jumps: no step is longer or turns further than that speed allows", () => {
+    const to = multiply(fromAxisAngle([0, 0, 1], 0.6), DOWN), mps = 0.2, plan = planOf([START, move("line", "lin", at([0.5, 0.35, 0.45], to), { mps })]);
+    const { duration_s } = motionOf(plan, "line"), poses = along(plan, "line", 2000), dt_s = duration_s / 2000, length = distance(poses[0]!.position, poses.at(-1)!.position);
+    let fastest = 0, turning = 0;
+    for (let i = 1; i < poses.length; i++) {
+      fastest = Math.max(fastest, distance(poses[i - 1]!.position, poses[i]!.position) / dt_s);
+      turning = Math.max(turning, angleBetween(poses[i - 1]!.quaternion, poses[i]!.quaternion) / dt_s);
+    }
+    expect(fastest).toBeLessThan(mps * 1.001);
+    expect(fastest).toBeGreaterThan(mps * 0.999);
+    expect(turning).toBeLessThan((0.6 / length) * mps * 1.01);
+    expect(angleBetween(poses.at(-1)!.quaternion, to)).toBeLessThan(1e-6);
+  });
+
   test("a straight move runs at its speed, and its time is distance over speed plus the ramps", () => {
     const plan = planOf([START, move("line", "lin", at([0.6, 0.3, 0.3]), { mps: 0.2 })]), { start_s, duration_s } = motionOf(plan, "line");
     expect(duration_s).toBeGreaterThan(1.5);

@@ -8,6 +8,7 @@ import { traceStore } from "../../stores/trace.ts";
 import { historyStore } from "../../stores/history.ts";
 import { viewStore } from "../../stores/view.ts";
 import { words } from "../../words/index.ts";
+import { reachedStep } from "./reached.ts";
 import "./coach.css";
 
 /** Six steps through the main job. Each goes on by itself when it was done, or by hand. */
@@ -17,7 +18,7 @@ export function Coach() {
   const tracing = useStore(traceStore, state => state.active), chosen = useStore(traceStore, state => state.chosen.length);
   const steps = useStore(cellStore, state => programOf(state.document)?.steps.length ?? 0);
   const mode = useStore(viewStore, state => state.mode), judged = useStore(playStore, state => state.verdict !== null), runs = useStore(historyStore, state => state.runs.length);
-  const reached = runs > 0 && mode === "run" ? 6 : judged && mode === "check" && steps > 0 ? 5 : steps > 0 && mode === "teach" ? 4 : chosen > 0 ? 3 : tracing ? 2 : 0;
+  const reached = reachedStep({ tracing, chosen, steps, mode, judged, runs });
   useEffect(() => { setAt(before => Math.max(before, reached)); }, [reached]);
   const finish = (): void => viewStore.setState({ coachDone: true });
   if (done || !hasObjects || at >= words.coach.steps.length) return null;

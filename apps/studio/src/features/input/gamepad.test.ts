@@ -39,3 +39,15 @@ test("N-44 the trigger tilts in proportion; a reading that is not a number does 
   expect(step(pad()).tilt).toBeNull();
   expect(step(pad({ 7: Number.NaN }, [Number.NaN, 0])).tilt).toBeNull();
 });
+
+test("N-24 buttons count as 0 or 1 however far they are pressed; the trigger and the sticks count from 0 to 1", () => {
+  for (const value of [0, 0.2, 0.49]) expect(step(pad({ 0: value })).axes[4]).toBe(0);
+  for (const value of [0.5, 0.8, 1]) expect(step(pad({ 0: value })).axes[4]).toBe(1);
+  const tilts = [0.1, 0.4, 0.9, 1].map(value => step(pad({ 7: value })).tilt);
+  expect(tilts).toEqual([0.1, 0.4, 0.9, 1]);
+  const sticks = [0, 0.2, 0.5, 0.8, 1].map(value => step(pad({}, [value, 0])).axes[0]!);
+  expect(sticks[0]).toBe(0);
+  expect(sticks.at(-1)).toBe(1);
+  for (let i = 1; i < sticks.length; i++) expect(sticks[i]!).toBeGreaterThan(sticks[i - 1]!);
+  expect(sticks.every(value => value >= 0 && value <= 1)).toBe(true);
+});

@@ -31,7 +31,7 @@ export function Palette() {
           </Command.List>
         </Command>
       </Frame>
-      <Frame open={open === "shortcuts"} title={words.shortcuts.title} onClose={closeDialog} width={720}>
+      <Frame open={open === "shortcuts"} title={words.shortcuts.title} onClose={closeDialog} width={720} reading>
         <div className="shortcuts">
           {GROUPS.map(group => {
             const listed = [...commands.values()].filter(command => command.group === group && command.keys);

@@ -3,6 +3,7 @@ import { DropdownMenu } from "radix-ui";
 import { useStore } from "zustand";
 import { cellStore } from "../../stores/cell.ts";
 import { commandStore, runCommand } from "../../stores/commands.ts";
+import { headsetStore } from "../../stores/headset.ts";
 import { showMode, viewStore, type StudioMode } from "../../stores/view.ts";
 import { Segments } from "../../ui/Choice.tsx";
 import { showKeys } from "../../ui/keys.ts";
@@ -83,10 +84,20 @@ function RightEnd() {
   const { theme, muted } = useStore(viewStore);
   return (
     <>
-      <Tip words={words.top.headsetTip}><button className="btn topbar-headset" aria-label={words.top.headset} onClick={() => runCommand("view.headset")}><Headset /><span>{words.top.headset}</span></button></Tip>
+      <HeadsetButton />
       <Tip words={words.top.theme}><button className="btn quiet icon" aria-label={words.top.theme} onClick={() => runCommand("view.theme")}>{theme === "dark" ? <Sun /> : <Moon />}</button></Tip>
       <Tip words={muted ? words.top.unmute : words.top.mute}><button className="btn quiet icon" aria-label={words.top.mute} aria-pressed={muted} onClick={() => runCommand("view.mute")}>{muted ? <VolumeX /> : <Volume2 />}</button></Tip>
       <Tip words={words.top.palette}><button className="topbar-palette" aria-label={words.top.palette} onClick={() => runCommand("help.palette")}><span className="kbd" aria-hidden>{showKeys("Mod+K")}</span></button></Tip>
     </>
+  );
+}
+
+/** Cannot be pressed without a headset, but can be asked why. */
+function HeadsetButton() {
+  const { ready, reason } = useStore(headsetStore);
+  return (
+    <Tip words={ready === false ? reason : words.top.headsetTip}>
+      <button className="btn topbar-headset" aria-label={words.top.headset} aria-disabled={ready !== true} onClick={() => { if (ready) runCommand("view.headset"); }}><Headset /><span>{words.top.headset}</span></button>
+    </Tip>
   );
 }

@@ -11,6 +11,13 @@ export function thingWords(thing: Thing, document: CellDocument): string {
   return touching ? `${name} · ${WORDS.touching}` : name;
 }
 
+/** What a person calls a solid that the collision check names: "link 3", "tool", or the id of an object. */
+export function solidWords(solid: string, document: CellDocument): string {
+  const link = /^link (\d+)$/.exec(solid)?.[1];
+  if (link !== undefined) return WORDS.links[Number(link)] ?? solid;
+  return solid === "tool" ? document.tool : document.objects.find(object => object.id === solid)?.name ?? solid;
+}
+
 function nameOf(thing: Thing, document: CellDocument): string {
   switch (thing.kind) {
     case "robot": return robotById(document.robot.id)?.name ?? document.robot.id;

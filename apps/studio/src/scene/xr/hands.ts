@@ -1,5 +1,5 @@
-import { distance, type Pose } from "@twincell/core";
-import { Matrix4, type Object3D, Quaternion, Vector3 } from "three";
+import type { Pose } from "@twincell/core";
+import { Matrix4, Quaternion, Vector3 } from "three";
 import { matrixPose } from "../pose-matrix.ts";
 
 /** Fingers nearer than this hold; farther than that let go: between the two nothing changes. */
@@ -25,11 +25,11 @@ export const handState = (): HandState => ({
   worldFromHand: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] }, worldFromRay: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] }, tracked: false, squeezing: false, pointing: false,
 });
 
-/** The scene that the headset counts from, and the group that holds the z-up world. */
-export interface Room { readonly origin: Object3D; readonly world: Object3D; readonly worldFromScene: Matrix4 }
+/** How the room that the headset counts in lies in the scene, and the scene in the z-up world. */
+export interface Room { readonly sceneFromRoom: Matrix4; readonly worldFromScene: Matrix4 }
 
 function intoWorld(transform: XRRigidTransform, room: Room, out: Pose<"world", "hand">): void {
-  place.fromArray(transform.matrix).premultiply(room.origin.matrixWorld).premultiply(room.worldFromScene);
+  place.fromArray(transform.matrix).premultiply(room.sceneFromRoom).premultiply(room.worldFromScene);
   matrixPose(place, out);
 }
 
@@ -56,7 +56,7 @@ function readFingers(hand: XRHand, frame: XRFrame, space: XRReferenceSpace, room
   thumb.set(a.x, a.y, a.z); index.set(b.x, b.y, b.z);
   const gap = thumb.distanceTo(index);
   out.squeezing = out.squeezing ? gap < PINCH_OPEN_M : gap < PINCH_CLOSED_M;
-  place.compose(thumb.add(index).multiplyScalar(0.5), turn.set(o.x, o.y, o.z, o.w), one).premultiply(room.origin.matrixWorld).premultiply(room.worldFromScene);
+  place.compose(thumb.add(index).multiplyScalar(0.5), turn.set(o.x, o.y, o.z, o.w), one).premultiply(room.sceneFromRoom).premultiply(room.worldFromScene);
   matrixPose(place, out.worldFromHand);
 }
 function joint(hand: XRHand, name: XRHandJoint, frame: XRFrame, space: XRReferenceSpace): XRJointPose | undefined {
@@ -70,5 +70,7 @@ export function rayMisses(worldFromRay: Pose<"world", "hand">, point: readonly [
   // The ray looks along −z of its own frame.
   const dx = -2 * (x * z + w * y), dy = -2 * (y * z - w * x), dz = -(1 - 2 * (x * x + y * y));
   const px = point[0] - ox, py = point[1] - oy, pz = point[2] - oz, along = px * dx + py * dy + pz * dz;
-  return along <= 0 ? Infinity : distance([ox + along * dx, oy + along * dy, oz + along * dz], [point[0], point[1], point[2]]);
+  if (along <= 0) return Infinity;
+  const x_m = px - along * dx, y_m = py - along * dy, z_m = pz - along * dz;
+  return Math.sqrt(x_m * x_m + y_m * y_m + z_m * z_m);
 }

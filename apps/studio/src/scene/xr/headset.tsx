@@ -1,5 +1,5 @@
 import type { CellDocument } from "@twincell/project";
-import { createXRStore, useXRInputSourceState, XR, XROrigin, XRSpace } from "@react-three/xr";
+import { createXRStore, useXR, useXRInputSourceState, XR, XROrigin, XRSpace } from "@react-three/xr";
 import { type RefObject, Suspense, useEffect, useMemo, useRef } from "react";
 import type { Group } from "three";
 import { leaveHeadsetBy } from "../../stores/headset.ts";
@@ -7,14 +7,19 @@ import { notify } from "../../stores/notices.ts";
 import { viewStore } from "../../stores/view.ts";
 import type { Interaction } from "../interaction.ts";
 import { Grab } from "./grab.tsx";
+import type { KeyAim } from "./grabber.ts";
 import { standingPlace } from "./standing-place.ts";
+import { WhyCard } from "./why-card.tsx";
 import { WristPanel } from "./wrist-panel.tsx";
+
+/** A key that is held down for long before it is let go was pressed all the same. */
+const UNHURRIED = { clickThresholdMs: Infinity };
 
 /** Controller models come with the studio: a headset on the local network may have no other. */
 const store = createXRStore({
   emulate: false, offerSession: false, enterGrantedSession: false, foveation: 0.3,
   baseAssetPath: new URL("profiles/", window.location.href).href,
-  controller: { grabPointer: false, teleportPointer: false }, hand: { grabPointer: false, teleportPointer: false },
+  controller: { grabPointer: false, teleportPointer: false, rayPointer: UNHURRIED }, hand: { grabPointer: false, teleportPointer: false, rayPointer: UNHURRIED, touchPointer: UNHURRIED },
 });
 
 /** The cell at full size with a person in front of it. Mounted when a headset is first asked for. */
@@ -23,6 +28,7 @@ export function Headset({ wish, document, interaction, world }: {
   readonly wish: number; readonly document: CellDocument; readonly interaction: Interaction; readonly world: RefObject<Group | null>;
 }) {
   const origin = useRef<Group>(null), place = useMemo(() => standingPlace(document), [document]);
+  const keys = useMemo<KeyAim>(() => ({ aimed: false }), []);
   useEffect(() => {
     if (wish === 0 || store.getState().session) return;
     store.enterVR().catch((trouble: unknown) => { notify("warn", trouble instanceof Error ? trouble.message : String(trouble)); });
@@ -36,19 +42,25 @@ export function Headset({ wish, document, interaction, world }: {
   }, []);
   return (
     <XR store={store}>
-      <XROrigin ref={origin} position={[place.x, 0, -place.y]} rotation-y={place.turn_rad}>
-        <Suspense fallback={null}><Wrist /></Suspense>
+      <XROrigin name="standing-place" ref={origin} position={[place.x, 0, -place.y]} rotation-y={place.turn_rad}>
+        <Suspense fallback={null}><Menu keys={keys} /></Suspense>
       </XROrigin>
-      <Grab interaction={interaction} origin={origin} world={world} />
+      <Suspense fallback={null}><Why /></Suspense>
+      <Grab interaction={interaction} keys={keys} origin={origin} world={world} />
     </XR>
   );
 }
 
-/** The panel rides on the left hand: above a controller, or on the inside of a bare wrist. */
-function Wrist() {
-  const controller = useXRInputSourceState("controller", "left"), hand = useXRInputSourceState("hand", "left");
+/** What is said in the room is only there while somebody is. */
+function Why() {
+  return useXR(state => state.session) ? <WhyCard /> : null;
+}
+
+/** The panel rides on the left hand: above a controller, or on the inside of a bare wrist. Who has no left hand finds it standing beside. */
+function Menu({ keys }: { readonly keys: KeyAim }) {
+  const controller = useXRInputSourceState("controller", "left"), hand = useXRInputSourceState("hand", "left"), inside = useXR(state => state.session !== undefined);
   const grip = controller?.inputSource.gripSpace, wrist = hand?.inputSource.hand.get("wrist");
-  if (grip) return <XRSpace key="controller" space={grip}><group position={[0.02, 0.1, -0.06]} rotation={[-0.75, 0.15, 0]}><WristPanel /></group></XRSpace>;
-  if (wrist) return <XRSpace key="hand" space={wrist}><group position={[0.03, 0.08, -0.04]} rotation={[-0.75, 0.15, 0]}><WristPanel /></group></XRSpace>;
-  return null;
+  if (grip) return <XRSpace key="controller" space={grip}><group name="wrist-panel" position={[0.02, 0.13, -0.08]} rotation={[-0.75, 0.15, 0]}><WristPanel keys={keys} wearer="left" /></group></XRSpace>;
+  if (wrist) return <XRSpace key="hand" space={wrist}><group name="wrist-panel" position={[0.03, 0.1, -0.06]} rotation={[-0.75, 0.15, 0]}><WristPanel keys={keys} wearer="left" /></group></XRSpace>;
+  return inside ? <group name="wrist-panel" position={[-0.5, 1.15, -0.6]} rotation={[-0.35, 0.7, 0]} scale={1.6}><WristPanel keys={keys} wearer="none" /></group> : null;
 }

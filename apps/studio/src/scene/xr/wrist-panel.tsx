@@ -1,7 +1,7 @@
 import { degrees, millimetres } from "@twincell/core";
 import { useFrame } from "@react-three/fiber";
 import { Container, Text } from "@react-three/uikit";
-import { useRef, useState } from "react";
+import { useEffect, useRef, useState } from "react";
 import { useStore } from "zustand";
 import { theLive } from "../../live/live.ts";
 import { cellStore } from "../../stores/cell.ts";
@@ -12,54 +12,87 @@ import { playStore } from "../../stores/play.ts";
 import { deleteSteps } from "../../stores/program.ts";
 import { sound } from "../../stores/sound.ts";
 import { stopEverything } from "../../stores/stop.ts";
+import { watchStore } from "../../stores/watch.ts";
 import { WORDS } from "../words.ts";
+import type { KeyAim } from "./grabber.ts";
 
-const READ_EVERY_S = 0.2;
+const READ_EVERY_S = 0.3;
+/** Capitals of 32 px are 12 mm high: at half an arm's length as large as 29 mm at 1.2 m. */
+const METRES_PER_PIXEL = 0.0005;
+const WORDS_PX = 32;
 
-/** The menu on the left wrist. Half a millimetre per pixel: letters of 26 px stand 13 mm high at arm's length. */
-export function WristPanel() {
-  const program = useStore(cellStore, ({ document }) => document?.programs.find(each => each.name === document.program));
-  const playing = useStore(playStore, state => state.playing), blocked = useStore(jogStore, state => state.blocked);
-  const points = program?.steps.filter(step => step.type === "move").length ?? 0;
-  const deleteLast = (): void => { const last = program?.steps.at(-1); if (last) deleteSteps([last.id]); };
+/** The menu that rides on a wrist. `wearer`: the hand it rides on, whose own ray passes through it. */
+export function WristPanel({ keys, wearer }: { readonly keys: KeyAim; readonly wearer: XRHandedness }) {
+  useEffect(() => () => { keys.aimed = false; }, [keys]);
   return (
-    <Container flexDirection="column" gap={12} padding={18} width={440} pixelSize={0.0005} backgroundColor="#161a1d" borderRadius={22} borderWidth={2} borderColor="#2b3338">
+    <Container id="wrist-panel" flexDirection="column" gap={12} padding={18} width={480} pixelSize={METRES_PER_PIXEL} backgroundColor="#161a1d" borderRadius={22} borderWidth={2} borderColor="#3a444a"
+      pointerEventsType={(_id: number, _type: string, state: unknown) => handOf(state) !== wearer} onHoverChange={(aimed: boolean) => { keys.aimed = aimed; }}>
       <ReadOut />
-      <Text fontSize={26} color={blocked ? "#ff8a82" : "#a3afb6"}>{blocked ? blocked.sentence : WORDS.points(points)}</Text>
+      <State />
       <Row>
-        <Key words={WORDS.record} color="#3fb8b3" ink="#04211f" onPress={() => { if (runCommand("program.record-ptp")) sound("done"); }} />
-        <Key words={WORDS.deletePoint} onPress={deleteLast} />
+        <Key id="record" words={WORDS.record} color="#3fb8b3" ink="#04211f" onPress={() => { if (runCommand("program.record-ptp")) sound("done"); }} />
+        <Key id="delete-last" words={WORDS.deletePoint} onPress={deleteLast} />
       </Row>
       <Row>
-        <Key words={playing ? WORDS.pause : WORDS.play} onPress={() => { runCommand("play.toggle"); }} />
-        <Key words={WORDS.stop} color="#ff6157" ink="#2a0705" onPress={() => { if (!runCommand("stop")) stopEverything(); }} />
+        <PlayKey />
+        <Key id="stop" words={WORDS.stop} color="#ff6157" ink="#2a0705" atOnce onPress={() => { if (!runCommand("stop")) stopEverything(); }} />
       </Row>
-      <Key words={WORDS.leave} onPress={leaveHeadset} />
+      <Key id="leave" words={WORDS.leave} onPress={leaveHeadset} />
     </Container>
   );
+}
+
+function handOf(state: unknown): unknown {
+  if (typeof state !== "object" || state === null || !("inputSource" in state)) return undefined;
+  const { inputSource } = state;
+  return typeof inputSource === "object" && inputSource !== null && "handedness" in inputSource ? inputSource.handedness : undefined;
+}
+
+function deleteLast(): void {
+  const { document } = cellStore.getState(), last = document?.programs.find(each => each.name === document.program)?.steps.at(-1);
+  if (last) deleteSteps([last.id]);
 }
 
 function Row({ children }: { readonly children: React.ReactNode }) {
   return <Container flexDirection="row" gap={12}>{children}</Container>;
 }
 
-function Key({ words, onPress, color = "#262d32", ink = "#e8edf0" }: { readonly words: string; readonly onPress: () => void; readonly color?: string; readonly ink?: string }) {
+function PlayKey() {
+  const playing = useStore(playStore, state => state.playing);
+  return <Key id="play" words={playing ? WORDS.pause : WORDS.play} onPress={() => { runCommand("play.toggle"); }} />;
+}
+
+/** `atOnce`: acts when pressed; others act when let go, so that a finger can slide off. */
+function Key({ id, words, onPress, color = "#2b343a", ink = "#f2f6f8", atOnce = false }: {
+  readonly id: string; readonly words: string; readonly onPress: () => void; readonly color?: string; readonly ink?: string; readonly atOnce?: boolean;
+}) {
   return (
-    <Container flexGrow={1} flexBasis={0} height={78} borderRadius={14} alignItems="center" justifyContent="center" backgroundColor={color} hover={{ borderWidth: 4, borderColor: "#e8edf0" }} active={{ transformTranslateZ: -6 }} onClick={onPress}>
-      <Text fontSize={28} fontWeight="medium" color={ink}>{words}</Text>
+    <Container id={id} flexGrow={1} flexBasis={0} height={84} borderRadius={14} alignItems="center" justifyContent="center" backgroundColor={color} borderWidth={4} borderColor={color} hover={{ borderColor: "#f2f6f8" }} active={{ transformTranslateZ: -6 }} {...(atOnce ? { onPointerDown: onPress } : { onClick: onPress })}>
+      <Text fontSize={WORDS_PX} fontWeight="medium" color={ink}>{words}</Text>
     </Container>
   );
 }
 
-/** Place of the tool tip, read five times a second. */
+/** How many points there are, or what is wrong now. */
+function State() {
+  const points = useStore(cellStore, ({ document }) => document?.programs.find(each => each.name === document.program)?.steps.filter(step => step.type === "move").length ?? 0);
+  const blocked = useStore(jogStore, state => state.blocked !== null), touching = useStore(watchStore, state => state.contacts.length > 0);
+  const words = blocked ? WORDS.blocked : touching ? WORDS.inContact : WORDS.points(points);
+  return <Text id="state" fontSize={WORDS_PX} color={blocked || touching ? "#ff8a82" : "#b9c4ca"}>{words}</Text>;
+}
+
+/** Place of the tool tip, read three times a second. */
 function ReadOut() {
-  const [text, setText] = useState(""), since = useRef(READ_EVERY_S);
+  const [text, setText] = useState<readonly [string, string]>(["", ""]), since = useRef(READ_EVERY_S), seen = useRef(-1);
   useFrame((_, dt_s) => {
     since.current += dt_s;
-    if (since.current < READ_EVERY_S) return;
+    const { worldFromTcp: { position, quaternion }, revision } = theLive();
+    if (since.current < READ_EVERY_S || revision === seen.current) return;
     since.current = 0;
-    const { position, quaternion } = theLive().worldFromTcp, tilt = Math.acos(Math.max(-1, Math.min(1, 2 * (quaternion[0] ** 2 + quaternion[1] ** 2) - 1)));
-    setText(`X ${millimetres(position[0]).toFixed(1)}  Y ${millimetres(position[1]).toFixed(1)}  Z ${millimetres(position[2]).toFixed(1)} mm, ${WORDS.tilt} ${degrees(tilt).toFixed(1)}°`);
+    seen.current = revision;
+    const tilt = Math.acos(Math.max(-1, Math.min(1, 2 * (quaternion[0] ** 2 + quaternion[1] ** 2) - 1)));
+    const [x, y, z] = position.map(metres => millimetres(metres).toFixed(1).replace(/^-0\.0$/, "0.0"));
+    setText([`X ${x}  Y ${y}`, `Z ${z} mm, ${WORDS.tilt} ${degrees(tilt).toFixed(1)}°`]);
   });
-  return <Text fontSize={25} color="#e8edf0">{text}</Text>;
+  return <Container flexDirection="column">{text.map((line, i) => <Text key={i} fontSize={WORDS_PX} color="#f2f6f8">{line}</Text>)}</Container>;
 }
