@@ -38,7 +38,7 @@ export function WhyCard() {
   }, -8);
   return (
     <group ref={card} visible={sentence !== undefined} name="why-card">
-      <Container id="why-card" positionType="absolute" anchorX="center" anchorY="bottom" pixelSize={METRES_PER_PIXEL} width={560} padding={20} borderRadius={18} borderWidth={3} borderColor="#ff6157" backgroundColor="#1d1414" pointerEvents="none">
+      <Container id="why-card" positionType="absolute" anchorX="center" anchorY="bottom" pixelSize={METRES_PER_PIXEL} width={460} padding={20} borderRadius={18} borderWidth={3} borderColor="#ff6157" backgroundColor="#1d1414" pointerEvents="none">
         <Text id="why" fontSize={WORDS_PX} color="#ffd9d6">{sentence ?? ""}</Text>
       </Container>
     </group>
