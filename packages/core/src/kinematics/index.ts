@@ -7,4 +7,5 @@ export * from "./ortho-parallel.ts";
 export * from "./inverse.ts";
 export * from "./span.ts";
 export * from "./singularity.ts";
+export * from "./workspace.ts";
 export * from "./explain.ts";
