@@ -8,3 +8,4 @@ export * from "./inverse.ts";
 export * from "./span.ts";
 export * from "./singularity.ts";
 export * from "./explain.ts";
+export * from "./numeric/index.ts";
