@@ -15,6 +15,6 @@ export class SignalTable implements Signals {
   constructor(values: Iterable<readonly [string, boolean | number]> = []) { this.values = new Map(values); }
   read(signal: string): boolean | number { return this.values.get(signal) ?? false; }
   write(signal: string, value: boolean | number): void { this.values.set(signal, value); }
-  /** Every line that was ever written to. */
-  entries(): IterableIterator<[string, boolean | number]> { return this.values.entries(); }
+  /** Every line that was ever written to; changes with them. */
+  get all(): ReadonlyMap<string, boolean | number> { return this.values; }
 }
