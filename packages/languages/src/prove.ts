@@ -47,7 +47,7 @@ export function proveText(
     const done = executed[i];
     const differs = (sentence: string, line = done?.line ?? 0): Proof => ({ kind: "differs", file: file.name, step: wanted.id, line, sentence: `Step ${wanted.name ?? wanted.id}: ${sentence}` });
     if (done === undefined) return differs("the text ends before it.");
-    const odd = otherwise(wanted, done.step, program.steps[i + 1]);
+    const odd = otherwise(wanted, done.step, program.steps[i + 1], robot);
     if (odd !== undefined) return differs(`line ${done.line} ${odd}`);
     const [deviation_m, deviation_rad] = wanted.type === "move" && done.step.type === "move" ? deviation(wanted, done.step, tips) : [0, 0];
     if (!(deviation_m <= PROOF_TOLERANCE.position_m)) return differs(`line ${done.line} ends ${millimetres(deviation_m).toFixed(3)} mm away; ${millimetres(PROOF_TOLERANCE.position_m)} mm are allowed.`);
@@ -86,20 +86,23 @@ class Tips {
 }
 
 /** What about a step is not a matter of more or less, in words that follow "line 12 …". */
-function otherwise(wanted: Step, done: Step, next: Step | undefined): string | undefined {
+function otherwise(wanted: Step, done: Step, next: Step | undefined, robot: Robot): string | undefined {
   if (wanted.type !== done.type) return `is a ${done.type} step, not a ${wanted.type} step.`;
   if (wanted.type === "wait" && done.type === "wait") return near(wanted.s, done.s) ? undefined : `waits ${done.s} s, not ${wanted.s} s.`;
   if (wanted.type === "gripper" && done.type === "gripper") return wanted.closed === done.closed ? undefined : `${done.closed ? "closes" : "opens"} the gripper.`;
   if (wanted.type !== "move" || done.type !== "move") return undefined;
   if (wanted.path !== done.path) return `moves by ${done.path}, not by ${wanted.path}.`;
-  if ("q" in wanted.target !== "q" in done.target) return "ends in another sort of target.";
-  if (!sameSpeed(wanted.speed, done.speed)) return `moves at ${JSON.stringify(done.speed)}, not at ${JSON.stringify(wanted.speed)}.`;
+  // On a joint move angles are angles; on the other paths only the tool counts.
+  if (wanted.path === "ptp" && "q" in wanted.target !== "q" in done.target) return "ends in another sort of target.";
+  if ((wanted.via === undefined) !== (done.via === undefined)) return done.via === undefined ? "passes through no other point." : "passes through another point.";
+  if (!sameSpeed(wanted.speed, done.speed, robot)) return `moves at ${JSON.stringify(done.speed)}, not at ${JSON.stringify(wanted.speed)}.`;
   // A robot that is about to wait or to grip has stopped, whatever was said about passing.
   if (wanted.blend_m === 0 && done.blend_m > 0) return "passes its target without a stop.";
   if (wanted.blend_m > 0 && done.blend_m === 0 && next?.type === "move" && sameTool(wanted, next)) return "stops at its target.";
   if ("pose" in wanted.target && wanted.target.branch !== undefined && "pose" in done.target) {
     const { shoulder, elbow, wrist } = wanted.target.branch, other = done.target.branch;
-    if (other?.shoulder !== shoulder || other.elbow !== elbow || other.wrist !== wrist) return "reaches its target in another posture.";
+    // Off a joint move the posture is that of the start: a language may leave it unsaid.
+    if ((other !== undefined || wanted.path === "ptp") && (other?.shoulder !== shoulder || other.elbow !== elbow || other.wrist !== wrist)) return "reaches its target in another posture.";
   }
   return undefined;
 }
@@ -110,13 +113,23 @@ const sameTool = (a: MoveStep, b: MoveStep): boolean => a.target.tool !== undefi
 /** The text holds single precision. */
 const near = (a: number, b: number): boolean => Math.abs(a - b) <= 1e-6 * Math.max(1, Math.abs(a));
 
-function sameSpeed(a: MoveStep["speed"], b: MoveStep["speed"]): boolean {
-  if ("ratio" in a) return "ratio" in b && near(a.ratio, b.ratio);
-  if ("mps" in a) return "mps" in b && near(a.mps, b.mps);
-  return "time_s" in b && near(a.time_s, b.time_s);
+/** A controller that knows speeds of one sort only is given the same share of its full speed. */
+function sameSpeed(a: MoveStep["speed"], b: MoveStep["speed"], { maxTcpSpeed_mps }: Robot): boolean {
+  if ("time_s" in a || "time_s" in b) return "time_s" in a && "time_s" in b && near(a.time_s, b.time_s);
+  if ("ratio" in a && "ratio" in b) return near(a.ratio, b.ratio);
+  if ("mps" in a && "mps" in b) return near(a.mps, b.mps);
+  const share = (speed: typeof a): number => Math.min(1, "mps" in speed ? speed.mps / maxTcpSpeed_mps : "ratio" in speed ? speed.ratio : 1);
+  return near(share(a), share(b));
 }
 
 function deviation(wanted: MoveStep, done: MoveStep, tips: { readonly wanted: Tips; readonly done: Tips }): [deviation_m: number, deviation_rad: number] {
+  const [end_m, end_rad] = deviationAtEnd(wanted, done, tips);
+  if (wanted.via === undefined || done.via === undefined) return [end_m, end_rad];
+  // The orientation at the point on the way is no part of an arc.
+  return [Math.max(end_m, distance(tips.wanted.of(wanted.via).position, tips.done.of(done.via).position)), end_rad];
+}
+
+function deviationAtEnd(wanted: MoveStep, done: MoveStep, tips: { readonly wanted: Tips; readonly done: Tips }): [deviation_m: number, deviation_rad: number] {
   const a = wanted.target, b = done.target;
   if ("q" in a && "q" in b) {
     // Joint angles one by one, since two postures may hold the tip in the same place; and the tip, of the tool that counts.
