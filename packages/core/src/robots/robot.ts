@@ -1,7 +1,7 @@
 import type { Pose } from "../spatial/pose.ts";
 import type { Quaternion } from "../spatial/quaternion.ts";
 import type { Vector3 } from "../spatial/vector.ts";
-import type { SerialArm } from "./arm.ts";
+import type { LinkMass, SerialArm } from "./arm.ts";
 
 /**
  * Ortho-parallel basis with spherical wrist, seven lengths (Brandstötter, Angerer, Hofbaur 2014).
@@ -60,7 +60,7 @@ export interface GeneralSixGeometry {
 /**
  * Seven joints, shoulder and wrist each three axes through one point, and an elbow between (LBR iiwa).
  *
- *   formulaFromWrist = Rz(θ1) · Ry(θ2) · Rz(θ3) · Tz(c3) · … Ry(θ4) · Tz(c5) · Rz(θ5) · Ry(θ6) · Rz(θ7),  Tz(c3) between θ3 and θ4
+ *   formulaFromWrist = Rz(θ1) · Ry(θ2) · Rz(θ3) · Tz(c3) · Ry(θ4) · Rz(θ5) · Tz(c5) · Ry(θ6) · Rz(θ7)
  *
  * The formula's origin is the shoulder. An arm may miss the formula by `deviation_m` (CAD offsets of less than a
  * millimetre): its postures are found by moving the formula's target until forward kinematics of the arm meets the wanted pose.
@@ -79,6 +79,13 @@ export interface SphericalSevenGeometry {
 /** How the inverse of an arm is solved. Grows by new kinds. */
 export type KinematicFamily = OrthoParallelGeometry | ThreeParallelGeometry | SphericalSevenGeometry | GeneralSixGeometry | { readonly kind: "general" };
 
+/** How far from axis 2 the maker lets the wrist centre go. Poses beyond it are refused even where the links would reach. */
+export interface DeclaredWorkspace {
+  readonly reach_m: number;
+  /** The wrist centre seen from the flange [m]. */
+  readonly wristInFlange_m: Vector3;
+}
+
 /** A robot of the library: one data file each, every number with its source. */
 export interface Robot {
   readonly id: string;
@@ -93,11 +100,20 @@ export interface Robot {
   readonly home_rad: readonly number[];
   readonly payload_kg: number;
   readonly payloadMax_kg: number;
-  /** Published reach and what it is measured to. */
+  /** Published reach and between which points it is measured. */
   readonly reach_m: number;
+  readonly reachMeasuredFrom: "axis-1" | "axis-2";
   readonly reachMeasuredTo: "flange" | "wrist";
+  /** Workspace that the maker declares smaller than the geometry would allow (row X-08). */
+  readonly workspace?: DeclaredWorkspace;
   readonly repeatability_m: number;
   readonly maxTcpSpeed_mps: number;
+  /** Mass of the whole robot, base included, without cables and controller. */
+  readonly mass_kg?: number;
+  /** Masses of links 1 … n, where they are published. The base does not move. */
+  readonly masses?: readonly LinkMass[];
+  /** True when nobody publishes the lengths of the arm and they were made up: results on geometry say nothing about the real robot. */
+  readonly madeUpGeometry?: boolean;
   /** quantity → where the number comes from. */
   readonly sources: Readonly<Record<string, string>>;
   /** What is not published and was assumed, one sentence each; shown beside every result that rests on it. */

@@ -1,0 +1,5 @@
+export * from "./tree.ts";
+export * from "./scanner.ts";
+export * from "./cursor.ts";
+export * from "./expression.ts";
+export * from "./machine.ts";
