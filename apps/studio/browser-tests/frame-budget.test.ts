@@ -116,7 +116,8 @@ test("making points from edges happens away from the page", ONCE, async () => {
       await page.mouse.move(at.x - 3, at.y - 2);
       await page.mouse.move(at.x, at.y);
       await page.waitForTimeout(250);
-      if (await page.evaluate(() => window.twincell.stores.traceStore.getState().hovered !== null)) return at;
+      const now = await page.evaluate(where => window.twincellScene!.project(where), point), still = Math.hypot(now.x - at.x, now.y - at.y) < 0.5;
+      if (still && await page.evaluate(() => window.twincell.stores.traceStore.getState().hovered !== null)) return at;
     }
     await page.screenshot({ path: picture("frame-budget-no-edge") });
     throw new Error("The edge does not answer to the pointer.");
@@ -124,14 +125,19 @@ test("making points from edges happens away from the page", ONCE, async () => {
   const make = async (): Promise<void> => {
     const at = await hover();
     await page.mouse.click(at.x, at.y);
-    await page.waitForFunction(() => window.twincell.stores.traceStore.getState().chosen.length === 1, null, { polling: 50 });
+    try {
+      await page.waitForFunction(() => window.twincell.stores.traceStore.getState().chosen.length === 1, null, { polling: 50 });
+    } catch (cause) {
+      await page.screenshot({ path: picture("frame-budget-not-chosen") });
+      throw new Error(`The click chose nothing: ${JSON.stringify(await page.evaluate(() => window.twincell.stores.traceStore.getState()))}`, { cause });
+    }
     const before = await page.evaluate(() => window.twincell.stores.traceStore.getState().last);
     expect(before).toBeNull();
     await page.getByRole("button", { name: "Make points" }).click();
     await page.waitForFunction(() => window.twincell.stores.traceStore.getState().last !== null, null, { polling: 50, timeout: 60_000 });
     await judged();
   };
-  expect(await long(make, () => page.evaluate(() => { window.twincell.stores.traceStore.setState({ last: null }); window.twincell.document.undo(); }))).toEqual([]);
+  expect(await long(make, () => page.evaluate(() => { window.twincell.stores.traceStore.setState({ chosen: [], last: null }); window.twincell.document.undo(); }))).toEqual([]);
   expect(problems).toEqual([]);
 });
 

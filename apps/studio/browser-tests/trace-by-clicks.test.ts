@@ -1,5 +1,5 @@
 import { readFileSync } from "node:fs";
-import { compose, flangePose, identity, planProgram, robotById, rotate, samplePlan, type MoveStep, type Pose, type Step, type Vector3 } from "@twincell/core";
+import { compose, emptyProgram, flangePose, identity, planProgram, robotById, rotate, samplePlan, type MoveStep, type Pose, type Step, type Vector3 } from "@twincell/core";
 import { vPlus } from "@twincell/languages";
 import { edgeTraceCell } from "@twincell/project";
 import type { Page } from "playwright-core";
@@ -81,7 +81,7 @@ function judge(text: string): void {
   const steps: Step[] = [], run = interpreted.run();
   for (let next = run.next(); !next.done; next = run.next()) if (next.value.step) steps.push({ ...next.value.step, id: `s${steps.length}` });
   const { tools, frames } = interpreted.context, toolOf = new Map(steps.map(step => [step.id, step.type === "move" ? tools[step.target.tool ?? ""] : undefined]));
-  const answer = planProgram({ format: "twincell.program", version: 1, name: "text", robot: robot.id, tools, frames, groups: {}, steps }, robot, { worldFromBase });
+  const answer = planProgram({ ...emptyProgram(robot.id), tools, frames, steps }, robot, { worldFromBase });
   if (answer.kind !== "planned") throw new Error(answer.stuck.sentence);
 
   const q = new Float64Array(6);

@@ -1,5 +1,6 @@
 import type { Robot } from "./robots/robot.ts";
 import type { Pose } from "./spatial/pose.ts";
+import type { Capability } from "./program/capabilities.ts";
 import type { Program, Step } from "./program/program.ts";
 
 /** Time given from outside: a real clock in the apps, a virtual one in tests. */
@@ -12,6 +13,15 @@ export interface Scheduler {
 
 export type OperatingMode = "manual" | "automatic" | "remote";
 export type SafetyState = "normal" | "guard-stop" | "protective-stop" | "emergency-stop";
+
+/**
+ * The lines in and out of a controller by their names in the program. A line nobody has written to yet is false; an
+ * analogue one reads 0.
+ */
+export interface Signals {
+  read(signal: string): boolean | number;
+  write(signal: string, value: boolean | number): void;
+}
 
 /** What a robot says of itself at one instant. */
 export interface JointSample {
@@ -80,6 +90,8 @@ export interface RobotController extends StateSource {
   /** Stops along the path. `emergency` also takes the drives off: moves are refused until `reset`. */
   stop(emergency?: boolean): void;
   reset(): CommandOutcome;
+  /** The lines in and out, by name; writing an input is for virtual robots only. Without it the controller has none. */
+  readonly signals?: Signals;
   /** Virtual robots only (row T-18). */
   readonly jumpTo?: (q_rad: ArrayLike<number>) => CommandOutcome;
 }
@@ -100,10 +112,13 @@ export type Emitted =
 export type Parsed =
   | { readonly kind: "parsed"; readonly program: Program; readonly warnings: readonly TextFault[] }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
-/** Statement by statement: the line being executed and the neutral step it amounts to, if any. */
+/**
+ * Statement by statement: the line being executed and the neutral step it amounts to, if any. Steps are primitive:
+ * loops, calls and decisions have been carried out. A decision reads `signals` when it is reached.
+ */
 export interface Executed { readonly line: number; readonly step?: Step }
 export type Interpreted =
-  | { readonly kind: "ready"; readonly run: () => Iterator<Executed, void>; readonly context: Pick<Program, "tools" | "frames"> }
+  | { readonly kind: "ready"; readonly run: (signals?: Signals) => Iterator<Executed, void>; readonly context: Pick<Program, "tools" | "frames"> }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 /**
@@ -118,7 +133,7 @@ export interface Dialect {
   readonly name: string;
   readonly extensions: readonly string[];
   readonly maturity: "proven" | "experimental";
-  readonly cannot: readonly { readonly what: string; readonly because: string }[];
+  readonly cannot: readonly { readonly what: Capability; readonly because: string }[];
   emit(program: Program, robot: Robot, worldFromBase?: Pose<"world", "base">): Emitted;
   parse(text: string, robot: Robot, worldFromBase?: Pose<"world", "base">): Parsed;
   /** Executes the text with the vendor's own conventions. Written independently of `emit`. */

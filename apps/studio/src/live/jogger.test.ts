@@ -86,3 +86,18 @@ test("the live TCP is forward kinematics of base, arm and tool", () => {
   const wanted: Pose<"world", "tcp"> = compose(compose(cell.robot.worldFromBase, flangePose(robot.arm, q_rad)), cell.tools[0]!.flangeFromTcp);
   for (let i = 0; i < 3; i++) expect(worldFromTcp.position[i]).toBeCloseTo(wanted.position[i]!, 12);
 });
+
+test("N-40 a push held on at the edge of reach sounds once, however uneven the frames are, and again after it was let go", () => {
+  jogStore.setState({ speed: 1 });
+  const sounds = soundStore.getState().played.limit;
+  hold("gamepad", 0, 1);
+  for (let i = 0; i < 600 && jogStore.getState().blocked === null; i++) { now_ms += 100; jogger.step(now_ms, 0.1); }
+  expect(soundStore.getState().played.limit).toBe(sounds + 1);
+  for (let i = 0; i < 400; i++) { const dt_s = [0.1, 0.004, 0.016, 0.001, 0.05][i % 5]!; now_ms += 1000 * dt_s; jogger.step(now_ms, dt_s); }
+  expect(soundStore.getState().played.limit).toBe(sounds + 1);
+  release("gamepad");
+  run(2);
+  hold("gamepad", 0, 1);
+  run(10);
+  expect(soundStore.getState().played.limit).toBe(sounds + 2);
+});

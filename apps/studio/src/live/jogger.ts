@@ -29,6 +29,7 @@ export interface Jogger {
 export function createJogger(): Jogger {
   const scratch = jogScratch(), held = new Float64Array(6), before = new Float64Array(6), pending = new Float64Array(6), q = new Float64Array(6), rates = new Float64Array(6);
   const linear: Vector3 = [0, 0, 0], angular: Vector3 = [0, 0, 0];
+  const told = new Set<Coordinate>();
   let left_s = 0, known = "", cell: JogCell | null = null, document: unknown = null;
 
   const cellNow = (): JogCell | null => {
@@ -60,11 +61,13 @@ export function createJogger(): Jogger {
       if (jog.manner === "steps") {
         for (let i = 0; i < 6; i++) if (held[i] !== 0 && before[i] === 0) { pending.fill(0); pending[i] = Math.sign(held[i]!); left_s = STEP_S; }
       }
+      for (const coordinate of told) if (!stillPushed(coordinate, held, before)) told.delete(coordinate);
       before.set(held);
       const stepping = jog.manner === "steps", on = cellNow(), locked = jog.blocked !== null && now_ms < jog.blocked.until_ms;
       if (!any && !(stepping && left_s > 0)) {
         if (moverNow() === "jog") leaveRobot("jog");
         known = "";
+        told.clear();
         if (jog.blocked && !locked) jogStore.setState({ blocked: null });
         return;
       }
@@ -79,22 +82,41 @@ export function createJogger(): Jogger {
       const done = jogStep(on, q, command(on, jog, stepping ? pending : held), part_s, q, scratch);
       if (stepping) left_s = done.kind === "blocked" ? 0 : left_s - part_s;
       if (done.kind === "moved") showJoints(q);
-      known = tell(done, known, now_ms);
+      known = tell(done, known, told, now_ms);
     },
   };
 }
 
-/** The first time a coordinate meets its limit: sound, 500 ms, and which joint and limit. Held on, it stays blocked silently. */
-function tell(done: Jogged, known: string, now_ms: number): string {
+type Coordinate = JogBlock["coordinate"];
+const AXES: readonly Coordinate[] = ["x", "y", "z"];
+
+/** Whether the push that met a limit goes on: in the same direction, without having been let go. */
+function stillPushed(coordinate: Coordinate, held: Float64Array, before: Float64Array): boolean {
+  if (coordinate === "rotation") return [3, 4, 5].every(i => Math.sign(held[i]!) === Math.sign(before[i]!));
+  const i = typeof coordinate === "number" ? coordinate - 1 : AXES.indexOf(coordinate);
+  return Math.sign(held[i]!) === Math.sign(before[i]!);
+}
+
+/**
+ * The first time a push meets a limit: sound, 500 ms, and which joint and limit. Held on, it stays blocked silently, also
+ * where a longer or shorter frame lets it creep on for a moment.
+ *
+ * @param known  what stood in the panel before.
+ * @param told   coordinates whose push has been told of.
+ * @returns what stands in the panel now.
+ */
+function tell(done: Jogged, known: string, told: Set<Coordinate>, now_ms: number): string {
   const [first] = done.blocked;
   if (!first) {
     if (known !== "") jogStore.setState({ blocked: null });
     return "";
   }
-  const now = done.blocked.map(block => String(block.coordinate)).join();
-  if (now === known) return known;
-  sound("limit");
-  jogStore.setState({ blocked: blockedState(first, now_ms + LOCK_MS) });
+  const now = done.blocked.map(block => String(block.coordinate)).join(), fresh = done.blocked.some(block => !told.has(block.coordinate));
+  if (fresh) {
+    for (const { coordinate } of done.blocked) told.add(coordinate);
+    sound("limit");
+  }
+  if (now !== known || fresh) jogStore.setState({ blocked: blockedState(first, fresh ? now_ms + LOCK_MS : now_ms) });
   return now;
 }
 function blockedState({ reach, sentence }: JogBlock, until_ms: number): NonNullable<JogState["blocked"]> {

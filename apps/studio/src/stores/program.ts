@@ -1,6 +1,6 @@
 import {
   applyRepair, duplicateSteps, freshStepId, insertSteps, moveSteps, removeSteps, replaceStep,
-  type MoveStep, type Program, type Repair, type Speed, type Step, type Verdict,
+  type Condition, type MoveStep, type Program, type Repair, type Speed, type Step, type Verdict,
 } from "@twincell/core";
 import { words } from "../words/index.ts";
 import { commit, theProgram, withProgram } from "./document.ts";
@@ -95,5 +95,22 @@ export function stepWords(step: Step, index: number): string {
     case "move": return words.step.point(index + 1);
     case "wait": return words.step.wait(step.s);
     case "gripper": return step.closed ? words.step.close : words.step.open;
+    case "set": return step.pulse_s === undefined ? words.step.set(step.signal, level(step.to)) : words.step.pulse(step.signal, level(step.to), step.pulse_s);
+    case "wait-for": return words.step.waitFor(conditionWords(step.when));
+    case "payload": return words.step.payload(step.mass_kg);
+    case "message": return words.step.say(step.text);
+    case "stop": return words.step.stop;
+    case "comment": return step.text === "" ? words.step.comment : step.text;
+    case "call": return words.step.call(step.routine);
+    case "repeat": return step.times === "forever" ? words.step.forever : words.step.repeat(step.times);
+    case "if": return words.step.if(conditionWords(step.when));
+    case "pallet": return words.step.pallet(step.pallet);
   }
+}
+
+const level = (to: boolean | number): string => (typeof to === "number" ? String(to) : to ? words.common.on : words.common.off);
+/** A condition as it stands in a sentence. */
+export function conditionWords(when: Condition): string {
+  if ("is" in when) return words.step.is(when.signal, level(when.is));
+  return "above" in when ? words.step.above(when.signal, when.above) : words.step.below(when.signal, when.below);
 }

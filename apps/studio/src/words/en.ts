@@ -41,7 +41,11 @@ export const en = {
     verdicts: { ok: "fine", warn: "near a limit", bad: "not possible", unknown: "not checked yet" },
   },
   step: {
-    point: (n: number) => `Point ${n}`, wait: (s: number) => `Wait ${s} s`, open: "Open gripper", close: "Close gripper", path: { ptp: "PTP", lin: "LIN", circ: "CIRC", spline: "SPL" },
+    point: (n: number) => `Point ${n}`, wait: (s: number) => `Wait ${s} s`, open: "Open gripper", close: "Close gripper",
+    set: (signal: string, to: string) => `Set ${signal} to ${to}`, pulse: (signal: string, to: string, s: number) => `Pulse ${signal} ${to} for ${s} s`, waitFor: (condition: string) => `Wait until ${condition}`,
+    is: (signal: string, to: string) => `${signal} is ${to}`, above: (signal: string, level: number) => `${signal} is above ${level}`, below: (signal: string, level: number) => `${signal} is below ${level}`,
+    payload: (kg: number) => `Payload ${kg} kg`, say: (text: string) => `Say “${text}”`, stop: "End the program", comment: "Comment", call: (routine: string) => `Do ${routine}`,
+    repeat: (times: number) => (times === 1 ? "Once" : `Repeat ${times} times`), forever: "Repeat for ever", if: (condition: string) => `If ${condition}`, else: "Otherwise", pallet: (pallet: string) => `At each place of ${pallet}`, path: { ptp: "PTP", lin: "LIN", circ: "CIRC", spline: "SPL" },
     pathLabel: "Path", speed: "Speed", ofJoint: "of joint speed", blend: "Blend", target: "Target", waitTime: "Waiting time", joints: "Joints", position: "Position", gripper: "Gripper", open2: "open", closed: "closed",
     name: "Name", unreachable: (sentence: string) => `The point stays where it was. ${sentence}`, duration: "Duration", kindOfSpeed: "Speed as",
     kinds: { ratio: "% of joints", mps: "TCP speed", time_s: "duration" },

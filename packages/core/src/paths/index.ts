@@ -4,3 +4,4 @@ export * from "./pick.ts";
 export { curveOfChain, curvesOfLoop, helperCurve, moveCurve, pathDeviation, distanceToPolyline, type Deviation, type EdgeCurve } from "./curve.ts";
 export * from "./trace.ts";
 export * from "./refine.ts";
+export * from "./pallet.ts";

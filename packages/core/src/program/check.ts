@@ -11,6 +11,7 @@ import { checkReach } from "./checks/reach.ts";
 import type { CheckScene, Severity } from "./checks/scene.ts";
 import { checkSingular } from "./checks/singular.ts";
 import { checkSpeed } from "./checks/speed.ts";
+import { checkWorkspace } from "./checks/workspace.ts";
 import type { Program } from "./program.ts";
 import type { Finding, StepVerdict, Verdict } from "./verdict.ts";
 
@@ -55,6 +56,7 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
     add: (step, severity, finding) => { book.add(step, severity, finding); },
   };
   checkReach(scene);
+  checkWorkspace(scene);
   checkLimits(scene);
   checkSpeed(scene);
   checkBranch(scene);

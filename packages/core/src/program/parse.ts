@@ -1,9 +1,13 @@
 import { robotById } from "../robots/library/index.ts";
 import { jsonFault } from "./json-place.ts";
 import { PROGRAM_FORMAT, PROGRAM_VERSION, type Program } from "./program.ts";
-import { Reader, keys } from "./read/reader.ts";
-import { readGroups, readPoses } from "./read/tables.ts";
+import { readPallets } from "./read/pallets.ts";
+import { Reader, keys, type Fields } from "./read/reader.ts";
+import { readSignals } from "./read/signals.ts";
 import { readSteps } from "./read/steps.ts";
+import type { Surroundings } from "./read/surroundings.ts";
+import { readGroups, readPoses } from "./read/tables.ts";
+import { callCycle } from "./walk.ts";
 
 /** What is wrong with a program: where ("steps[2].target.q[0]", or "line 3, column 7") and one sentence about it. */
 export interface ProgramFault { readonly path: string; readonly sentence: string }
@@ -24,7 +28,7 @@ const MOST_FAULTS = 50;
  * Reads the PROGRAM contract from JSON text or from a value that came out of JSON. This is the only door: behind it
  * every number is finite, every id is unique, every tool and frame exists, and every quaternion has length 1.
  *
- * Missing `name`, `tools`, `frames`, `groups` and `blend_m` get their defaults, a pose without `frame` is in "world" and
+ * Missing `name`, tables (`tools`, `frames`, `groups`, `signals`, `pallets`, `routines`) and `blend_m` get their defaults, a pose without `frame` is in "world" and
  * without `tool` of "flange". A key that no contract knows is a fault, because it is usually a spelling mistake that
  * would change the motion; keys that begin with "$", "_" or "x-" are left out without a word.
  *
@@ -61,23 +65,29 @@ function read(value: unknown, jointsOf: (robot: string) => number | undefined): 
         : `A program says "version": ${PROGRAM_VERSION}; this one says ${reader.shown(top.version)}.`,
     }]);
   }
-  reader.onlyKeys(top, "", "the program", keys<Program>()("format", "version", "name", "robot", "tools", "frames", "groups", "steps"));
+  reader.onlyKeys(top, "", "the program", keys<Program>()("format", "version", "name", "robot", "tools", "frames", "groups", "signals", "pallets", "routines", "steps"));
   const robot = reader.name(top.robot, "robot", "the robot of the program") ?? "";
   const name = top.name === undefined ? "Program" : reader.text(top.name, "name", "the name of the program") ?? "";
   const tools = readPoses<"flange", "tcp">(reader, top.tools, "tools", "tool", "flange");
   const frames = readPoses<"world", "frame">(reader, top.frames, "frames", "frame", "world");
   const groups = readGroups(reader, top.groups);
-  const steps = readSteps(reader, top.steps, { robot, joints: jointsOf(robot), tools, frames });
+  const signals = readSignals(reader, top.signals), pallets = readPallets(reader, top.pallets, frames);
+  const written = top.routines === undefined ? {} : reader.object(top.routines, "routines", "the table of routines") ?? {};
+  const around: Surroundings = { robot, joints: jointsOf(robot), tools, frames, pallets, routines: new Set(Object.keys(written)), seen: new Map(), open: [], depth: 0 };
+  const steps = readSteps(reader, top.steps, "steps", "the list of steps", around);
+  const routines = readRoutines(reader, written, around);
   if (reader.faults.length > 0) return refuse(reader.faults);
-  return { kind: "program", program: { format: PROGRAM_FORMAT, version: PROGRAM_VERSION, name, robot, tools, frames, groups, steps } };
+  return { kind: "program", program: { format: PROGRAM_FORMAT, version: PROGRAM_VERSION, name, robot, tools, frames, groups, signals, pallets, routines, steps } };
+}
+
+function readRoutines(reader: Reader, written: Fields, around: Surroundings): Program["routines"] {
+  const routines = Object.fromEntries(Object.entries(written).map(([name, list]) => {
+    if (name === "") reader.fault("routines.", "A routine has a name that is not empty.");
+    return [name, readSteps(reader, list, `routines.${name}`, `the routine “${name}”`, around)];
+  }));
+  const cycle = callCycle(routines);
+  if (cycle !== undefined) reader.fault(`routines.${cycle[0]!}`, `The routine “${cycle[0]!}” calls itself: ${cycle.join(" → ")}. It would never come back.`);
+  return routines;
 }
 
 const refuse = (faults: readonly ProgramFault[]): ProgramAnswer => ({ kind: "not-a-program", faults });
-
-/** The program as JSON text, one step a line, so that a version control shows which steps changed. */
-export function serializeProgram(program: Program): string {
-  const { steps, ...rest } = program;
-  const head = JSON.stringify(rest, undefined, 1).replace(/\n\}$/, "");
-  const lines = steps.map(step => `  ${JSON.stringify(step)}`).join(",\n");
-  return `${head},\n "steps": [${lines === "" ? "" : `\n${lines}\n `}]\n}\n`;
-}

@@ -196,7 +196,7 @@ export class Stepper {
     if (step === undefined) { this.state.kind = "done"; this.state.step = ""; return; }
     if (step.type !== "move") {
       this.segments = [{
-        kind: "rest", step: step.id, start_s: 0, duration_s: step.type === "wait" ? step.s : this.gripper_s,
+        kind: "rest", step: step.id, start_s: 0, duration_s: step.type === "wait" ? step.s : step.type === "gripper" ? this.gripper_s : 0,
         q_rad: this.q.slice(), gripperClosed: step.type === "gripper" ? step.closed : this.state.gripperClosed,
       }];
       return;

@@ -7,6 +7,27 @@ export interface JointLimits {
   readonly speed_rad_s: number;
   /** Published by nobody for most arms: then an assumption, said so in `Robot.assumptions`. */
   readonly acceleration_rad_s2: number;
+  /** Greatest torque at the joint, where it is published [N m]. */
+  readonly torque_Nm?: number;
+}
+
+/** Motor and gear of a joint, where they are published. */
+export interface JointDrive {
+  readonly motorTorque_Nm: number;
+  readonly motorSpeed_rpm: number;
+  /** Turns of the motor per turn of the joint. */
+  readonly gear: number;
+  /** Motor and gear as the motor feels them: at the joint it is gear² times as much [kg m²]. */
+  readonly rotorInertia_kgm2: number;
+}
+
+/** Mass of a link, where it is published; the rest of it only where that is published as well. */
+export interface LinkMass {
+  readonly mass_kg: number;
+  /** Centre of mass in the link's frame, with the directions the inertia is given in. */
+  readonly linkFromCentre?: Pose<"link", "centre">;
+  /** Ixx, Iyy, Izz, Ixy, Ixz, Iyz about the centre of mass [kg m²]. */
+  readonly inertia_kgm2?: readonly [number, number, number, number, number, number];
 }
 
 /** A revolute joint. childFromParent at angle q: parentFromJoint · Rot(axis, q). */
@@ -16,6 +37,7 @@ export interface Joint {
   /** Unit vector in the joint's own frame. */
   readonly axis: Vector3;
   readonly limits: JointLimits;
+  readonly drive?: JointDrive;
 }
 
 /** A chain of revolute joints, base first. Read-only for every algorithm; JSON-able. */

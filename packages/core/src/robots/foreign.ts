@@ -27,6 +27,7 @@ export function robotFromArm(arm: SerialArm, known: KnownOfRobot = {}): Robot {
     payload_kg: assume(known.payload_kg, 0, "The payload is not known: 0 kg is shown."),
     payloadMax_kg: known.payloadMax_kg ?? known.payload_kg ?? 0,
     reach_m: assume(known.reach_m, reach_m, `The reach is not published: ${length} follows from the lengths of the links.`),
+    reachMeasuredFrom: known.reachMeasuredFrom ?? (family.kind === "ortho-parallel" ? "axis-1" : "axis-2"),
     reachMeasuredTo: known.reachMeasuredTo ?? (family.kind === "ortho-parallel" ? "wrist" : "flange"),
     repeatability_m: assume(known.repeatability_m, 0, "The repeatability is not known: 0 mm is shown."),
     maxTcpSpeed_mps: assume(known.maxTcpSpeed_mps, ASSUMED_TCP_SPEED_MPS, `The largest speed of the tool tip is not known: ${ASSUMED_TCP_SPEED_MPS} m/s is assumed.`),

@@ -1,5 +1,6 @@
 import type { Pose } from "../spatial/pose.ts";
-import type { SerialArm } from "./arm.ts";
+import type { Vector3 } from "../spatial/vector.ts";
+import type { LinkMass, SerialArm } from "./arm.ts";
 
 /**
  * Ortho-parallel basis with spherical wrist, seven lengths (Brandstötter, Angerer, Hofbaur 2014).
@@ -18,6 +19,13 @@ export interface OrthoParallelGeometry {
 /** How the inverse of an arm is solved. Grows by new kinds. */
 export type KinematicFamily = OrthoParallelGeometry | { readonly kind: "general" };
 
+/** How far from axis 2 the maker lets the wrist centre go. Poses beyond it are refused even where the links would reach. */
+export interface DeclaredWorkspace {
+  readonly reach_m: number;
+  /** The wrist centre seen from the flange [m]. */
+  readonly wristInFlange_m: Vector3;
+}
+
 /** A robot of the library: one data file each, every number with its source. */
 export interface Robot {
   readonly id: string;
@@ -32,11 +40,20 @@ export interface Robot {
   readonly home_rad: readonly number[];
   readonly payload_kg: number;
   readonly payloadMax_kg: number;
-  /** Published reach and what it is measured to. */
+  /** Published reach and between which points it is measured. */
   readonly reach_m: number;
+  readonly reachMeasuredFrom: "axis-1" | "axis-2";
   readonly reachMeasuredTo: "flange" | "wrist";
+  /** Workspace that the maker declares smaller than the geometry would allow (row X-08). */
+  readonly workspace?: DeclaredWorkspace;
   readonly repeatability_m: number;
   readonly maxTcpSpeed_mps: number;
+  /** Mass of the whole robot, base included, without cables and controller. */
+  readonly mass_kg?: number;
+  /** Masses of links 1 … n, where they are published. The base does not move. */
+  readonly masses?: readonly LinkMass[];
+  /** True when nobody publishes the lengths of the arm and they were made up: results on geometry say nothing about the real robot. */
+  readonly madeUpGeometry?: boolean;
   /** quantity → where the number comes from. */
   readonly sources: Readonly<Record<string, string>>;
   /** What is not published and was assumed, one sentence each; shown beside every result that rests on it. */

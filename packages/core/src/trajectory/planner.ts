@@ -92,7 +92,7 @@ export class PlanWriter {
 
   rest(step: Exclude<Step, MoveStep>): void {
     if (step.type === "gripper") this.closed = step.closed;
-    const duration_s = step.type === "wait" ? step.s : this.gripper_s;
+    const duration_s = step.type === "wait" ? step.s : step.type === "gripper" ? this.gripper_s : 0;
     this.segments.push({ kind: "rest", step: step.id, start_s: this.t_s, duration_s, q_rad: this.q.slice(), gripperClosed: this.closed });
     this.t_s += duration_s;
   }

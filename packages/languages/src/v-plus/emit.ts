@@ -22,6 +22,8 @@ export function emitVPlus(program: Program, robot: Robot, worldFromBase: Pose<"w
     const because = CANNOT.find(({ what }) => what === curved.path)!.because;
     return { kind: "cannot", step: curved.id, sentence: `Step ${curved.name ?? curved.id} is a ${curved.path} move. ${because}`, hint: "Replace it by straight moves through points on the curve." };
   }
+  const unsaid = program.steps.find(step => step.type !== "move" && step.type !== "wait" && step.type !== "gripper");
+  if (unsaid !== undefined) return { kind: "cannot", step: unsaid.id, sentence: `Step ${unsaid.name ?? unsaid.id} is a ${unsaid.type} step, which is not written in V+ yet.`, hint: "Take the step out." };
   if (moves.length > MOST_POINTS) {
     return { kind: "cannot", step: moves[MOST_POINTS]!.id, sentence: `The program has ${moves.length} points; the array of the point list ends after ${MOST_POINTS}.`, hint: "Export it in parts." };
   }

@@ -1,59 +1,47 @@
-import type { Branch } from "../../kinematics/branch.ts";
-import type { Pose } from "../../spatial/pose.ts";
-import type { MoveStep, Speed, Step, Target } from "../program.ts";
+import type { Vector3 } from "../../spatial/vector.ts";
+import { STEP_TYPES, type CallStep, type IfStep, type MessageStep, type PalletStep, type PayloadStep, type RepeatStep, type SetStep, type Step, type StopStep, type WaitForStep } from "../program.ts";
+import { readCondition } from "./condition.ts";
+import { readMove } from "./move.ts";
 import { keys, type Fields, type Reader } from "./reader.ts";
+import type { Surroundings } from "./surroundings.ts";
 
-/** What a step may refer to. */
-export interface Surroundings {
-  readonly robot: string;
-  readonly joints: number | undefined;
-  readonly tools: Readonly<Record<string, Pose<"flange", "tcp">>>;
-  readonly frames: Readonly<Record<string, Pose<"world", "frame">>>;
-}
-
-const PATHS = ["ptp", "lin", "circ", "spline"] as const;
 const BASE = ["id", "type", "name", "group"] as const;
+/** Blocks inside blocks deeper than this help nobody, and would overflow the stack of whoever walks them. */
+const DEEPEST = 16;
+/** Times that a loop may repeat: exact in every controller's numbers. */
+const MOST_TIMES = 1_000_000_000;
 
-export function readSteps(reader: Reader, value: unknown, around: Surroundings): readonly Step[] {
-  const list = reader.list(value, "steps", "the list of steps");
-  const steps: Step[] = [], seen = new Map<string, number>();
+/** What a step says beside its id, name and group. */
+type Body<S> = S extends Step ? Omit<S, "id" | "name" | "group"> : never;
+type BodyReader = (reader: Reader, fields: Fields, path: string, what: string, around: Surroundings) => Body<Step> | undefined;
+
+/** A list of steps, with all that is inside them. */
+export function readSteps(reader: Reader, value: unknown, path: string, what: string, around: Surroundings): readonly Step[] {
+  const list = reader.list(value, path, what), steps: Step[] = [];
   if (list === undefined) return steps;
+  if (around.depth > DEEPEST) {
+    reader.fault(path, `Blocks stand in blocks ${DEEPEST} deep at most.`);
+    return steps;
+  }
   for (let i = 0; i < list.length; i++) {
-    const path = `steps[${i}]`, fields = reader.object(list[i], path, `step ${i + 1}`);
-    if (fields === undefined) continue;
-    const id = reader.name(fields.id, `${path}.id`, `the id of step ${i + 1}`) ?? "";
-    const what = id === "" ? `step ${i + 1}` : `step “${id}”`;
-    const earlier = seen.get(id);
-    if (id !== "" && earlier !== undefined) reader.fault(`${path}.id`, `${what} exists twice: as number ${earlier + 1} and as number ${i + 1}.`);
-    else seen.set(id, i);
-    const step = readStep(reader, fields, path, what, id, around);
+    const step = readStep(reader, list[i], `${path}[${i}]`, i, around);
     if (step !== undefined) steps.push(step);
   }
   return steps;
 }
 
-function readStep(reader: Reader, fields: Fields, path: string, what: string, id: string, around: Surroundings): Step | undefined {
-  const base = {
-    id,
-    ...optionalText(reader, fields, "name", path, what),
-    ...optionalText(reader, fields, "group", path, what),
-  };
-  switch (fields.type) {
-    case "move": return readMove(reader, fields, path, what, base, around);
-    case "wait": {
-      reader.onlyKeys(fields, path, what, [...BASE, "s"]);
-      const s = reader.number(fields.s, `${path}.s`, `the wait of ${what}`, "s");
-      if (s === undefined) return undefined;
-      return s >= 0 ? { ...base, type: "wait", s } : reader.fault(`${path}.s`, `${what} waits ${s} s; a wait is 0 s or longer.`);
-    }
-    case "gripper": {
-      reader.onlyKeys(fields, path, what, [...BASE, "closed"]);
-      if (typeof fields.closed === "boolean") return { ...base, type: "gripper", closed: fields.closed };
-      return reader.fault(`${path}.closed`, `“closed” of ${what} is true or false; here it is ${reader.shown(fields.closed)}.`);
-    }
-    default:
-      return reader.fault(`${path}.type`, `${what} is of type ${reader.shown(fields.type)}; a step is a "move", a "wait" or a "gripper".`);
-  }
+function readStep(reader: Reader, value: unknown, path: string, index: number, around: Surroundings): Step | undefined {
+  const { seen, depth } = around, fields = reader.object(value, path, depth === 0 ? `step ${index + 1}` : `step ${index + 1} of its block`);
+  if (fields === undefined) return undefined;
+  const number = seen.size + 1, id = reader.name(fields.id, `${path}.id`, `the id of step ${number}`) ?? "";
+  const what = id === "" ? `step ${number}` : `step “${id}”`, earlier = seen.get(id);
+  if (id !== "" && earlier !== undefined) reader.fault(`${path}.id`, `${what} exists twice: as number ${earlier} and as number ${number}.`);
+  // A step without an id counts as well.
+  seen.set(id === "" || earlier !== undefined ? `\0${number}` : id, number);
+  const type = STEP_TYPES.find(known => known === fields.type);
+  if (type === undefined) return reader.fault(`${path}.type`, `${what} is of type ${reader.shown(fields.type)}; a step is one of ${STEP_TYPES.join(", ")}.`);
+  const body = READERS[type](reader, fields, path, what, around);
+  return body === undefined ? undefined : { id, ...optionalText(reader, fields, "name", path, what), ...optionalText(reader, fields, "group", path, what), ...body };
 }
 
 function optionalText<K extends "name" | "group">(reader: Reader, fields: Fields, key: K, path: string, what: string): { readonly [k in K]?: string } {
@@ -64,90 +52,92 @@ function optionalText<K extends "name" | "group">(reader: Reader, fields: Fields
   return found;
 }
 
-function readMove(
-  reader: Reader, fields: Fields, path: string, what: string,
-  base: { readonly id: string; readonly name?: string; readonly group?: string }, around: Surroundings,
-): MoveStep | undefined {
-  reader.onlyKeys(fields, path, what, keys<MoveStep>()("id", "type", "name", "group", "path", "target", "via", "speed", "blend_m"));
-  const kind = PATHS.find(known => known === fields.path);
-  if (kind === undefined) reader.fault(`${path}.path`, `${what} moves along ${reader.shown(fields.path)}; a path is one of ${PATHS.join(", ")}.`);
-  const target = readTarget(reader, fields.target, `${path}.target`, `the target of ${what}`, around);
-  const via = fields.via === undefined ? undefined : readTarget(reader, fields.via, `${path}.via`, `the via point of ${what}`, around);
-  if (kind === "circ" && fields.via === undefined) reader.fault(`${path}.via`, `${what} is a circular move and names no point to pass through.`);
-  if (kind !== undefined && kind !== "circ" && fields.via !== undefined) reader.fault(`${path}.via`, `${what} is a ${kind} move; only a circ passes through a via point.`);
-  const speed = readSpeed(reader, fields.speed, `${path}.speed`, what);
-  const blend_m = fields.blend_m === undefined ? 0 : reader.number(fields.blend_m, `${path}.blend_m`, `the blend of ${what}`, "m");
-  if (blend_m !== undefined && blend_m < 0) reader.fault(`${path}.blend_m`, `${what} blends by ${blend_m} m; a blend is 0 m or more.`);
-  if (kind === undefined || target === undefined || speed === undefined || blend_m === undefined) return undefined;
-  return { ...base, type: "move", path: kind, target, ...(via === undefined ? {} : { via }), speed, blend_m };
-}
+const inside = (around: Surroundings, open: readonly string[] = around.open): Surroundings => ({ ...around, open, depth: around.depth + 1 });
 
-function readTarget(reader: Reader, value: unknown, path: string, what: string, around: Surroundings): Target | undefined {
-  const fields = reader.object(value, path, what);
-  if (fields === undefined) return undefined;
-  if ("q" in fields === "pose" in fields) return reader.fault(path, `${what} has either joint angles “q” or a “pose”.`);
-  if ("q" in fields) {
-    reader.onlyKeys(fields, path, what, ["q", "tool"]);
-    const q = readJoints(reader, fields.q, `${path}.q`, what, around);
-    const tool = fields.tool === undefined ? {} : { tool: known(reader, fields.tool, `${path}.tool`, what, "tool", around.tools, "flange") };
-    return q === undefined ? undefined : { q, ...tool };
-  }
-  reader.onlyKeys(fields, path, what, ["pose", "frame", "tool", "branch"]);
-  const pose = reader.pose<"frame", "tcp">(fields.pose, `${path}.pose`, what);
-  const frame = fields.frame === undefined ? "world" : known(reader, fields.frame, `${path}.frame`, what, "frame", around.frames, "world");
-  const tool = fields.tool === undefined ? "flange" : known(reader, fields.tool, `${path}.tool`, what, "tool", around.tools, "flange");
-  const branch = fields.branch === undefined ? undefined : readBranch(reader, fields.branch, `${path}.branch`, what);
-  return pose === undefined ? undefined : { pose, frame, tool, ...(branch === undefined ? {} : { branch }) };
-}
+const READERS: Readonly<Record<Step["type"], BodyReader>> = {
+  move: readMove,
+  wait(reader, fields, path, what) {
+    reader.onlyKeys(fields, path, what, [...BASE, "s"]);
+    const s = reader.number(fields.s, `${path}.s`, `the wait of ${what}`, "s");
+    if (s === undefined) return undefined;
+    return s >= 0 ? { type: "wait", s } : reader.fault(`${path}.s`, `${what} waits ${s} s; a wait is 0 s or longer.`);
+  },
+  gripper(reader, fields, path, what) {
+    reader.onlyKeys(fields, path, what, [...BASE, "closed"]);
+    if (typeof fields.closed === "boolean") return { type: "gripper", closed: fields.closed };
+    return reader.fault(`${path}.closed`, `“closed” of ${what} is true or false; here it is ${reader.shown(fields.closed)}.`);
+  },
+  set(reader, fields, path, what) {
+    reader.onlyKeys(fields, path, what, keys<SetStep>()(...BASE, "signal", "to", "pulse_s"));
+    const signal = reader.name(fields.signal, `${path}.signal`, `the signal of ${what}`), { to } = fields;
+    if (typeof to !== "boolean" && !(typeof to === "number" && Number.isFinite(to))) return reader.fault(`${path}.to`, `${what} sets its signal to true, false or a finite number; here it is ${reader.shown(to)}.`);
+    if (signal === undefined) return undefined;
+    if (fields.pulse_s === undefined) return { type: "set", signal, to };
+    const pulse_s = reader.number(fields.pulse_s, `${path}.pulse_s`, `the pulse of ${what}`, "s");
+    if (pulse_s === undefined) return undefined;
+    if (!(pulse_s > 0)) return reader.fault(`${path}.pulse_s`, `the pulse of ${what} is longer than 0 s; here it is ${pulse_s}.`);
+    return typeof to === "boolean" ? { type: "set", signal, to, pulse_s } : reader.fault(`${path}.pulse_s`, `${what} sets a number; only true and false can be a pulse.`);
+  },
+  "wait-for"(reader, fields, path, what) {
+    reader.onlyKeys(fields, path, what, keys<WaitForStep>()(...BASE, "when", "timeout_s"));
+    const when = readCondition(reader, fields.when, `${path}.when`, what);
+    if (fields.timeout_s === undefined) return when === undefined ? undefined : { type: "wait-for", when };
+    const timeout_s = reader.number(fields.timeout_s, `${path}.timeout_s`, `the longest wait of ${what}`, "s");
+    if (timeout_s !== undefined && !(timeout_s > 0)) reader.fault(`${path}.timeout_s`, `the longest wait of ${what} is more than 0 s; here it is ${timeout_s}.`);
+    return when === undefined || timeout_s === undefined ? undefined : { type: "wait-for", when, timeout_s };
+  },
+  payload(reader, fields, path, what) {
+    reader.onlyKeys(fields, path, what, keys<PayloadStep>()(...BASE, "mass_kg", "center_m", "inertia_kgm2"));
+    const mass_kg = reader.number(fields.mass_kg, `${path}.mass_kg`, `the payload of ${what}`, "kg");
+    const center_m = reader.numbers(fields.center_m, `${path}.center_m`, `the centre of mass of ${what}`, "m", 3);
+    const inertia = fields.inertia_kgm2 === undefined ? undefined : reader.numbers(fields.inertia_kgm2, `${path}.inertia_kgm2`, `the inertia of ${what}`, "kg·m²", 6);
+    if (mass_kg === undefined || center_m === undefined) return undefined;
+    if (mass_kg < 0) return reader.fault(`${path}.mass_kg`, `the payload of ${what} is 0 kg or more; here it is ${mass_kg} kg.`);
+    return { type: "payload", mass_kg, center_m: center_m as Vector3, ...(inertia === undefined ? {} : { inertia_kgm2: inertia as [number, number, number, number, number, number] }) };
+  },
+  message(reader, fields, path, what) {
+    reader.onlyKeys(fields, path, what, keys<MessageStep>()(...BASE, "text"));
+    const text = reader.text(fields.text, `${path}.text`, `the message of ${what}`);
+    return text === undefined ? undefined : { type: "message", text };
+  },
+  stop(reader, fields, path, what) {
+    reader.onlyKeys(fields, path, what, keys<StopStep>()(...BASE));
+    return { type: "stop" };
+  },
+  comment(reader, fields, path, what) {
+    reader.onlyKeys(fields, path, what, [...BASE, "text"]);
+    const text = reader.text(fields.text, `${path}.text`, `the comment of ${what}`);
+    return text === undefined ? undefined : { type: "comment", text };
+  },
+  call(reader, fields, path, what, around) {
+    reader.onlyKeys(fields, path, what, keys<CallStep>()(...BASE, "routine"));
+    const routine = reader.name(fields.routine, `${path}.routine`, `the routine of ${what}`);
+    if (routine === undefined) return undefined;
+    if (around.routines.has(routine)) return { type: "call", routine };
+    return reader.fault(`${path}.routine`, `${what} calls the routine “${routine}”, which the program does not have; it has ${listed(around.routines)}.`);
+  },
+  repeat(reader, fields, path, what, around) {
+    reader.onlyKeys(fields, path, what, keys<RepeatStep>()(...BASE, "times", "steps"));
+    const steps = readSteps(reader, fields.steps, `${path}.steps`, `the list of steps of ${what}`, inside(around)), { times } = fields;
+    if (times === "forever") return { type: "repeat", times, steps };
+    if (typeof times === "number" && Number.isInteger(times) && times >= 0 && times <= MOST_TIMES) return { type: "repeat", times, steps };
+    return reader.fault(`${path}.times`, `${what} repeats a whole number of times from 0 to ${MOST_TIMES}, or "forever"; here it is ${reader.shown(times)}.`);
+  },
+  if(reader, fields, path, what, around) {
+    reader.onlyKeys(fields, path, what, keys<IfStep>()(...BASE, "when", "then", "else"));
+    const when = readCondition(reader, fields.when, `${path}.when`, what);
+    const then = readSteps(reader, fields.then, `${path}.then`, `the list of steps of ${what}`, inside(around));
+    const otherwise = fields.else === undefined ? {} : { else: readSteps(reader, fields.else, `${path}.else`, `the other list of steps of ${what}`, inside(around)) };
+    return when === undefined ? undefined : { type: "if", when, then, ...otherwise };
+  },
+  pallet(reader, fields, path, what, around) {
+    reader.onlyKeys(fields, path, what, keys<PalletStep>()(...BASE, "pallet", "steps"));
+    const pallet = reader.name(fields.pallet, `${path}.pallet`, `the pallet of ${what}`) ?? "";
+    if (pallet !== "" && !Object.hasOwn(around.pallets, pallet)) reader.fault(`${path}.pallet`, `${what} names the pallet “${pallet}”, which the program does not have; it has ${listed(Object.keys(around.pallets))}.`);
+    if (around.open.includes(pallet)) reader.fault(`${path}.pallet`, `${what} visits the pallet “${pallet}” inside itself.`);
+    const steps = readSteps(reader, fields.steps, `${path}.steps`, `the list of steps of ${what}`, inside(around, [...around.open, pallet]));
+    return { type: "pallet", pallet, steps };
+  },
+};
 
-function readJoints(reader: Reader, value: unknown, path: string, what: string, around: Surroundings): number[] | undefined {
-  const q = reader.numbers(value, path, `the list of joint angles of ${what}`, "rad", undefined);
-  if (q === undefined) return undefined;
-  if (q.length === 0) return reader.fault(path, `${what} has no joint angles.`);
-  if (around.joints !== undefined && q.length !== around.joints) {
-    return reader.fault(path, `${what} has ${q.length} joint angles; ${around.robot} has ${around.joints} joints.`);
-  }
-  return q;
-}
-
-function known(
-  reader: Reader, value: unknown, path: string, what: string, noun: string, table: Readonly<Record<string, unknown>>, builtIn: string,
-): string {
-  const name = reader.name(value, path, `the ${noun} of ${what}`) ?? builtIn;
-  if (name !== builtIn && !Object.hasOwn(table, name)) {
-    reader.fault(path, `${what} names the ${noun} “${name}”, which the program does not have; it has ${[builtIn, ...Object.keys(table)].join(", ")}.`);
-  }
-  return name;
-}
-
-function readBranch(reader: Reader, value: unknown, path: string, what: string): Branch | undefined {
-  const fields = reader.object(value, path, `the branch of ${what}`);
-  if (fields === undefined) return undefined;
-  reader.onlyKeys(fields, path, `the branch of ${what}`, keys<Branch>()("shoulder", "elbow", "wrist"));
-  const oneOf = <T extends string>(key: keyof Branch, a: T, b: T): T | undefined => {
-    const word = fields[key];
-    return word === a ? a : word === b ? b : reader.fault(`${path}.${key}`, `the ${key} of ${what} is "${a}" or "${b}"; here it is ${reader.shown(word)}.`);
-  };
-  const shoulder = oneOf("shoulder", "front", "back"), elbow = oneOf("elbow", "up", "down"), wrist = oneOf("wrist", "positive", "negative");
-  return shoulder === undefined || elbow === undefined || wrist === undefined ? undefined : { shoulder, elbow, wrist };
-}
-
-function readSpeed(reader: Reader, value: unknown, path: string, what: string): Speed | undefined {
-  if (value === undefined) return reader.fault(path, `${what} has no speed; give it a ratio, mps or time_s.`);
-  const fields = reader.object(value, path, `the speed of ${what}`);
-  if (fields === undefined) return undefined;
-  reader.onlyKeys(fields, path, `the speed of ${what}`, ["ratio", "mps", "time_s"]);
-  const given = (["ratio", "mps", "time_s"] as const).filter(key => fields[key] !== undefined);
-  const key = given[0];
-  if (given.length !== 1 || key === undefined) return reader.fault(path, `the speed of ${what} is exactly one of ratio, mps and time_s; here are ${given.length} of them.`);
-  const unit = key === "ratio" ? "" : key === "mps" ? "m/s" : "s";
-  const number = reader.number(fields[key], `${path}.${key}`, `the speed of ${what}`, unit);
-  if (number === undefined) return undefined;
-  if (number <= 0) return reader.fault(`${path}.${key}`, `the speed of ${what} is more than 0${unit === "" ? "" : ` ${unit}`}; here it is ${number}.`);
-  switch (key) {
-    case "ratio":
-      return number <= 1 ? { ratio: number } : reader.fault(`${path}.ratio`, `the speed of ${what} is a ratio from 0 to 1 of full joint speed; here it is ${number}.`);
-    case "mps": return { mps: number };
-    case "time_s": return { time_s: number };
-  }
-}
+const listed = (names: Iterable<string>): string => [...names].join(", ") || "none";

@@ -1,21 +1,6 @@
-import { radians } from "../../spatial/units.ts";
 import { pose } from "../../spatial/pose.ts";
-import type { Vector3 } from "../../spatial/vector.ts";
-import type { Joint } from "../arm.ts";
 import type { Robot } from "../robot.ts";
-
-/** Seconds from standstill to full joint speed. Not published; see `assumptions`. */
-const RAMP_S = 0.25;
-
-function joint(name: string, origin_m: Vector3, axis: Vector3, lower_deg: number, upper_deg: number, speed_deg_s: number): Joint {
-  return {
-    name, axis, parentFromJoint: pose(origin_m),
-    limits: {
-      lower_rad: radians(lower_deg), upper_rad: radians(upper_deg),
-      speed_rad_s: radians(speed_deg_s), acceleration_rad_s2: radians(speed_deg_s) / RAMP_S,
-    },
-  };
-}
+import { ACCELERATIONS_ASSUMED, SHAPES_DRAWN, inDegrees, joint } from "./write.ts";
 
 /** Joint zero is V+'s own: home 0, −90, +90, 0, 0, 0 stands straight up. */
 export const staubliRx90l: Robot = {
@@ -25,12 +10,12 @@ export const staubliRx90l: Robot = {
   arm: {
     name: "Stäubli RX90L",
     joints: [
-      joint("joint_1", [0, 0, 0.42], [0, 0, 1], -160, 160, 236),
-      joint("joint_2", [0, 0, 0], [0, 1, 0], -227.5, 47.5, 200),
-      joint("joint_3", [0.45, 0, 0], [0, 1, 0], -52.5, 232.5, 286),
-      joint("joint_4", [0, 0, 0], [0, 0, 1], -270, 270, 401),
-      joint("joint_5", [0, 0, 0.65], [0, 1, 0], -105, 120, 320),
-      joint("joint_6", [0, 0, 0], [0, 0, 1], -270, 270, 580),
+      joint("joint_1", [0, 0, 0.42], [0, 0, 1], inDegrees(-160, 160, 236)),
+      joint("joint_2", [0, 0, 0], [0, 1, 0], inDegrees(-227.5, 47.5, 200)),
+      joint("joint_3", [0.45, 0, 0], [0, 1, 0], inDegrees(-52.5, 232.5, 286)),
+      joint("joint_4", [0, 0, 0], [0, 0, 1], inDegrees(-270, 270, 401)),
+      joint("joint_5", [0, 0, 0.65], [0, 1, 0], inDegrees(-105, 120, 320)),
+      joint("joint_6", [0, 0, 0], [0, 0, 1], inDegrees(-270, 270, 580)),
     ],
     lastJointFromFlange: pose([0, 0, 0.085]),
   },
@@ -47,6 +32,7 @@ export const staubliRx90l: Robot = {
   payload_kg: 3.5,
   payloadMax_kg: 6,
   reach_m: 1.185,
+  reachMeasuredFrom: "axis-1",
   reachMeasuredTo: "flange",
   repeatability_m: 25e-6,
   maxTcpSpeed_mps: 12.6,
@@ -57,8 +43,8 @@ export const staubliRx90l: Robot = {
     "joint speeds": "RX90 values 236, 200, 286, 401, 320, 580 °/s; the RX90L is assumed to have the same.",
   },
   assumptions: [
-    "Joint accelerations are not published: full joint speed is assumed to be reached in 0.25 s.",
-    "Link shapes are drawn from the published dimensions, not from the vendor's CAD.",
+    ACCELERATIONS_ASSUMED,
+    SHAPES_DRAWN,
   ],
   shapeError_m: 0.02,
 };
