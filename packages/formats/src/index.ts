@@ -9,3 +9,4 @@ export { readUrdf } from "./urdf/read.ts";
 export { armFromUrdf, defaultTip, type PlacedShape, type UrdfChain } from "./urdf/chain.ts";
 export * from "./urdf/solids.ts";
 export * from "./xacro/index.ts";
+export * from "./dh/index.ts";
