@@ -11,7 +11,7 @@ const mayInstall = {
   core: [],
   languages: [],
   controllers: [],
-  formats: ["saxes", "xmlchars"],
+  formats: ["saxes", "xmlchars", "yaml", "@gltf-transform/", "property-graph"],
   recording: ["@mcap/", "@foxglove/"],
   project: ["zod"],
 };
