@@ -11,3 +11,4 @@ export * from "./shapes/index.ts";
 export * from "./paths/index.ts";
 export * from "./program/index.ts";
 export * from "./teach/index.ts";
+export * from "./calibration/index.ts";

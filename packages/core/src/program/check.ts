@@ -15,6 +15,7 @@ import { Book } from "./checks/book.ts";
 import { checkFlow } from "./checks/flow.ts";
 import { checkPayload } from "./checks/payload.ts";
 import { checkSignals } from "./checks/signals.ts";
+import { checkWorkspace } from "./checks/workspace.ts";
 import type { Program, Step } from "./program.ts";
 import type { Verdict } from "./verdict.ts";
 import { everyStep } from "./walk.ts";
@@ -60,6 +61,7 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
     add: (id, severity, finding) => { book.add(id, severity, finding, layout.turns.get(id)); },
   };
   checkReach(scene);
+  checkWorkspace(scene);
   checkLimits(scene);
   checkSpeed(scene);
   checkBranch(scene);

@@ -36,7 +36,7 @@ export function checkReach(scene: CheckScene): void {
 
 const blends = ({ blend_m, blend_ratio = 0 }: MoveStep): boolean => blend_m > 0 || blend_ratio > 0;
 
-const away = (reach: Reach): boolean => reach.kind === "too-far" || reach.kind === "too-near";
+const away = (reach: Reach): boolean => reach.kind === "too-far" || reach.kind === "too-near" || reach.kind === "beyond-workspace";
 
 const percent = (share: number): string => `At ${Math.round(share * 100)} % of the way:`;
 
@@ -45,6 +45,7 @@ function reachFinding(reach: Reach, at_s: number, repairs: Finding["repairs"]): 
   switch (reach.kind) {
     case "too-far": return { ...base, code: "reach.too-far", value: reach.reach_m + reach.beyond_m, limit: reach.reach_m, unit: "m" };
     case "too-near": return { ...base, code: "reach.too-near", value: reach.nearest_m - reach.inside_m, limit: reach.nearest_m, unit: "m" };
+    case "beyond-workspace": return { ...base, code: "reach.beyond-workspace", value: reach.distance_m, limit: reach.declared_m, unit: "m" };
     case "outside-limits": return { ...base, code: "limits.joint", joint: reach.joint, value: reach.wanted_rad, limit: reach.limit_rad, unit: "rad" };
     case "reached": case "no-solver": case "not-a-pose": return { ...base, code: `reach.${reach.kind}`, value: 0, limit: 0, unit: "1" };
   }
