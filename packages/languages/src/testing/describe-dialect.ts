@@ -1,4 +1,4 @@
-import { emptyProgram, seededRandom, type Dialect, type EmittedFile, type MoveStep, type Pose, type Program, type Robot, type TextFault } from "@twincell/core";
+import { CAPABILITIES, emptyProgram, everyStep, seededRandom, type Dialect, type EmittedFile, type MoveStep, type Pose, type Program, type Robot, type TextFault } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { proveText } from "../prove.ts";
 import { randomProgram } from "./programs.ts";
@@ -31,7 +31,8 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
     return emitted.files;
   };
   const runnable = (program: Program): EmittedFile => bench.runnable(emit(program));
-  const random = (seed: number): Program => randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths });
+  const can = new Set(CAPABILITIES.filter(capability => !dialect.cannot.some(({ what }) => what === capability)));
+  const random = (seed: number): Program => randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths, ...(seed % 2 === 0 ? { can } : {}) });
   const parse = (text: string): Program => {
     const parsed = dialect.parse(text, robot, worldFromBase);
     if (parsed.kind === "not-understood") throw new Error(JSON.stringify(parsed.faults));
@@ -58,7 +59,7 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
     });
 
     test.each(SEEDS)("the text depends on the program alone, is ASCII, and says for every line which step it belongs to (seed %d)", seed => {
-      const program = random(seed), files = emit(program), ids = new Set(program.steps.map(step => step.id));
+      const program = random(seed), files = emit(program), ids = new Set(Array.from(everyStep(program), step => step.id));
       expect(emit(structuredClone(program))).toEqual(files);
       for (const { name, text, lines } of files) {
         expect(text, name).toMatch(/^[\r\n\t -~]*$/);
