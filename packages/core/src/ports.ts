@@ -128,6 +128,20 @@ export type Interpreted =
   | { readonly kind: "ready"; readonly run: (signals?: Signals) => Iterator<Executed, void>; readonly context: TextContext }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
+/** Half a step of what a language can say of a number, and the most it can say. */
+export interface Resolution {
+  /** Of a share of the joint speed. */
+  readonly ratio?: number;
+  readonly mps?: number;
+  /** Speeds of a path above this are cut. */
+  readonly mostMps?: number;
+  /** Of a waiting time [s]. */
+  readonly wait_s?: number;
+  /** What rounding of joint values can do to where the tool is. */
+  readonly position_m?: number;
+  readonly angle_rad?: number;
+}
+
 /**
  * A robot language. One folder each; `cannot` is shown to the user as it stands.
  *
@@ -141,6 +155,10 @@ export interface Dialect {
   readonly extensions: readonly string[];
   readonly maturity: "proven" | "experimental";
   readonly cannot: readonly { readonly what: Capability; readonly because: string }[];
+  /** Where the language itself is coarser than the proof of its text is strict. */
+  readonly resolution?: Resolution;
+  /** What a controller executes, as one text, where that is more than the first of the files: a program and its data list. */
+  runnable?(files: readonly EmittedFile[]): EmittedFile;
   emit(program: Program, robot: Robot, worldFromBase?: Pose<"world", "base">): Emitted;
   parse(text: string, robot: Robot, worldFromBase?: Pose<"world", "base">): Parsed;
   /** Executes the text with the vendor's own conventions. Written independently of `emit`. */

@@ -1,8 +1,11 @@
 import {
-  Fault, angleBetween, capabilitiesUsed, compose, degrees, distance, everyStep, flangePose, flow, holds, identity, millimetres, type Condition, type Dialect, type Executed, type Happening, type Interpreted,
-  type MoveStep, type PayloadStep, type Pose, type PrimitiveStep, type Program, type Robot, type Signals, type Step, type Target, type TextFault,
+  Fault, angleBetween, capabilitiesUsed, compose, degrees, distance, everyStep, flangePose, flow, holds, identity, millimetres, type Condition, type Dialect, type EmittedFile, type Executed, type Happening, type Interpreted,
+  type MoveStep, type PayloadStep, type Pose, type PrimitiveStep, type Program, type Resolution, type Robot, type Signals, type Step, type Target, type TextFault,
 } from "@twincell/core";
 import { asciiText } from "./text/index.ts";
+
+/** What a controller executes of the files of an export, as one text. */
+export const runnableFile = (dialect: Dialect, files: readonly EmittedFile[]): EmittedFile | undefined => dialect.runnable?.(files) ?? files[0];
 
 /** How far an executed text may be from the program it was made of. */
 export const PROOF_TOLERANCE = { position_m: 1e-5, angle_rad: 1e-3 / 180 * Math.PI } as const;
@@ -34,7 +37,7 @@ const TRIALS: readonly ((read: number) => boolean)[] = [() => false, () => true,
  * the text, not the emitter's intention.
  */
 export function proveText(
-  dialect: Pick<Dialect, "interpret">, file: { readonly name: string; readonly text: string }, program: Program, robot: Robot, worldFromBase: Pose<"world", "base"> = identity(),
+  dialect: Pick<Dialect, "interpret" | "resolution">, file: { readonly name: string; readonly text: string }, program: Program, robot: Robot, worldFromBase: Pose<"world", "base"> = identity(),
 ): Proof {
   const interpreted = dialect.interpret(file.text, robot, worldFromBase);
   if (interpreted.kind === "not-understood") {
@@ -44,7 +47,7 @@ export function proveText(
   const decides = capabilitiesUsed(program).has("if"), steps: ProvenStep[] = [];
   for (const trial of decides ? TRIALS : TRIALS.slice(0, 1)) {
     try {
-      const differs = compare(interpreted, file.name, program, robot, worldFromBase, trial, steps);
+      const differs = compare(interpreted, file.name, program, robot, worldFromBase, dialect.resolution ?? {}, trial, steps);
       if (differs !== undefined) return differs;
     } catch (cause) {
       if (!(cause instanceof Fault)) throw cause;
@@ -59,9 +62,10 @@ export function proveText(
 }
 
 function compare(
-  interpreted: Extract<Interpreted, { kind: "ready" }>, file: string, program: Program, robot: Robot, worldFromBase: Pose<"world", "base">, trial: (read: number) => boolean, proven: ProvenStep[],
+  interpreted: Extract<Interpreted, { kind: "ready" }>, file: string, program: Program, robot: Robot, worldFromBase: Pose<"world", "base">, resolution: Resolution, trial: (read: number) => boolean, proven: ProvenStep[],
 ): Extract<Proof, { kind: "differs" }> | undefined {
   const tips = { wanted: new Tips(program, robot, worldFromBase), done: new Tips(interpreted.context, robot, worldFromBase) };
+  const position_m = Math.max(PROOF_TOLERANCE.position_m, resolution.position_m ?? 0), angle_rad = Math.max(PROOF_TOLERANCE.angle_rad, resolution.angle_rad ?? 0);
   const wanted = program.signals, done = interpreted.context.signals ?? {};
   const text = steady(interpreted.run(new Told(trial))), told = new Told(trial), forever = Array.from(everyStep(program)).some(step => step.type === "repeat" && step.times === "forever");
   const decide = (when: Condition): boolean => holds(when, told);
@@ -72,11 +76,11 @@ function compare(
     const found = text.next();
     const differs = (sentence: string): Extract<Proof, { kind: "differs" }> => ({ kind: "differs", file, step: step.id, line: found?.line ?? 0, sentence: `Step ${step.name ?? step.id}: ${sentence}` });
     if (found === undefined) return differs("the text ends before it.");
-    const odd = otherwise(step, found.step, next, wanted, done);
+    const odd = otherwise(step, found.step, next, { mine: wanted, theirs: done, robot, resolution });
     if (odd !== undefined) return differs(`line ${found.line} ${odd}`);
     const [deviation_m, deviation_rad] = step.type === "move" && found.step.type === "move" ? deviation(step, found.step, tips) : [0, 0];
-    if (!(deviation_m <= PROOF_TOLERANCE.position_m)) return differs(`line ${found.line} ends ${millimetres(deviation_m).toFixed(3)} mm away; ${millimetres(PROOF_TOLERANCE.position_m)} mm are allowed.`);
-    if (!(deviation_rad <= PROOF_TOLERANCE.angle_rad)) return differs(`line ${found.line} ends turned by ${degrees(deviation_rad).toFixed(4)}°; ${degrees(PROOF_TOLERANCE.angle_rad).toFixed(3)}° are allowed.`);
+    if (!(deviation_m <= position_m)) return differs(`line ${found.line} ends ${millimetres(deviation_m).toFixed(3)} mm away; ${millimetres(position_m)} mm are allowed.`);
+    if (!(deviation_rad <= angle_rad)) return differs(`line ${found.line} ends turned by ${degrees(deviation_rad).toFixed(4)}°; ${degrees(angle_rad).toFixed(3)}° are allowed.`);
     proven.push({ id: step.id, line: found.line, deviation_m, deviation_rad });
     ended = step.type === "stop";
   }
@@ -143,10 +147,13 @@ class Tips {
   }
 }
 
+/** What both sides call their signals, and how finely the text can say a number. */
+interface Terms { readonly mine: Program["signals"]; readonly theirs: Program["signals"]; readonly robot: Robot; readonly resolution: Resolution }
+
 /** What about a step is not a matter of more or less, in words that follow "line 12 …". */
-function otherwise(wanted: Step, done: Step, next: Step | undefined, mine: Program["signals"], theirs: Program["signals"]): string | undefined {
+function otherwise(wanted: Step, done: Step, next: Step | undefined, { mine, theirs, robot, resolution }: Terms): string | undefined {
   if (wanted.type !== done.type) return `is a ${done.type} step, not a ${wanted.type} step.`;
-  if (wanted.type === "wait" && done.type === "wait") return near(wanted.s, done.s) ? undefined : `waits ${done.s} s, not ${wanted.s} s.`;
+  if (wanted.type === "wait" && done.type === "wait") return near(wanted.s, done.s, resolution.wait_s) ? undefined : `waits ${done.s} s, not ${wanted.s} s.`;
   if (wanted.type === "gripper" && done.type === "gripper") return wanted.closed === done.closed ? undefined : `${done.closed ? "closes" : "opens"} the gripper.`;
   if (wanted.type === "set" && done.type === "set") {
     if (!sameLine(wanted.signal, done.signal, mine, theirs)) return `sets ${done.signal}, not ${wanted.signal}.`;
@@ -161,18 +168,23 @@ function otherwise(wanted: Step, done: Step, next: Step | undefined, mine: Progr
   if (wanted.type === "message" && done.type === "message") return plain(wanted.text) === plain(done.text) ? undefined : `says “${done.text}”.`;
   if (wanted.type !== "move" || done.type !== "move") return undefined;
   if (wanted.path !== done.path) return `moves by ${done.path}, not by ${wanted.path}.`;
-  if ("q" in wanted.target !== "q" in done.target) return "ends in another sort of target.";
-  if (!sameSpeed(wanted.speed, done.speed)) return `moves at ${JSON.stringify(done.speed)}, not at ${JSON.stringify(wanted.speed)}.`;
+  // On a joint move angles are angles; on the other paths only the tool counts.
+  if (wanted.path === "ptp" && "q" in wanted.target !== "q" in done.target) return "ends in another sort of target.";
+  if ((wanted.via === undefined) !== (done.via === undefined)) return done.via === undefined ? "passes through no other point." : "passes through another point.";
+  if (!sameSpeed(wanted.speed, done.speed, robot, resolution)) return `moves at ${JSON.stringify(done.speed)}, not at ${JSON.stringify(wanted.speed)}.`;
   if (!near(wanted.acceleration?.ratio ?? 1, done.acceleration?.ratio ?? 1)) return `accelerates by ${done.acceleration?.ratio ?? 1}, not by ${wanted.acceleration?.ratio ?? 1}.`;
   // A robot that is about to wait or to grip has stopped, whatever was said about passing.
   if (!blends(wanted) && blends(done)) return "passes its target without a stop.";
-  if (blends(wanted) && !blends(done) && next?.type === "move" && sameTool(wanted, next)) return "stops at its target.";
+  // Points of one spline are passed as they are.
+  const isInSpline = wanted.path === "spline" && next?.type === "move" && next.path === "spline";
+  if (blends(wanted) && !blends(done) && !isInSpline && next?.type === "move" && sameTool(wanted, next)) return "stops at its target.";
   if (wanted.until !== undefined || done.until !== undefined) {
     if (wanted.until === undefined || done.until === undefined || wanted.until.missing !== done.until.missing || !sameCondition(wanted.until.when, done.until.when, mine, theirs)) return "searches otherwise.";
   }
   if ("pose" in wanted.target && wanted.target.branch !== undefined && "pose" in done.target) {
     const { shoulder, elbow, wrist } = wanted.target.branch, other = done.target.branch;
-    if (other?.shoulder !== shoulder || other.elbow !== elbow || other.wrist !== wrist) return "reaches its target in another posture.";
+    // Off a joint move the posture is that of the start: a language may leave it unsaid.
+    if ((other !== undefined || wanted.path === "ptp") && (other?.shoulder !== shoulder || other.elbow !== elbow || other.wrist !== wrist)) return "reaches its target in another posture.";
   }
   return undefined;
 }
@@ -206,15 +218,24 @@ const plain = (text: string): string => asciiText(text).replaceAll("\"", "'");
 const sameTool = (a: MoveStep, b: MoveStep): boolean => a.target.tool !== undefined && a.target.tool === b.target.tool;
 
 /** The text holds single precision. */
-const near = (a: number, b: number): boolean => Math.abs(a - b) <= 1e-6 * Math.max(1, Math.abs(a));
+const near = (a: number, b: number, step = 0): boolean => Math.abs(a - b) <= Math.max(1e-6 * Math.max(1, Math.abs(a)), step);
 
-function sameSpeed(a: MoveStep["speed"], b: MoveStep["speed"]): boolean {
-  if ("ratio" in a) return "ratio" in b && near(a.ratio, b.ratio);
-  if ("mps" in a) return "mps" in b && near(a.mps, b.mps);
-  return "time_s" in b && near(a.time_s, b.time_s);
+/** A controller that knows speeds of one sort only is given the same share of its full speed. */
+function sameSpeed(a: MoveStep["speed"], b: MoveStep["speed"], { maxTcpSpeed_mps }: Robot, { ratio, mps, mostMps = Number.POSITIVE_INFINITY }: Resolution): boolean {
+  if ("time_s" in a || "time_s" in b) return "time_s" in a && "time_s" in b && near(a.time_s, b.time_s);
+  if ("ratio" in a && "ratio" in b) return near(a.ratio, b.ratio, ratio);
+  if ("mps" in b) return near(Math.min(mostMps, "mps" in a ? a.mps : a.ratio * maxTcpSpeed_mps), b.mps, mps);
+  return near(Math.min(1, "mps" in a ? a.mps / maxTcpSpeed_mps : a.ratio), b.ratio, ratio);
 }
 
 function deviation(wanted: MoveStep, done: MoveStep, tips: { readonly wanted: Tips; readonly done: Tips }): [deviation_m: number, deviation_rad: number] {
+  const [end_m, end_rad] = deviationAtEnd(wanted, done, tips);
+  if (wanted.via === undefined || done.via === undefined) return [end_m, end_rad];
+  // The orientation at the point on the way is no part of an arc.
+  return [Math.max(end_m, distance(tips.wanted.of(wanted.via).position, tips.done.of(done.via).position)), end_rad];
+}
+
+function deviationAtEnd(wanted: MoveStep, done: MoveStep, tips: { readonly wanted: Tips; readonly done: Tips }): [deviation_m: number, deviation_rad: number] {
   const a = wanted.target, b = done.target;
   if ("q" in a && "q" in b) {
     // Joint angles one by one, since two postures may hold the tip in the same place; and the tip, of the tool that counts.

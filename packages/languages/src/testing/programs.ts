@@ -8,6 +8,8 @@ export interface ProgramChoices {
   readonly steps: number;
   readonly worldFromBase: Pose<"world", "base">;
   readonly paths: readonly MoveStep["path"][];
+  /** What the language lacks. */
+  readonly cannot?: readonly Capability[];
   /** What else the programs may ask for; plain points, waits and gripper actions when left out. */
   readonly can?: ReadonlySet<Capability>;
 }
@@ -61,17 +63,20 @@ class Maker {
   }
 
   private move(base: { readonly id: string }): MoveStep {
-    const { random, robot, tools, frames } = this, { worldFromBase, paths, can } = this.choices;
+    const { random, robot, tools, frames } = this, { worldFromBase, paths, can, cannot = [] } = this.choices;
     const q = easyPosture(robot, random, EASE_M);
     const tool = pick(random, ["flange", ...Object.keys(tools)]), frame = pick(random, ["world", ...Object.keys(frames)]);
     const worldFromTcp = compose(worldFromBase, compose(flangePose(robot.arm, q), tools[tool] ?? identity<"flange", "tcp">()));
     const branch = random() < 0.5 ? branchOf(robot, q) : undefined;
+    const path = pick(random, paths), drawn = randomSpeed(random);
+    const speed = "time_s" in drawn && (path === "circ" || cannot.includes("duration")) ? { mps: 0.1 } : drawn;
     return {
-      ...base, type: "move", path: pick(random, paths),
+      ...base, type: "move", path,
       target: random() < 0.4
         ? { q, ...(random() < 0.5 ? { tool } : {}) }
         : { pose: compose(inverse(frames[frame] ?? identity()), worldFromTcp), frame, tool, ...(branch === undefined ? {} : { branch }) },
-      speed: randomSpeed(random), ...(can?.has("acceleration") === true && random() < 0.3 ? { acceleration: { ratio: Math.ceil(random() * 100) / 100 } } : {}), blend_m: random() < 0.5 ? 0 : 0.01,
+      ...(path === "circ" ? { via: { pose: compose(inverse(frames[frame] ?? identity()), compose(worldFromTcp, randomPose<"tcp", "tcp">(random, 0.2))), frame, tool } } : {}),
+      speed, ...(can?.has("acceleration") === true && random() < 0.3 ? { acceleration: { ratio: Math.ceil(random() * 100) / 100 } } : {}), blend_m: random() < 0.5 ? 0 : 0.01,
     };
   }
 
@@ -134,6 +139,8 @@ const DEEPEST = 2;
 function easyPosture(robot: Robot, random: Random, ease_m: number, inside = 0.01): number[] {
   for (;;) {
     const q = robot.arm.joints.map(({ limits: { lower_rad, upper_rad } }) => lower_rad + (upper_rad - lower_rad) * (inside + (1 - 2 * inside) * random()));
+    // Other arms than these are not asked how far they are stretched.
+    if (robot.family.kind !== "ortho-parallel") return q;
     const { distance_m, nearest_m, farthest_m } = span(robot, flangePose(robot.arm, q));
     if (farthest_m - distance_m > ease_m && distance_m - nearest_m > ease_m && (inside < 0.05 || Math.abs(Math.sin(q.at(-2)!)) > 0.3)) return q;
   }

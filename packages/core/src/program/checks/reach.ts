@@ -34,9 +34,8 @@ export function checkReach(scene: CheckScene): void {
   }
 }
 
-const blends = ({ blend_m, blend_ratio = 0 }: MoveStep): boolean => blend_m > 0 || blend_ratio > 0;
-
 const away = (reach: Reach): boolean => reach.kind === "too-far" || reach.kind === "too-near" || reach.kind === "beyond-workspace";
+const blends = ({ blend_m, blend_ratio = 0 }: MoveStep): boolean => blend_m > 0 || blend_ratio > 0;
 
 const percent = (share: number): string => `At ${Math.round(share * 100)} % of the way:`;
 
