@@ -1,7 +1,11 @@
 import type { Dialect } from "@twincell/core";
 import { krl } from "./krl/index.ts";
+import { rapid } from "./rapid/index.ts";
+import { urScript } from "./urscript/index.ts";
 import { vPlus } from "./v-plus/index.ts";
 
+export { rapid } from "./rapid/index.ts";
+export { urScript } from "./urscript/index.ts";
 export { emitPtpAxis, krl } from "./krl/index.ts";
 export { vPlus } from "./v-plus/index.ts";
 export * from "./prove.ts";
