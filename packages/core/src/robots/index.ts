@@ -6,5 +6,6 @@ export * from "./derive-spherical-seven.ts";
 export * from "./derive-general-six.ts";
 export * from "./family.ts";
 export * from "./foreign.ts";
+export * from "./dh.ts";
 export * from "./library/index.ts";
 export * from "./shapes/index.ts";
