@@ -34,7 +34,7 @@ describe("L-08 a URDF that is written and read again", () => {
   });
 
   test("an odd arm, its masses, the world its maker counts from and its meshes", () => {
-    const text = writeUrdf(madeUpArm, { masses: madeUpMasses, side: madeUpSide, meshOf: link => (link === 2 ? undefined : `meshes/link_${link}.stl`) }), back = readBack(text);
+    const text = writeUrdf(madeUpArm, { masses: madeUpMasses, side: madeUpSide, meshesOf: link => (link === 2 ? [] : [`meshes/link_${link}.stl`]) }), back = readBack(text);
     expect(worstGap(madeUpArm, back.arm)).toBeLessThan(1e-12);
     expect(worstGap({ ...madeUpArm, joints: madeUpArm.joints.map(joint => ({ ...joint, axis: joint.axis.map(x => -x) as [number, number, number] })) }, back.arm)).toBeGreaterThan(0.1);
     expect(back.arm.name).toBe(madeUpArm.name);

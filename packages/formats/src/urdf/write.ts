@@ -11,8 +11,8 @@ export interface UrdfOptions {
   readonly side?: { readonly name: string; readonly baseFromSide: Pose };
   /** Masses of links 1 … n. One without centre or inertia is left out: a URDF needs both. */
   readonly masses?: readonly LinkMass[] | undefined;
-  /** File of the mesh of link 0 … n, in that link's frame and in metres. */
-  readonly meshOf?: (link: number) => string | undefined;
+  /** Files of the meshes of link 0 … n, in that link's frame and in metres. */
+  readonly meshesOf?: (link: number) => readonly string[];
 }
 
 /**
@@ -49,9 +49,8 @@ function massIn(link: number, { masses }: UrdfOptions): Written[] {
   return [element("inertial", {}, [origin(mass.linkFromCentre as Pose), element("mass", { value: digits(mass.mass_kg) }), element("inertia", inertia)])];
 }
 
-function shapesIn(link: number, { meshOf }: UrdfOptions): Written[] {
-  const filename = meshOf?.(link);
-  return filename === undefined ? [] : ["visual", "collision"].map(use => element(use, {}, [element("geometry", {}, [element("mesh", { filename })])]));
+function shapesIn(link: number, { meshesOf }: UrdfOptions): Written[] {
+  return ["visual", "collision"].flatMap(use => (meshesOf?.(link) ?? []).map(filename => element(use, {}, [element("geometry", {}, [element("mesh", { filename })])])));
 }
 
 function origin({ position, quaternion }: Pose): Written {
