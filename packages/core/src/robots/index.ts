@@ -7,5 +7,6 @@ export * from "./derive-general-six.ts";
 export * from "./family.ts";
 export * from "./foreign.ts";
 export * from "./dh.ts";
+export * from "./aligned.ts";
 export * from "./library/index.ts";
 export * from "./shapes/index.ts";
