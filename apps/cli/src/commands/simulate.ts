@@ -11,7 +11,7 @@ export const simulateCommand: Command = {
   usage: `twincell simulate PROGRAM [--cell CELL] [--period 0.01]
 
 Writes JSON lines {"t":s,"q":[…],"position":[…],"quaternion":[…],"io":{…},"step":ID}: joint angles and the TCP in the world,
-from the start to the end of the program. A step that cannot be carried out ends it with exit 1 and a sentence.
+from the start to the end of the program; how long it takes, and on what that rests, on stderr. A step that cannot be carried out ends it with exit 1 and a sentence.
 
   --cell CELL     where the robot stands (default: in the origin)
   --period S      seconds between two lines`,
@@ -37,7 +37,10 @@ from the start to the end of the program. A step that cannot be carried out ends
       writer.write(moment(plan.duration_s, q, now.gripperClosed, now.step));
     }
     await writer.end();
-    if (answer.kind === "planned") return 0;
+    if (answer.kind === "planned") {
+      process.stderr.write(`The program takes ${plan.duration_s.toFixed(2)} s.${answer.assumptions.length > 0 ? ` This rests on: ${answer.assumptions.join(" ")}` : ""}\n`);
+      return 0;
+    }
     process.stderr.write(`twincell: Step ${answer.stuck.step}: ${answer.stuck.sentence} ${answer.stuck.hint}\n`);
     return 1;
   },

@@ -2,7 +2,7 @@ import type { CellGeometry } from "../collision/cell.ts";
 import type { Robot } from "../robots/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import type { Plan } from "../trajectory/plan.ts";
-import { GRIPPER_S } from "../trajectory/planner.ts";
+import { durationAssumptions } from "../trajectory/planner.ts";
 import { checkBranch } from "./checks/branch.ts";
 import { checkCollision } from "./checks/collision.ts";
 import { layOut } from "./checks/layout.ts";
@@ -75,8 +75,7 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
   const verdict: Verdict = {
     ok, steps, duration_s: layout.plan.duration_s, clearance_m: collision?.clearance_m ?? null,
     assumptions: [
-      ...robot.assumptions,
-      ...(program.steps.some(step => step.type === "gripper") ? [`The gripper is given ${GRIPPER_S} s to close or open.`] : []),
+      ...durationAssumptions(program, robot),
       cell === undefined ? "Collisions were not looked at: no cell was given." : "Objects stand where the cell draws them; gripped objects are not carried along.",
     ],
   };

@@ -6,6 +6,8 @@ export * from "./stop.ts";
 export * from "./planner.ts";
 export * from "./run-timing.ts";
 export * from "./timing.ts";
+export * from "./joint-spline.ts";
+export * from "./time-optimal.ts";
 export * from "./run.ts";
 export * from "./plan-path.ts";
 export * from "./judge.ts";

@@ -1,4 +1,5 @@
 import type { MoveStep, Program, Step } from "../program/program.ts";
+import { motionAssumptions } from "../robots/jerk.ts";
 import type { Robot } from "../robots/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import { passes, resolveMove } from "./moves.ts";
@@ -24,9 +25,13 @@ export const GRIPPER_S = 0.2;
 /** What the planner noticed on the way, for the checks. */
 export interface PlanNote { readonly step: string; readonly at_s: number; readonly slowed: Slowed }
 
-export type PlanAnswer =
-  | { readonly kind: "planned"; readonly plan: Plan; readonly notes: readonly PlanNote[] }
-  | { readonly kind: "stuck"; readonly stuck: Stuck; readonly plan: Plan; readonly notes: readonly PlanNote[] };
+interface Planned {
+  readonly plan: Plan;
+  readonly notes: readonly PlanNote[];
+  /** What the plan's duration rests on, one sentence each (row N-64). */
+  readonly assumptions: readonly string[];
+}
+export type PlanAnswer = ({ readonly kind: "planned" } & Planned) | ({ readonly kind: "stuck"; readonly stuck: Stuck } & Planned);
 
 const isMove = (step: Step | undefined): step is MoveStep => step?.type === "move";
 
@@ -41,7 +46,7 @@ export function planProgram(program: Program, robot: Robot, options: PlanOptions
   const writer = new PlanWriter(robot, options);
   const planner = new RunPlanner(robot, options.tolerance_m ?? PATH_TOLERANCE_M);
   const context = { tools: program.tools, frames: program.frames, ...(options.worldFromBase === undefined ? {} : { worldFromBase: options.worldFromBase }) };
-  const steps = program.steps;
+  const steps = program.steps, assumptions = durationAssumptions(program, robot);
   for (let i = 0; i < steps.length;) {
     const step = steps[i]!;
     if (step.type !== "move") { writer.rest(step); i++; continue; }
@@ -56,12 +61,18 @@ export function planProgram(program: Program, robot: Robot, options: PlanOptions
         const before = planner.plan(moves, writer.q);
         if (before.kind === "timed") writer.run(before.run.parts, before.run.slowed);
       }
-      return { kind: "stuck", stuck, plan: writer.plan(program.robot), notes: writer.notes };
+      return { kind: "stuck", stuck, plan: writer.plan(program.robot), notes: writer.notes, assumptions };
     }
     i += moves.length;
   }
-  return { kind: "planned", plan: writer.plan(program.robot), notes: writer.notes };
+  return { kind: "planned", plan: writer.plan(program.robot), notes: writer.notes, assumptions };
 }
+
+/** What the durations of a program's steps rest on, one sentence each. */
+export const durationAssumptions = (program: Program, robot: Robot, gripper_s = GRIPPER_S): string[] => [
+  ...robot.assumptions, ...motionAssumptions(robot),
+  ...(program.steps.some(step => step.type === "gripper") ? [`The gripper is given ${gripper_s} s to close or open.`] : []),
+];
 
 /** The moves from step `at` on that are passed without a stop in between. */
 export function runFrom(steps: readonly Step[], at: number): MoveStep[] {

@@ -174,7 +174,7 @@ export class RunPath {
 
   /** How far along each leg its corner begins and ends. Half of a leg at most, so that two corners never meet. */
   private corner(leg: Leg, next: Leg): { readonly leave: number; readonly join: number } {
-    const blend = leg.move.step.blend_m;
+    const { blend_m, blend_ratio = 0 } = leg.move.step, blend = blend_m > 0 ? blend_m : (blend_ratio * Math.min(leg.length, next.length)) / 2;
     // A move to where the robot stands has no direction a curve could leave in.
     if (leg.length <= SHORTEST_M || next.length <= SHORTEST_M) return { leave: leg.length, join: 0 };
     if (leg.path !== undefined && next.path !== undefined) {

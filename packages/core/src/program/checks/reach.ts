@@ -2,6 +2,7 @@ import { explainReach } from "../../kinematics/explain.ts";
 import { solveAll } from "../../kinematics/inverse.ts";
 import { span } from "../../kinematics/span.ts";
 import type { Reach } from "../../kinematics/reach.ts";
+import { blends } from "../../trajectory/moves.ts";
 import { explainStop } from "../../trajectory/stop.ts";
 import type { Finding } from "../verdict.ts";
 import { reachRepairs } from "./repairs.ts";
@@ -25,7 +26,7 @@ export function checkReach(scene: CheckScene): void {
   }
   // A blend cuts the corner: the target itself is never visited, yet it was taught and must be reachable.
   for (const move of scene.layout.moves.values()) {
-    if (move.step.blend_m === 0 || move.q_rad !== undefined || move.step.path === "ptp" || scene.robot.family.kind === "general") continue;
+    if (!blends(move.step) || move.q_rad !== undefined || move.step.path === "ptp" || scene.robot.family.kind === "general") continue;
     const { distance_m, nearest_m, farthest_m } = span(scene.robot, move.baseFromFlange);
     if (distance_m <= farthest_m && distance_m >= nearest_m) continue;
     const reach = solveAll(scene.robot, move.baseFromFlange);
