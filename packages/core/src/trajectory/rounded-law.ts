@@ -86,7 +86,7 @@ export class RoundedLaw {
       if (miss > 0) high = t; else low = t;
       const next = this.speed > 0 ? t - miss / this.speed : low - 1;
       const to = next > low && next < high ? next : (low + high) / 2;
-      if (Math.abs(to - t) <= 1e-15 * (t + w)) return to;
+      if (Math.abs(to - t) <= 1e-12 * w + 1e-15 * t) return to;
       t = to;
     }
     return t;

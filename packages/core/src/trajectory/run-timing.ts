@@ -63,6 +63,7 @@ export class RunTimer {
   private readonly timer: PathTimer;
   private readonly joints: number;
   private readonly rounder: Rounder;
+  private readonly emission: Emission;
   private nodes = 0;
   private s = new Float64Array(64);
   private cap = new Float64Array(64);
@@ -80,6 +81,7 @@ export class RunTimer {
     this.limits = planningLimits(robot);
     this.timer = new PathTimer(this.limits);
     this.rounder = new Rounder(robot);
+    this.emission = new Emission(this.rounder.law, this.joints);
     this.q = new Float64Array(64 * this.joints); this.q1 = this.q.slice(); this.q2 = this.q.slice();
   }
 
@@ -316,7 +318,8 @@ export class RunTimer {
   }
 
   private emit(path: HermitePath, steps: readonly MoveStep[], stretch: number, slowed: readonly Slowed[]): TimedRun {
-    const parts: MotionSegment[] = [], out = new Emission(path, this.rounder.law, this.joints, stretch);
+    const parts: MotionSegment[] = [], out = this.emission;
+    out.start(path, stretch);
     let start_s = 0, move = 0;
     const begin = (i: number): void => { out.begin(this.knot[i]!, this.s[i]!, i); };
     begin(0);
