@@ -3,5 +3,6 @@ export * from "./jerk.ts";
 export * from "./robot.ts";
 export * from "./derive.ts";
 export * from "./foreign.ts";
+export * from "./dh.ts";
 export * from "./library/index.ts";
 export * from "./shapes/index.ts";

@@ -6,7 +6,7 @@ import { blends } from "../../trajectory/moves.ts";
 import { explainStop } from "../../trajectory/stop.ts";
 import type { Finding } from "../verdict.ts";
 import { reachRepairs } from "./repairs.ts";
-import type { CheckScene } from "./scene.ts";
+import { startOf, type CheckScene } from "./scene.ts";
 
 /** Targets and paths the arm cannot get to: too far, too near, no posture inside the limits, no circle, no way through. */
 export function checkReach(scene: CheckScene): void {
@@ -37,10 +37,6 @@ export function checkReach(scene: CheckScene): void {
 const away = (reach: Reach): boolean => reach.kind === "too-far" || reach.kind === "too-near" || reach.kind === "beyond-workspace";
 
 const percent = (share: number): string => `At ${Math.round(share * 100)} % of the way:`;
-
-function startOf(scene: CheckScene, step: string): number {
-  return scene.layout.plan.segments.find(segment => segment.step === step)?.start_s ?? 0;
-}
 
 function reachFinding(reach: Reach, at_s: number, repairs: Finding["repairs"]): Finding {
   const base = { at_s, sentence: explainReach(reach), repairs };
