@@ -25,7 +25,7 @@ export const run: Bench = () => {
   if (peer !== undefined) {
     const theirs = numbersOf(peer, "durations"), slower = Math.max(...durations.map((mine, k) => mine / theirs[k]! - 1));
     figures.push(figure("timing/1001-toppra", "ms", numbersOf(peer, "times"), "TOPP-RA 0.6.10 (Python, own seidel solver), same waypoints and places; instance and parameterisation, spline made before"));
-    figures.push(figure("timing/slower-than-toppra", "1", [slower], "largest relative excess of a duration over TOPP-RA's, which holds the limits at one end of each interval only by default here too"));
+    figures.push(figure("timing/slower-than-toppra", "1", [slower], "largest relative excess of a duration over TOPP-RA's; both hold the limits at both ends of every interval"));
   }
   return Promise.resolve(figures);
 };

@@ -8,6 +8,7 @@ export * from "./run-timing.ts";
 export * from "./timing.ts";
 export * from "./joint-spline.ts";
 export * from "./time-optimal.ts";
+export * from "./timed-line.ts";
 export * from "./run.ts";
 export * from "./plan-path.ts";
 export * from "./judge.ts";

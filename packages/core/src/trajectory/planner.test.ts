@@ -208,6 +208,34 @@ describe("planProgram", () => {
     for (let j = 0; j < 6; j++) expect(posture[j]).toBeCloseTo((q[j]! + robot.home_rad[j]!) / 2, 9);
   });
 
+  test("N-64 every plan says what its duration rests on", () => {
+    const answer = planProgram(programOf([START]), robot);
+    expect(answer.assumptions).toEqual(expect.arrayContaining([...robot.assumptions, "Joint jerks are not published: full joint acceleration is assumed to be reached in 0.1 s."]));
+    const known = { ...robot, arm: { ...robot.arm, joints: robot.arm.joints.map(joint => ({ ...joint, limits: { ...joint.limits, jerk_rad_s3: 1000 } })) } };
+    expect(planProgram(programOf([START]), known).assumptions).toEqual(robot.assumptions);
+  });
+
+  test.each([
+    ["joint move", "ptp", { ratio: 1 }, 1.001], ["slow line", "lin", { mps: 0.1 }, 1.05], ["fast line", "lin", { mps: 3 }, 1.05],
+  ] as const)("a %s keeps the joints' jerk, by third differences of its angles", (_, path, speed, slack) => {
+    // Radially outwards, where joint speeds are nearly in proportion to the speed along the path.
+    const plan = planOf([START, move("m", path, at([0.5, 0, 0.3]), speed)]), { start_s, duration_s } = motionOf(plan, "m"), h = 5e-3;
+    const rows = Array.from({ length: Math.floor(duration_s / h) + 1 }, (_row, k) => { const q = new Float64Array(6); samplePlan(plan, start_s + k * h, q); return q; });
+    let load = 0;
+    for (let k = 3; k < rows.length; k++) {
+      for (let j = 0; j < 6; j++) load = Math.max(load, Math.abs(rows[k]![j]! - 3 * rows[k - 1]![j]! + 3 * rows[k - 2]![j]! - rows[k - 3]![j]!) / h ** 3 / jerkOf(robot.arm.joints[j]!.limits));
+    }
+    expect(load).toBeLessThan(slack);
+    expect(load).toBeGreaterThan(0.3);
+  });
+
+  test("less acceleration makes a move longer and keeps to it", () => {
+    for (const path of ["ptp", "lin"] as const) {
+      const full = motionOf(planOf([START, move("m", path, at([0.5, 0.2, 0.3]), { ratio: 1 })]), "m"), half = motionOf(planOf([START, { ...move("m", path, at([0.5, 0.2, 0.3]), { ratio: 1 }), acceleration: { ratio: 0.3 } }]), "m");
+      expect(half.duration_s).toBeGreaterThan(full.duration_s * 1.15);
+    }
+  });
+
   test("a frame that moves takes the path along", () => {
     const shift: Vector3 = [0.05, 0.1, -0.05], framed = (target: MoveStep["target"]): MoveStep["target"] => ("pose" in target ? { ...target, frame: "table" } : target);
     const steps = [move("a", "ptp", framed(at([0.55, 0, 0.35])), { ratio: 1 }), move("b", "lin", framed(at([0.5, 0.2, 0.4])), { mps: 0.2 })];
