@@ -1,4 +1,5 @@
 export * from "./arm.ts";
+export * from "./jerk.ts";
 export * from "./robot.ts";
 export * from "./derive.ts";
 export * from "./derive-three-parallel.ts";
