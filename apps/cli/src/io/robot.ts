@@ -1,6 +1,6 @@
 import { readFile } from "node:fs/promises";
 import { basename, extname } from "node:path";
-import { compose, inverse, LIBRARY, pose, robotById, robotFromArm, type Pose, type Robot } from "@twincell/core";
+import { compose, inverse, LIBRARY, pose, readRobot, robotById, robotFromArm, type Pose, type Robot } from "@twincell/core";
 import { armFromUrdf, readUrdf, type UrdfChain, type UrdfRobot } from "@twincell/formats";
 import type { Given } from "./arguments.ts";
 import { UseFault } from "./usage.ts";
@@ -10,14 +10,15 @@ export const ROBOT_OPTIONS = { robot: { type: "string" }, base: { type: "string"
 /** The robot that was asked for, and how the asked base and tip lie to its own. */
 export interface ChosenRobot { readonly robot: Robot; readonly baseFromRoot: Pose; readonly flangeFromTip: Pose }
 
-/** `--robot R [--base LINK] [--tip LINK]`: R is a library id or the path of a URDF. */
+/** `--robot R [--base LINK] [--tip LINK]`: R is a library id, or the path of a URDF or of a robot file (JSON). */
 export async function robotOf(options: Given): Promise<ChosenRobot> {
   const wanted = options.text("robot");
-  if (wanted === undefined) throw new UseFault("--robot is missing.", `Library: ${LIBRARY.map(robot => robot.id).join(", ")}; or the path of a URDF.`);
+  if (wanted === undefined) throw new UseFault("--robot is missing.", `Library: ${LIBRARY.map(robot => robot.id).join(", ")}; or the path of a URDF or of a robot file (JSON).`);
   const known = robotById(wanted);
   if (known) return libraryRobot(known, options.text("base"), options.text("tip"));
   if (extname(wanted) === ".urdf") return urdfRobot(wanted, options.text("base"), options.text("tip"));
-  throw new UseFault(`There is no robot "${wanted}" in the library.`, `Library: ${LIBRARY.map(robot => robot.id).join(", ")}; or the path of a URDF.`);
+  if (extname(wanted) === ".json") return libraryRobot(await robotFile(wanted), options.text("base"), options.text("tip"));
+  throw new UseFault(`There is no robot "${wanted}" in the library.`, `Library: ${LIBRARY.map(robot => robot.id).join(", ")}; or the path of a URDF or of a robot file (JSON).`);
 }
 
 function libraryRobot(robot: Robot, base: string | undefined, tip: string | undefined): ChosenRobot {
@@ -45,6 +46,20 @@ function chainOf(path: string, file: UrdfRobot, base: string | undefined, tip: s
   const chain = armFromUrdf(file, base, tip);
   if (chain.kind === "chain") return chain;
   throw new UseFault(`${path}${chain.line === undefined ? "" : `, line ${chain.line}`}: ${chain.sentence}`);
+}
+
+/** Docs: add-a-robot.md. */
+async function robotFile(path: string): Promise<Robot> {
+  const text = await textOf(path);
+  let value: unknown;
+  try {
+    value = JSON.parse(text);
+  } catch (cause) {
+    throw new UseFault(`${path} is not JSON: ${cause instanceof Error ? cause.message : String(cause)}.`);
+  }
+  const answer = readRobot(value);
+  if (answer.kind === "robot") return answer.robot;
+  throw new UseFault(`${path}: ${answer.faults.map(fault => `${fault.path === "" ? "" : `${fault.path}: `}${fault.sentence}`).join(" ")}`);
 }
 
 async function textOf(path: string): Promise<string> {

@@ -199,7 +199,7 @@ function jointOutside(robot: Robot, angles: Float64Array, at: number, start: Flo
 /** The largest joint speed of the step as a share of what that joint can do. */
 function speedLoad(robot: Robot, from: Float64Array, to: Float64Array, dt_s: number): number {
   let load = 0;
-  for (let j = 0; j < 6; j++) load = Math.max(load, Math.abs(to[j]! - from[j]!) / (robot.arm.joints[j]!.limits.speed_rad_s * dt_s));
+  for (let j = 0; j < from.length; j++) load = Math.max(load, Math.abs(to[j]! - from[j]!) / (robot.arm.joints[j]!.limits.speed_rad_s * dt_s));
   return load;
 }
 
