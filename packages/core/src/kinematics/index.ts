@@ -9,3 +9,4 @@ export * from "./span.ts";
 export * from "./singularity.ts";
 export * from "./workspace.ts";
 export * from "./explain.ts";
+export * from "./numeric/index.ts";

@@ -3,5 +3,6 @@ export * from "./robot.ts";
 export * from "./derive.ts";
 export * from "./foreign.ts";
 export * from "./read-robot.ts";
+export * from "./dh.ts";
 export * from "./library/index.ts";
 export * from "./shapes/index.ts";

@@ -27,7 +27,7 @@ export default function Rewind() {
       </div>
       <div className="rewind-track">
         <Slide label={words.history.moment} value={t_s} min={0} max={whole_s} step={0.001} says={seconds(t_s)} onChange={theHistory.seek} />
-        {events.map((event, i) => <i key={i} className="rewind-mark" data-level={event.level} aria-hidden style={{ left: `${(event.at_s / whole_s) * 100}%` }} />)}
+        {events.map((event, i) => <i key={i} className="rewind-mark" data-level={event.level} aria-hidden style={{ left: `calc(8px + (100% - 16px) * ${event.at_s / whole_s})` }} />)}
       </div>
     </div>
   );
