@@ -33,6 +33,3 @@ function meshOf(file: URL): TriangleMesh {
   if (!("mesh" in stl)) throw new Error(`${file.pathname} cannot be read.`);
   return stl.mesh;
 }
-
-/** Robots of the library whose meshes are at hand. */
-export const withMeshes = (ids: readonly string[]): string[] => ids.filter(id => vendorLinks(id) !== null);
