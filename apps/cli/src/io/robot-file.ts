@@ -64,7 +64,7 @@ function chainOf(path: string, file: UrdfRobot, base: string | undefined, tip: s
   const chain = armFromUrdf(file, base, tip);
   if (chain.kind === "chain") return chain;
   const ends = endsOf(file);
-  throw refused(path, chain, ends.length > 1 ? `The file ends in ${ends.slice(0, 12).join(", ")}${ends.length > 12 ? ", …" : ""}: choose with --tip.` : "");
+  throw refused(path, chain, ends.length > 0 ? `The file ends in ${ends.slice(0, 12).join(", ")}${ends.length > 12 ? ", …" : ""}: choose with --tip.` : "");
 }
 
 function refused(path: string, { sentence, line, file }: NotUnderstood, hint = ""): UseFault {
