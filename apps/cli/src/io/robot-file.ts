@@ -1,7 +1,7 @@
 import { existsSync, statSync } from "node:fs";
 import { basename, resolve } from "node:path";
 import { compose, inverse, pose, robotFromArm, type LinkSolid, type Pose, type Robot } from "@twincell/core";
-import { armFromUrdf, endsOf, loadMeshes, readDhTable, readRobot, urdfSolids, type NotUnderstood, type UrdfChain, type UrdfRobot } from "@twincell/formats";
+import { armFromUrdf, endsOf, loadMeshes, readDhTable, readRobot, solidShapes, urdfSolids, type NotUnderstood, type UrdfChain, type UrdfRobot } from "@twincell/formats";
 import { disk } from "./disk.ts";
 import { readText } from "./files.ts";
 import { UseFault } from "./usage.ts";
@@ -52,7 +52,7 @@ function fromDescription(path: string, base: string | undefined, tip: string | u
   });
   const solids = (): ReturnType<RobotFromFile["solids"]> => {
     if (chain.shapes.length === 0) return undefined;
-    const meshes = loadMeshes(chain, whole, disk), found = urdfSolids(chain, meshes.meshOf);
+    const meshes = loadMeshes(solidShapes(chain), whole, disk), found = urdfSolids(chain, meshes.meshOf);
     return { solids: found.solids, notes: meshes.notes };
   };
   if (base === undefined || base === chain.base) return { robot, baseFromRoot: pose(), solids };
