@@ -1,7 +1,7 @@
 import { existsSync, statSync } from "node:fs";
 import { basename, resolve } from "node:path";
 import { compose, inverse, parseRobot, pose, ROBOT_FORMAT, robotFromArm, type LinkSolid, type Pose, type Robot } from "@twincell/core";
-import { armFromUrdf, endsOf, loadMeshes, readDhTable, readRobot, urdfSolids, type NotUnderstood, type UrdfChain, type UrdfRobot } from "@twincell/formats";
+import { armFromUrdf, endsOf, loadMeshes, readDhTable, readRobot, solidShapes, urdfSolids, type NotUnderstood, type UrdfChain, type UrdfRobot } from "@twincell/formats";
 import { disk } from "./disk.ts";
 import { readText } from "./files.ts";
 import { UseFault } from "./usage.ts";
@@ -70,7 +70,7 @@ function fromDescription(path: string, base: string | undefined, tip: string | u
   });
   const solids = (): ReturnType<RobotFromFile["solids"]> => {
     if (chain.shapes.length === 0) return undefined;
-    const meshes = loadMeshes(chain, whole, disk), found = urdfSolids(chain, meshes.meshOf);
+    const meshes = loadMeshes(solidShapes(chain), whole, disk), found = urdfSolids(chain, meshes.meshOf);
     return { solids: found.solids, notes: meshes.notes };
   };
   if (base === undefined || base === chain.base) return { robot, baseFromRoot: pose(), solids };
@@ -82,7 +82,7 @@ function chainOf(path: string, file: UrdfRobot, base: string | undefined, tip: s
   const chain = armFromUrdf(file, base, tip);
   if (chain.kind === "chain") return chain;
   const ends = endsOf(file);
-  throw refused(path, chain, ends.length > 1 ? `The file ends in ${ends.slice(0, 12).join(", ")}${ends.length > 12 ? ", …" : ""}: choose with --tip.` : "");
+  throw refused(path, chain, ends.length > 0 ? `The file ends in ${ends.slice(0, 12).join(", ")}${ends.length > 12 ? ", …" : ""}: choose with --tip.` : "");
 }
 
 function refused(path: string, { sentence, line, file }: NotUnderstood, hint = ""): UseFault {
