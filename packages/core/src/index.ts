@@ -6,6 +6,7 @@ export * from "./spatial/index.ts";
 export * from "./robots/index.ts";
 export * from "./kinematics/index.ts";
 export * from "./trajectory/index.ts";
+export * from "./dynamics/index.ts";
 export * from "./collision/index.ts";
 export * from "./shapes/index.ts";
 export * from "./paths/index.ts";

@@ -37,8 +37,10 @@ export interface JointSample {
   readonly gripperClosed: boolean;
   /** Id of the step being executed, or "". */
   readonly step: string;
-  /** Last fault in words, or "". */
+  /** Last fault, or what the program last said, in words; or "". */
   readonly message: string;
+  /** What the lines are that were ever written, by name. Lent like the rest; left out by sources that do not know. */
+  readonly signals?: ReadonlyMap<string, boolean | number>;
 }
 
 /** Live, virtual and recorded state come through one door; what a source cannot do it does not have. */
@@ -85,12 +87,15 @@ export interface RobotController extends StateSource {
   moveJoints(q_rad: ArrayLike<number>): Promise<CommandOutcome>;
   moveToPose(baseFromFlange: Pose<"base", "flange">): Promise<CommandOutcome>;
   moveToZero(): Promise<CommandOutcome>;
-  /** Executes steps one after the other; the iterator is asked for the next when it is needed (T-53). */
+  /**
+   * Executes primitive steps (`unrolled` makes them of a program) one after the other; the iterator is asked for the next
+   * when it is needed (T-53).
+   */
   run(steps: Iterable<Step>, context: Pick<Program, "tools" | "frames">): Promise<CommandOutcome>;
   /** Stops along the path. `emergency` also takes the drives off: moves are refused until `reset`. */
   stop(emergency?: boolean): void;
   reset(): CommandOutcome;
-  /** The lines in and out, by name; writing an input is for virtual robots only. Without it the controller has none. */
+  /** The lines in and out, by name. A controller without them does not have it. */
   readonly signals?: Signals;
   /** Virtual robots only (row T-18). */
   readonly jumpTo?: (q_rad: ArrayLike<number>) => CommandOutcome;
@@ -121,6 +126,20 @@ export type Interpreted =
   | { readonly kind: "ready"; readonly run: (signals?: Signals) => Iterator<Executed, void>; readonly context: Pick<Program, "tools" | "frames"> }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
+/** Half a step of what a language can say of a number, and the most it can say. */
+export interface Resolution {
+  /** Of a share of the joint speed. */
+  readonly ratio?: number;
+  readonly mps?: number;
+  /** Speeds of a path above this are cut. */
+  readonly mostMps?: number;
+  /** Of a waiting time [s]. */
+  readonly wait_s?: number;
+  /** What rounding of joint values can do to where the tool is. */
+  readonly position_m?: number;
+  readonly angle_rad?: number;
+}
+
 /**
  * A robot language. One folder each; `cannot` is shown to the user as it stands.
  *
@@ -134,6 +153,10 @@ export interface Dialect {
   readonly extensions: readonly string[];
   readonly maturity: "proven" | "experimental";
   readonly cannot: readonly { readonly what: Capability; readonly because: string }[];
+  /** Where the language itself is coarser than the proof of its text is strict. */
+  readonly resolution?: Resolution;
+  /** What a controller executes, as one text, where that is more than the first of the files: a program and its data list. */
+  runnable?(files: readonly EmittedFile[]): EmittedFile;
   emit(program: Program, robot: Robot, worldFromBase?: Pose<"world", "base">): Emitted;
   parse(text: string, robot: Robot, worldFromBase?: Pose<"world", "base">): Parsed;
   /** Executes the text with the vendor's own conventions. Written independently of `emit`. */

@@ -1,6 +1,9 @@
 import {
-  Fault, angleBetween, compose, degrees, distance, flangePose, identity, millimetres, type Dialect, type Executed, type MoveStep, type Pose, type Program, type Robot, type Step, type Target, type TextFault,
+  Fault, angleBetween, compose, degrees, distance, flangePose, identity, millimetres, type Dialect, type EmittedFile, type Executed, type MoveStep, type Pose, type Program, type Robot, type Resolution, type Step, type Target, type TextFault,
 } from "@twincell/core";
+
+/** What a controller executes of the files of an export, as one text. */
+export const runnableFile = (dialect: Dialect, files: readonly EmittedFile[]): EmittedFile | undefined => dialect.runnable?.(files) ?? files[0];
 
 /** How far an executed text may be from the program it was made of. */
 export const PROOF_TOLERANCE = { position_m: 1e-5, angle_rad: 1e-3 / 180 * Math.PI } as const;
@@ -43,15 +46,16 @@ export function proveText(
   }
   const steps: ProvenStep[] = [];
   const tips = { wanted: new Tips(program, robot, worldFromBase), done: new Tips(interpreted.context, robot, worldFromBase) };
+  const { resolution = {} } = dialect, position_m = Math.max(PROOF_TOLERANCE.position_m, resolution.position_m ?? 0), angle_rad = Math.max(PROOF_TOLERANCE.angle_rad, resolution.angle_rad ?? 0);
   for (const [i, wanted] of program.steps.entries()) {
     const done = executed[i];
     const differs = (sentence: string, line = done?.line ?? 0): Proof => ({ kind: "differs", file: file.name, step: wanted.id, line, sentence: `Step ${wanted.name ?? wanted.id}: ${sentence}` });
     if (done === undefined) return differs("the text ends before it.");
-    const odd = otherwise(wanted, done.step, program.steps[i + 1]);
+    const odd = otherwise(wanted, done.step, program.steps[i + 1], robot, resolution);
     if (odd !== undefined) return differs(`line ${done.line} ${odd}`);
     const [deviation_m, deviation_rad] = wanted.type === "move" && done.step.type === "move" ? deviation(wanted, done.step, tips) : [0, 0];
-    if (!(deviation_m <= PROOF_TOLERANCE.position_m)) return differs(`line ${done.line} ends ${millimetres(deviation_m).toFixed(3)} mm away; ${millimetres(PROOF_TOLERANCE.position_m)} mm are allowed.`);
-    if (!(deviation_rad <= PROOF_TOLERANCE.angle_rad)) return differs(`line ${done.line} ends turned by ${degrees(deviation_rad).toFixed(4)}°; ${degrees(PROOF_TOLERANCE.angle_rad).toFixed(3)}° are allowed.`);
+    if (!(deviation_m <= position_m)) return differs(`line ${done.line} ends ${millimetres(deviation_m).toFixed(3)} mm away; ${millimetres(position_m)} mm are allowed.`);
+    if (!(deviation_rad <= angle_rad)) return differs(`line ${done.line} ends turned by ${degrees(deviation_rad).toFixed(4)}°; ${degrees(angle_rad).toFixed(3)}° are allowed.`);
     steps.push({ id: wanted.id, line: done.line, deviation_m, deviation_rad });
   }
   const extra = executed[program.steps.length];
@@ -86,20 +90,25 @@ class Tips {
 }
 
 /** What about a step is not a matter of more or less, in words that follow "line 12 …". */
-function otherwise(wanted: Step, done: Step, next: Step | undefined): string | undefined {
+function otherwise(wanted: Step, done: Step, next: Step | undefined, robot: Robot, resolution: Resolution): string | undefined {
   if (wanted.type !== done.type) return `is a ${done.type} step, not a ${wanted.type} step.`;
-  if (wanted.type === "wait" && done.type === "wait") return near(wanted.s, done.s) ? undefined : `waits ${done.s} s, not ${wanted.s} s.`;
+  if (wanted.type === "wait" && done.type === "wait") return near(wanted.s, done.s, resolution.wait_s) ? undefined : `waits ${done.s} s, not ${wanted.s} s.`;
   if (wanted.type === "gripper" && done.type === "gripper") return wanted.closed === done.closed ? undefined : `${done.closed ? "closes" : "opens"} the gripper.`;
   if (wanted.type !== "move" || done.type !== "move") return undefined;
   if (wanted.path !== done.path) return `moves by ${done.path}, not by ${wanted.path}.`;
-  if ("q" in wanted.target !== "q" in done.target) return "ends in another sort of target.";
-  if (!sameSpeed(wanted.speed, done.speed)) return `moves at ${JSON.stringify(done.speed)}, not at ${JSON.stringify(wanted.speed)}.`;
+  // On a joint move angles are angles; on the other paths only the tool counts.
+  if (wanted.path === "ptp" && "q" in wanted.target !== "q" in done.target) return "ends in another sort of target.";
+  if ((wanted.via === undefined) !== (done.via === undefined)) return done.via === undefined ? "passes through no other point." : "passes through another point.";
+  if (!sameSpeed(wanted.speed, done.speed, robot, resolution)) return `moves at ${JSON.stringify(done.speed)}, not at ${JSON.stringify(wanted.speed)}.`;
   // A robot that is about to wait or to grip has stopped, whatever was said about passing.
   if (wanted.blend_m === 0 && done.blend_m > 0) return "passes its target without a stop.";
-  if (wanted.blend_m > 0 && done.blend_m === 0 && next?.type === "move" && sameTool(wanted, next)) return "stops at its target.";
+  // Points of one spline are passed as they are.
+  const isInSpline = wanted.path === "spline" && next?.type === "move" && next.path === "spline";
+  if (wanted.blend_m > 0 && done.blend_m === 0 && !isInSpline && next?.type === "move" && sameTool(wanted, next)) return "stops at its target.";
   if ("pose" in wanted.target && wanted.target.branch !== undefined && "pose" in done.target) {
     const { shoulder, elbow, wrist } = wanted.target.branch, other = done.target.branch;
-    if (other?.shoulder !== shoulder || other.elbow !== elbow || other.wrist !== wrist) return "reaches its target in another posture.";
+    // Off a joint move the posture is that of the start: a language may leave it unsaid.
+    if ((other !== undefined || wanted.path === "ptp") && (other?.shoulder !== shoulder || other.elbow !== elbow || other.wrist !== wrist)) return "reaches its target in another posture.";
   }
   return undefined;
 }
@@ -108,15 +117,24 @@ function otherwise(wanted: Step, done: Step, next: Step | undefined): string | u
 const sameTool = (a: MoveStep, b: MoveStep): boolean => a.target.tool !== undefined && a.target.tool === b.target.tool;
 
 /** The text holds single precision. */
-const near = (a: number, b: number): boolean => Math.abs(a - b) <= 1e-6 * Math.max(1, Math.abs(a));
+const near = (a: number, b: number, step = 0): boolean => Math.abs(a - b) <= Math.max(1e-6 * Math.max(1, Math.abs(a)), step);
 
-function sameSpeed(a: MoveStep["speed"], b: MoveStep["speed"]): boolean {
-  if ("ratio" in a) return "ratio" in b && near(a.ratio, b.ratio);
-  if ("mps" in a) return "mps" in b && near(a.mps, b.mps);
-  return "time_s" in b && near(a.time_s, b.time_s);
+/** A controller that knows speeds of one sort only is given the same share of its full speed. */
+function sameSpeed(a: MoveStep["speed"], b: MoveStep["speed"], { maxTcpSpeed_mps }: Robot, { ratio, mps, mostMps = Number.POSITIVE_INFINITY }: Resolution): boolean {
+  if ("time_s" in a || "time_s" in b) return "time_s" in a && "time_s" in b && near(a.time_s, b.time_s);
+  if ("ratio" in a && "ratio" in b) return near(a.ratio, b.ratio, ratio);
+  if ("mps" in b) return near(Math.min(mostMps, "mps" in a ? a.mps : a.ratio * maxTcpSpeed_mps), b.mps, mps);
+  return near(Math.min(1, "mps" in a ? a.mps / maxTcpSpeed_mps : a.ratio), b.ratio, ratio);
 }
 
 function deviation(wanted: MoveStep, done: MoveStep, tips: { readonly wanted: Tips; readonly done: Tips }): [deviation_m: number, deviation_rad: number] {
+  const [end_m, end_rad] = deviationAtEnd(wanted, done, tips);
+  if (wanted.via === undefined || done.via === undefined) return [end_m, end_rad];
+  // The orientation at the point on the way is no part of an arc.
+  return [Math.max(end_m, distance(tips.wanted.of(wanted.via).position, tips.done.of(done.via).position)), end_rad];
+}
+
+function deviationAtEnd(wanted: MoveStep, done: MoveStep, tips: { readonly wanted: Tips; readonly done: Tips }): [deviation_m: number, deviation_rad: number] {
   const a = wanted.target, b = done.target;
   if ("q" in a && "q" in b) {
     // Joint angles one by one, since two postures may hold the tip in the same place; and the tip, of the tool that counts.

@@ -1,6 +1,6 @@
 import { emptyProgram, seededRandom, type Dialect, type EmittedFile, type MoveStep, type Pose, type Program, type Robot, type TextFault } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { proveText } from "../prove.ts";
+import { proveText, runnableFile } from "../prove.ts";
 import { randomProgram } from "./programs.ts";
 
 export interface DialectBench {
@@ -9,8 +9,8 @@ export interface DialectBench {
   readonly worldFromBase: Pose<"world", "base">;
   /** Paths that the dialect does not declare under `cannot`. */
   readonly paths: readonly MoveStep["path"][];
-  /** The file that a controller executes, among those emitted. */
-  readonly runnable: (files: readonly EmittedFile[]) => EmittedFile;
+  /** What a controller executes of the files; left out, what the dialect says. */
+  readonly runnable?: (files: readonly EmittedFile[]) => EmittedFile;
 }
 
 const PATHS: readonly MoveStep["path"][] = ["ptp", "lin", "circ", "spline"];
@@ -30,8 +30,10 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
     if (emitted.kind === "cannot") throw new Error(`${emitted.step}: ${emitted.sentence}`);
     return emitted.files;
   };
-  const runnable = (program: Program): EmittedFile => bench.runnable(emit(program));
-  const random = (seed: number): Program => randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths });
+  const chosen = bench.runnable ?? ((files: readonly EmittedFile[]): EmittedFile => runnableFile(dialect, files)!);
+  const runnable = (program: Program): EmittedFile => chosen(emit(program));
+  const cannot = dialect.cannot.map(({ what }) => what);
+  const random = (seed: number): Program => randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths, cannot });
   const parse = (text: string): Program => {
     const parsed = dialect.parse(text, robot, worldFromBase);
     if (parsed.kind === "not-understood") throw new Error(JSON.stringify(parsed.faults));
@@ -65,7 +67,7 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
         expect(lines, name).toHaveLength(text.split("\n").length - 1);
         expect(lines.filter(id => id !== "" && !ids.has(id)), name).toEqual([]);
       }
-      const file = bench.runnable(files), covered = new Set(file.lines);
+      const file = chosen(files), covered = new Set(file.lines);
       expect([...ids].filter(id => !covered.has(id))).toEqual([]);
       const proof = proveText(dialect, file, program, robot, worldFromBase);
       expect(proof.kind).toBe("proven");
@@ -135,10 +137,10 @@ export function describeMutations(dialect: Dialect, bench: DialectBench, mutatio
     test.each(Object.entries(mutations))("%s", (_, mutate) => {
       let changed = 0;
       for (const seed of SEEDS) {
-        const program = randomProgram(bench.robot, { seed, steps: STEPS, worldFromBase: bench.worldFromBase, paths: bench.paths });
+        const program = randomProgram(bench.robot, { seed, steps: STEPS, worldFromBase: bench.worldFromBase, paths: bench.paths, cannot: dialect.cannot.map(({ what }) => what) });
         const emitted = dialect.emit(program, bench.robot, bench.worldFromBase);
         if (emitted.kind === "cannot") throw new Error(emitted.sentence);
-        const file = bench.runnable(emitted.files), text = mutate(file.text);
+        const file = (bench.runnable ?? (files => runnableFile(dialect, files)!))(emitted.files), text = mutate(file.text);
         if (text === file.text) continue;
         changed++;
         expect(proveText(dialect, { ...file, text }, program, bench.robot, bench.worldFromBase).kind, `seed ${seed}`).not.toBe("proven");

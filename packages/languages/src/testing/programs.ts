@@ -1,6 +1,6 @@
 import {
   branchOf, compose, emptyProgram, flangePose, identity, inverse, seededRandom, span,
-  type MoveStep, type Pose, type Program, type Quaternion, type Random, type Robot, type Speed, type Step,
+  type Capability, type MoveStep, type Pose, type Program, type Quaternion, type Random, type Robot, type Speed, type Step,
 } from "@twincell/core";
 
 export interface ProgramChoices {
@@ -8,10 +8,12 @@ export interface ProgramChoices {
   readonly steps: number;
   readonly worldFromBase: Pose<"world", "base">;
   readonly paths: readonly MoveStep["path"][];
+  /** What the language lacks. */
+  readonly cannot?: readonly Capability[];
 }
 
 /** A program whose every point the robot reaches: random postures, taught as joint angles or as poses of a tool in a frame. */
-export function randomProgram(robot: Robot, { seed, steps, worldFromBase, paths }: ProgramChoices): Program {
+export function randomProgram(robot: Robot, { seed, steps, worldFromBase, paths, cannot = [] }: ProgramChoices): Program {
   const random = seededRandom(seed);
   const tools: Program["tools"] = { torch: randomPose(random, 0.2), "long tool (2)": randomPose(random, 0.4) };
   const frames: Program["frames"] = { carton: randomPose(random, 1), "Drehtisch ä": randomPose(random, 2) };
@@ -25,12 +27,15 @@ export function randomProgram(robot: Robot, { seed, steps, worldFromBase, paths 
     const tool = pick(random, ["flange", ...Object.keys(tools)]), frame = pick(random, ["world", ...Object.keys(frames)]);
     const worldFromTcp = compose(worldFromBase, compose(flangePose(robot.arm, q), tools[tool] ?? identity<"flange", "tcp">()));
     const branch = random() < 0.5 ? branchOf(robot, q) : undefined;
+    const path = pick(random, paths), drawn = randomSpeed(random);
+    const speed = "time_s" in drawn && (path === "circ" || cannot.includes("duration")) ? { mps: 0.1 } : drawn;
     list.push({
-      ...base, type: "move", path: pick(random, paths),
+      ...base, type: "move", path,
       target: random() < 0.4
         ? { q, ...(random() < 0.5 ? { tool } : {}) }
         : { pose: compose(inverse(frames[frame] ?? identity()), worldFromTcp), frame, tool, ...(branch === undefined ? {} : { branch }) },
-      speed: randomSpeed(random), blend_m: random() < 0.5 ? 0 : 0.01,
+      ...(path === "circ" ? { via: { pose: compose(inverse(frames[frame] ?? identity()), compose(worldFromTcp, randomPose<"tcp", "tcp">(random, 0.2))), frame, tool } } : {}),
+      speed, blend_m: random() < 0.5 ? 0 : 0.01,
     });
   }
   return { ...emptyProgram(robot.id, `Prüfung No. ${seed}`), tools, frames, groups: { g1: { name: "Edge 1" }, g2: { name: "Edge 2" } }, steps: list };
@@ -40,6 +45,8 @@ export function randomProgram(robot: Robot, { seed, steps, worldFromBase, paths 
 function easyPosture(robot: Robot, random: Random): number[] {
   for (;;) {
     const q = robot.arm.joints.map(({ limits: { lower_rad, upper_rad } }) => lower_rad + (upper_rad - lower_rad) * (0.01 + 0.98 * random()));
+    // Other arms than these are not asked how far they are stretched.
+    if (robot.family.kind !== "ortho-parallel") return q;
     const { distance_m, nearest_m, farthest_m } = span(robot, flangePose(robot.arm, q));
     if (farthest_m - distance_m > EASE_M && distance_m - nearest_m > EASE_M) return q;
   }

@@ -70,10 +70,11 @@ const CAREFUL = { ratio: 0.25 };
 
 /** The step as a joint move to that target. */
 export function jointMove(step: MoveStep, target: Target): MoveStep {
-  const { id, name, group, speed, blend_m } = step;
+  const { id, name, group, speed, acceleration, blend_m, blend_ratio, until } = step;
   return {
     id, type: "move", path: "ptp", target, speed: "ratio" in speed ? speed : CAREFUL, blend_m,
-    ...(name === undefined ? {} : { name }), ...(group === undefined ? {} : { group }),
+    ...(name === undefined ? {} : { name }), ...(group === undefined ? {} : { group }), ...(acceleration === undefined ? {} : { acceleration }),
+    ...(blend_ratio === undefined ? {} : { blend_ratio }), ...(until === undefined ? {} : { until }),
   };
 }
 

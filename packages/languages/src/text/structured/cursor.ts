@@ -1,6 +1,6 @@
 import type { TextPlace } from "@twincell/core";
 import { TextError } from "../faults.ts";
-import { Scanner, type Lexicon, type TextToken, type TokenKind } from "./scanner.ts";
+import { Scanner, type Comment, type Lexicon, type TextToken, type TokenKind } from "./scanner.ts";
 
 /** Walks over the tokens of a text. `fold` gives words the form in which the language compares them. */
 export class TokenCursor {
@@ -23,11 +23,16 @@ export class TokenCursor {
   get raw(): string { return this.current.text; }
   get done(): boolean { return this.current.kind === "end"; }
 
+  isAt(kind: TokenKind): boolean { return this.current.kind === kind; }
+
   /** The token after the next. */
   get second(): string {
     this.ahead ??= this.scanner.next();
     return this.ahead.kind === "word" ? this.fold(this.ahead.text) : this.ahead.kind === "text" ? "" : this.ahead.text;
   }
+
+  /** Takes the first comment in the lines before the next token. */
+  comment(): Comment | undefined { return this.scanner.commentBefore(this.current.line); }
 
   /** Goes on by one token. @throws {TextError} at a character without a meaning. */
   advance(): void {

@@ -3,3 +3,5 @@ export * from "./scanner.ts";
 export * from "./cursor.ts";
 export * from "./expression.ts";
 export * from "./machine.ts";
+export * from "./constants.ts";
+export * from "./outline.ts";

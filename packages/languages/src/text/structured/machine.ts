@@ -49,6 +49,7 @@ export abstract class BlockMachine<V> {
   }
 
   *statement(statement: Statement): Generator<Executed, Flow> {
+    if (statement.kind === "comment") return "next";
     this.spend(statement);
     switch (statement.kind) {
       case "assign": {
@@ -88,7 +89,9 @@ export abstract class BlockMachine<V> {
         return "return";
       case "break": return "break";
       case "continue": return "continue";
-      case "halt": return "halt";
+      case "halt":
+        yield this.done(statement, { id: this.stepId(statement), type: "stop" });
+        return "halt";
     }
   }
 
@@ -98,8 +101,13 @@ export abstract class BlockMachine<V> {
     return [first, last, step === undefined ? (last < first ? -1 : 1) : this.numberOf(step)];
   }
 
-  /** The variable of a counting loop, which exists in its body only. */
-  count(name: string, value: number): void { (this.scopes.at(-1)?.names ?? this.globals).set(name, this.fromNumber(value)); }
+  /** Gives the variable of a counting loop its value. */
+  setCount(name: string, value: number): void {
+    const holder = this.scopes.findLast(({ names }) => names.has(name))?.names ?? (this.globals.has(name) ? this.globals : undefined);
+    if (holder !== undefined) holder.set(name, this.fromNumber(value)); else this.count(name, value);
+  }
+
+  private count(name: string, value: number): void { (this.scopes.at(-1)?.names ?? this.globals).set(name, this.fromNumber(value)); }
 
   private *loop(statement: Extract<Statement, { kind: "for" }>): Generator<Executed, Flow> {
     const [from, last, step] = this.counting(statement);
@@ -135,6 +143,17 @@ export abstract class BlockMachine<V> {
     const { returned } = this;
     if (returned === undefined) throw new TextError(at, "a routine that returns a value", "The routine ends without a value.");
     return returned;
+  }
+
+  /** Remembers variables and counts; the answer brings them back. */
+  remember(): () => void {
+    const globals = new Map(this.globals), scopes = this.scopes.map(({ routine, names }) => ({ routine, names: new Map(names) })), { idle } = this;
+    return () => {
+      this.globals.clear();
+      for (const [name, value] of globals) this.globals.set(name, value);
+      this.scopes.splice(0, this.scopes.length, ...scopes.map(({ routine, names }) => ({ routine, names: new Map(names) })));
+      this.idle = idle;
+    };
   }
 
   private enter(routine: Routine, args: readonly Argument[], at: TextPlace): void {

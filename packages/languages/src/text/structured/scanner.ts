@@ -3,6 +3,8 @@ import { TextError } from "../faults.ts";
 import { plainText } from "../lines.ts";
 
 export type TokenKind = "word" | "number" | "text" | "sign" | "line-end" | "end";
+/** What a comment says, without its sign. */
+export interface Comment extends TextPlace { readonly text: string }
 export interface TextToken extends TextPlace { readonly kind: TokenKind; readonly text: string }
 
 /** What tells one language from another before its grammar begins. */
@@ -32,6 +34,8 @@ export class Scanner {
   private line = 1;
   private lineStart = 0;
   private depth = 0;
+  /** Comments that have been passed and not yet been taken. */
+  private readonly comments: Comment[] = [];
 
   constructor(text: string, lexicon: Lexicon) {
     this.text = plainText(text);
@@ -41,6 +45,12 @@ export class Scanner {
 
   /** Forgets open brackets, so that reading can go on behind a fault. */
   recover(): void { this.depth = 0; }
+
+  /** Takes the first comment that stands before that line. */
+  commentBefore(line: number): Comment | undefined {
+    const first = this.comments[0];
+    return first !== undefined && first.line < line ? this.comments.shift() : undefined;
+  }
 
   /** @throws {TextError} at a character that has no meaning in the language; the character is then behind. */
   next(): TextToken {
@@ -54,7 +64,12 @@ export class Scanner {
         continue;
       }
       if (place.column > LINE_LENGTH) { this.skipLine(); throw new TextError(place, `a line of at most ${LINE_LENGTH} characters`, `Line ${place.line} has more than ${LINE_LENGTH} characters.`); }
-      if (letter === lexicon.comment) { this.skipLine(); continue; }
+      if (letter === lexicon.comment) {
+        const from = this.at + 1;
+        this.skipLine();
+        this.comments.push({ text: text.slice(from, this.at).trim(), ...place });
+        continue;
+      }
       if (lexicon.quotes.includes(letter)) return { kind: "text", text: this.quoted(letter, place), ...place };
       const word = this.match(WORD);
       if (word !== undefined) return { kind: "word", text: word, ...place };

@@ -30,6 +30,8 @@ export type Statement = TextPlace & (
   | { readonly kind: "break" }
   | { readonly kind: "continue" }
   | { readonly kind: "halt" }
+  /** What a person wrote between the statements. */
+  | { readonly kind: "comment"; readonly text: string }
 );
 export type Block = readonly Statement[];
 

@@ -20,8 +20,8 @@ const RULES: ExpressionRules = {
 const DEPTH = 50;
 const MOST_FAULTS = 50;
 
-/** A text that was read: routines by name, and what stands in the program itself or, for a bare script, outside all of them. */
-export interface Source { readonly program: string; readonly routines: ReadonlyMap<string, Routine>; readonly main: Block }
+/** A text that was read: what a person called it, routines by name, and what stands in the program itself or, for a bare script, outside all of them. */
+export interface Source { readonly title: string; readonly routines: ReadonlyMap<string, Routine>; readonly main: Block }
 export type SourceAnswer = { readonly kind: "source"; readonly source: Source } | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 /** Reads URScript. Goes on after a fault, so that all of them are told at once. */
@@ -31,7 +31,6 @@ class Reader {
   private readonly cursor: TokenCursor;
   private readonly faults: TextFault[] = [];
   private readonly routines = new Map<string, Routine>();
-  private program = "";
   private depth = 0;
 
   constructor(text: string) { this.cursor = new TokenCursor(text, LEXICON, word => word); }
@@ -40,6 +39,7 @@ class Reader {
     const loose: Statement[] = [], defined: Routine[] = [];
     this.guard(() => { this.cursor.advance(); });
     while (!this.cursor.done && this.faults.length < MOST_FAULTS) {
+      this.comments(loose);
       const first = this.routines.size, statement = this.line();
       if (statement !== undefined) loose.push(statement);
       if (this.routines.size > first) defined.push([...this.routines.values()].at(-1)!);
@@ -47,9 +47,9 @@ class Reader {
     if (this.faults.length > 0) return { kind: "not-understood", faults: this.faults };
     // What stands outside runs; otherwise the program is the one definition, which the controller starts by itself.
     const entry = defined.at(-1);
-    if (loose.length > 0 || entry === undefined) return { kind: "source", source: { program: entry?.name ?? "", routines: this.routines, main: loose } };
+    if (loose.some(({ kind }) => kind !== "comment") || entry === undefined) return { kind: "source", source: { title: titleOf(loose) ?? entry?.name ?? "Program", routines: this.routines, main: loose } };
     this.routines.delete(entry.name);
-    return { kind: "source", source: { program: entry.name, routines: this.routines, main: entry.body } };
+    return { kind: "source", source: { title: titleOf(entry.body) ?? entry.name, routines: this.routines, main: entry.body } };
   }
 
   private guard<T>(read: () => T): T | undefined {
@@ -71,9 +71,13 @@ class Reader {
       // `$ 5 "A"` names the node of the pendant's program; `@` marks belong to its tools.
       if (cursor.next === "$" || cursor.next === "@") { cursor.skip(each => each.kind === "line-end"); return undefined; }
       const statement = this.statement();
-      if (cursor.kind !== "end" && cursor.next !== ";") { if (cursor.kind !== "line-end") throw cursor.unexpected("the end of the statement"); cursor.advance(); }
+      if (!cursor.isAt("end") && cursor.next !== ";") { if (!cursor.isAt("line-end")) throw cursor.unexpected("the end of the statement"); cursor.advance(); }
       return statement;
     });
+  }
+
+  private comments(block: Statement[]): void {
+    for (let comment = this.cursor.comment(); comment !== undefined; comment = this.cursor.comment()) block.push({ kind: "comment", ...comment });
   }
 
   private body(opened: string, at: TextPlace, ends: readonly string[]): Block {
@@ -81,9 +85,12 @@ class Reader {
     if (++this.depth > DEPTH) throw new TextError(at, "a simpler program", `Blocks are nested more than ${DEPTH} deep.`);
     while (!ends.includes(cursor.next)) {
       if (cursor.done || this.faults.length >= MOST_FAULTS) { this.depth--; throw new TextError(cursor.here, "end", `The ${opened} of line ${at.line} is not closed.`); }
+      this.comments(statements);
+      if (ends.includes(cursor.next)) break;
       const statement = this.line();
       if (statement !== undefined) statements.push(statement);
     }
+    this.comments(statements);
     this.depth--;
     return statements;
   }
@@ -104,7 +111,7 @@ class Reader {
       }
       case "return": {
         cursor.advance();
-        return cursor.kind === "line-end" || cursor.done ? { kind: "return", ...at } : { kind: "return", value: readExpression(cursor, RULES), ...at };
+        return cursor.isAt("line-end") || cursor.done ? { kind: "return", ...at } : { kind: "return", value: readExpression(cursor, RULES), ...at };
       }
       case "break": case "continue": case "halt": cursor.advance(); return { kind: word, ...at };
       case "pass": cursor.advance(); return undefined;
@@ -183,13 +190,20 @@ function readArguments(cursor: TokenCursor, depth: number): readonly Argument[] 
   return args;
 }
 
+/** `#* Title` at the top. */
+function titleOf(block: Block): string | undefined {
+  const first = block[0];
+  return first?.kind === "comment" && first.text.startsWith("*") ? first.text.slice(1).trim() : undefined;
+}
+
 /** Instructions that only let time pass. */
 const IDLE = new Set(["sync", "sleep"]);
 
 /** `while (not input): sync() end` rests until the input is there: no loop to whoever reads it. */
 function asWait(loop: Extract<Statement, { kind: "while" }>): Statement {
   const { when, body, line, column } = loop;
-  if (body.length === 0 || !body.every(each => each.kind === "do" && IDLE.has(each.name)) || !readsInput(when)) return loop;
+  const steps = body.filter(({ kind }) => kind !== "comment");
+  if (steps.length === 0 || !steps.every(each => each.kind === "do" && IDLE.has(each.name)) || !readsInput(when)) return loop;
   return { kind: "wait-until", when: when.kind === "unary" && when.sign === "not" ? when.of : { kind: "unary", sign: "not", of: when, line, column }, line, column };
 }
 

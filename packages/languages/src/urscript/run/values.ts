@@ -3,7 +3,7 @@ import { TextError } from "../../text/index.ts";
 import type { Six } from "./frame.ts";
 
 /** A pose, and where it was made of a variable and a pose in it: the frame that a person meant. */
-export interface PoseValue { readonly kind: "pose"; readonly six: Six; readonly inFrame?: { readonly frame: string; readonly six: Six } }
+export interface PoseValue { readonly kind: "pose"; readonly six: Six; readonly inFrame?: { readonly frame: string; readonly of: Six; readonly six: Six } }
 /** A list of fixed length. Joint angles that were solved for a pose remember it. */
 export interface ListValue { readonly kind: "list"; readonly items: Value[]; readonly solves?: Solves }
 /** A pose whose joint angles are asked for, and the posture it is reached from. */

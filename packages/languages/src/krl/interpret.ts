@@ -1,0 +1,61 @@
+import type { Executed, Interpreted, Pose, Robot, Signals, TextFault, TextPlace } from "@twincell/core";
+import { TextError, textFault } from "../text/index.ts";
+import { readSource } from "./read/source.ts";
+import type { Source } from "./read/syntax.ts";
+import { Axes } from "./run/axes.ts";
+import { Machine, WaitsOutside } from "./run/machine.ts";
+import type { Line } from "./run/signals.ts";
+import { ControllerState, type Context } from "./run/state.ts";
+
+/**
+ * How far a program is run beforehand to meet its tools and its faults: enough to see that it runs on the spot.
+ * A program that moves for ever goes on longer.
+ */
+const BEFOREHAND = { steps: 5_000, statements: 150_000 } as const;
+
+/** A module ready to be executed, with what only its reader wants to know. */
+export type Opened =
+  | { readonly kind: "opened"; readonly source: Source; readonly context: Context; readonly start: (signals?: Signals) => Run }
+  | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
+export interface Run {
+  readonly steps: Generator<Executed, void>;
+  readonly assumed: ReadonlyMap<string, TextPlace>;
+  readonly warned: readonly { readonly at: TextPlace; readonly sentence: string }[];
+  readonly lines: ReadonlyMap<string, Line>;
+}
+
+export function openKrl(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Opened {
+  const axes = Axes.of(robot);
+  if (axes === undefined) {
+    return { kind: "not-understood", faults: [textFault({ line: 1, column: 1 }, "a robot whose controller speaks KRL", `How KRL counts the axes of the ${robot.name} is not known.`)] };
+  }
+  const read = readSource(text);
+  if (read.kind === "not-understood") return read;
+  const context: Context = { tools: {}, frames: {} };
+  const start = (signals?: Signals): Run => {
+    const state = new ControllerState(robot, axes, worldFromBase, context), machine = new Machine(read.source, state, signals);
+    return { steps: machine.run(), assumed: state.system.assumed, warned: state.system.warned, lines: machine.lines.met };
+  };
+  return { kind: "opened", source: read.source, context, start };
+}
+
+/**
+ * Executes KRL text: a .src, with the .dat that belongs to it behind it. Positions count from $BASE, which counts from
+ * where the robot stands in the cell.
+ */
+export function interpretKrl(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Interpreted {
+  const opened = openKrl(text, robot, worldFromBase);
+  if (opened.kind === "not-understood") return opened;
+  try {
+    let steps = 0, statements = 0;
+    for (const { step } of opened.start().steps) {
+      if (step !== undefined) steps++;
+      if (steps >= BEFOREHAND.steps || ++statements >= BEFOREHAND.statements) break;
+    }
+  } catch (cause) {
+    // What hangs on a line from outside shows only when the program runs.
+    if (cause instanceof TextError) return { kind: "not-understood", faults: [cause.fault] };
+    if (!(cause instanceof WaitsOutside)) throw cause;
+  }
+  return { kind: "ready", run: signals => opened.start(signals).steps, context: opened.context };
+}
