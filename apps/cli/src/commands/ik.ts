@@ -2,7 +2,7 @@ import { allBranches, compose, explainReach, inverse, solveAll, solverScratch, t
 import { given } from "../io/arguments.ts";
 import { methodOf, tried } from "../io/ik-methods.ts";
 import { jsonLines, lineWriter } from "../io/json-lines.ts";
-import { robotOf, ROBOT_OPTIONS } from "../io/robot.ts";
+import { robotOf, ROBOT_HELP, ROBOT_OPTIONS } from "../io/robot.ts";
 import { UseFault, type Command } from "../io/usage.ts";
 import { poseOf } from "../io/values.ts";
 
@@ -12,6 +12,7 @@ export const ikCommand: Command = {
   usage: `twincell ik --robot R [--base LINK] [--tip LINK] [--within-limits] [--near q1,q2,…] [--elbow RAD]  < poses.jsonl
 
 Reads POSE lines {"position":[x,y,z],"quaternion":[x,y,z,w]} and writes {"solutions":[[…],…],"reach":{…}} lines.
+${ROBOT_HELP}
 Every distinct branch, angles in (−π, π]. An unreachable pose is an answer: "reach" says why.
 
   --within-limits   adds whole turns inside the limits and drops the rest

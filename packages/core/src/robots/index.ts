@@ -1,4 +1,5 @@
 export * from "./arm.ts";
+export * from "./jerk.ts";
 export * from "./robot.ts";
 export * from "./derive.ts";
 export * from "./derive-three-parallel.ts";
@@ -7,5 +8,6 @@ export * from "./derive-general-six.ts";
 export * from "./family.ts";
 export * from "./foreign.ts";
 export * from "./dh.ts";
+export * from "./aligned.ts";
 export * from "./library/index.ts";
 export * from "./shapes/index.ts";
