@@ -22,7 +22,8 @@ export class ProgramWriter {
   /** Whether postures are known: without one there is no configuration to ask for. */
   private readonly solves: boolean;
   private points = 0;
-  private tool = "flange";
+  /** The tool of the last move; undefined where another routine or another round may have used another. */
+  private tool: string | undefined;
   private acceleration = 1;
   private group = "";
   private near: readonly number[] | undefined;
@@ -57,6 +58,7 @@ export class ProgramWriter {
   private routine(name: string, steps: readonly Step[], isMain: boolean): void {
     const { code } = this, body = new BlockWriter();
     this.begin();
+    if (isMain) this.tool = "flange";
     this.local.clear();
     const forgives = this.searches(steps);
     code.add(`PROC ${name}()`);
@@ -101,6 +103,7 @@ export class ProgramWriter {
   /** What is said at one place holds nowhere else: routines and blocks say it anew. */
   private begin(): void {
     this.acceleration = Number.NaN;
+    this.tool = undefined;
     this.before = undefined;
   }
 
@@ -186,7 +189,7 @@ export class ProgramWriter {
         loop(along, last, () => {
           add(`${at}:=${along};`);
           if (order.endsWith("zigzag")) out.block(`IF ${line} MOD 2=1 THEN`, "ENDIF", step.id, () => { add(`${at}:=${isShifted ? inLine - 2 : inLine - 1}-${along};`); });
-          add(`${object}.oframe:=${this.placeText(pallet, layer, byRows ? line : at, byRows ? at : line, isShifted ? line : "")};`);
+          add(`${object}.oframe:=${this.placeText(pallet, layer, line, at)};`);
           this.begin();
           this.steps(step.steps);
         });
@@ -195,14 +198,15 @@ export class ProgramWriter {
     this.begin();
   }
 
-  private placeText(pallet: Pallet, layer: string, row: string, column: string, shifted: string): string {
-    const isFree = pallet.frame === "world", toBase = (v: Vector3): Vector3 => isFree ? rotate(this.place.baseFromWorld.quaternion, v) : v;
-    const origin = isFree ? compose(this.place.baseFromWorld, compose(pose<"world", "frame">(), pallet.origin)) : pallet.origin, pitch = palletPitch(pallet);
-    const columns = toBase(pitch.column), rows = toBase(pitch.row), layers = toBase(pitch.layer);
-    const fine = (value_m: number): string => fixed(value_m * 1000, 5);
+  /** Where a place is: so far along its line, so many lines and layers away, and every second line half a step further where they are packed. */
+  private placeText(pallet: Pallet, layer: string, line: string, at: string): string {
+    const isFree = pallet.frame === "world", { baseFromWorld } = this.place, seen = (v: Vector3): Vector3 => isFree ? rotate(baseFromWorld.quaternion, v) : v;
+    const origin = isFree ? compose(baseFromWorld, compose(pose<"world", "frame">(), pallet.origin)) : pallet.origin, pitch = palletPitch(pallet);
+    const byRows = (pallet.order ?? "rows").startsWith("rows"), along = seen(byRows ? pitch.column : pitch.row), away = seen(byRows ? pitch.row : pitch.column);
+    const up = seen(pallet.layers > 1 ? pitch.layer : [0, 0, 0]), isShifted = pallet.interleave === "odd-rows-shifted", fine = (value_m: number): string => fixed(value_m * 1000, 5);
     const term = (pitch_m: number, factor: string): string => fine(pitch_m) === "0" ? "" : `${pitch_m < 0 ? "-" : "+"}${fine(Math.abs(pitch_m))}*${factor}`;
     const parts = ([0, 1, 2] as const).map(i =>
-      `${fine(origin.position[i])}${term(columns[i], column)}${shifted === "" ? "" : term(columns[i] / 2, `(${shifted} MOD 2)`)}${term(rows[i], row)}${term(layers[i], layer)}`);
+      `${fine(origin.position[i])}${term(along[i], isShifted ? `(${at}+0.5*(${line} MOD 2))` : at)}${term(away[i], line)}${term(up[i], layer)}`);
     return `[[${parts.join(",")}],${orientText(origin.quaternion)}]`;
   }
 
@@ -255,8 +259,10 @@ export class ProgramWriter {
 
   /** What the flange carries, as the controller wants it: seen from the tool in use. */
   private load(step: PayloadStep): string {
-    const { mass_kg, center_m, inertia_kgm2 = [0, 0, 0, 0, 0, 0] } = step, tool = this.place.tool(this.tool), tcpFromFlange = inverse(tool);
+    const { mass_kg, center_m, inertia_kgm2 = [0, 0, 0, 0, 0, 0] } = step;
     if (!(mass_kg > 0)) return "load0";
+    if (this.tool === undefined) throw new CannotSay(step.id, `${called(step)} says what is carried where the tool in use is not known; RAPID counts a load from it.`, "Put a move with the tool before it.");
+    const tcpFromFlange = inverse(this.place.tool(this.tool));
     if (inertia_kgm2.slice(3).some(each => each !== 0)) throw new CannotSay(step.id, `${called(step)} has moments of deviation; RAPID takes moments about three axes of the load.`, "Give the inertia about the load's own axes.");
     const center = compose(tcpFromFlange, pose<"flange", "load">(center_m)), [ix, iy, iz] = inertia_kgm2;
     const text = `[${part(mass_kg)},${posText(center.position)},${orientText(center.quaternion)},${part(ix)},${part(iy)},${part(iz)}]`;
@@ -268,7 +274,7 @@ export class ProgramWriter {
   // --- moves ------------------------------------------------------------------------------------------------------
 
   private move(step: MoveStep, next: Step | undefined, add: (line: string) => void): void {
-    const { target, path } = step, tool = target.tool ?? (path === "ptp" && "q" in target ? this.tool : "flange");
+    const { target, path } = step, tool = target.tool ?? (path === "ptp" && "q" in target ? this.tool ?? "flange" : "flange");
     this.tool = tool;
     const ratio = step.acceleration?.ratio ?? 1;
     if (ratio !== this.acceleration) add(`AccSet ${part(100 * ratio)},100;`);

@@ -1,4 +1,4 @@
-import { branchOf, compose, identity, palletPitch, pose, type Condition, type EmittedFile, type MoveStep, type Pallet, type Pose, type Robot, type SignalLine, type Step, type Target } from "@twincell/core";
+import { branchOf, compose, palletPitch, pose, rotate, type Condition, type EmittedFile, type MoveStep, type Pallet, type Pose, type Robot, type SignalLine, type Step, type Target, type Vector3 } from "@twincell/core";
 import { asciiText } from "../../text/index.ts";
 import { BlockWriter, CannotSay, Names, Place, called, remark } from "../../writing/index.ts";
 import { DIGITAL_LINES, fullJointSpeed } from "../robots.ts";
@@ -156,7 +156,7 @@ export class ProgramWriter {
       if (order.endsWith("zigzag")) {
         out.block(`if ${line} % 2 == 1:`, "end", step.id, () => { out.add(`${at} = ${isShifted ? inLine - 2 : inLine - 1} - ${along}`, step.id); });
       }
-      out.add(`global ${variable} = ${this.placeText(pallet, layer, byRows ? line : at, byRows ? at : line, isShifted ? line : "")}`, step.id);
+      out.add(`global ${variable} = ${this.placeText(pallet, layer, line, at)}`, step.id);
       this.begin();
       this.steps(step.steps);
     };
@@ -164,14 +164,17 @@ export class ProgramWriter {
     this.begin();
   }
 
-  private placeText(pallet: Pallet, layer: string, row: string, column: string, shifted: string): string {
-    const pitch = palletPitch(pallet), turn = poseText(pose([0, 0, 0], pallet.origin.quaternion)).replace(/^p\[0, 0, 0, /, "").replace(/\]$/, "");
-    const term = (step_m: number, factor: string): string => num(step_m) === "0" ? "" : step_m < 0 ? ` - ${fine(-step_m)} * ${factor}` : ` + ${fine(step_m)} * ${factor}`;
+  /** Where a place is: so far along its line, so many lines and layers away, and every second line half a step further where they are packed. */
+  private placeText(pallet: Pallet, layer: string, line: string, at: string): string {
+    const isFree = pallet.frame === "world", toController = compose(controllerFromBase(this.robot), this.place.baseFromWorld);
+    const seen = (v: Vector3): Vector3 => isFree ? rotate(toController.quaternion, v) : v, origin = isFree ? compose(toController, compose(pose<"world", "frame">(), pallet.origin)) : pallet.origin;
+    const pitch = palletPitch(pallet), byRows = (pallet.order ?? "rows").startsWith("rows"), along = seen(byRows ? pitch.column : pitch.row), away = seen(byRows ? pitch.row : pitch.column);
+    const up = seen(pallet.layers > 1 ? pitch.layer : [0, 0, 0]), isShifted = pallet.interleave === "odd-rows-shifted";
+    const term = (step_m: number, factor: string): string => fine(step_m) === "0" ? "" : ` ${step_m < 0 ? "-" : "+"} ${fine(Math.abs(step_m))} * ${factor}`;
     const place = ([0, 1, 2] as const).map(i =>
-      `${fine(pallet.origin.position[i])}${term(pitch.column[i], column)}${shifted === "" ? "" : term(pitch.column[i] / 2, `(${shifted} % 2)`)}${term(pitch.row[i], row)}${term(pitch.layer[i], layer)}`);
-    const text = `p[${place.join(", ")}, ${turn}]`;
-    if (pallet.frame !== "world") return `pose_trans(${this.names.of("frame", pallet.frame)}, ${text})`;
-    return `pose_trans(${this.inController(identity())}, ${text})`;
+      `${fine(origin.position[i])}${term(along[i], isShifted ? `(${at} + 0.5 * (${line} % 2))` : at)}${term(away[i], line)}${term(up[i], layer)}`);
+    const turn = poseText(pose([0, 0, 0], origin.quaternion)).slice("p[0, 0, 0, ".length, -1), text = `p[${place.join(", ")}, ${turn}]`;
+    return isFree ? text : `pose_trans(${this.names.of("frame", pallet.frame)}, ${text})`;
   }
 
   private set(step: Extract<Step, { type: "set" }>, add: (line: string) => void): void {
