@@ -162,7 +162,7 @@ describe("L-57 what is written", () => {
 
 describe("faults have a place and say what is expected", () => {
   test.each<[line: string, atLine: number, column: number]>([
-    ["movej([0, 1", 4, 1], ["  frob 12", 2, 3], ["frob(12)", 2, 1], ["movel(p[1,2,3])", 2, 7], ["movel()", 2, 1], ["x = y + 1", 2, 5], ["x = 1 / 0", 2, 5], ["if x:", 4, 1],
+    ["movej([0, 1", 3, 1], ["  frob 12", 2, 3], ["frob(12)", 2, 1], ["movel(p[1,2,3])", 2, 7], ["movel()", 2, 1], ["x = y + 1", 2, 5], ["x = 1 / 0", 2, 7], ["if x:", 4, 1],
     ["set_tcp(5)", 2, 1], ["sleep(-1)", 2, 1], ["movej([0,0,0], v=0)", 2, 1], ["x = [1, 2][5]", 2, 12], ["thread t():", 2, 1], ["servoj([0,0,0,0,0,0])", 2, 1], ["x = §", 2, 5], ["set_standard_digital_out(9, True)", 2, 26],
   ])("%s", (line, atLine, column) => {
     const answer = urScript.interpret(body(line), robot);
@@ -180,9 +180,9 @@ describe("faults have a place and say what is expected", () => {
   });
 
   test("a program of 100,000 lines is read in less than 2 s", () => {
-    const lines = Array.from({ length: 100_000 }, (_, i) => `  movel(p[0.5, ${(i % 100) / 1000}, 0.4, 0, 3.141593, 0], a=1.2, v=0.25, r=0.001)`), text = body(...lines), started = performance.now();
-    const parsed = urScript.parse(text, robot);
-    expect(performance.now() - started).toBeLessThan(2000);
+    const lines = Array.from({ length: 100_000 }, (_, i) => `  movel(p[0.5, ${(i % 100) / 1000}, 0.4, 0, 3.141593, 0], a=1.2, v=0.25, r=0.001)`), text = body(lines.join("\n")), before = process.cpuUsage();
+    const parsed = urScript.parse(text, robot), used = process.cpuUsage(before);
+    expect((used.user + used.system) / 1000).toBeLessThan(2000);
     expect(parsed.kind === "parsed" && parsed.program.steps.length).toBe(100_000);
   });
 });
