@@ -122,8 +122,10 @@ export type Parsed =
  * loops, calls and decisions have been carried out. A decision reads `signals` when it is reached.
  */
 export interface Executed { readonly line: number; readonly step?: Step }
+/** What the steps of a text refer to. Signals are named as the text names them, with the controller's numbers as addresses. */
+export type TextContext = Pick<Program, "tools" | "frames"> & Partial<Pick<Program, "signals">>;
 export type Interpreted =
-  | { readonly kind: "ready"; readonly run: (signals?: Signals) => Iterator<Executed, void>; readonly context: Pick<Program, "tools" | "frames"> }
+  | { readonly kind: "ready"; readonly run: (signals?: Signals) => Iterator<Executed, void>; readonly context: TextContext }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 /** Half a step of what a language can say of a number, and the most it can say. */

@@ -1,4 +1,4 @@
-import type { Dialect } from "@twincell/core";
+import { emptyProgram, type Dialect, type Robot } from "@twincell/core";
 import { krl } from "./krl/index.ts";
 import { rapid } from "./rapid/index.ts";
 import { urScript } from "./urscript/index.ts";
@@ -16,3 +16,6 @@ export const DIALECTS: readonly Dialect[] = [vPlus, krl, urScript, rapid];
 /** The dialect of that id, or undefined. */
 export const dialectById = (id: string): Dialect | undefined => DIALECTS.find(dialect => dialect.id === id);
 export { vendorTables } from "./vendors.ts";
+
+/** The dialects that a robot's controller understands: those that do not refuse even an empty program for it. */
+export const dialectsFor = (robot: Robot): readonly Dialect[] => DIALECTS.filter(dialect => dialect.emit(emptyProgram(robot.id), robot).kind === "emitted");

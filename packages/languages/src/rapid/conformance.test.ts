@@ -14,11 +14,15 @@ const bench: DialectBench = {
   robot: robotById("abb_irb120")!,
   worldFromBase: pose([0.3, -0.2, 0.75], [0, 0, Math.sin(0.4), Math.cos(0.4)]),
   paths: ["ptp", "lin", "circ"],
+  structured: true,
+  signals: {
+    lamp: { kind: "digital-out" }, BlowOff: { kind: "digital-out" }, part: { kind: "digital-in" }, tray_full: { kind: "digital-in" }, level: { kind: "analogue-in" }, valve: { kind: "analogue-out" },
+  },
 };
 
 describeDialect(rapid, bench);
 describeStructure(rapid, bench);
-describeDialect(rapid, { ...bench, robot: robotById("abb_crb15000_5_95")! });
+describeDialect(rapid, { ...bench, robot: robotById("abb_crb15000_5_95")!, branches: false });
 
 /** The Python package rapidchecker: somebody else's grammar of RAPID, which knows nothing of ours. */
 const hasChecker = spawnSync("python3", ["-c", "import rapidchecker"]).status === 0;

@@ -1,4 +1,4 @@
-import { emptyProgram, seededRandom, type Dialect, type EmittedFile, type MoveStep, type Pose, type Program, type Robot, type TextFault } from "@twincell/core";
+import { CAPABILITIES, emptyProgram, everyStep, seededRandom, type Dialect, type EmittedFile, type MoveStep, type Pose, type Program, type Robot, type TextFault } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { proveText, runnableFile } from "../prove.ts";
 import { randomProgram } from "./programs.ts";
@@ -9,6 +9,12 @@ export interface DialectBench {
   readonly worldFromBase: Pose<"world", "base">;
   /** Paths that the dialect does not declare under `cannot`. */
   readonly paths: readonly MoveStep["path"][];
+  /** The dialect says everything that it does not list under `cannot`: random programs have signals, loops, decisions, calls and pallets as well. */
+  readonly structured?: boolean;
+  /** Lines by the names and numbers that the language has. */
+  readonly signals?: Program["signals"];
+  /** False where the language cannot ask for a posture of this robot by its name. */
+  readonly branches?: boolean;
   /** What a controller executes of the files; left out, what the dialect says. */
   readonly runnable?: (files: readonly EmittedFile[]) => EmittedFile;
 }
@@ -33,7 +39,8 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
   const chosen = bench.runnable ?? ((files: readonly EmittedFile[]): EmittedFile => runnableFile(dialect, files)!);
   const runnable = (program: Program): EmittedFile => chosen(emit(program));
   const cannot = dialect.cannot.map(({ what }) => what);
-  const random = (seed: number): Program => randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths, cannot });
+  const random = (seed: number): Program => randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths, cannot, ...(bench.signals === undefined ? {} : { signals: bench.signals }), ...(bench.branches === undefined ? {} : { branches: bench.branches }), ...(bench.structured === true && seed % 2 === 0 ? { can } : {}) });
+  const can = new Set(CAPABILITIES.filter(capability => !cannot.includes(capability)));
   const parse = (text: string): Program => {
     const parsed = dialect.parse(text, robot, worldFromBase);
     if (parsed.kind === "not-understood") throw new Error(JSON.stringify(parsed.faults));
@@ -60,7 +67,7 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
     });
 
     test.each(SEEDS)("the text depends on the program alone, is ASCII, and says for every line which step it belongs to (seed %d)", seed => {
-      const program = random(seed), files = emit(program), ids = new Set(program.steps.map(step => step.id));
+      const program = random(seed), files = emit(program), ids = new Set(Array.from(everyStep(program), step => step.id));
       expect(emit(structuredClone(program))).toEqual(files);
       for (const { name, text, lines } of files) {
         expect(text, name).toMatch(/^[\r\n\t -~]*$/);

@@ -11,6 +11,11 @@ const bench: DialectBench = {
   robot: robotById("ur10e")!,
   worldFromBase: pose([0.3, -0.2, 0.75], [0, 0, Math.sin(0.4), Math.cos(0.4)]),
   paths: ["ptp", "lin", "circ"],
+  structured: true,
+  signals: {
+    lamp: { kind: "digital-out", address: 5 }, "Blow off": { kind: "digital-out", address: 16 + 1 }, part: { kind: "digital-in", address: 9 }, tray_full: { kind: "digital-in", address: 3 },
+    level: { kind: "analogue-in", address: 1 }, valve: { kind: "analogue-out", address: 0 },
+  },
 };
 
 describeDialect(urScript, bench);

@@ -2,8 +2,8 @@ import { explainReach } from "../../kinematics/explain.ts";
 import { solveAll } from "../../kinematics/inverse.ts";
 import { span } from "../../kinematics/span.ts";
 import type { Reach } from "../../kinematics/reach.ts";
+import { blends } from "../../trajectory/moves.ts";
 import { explainStop } from "../../trajectory/stop.ts";
-import type { MoveStep } from "../program.ts";
 import type { Finding } from "../verdict.ts";
 import { reachRepairs } from "./repairs.ts";
 import { startOf, type CheckScene } from "./scene.ts";
@@ -35,7 +35,6 @@ export function checkReach(scene: CheckScene): void {
 }
 
 const away = (reach: Reach): boolean => reach.kind === "too-far" || reach.kind === "too-near" || reach.kind === "beyond-workspace";
-const blends = ({ blend_m, blend_ratio = 0 }: MoveStep): boolean => blend_m > 0 || blend_ratio > 0;
 
 const percent = (share: number): string => `At ${Math.round(share * 100)} % of the way:`;
 
@@ -46,6 +45,7 @@ function reachFinding(reach: Reach, at_s: number, repairs: Finding["repairs"]): 
     case "too-near": return { ...base, code: "reach.too-near", value: reach.nearest_m - reach.inside_m, limit: reach.nearest_m, unit: "m" };
     case "beyond-workspace": return { ...base, code: "reach.beyond-workspace", value: reach.distance_m, limit: reach.declared_m, unit: "m" };
     case "outside-limits": return { ...base, code: "limits.joint", joint: reach.joint, value: reach.wanted_rad, limit: reach.limit_rad, unit: "rad" };
+    case "not-so-turned": return { ...base, code: "reach.not-so-turned", value: reach.short_rad, limit: 0, unit: "rad" };
     case "reached": case "no-solver": case "not-a-pose": return { ...base, code: `reach.${reach.kind}`, value: 0, limit: 0, unit: "1" };
   }
 }

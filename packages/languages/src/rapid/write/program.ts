@@ -1,5 +1,5 @@
 import {
-  branchOf, compose, flangePose, inverse, palletPitch, pose, rotate, solveAll, type Condition, type EmittedFile, type MoveStep, type Pallet, type PayloadStep, type Pose, type Robot, type SignalLine, type Speed, type Step, type Target, type Vector3,
+  branchOf, compose, inverse, palletPitch, pose, rotate, type Condition, type EmittedFile, type MoveStep, type Pallet, type PayloadStep, type Pose, type Robot, type SignalLine, type Speed, type Step, type Target, type Vector3,
 } from "@twincell/core";
 import { asciiText } from "../../text/index.ts";
 import { BlockWriter, CannotSay, Place, called, fixed, remark } from "../../writing/index.ts";
@@ -9,13 +9,13 @@ import { Declarations } from "./declarations.ts";
 import { WORDS } from "./words.ts";
 
 const LONGEST_TEXT = 80;
+const LEAST_ACCELERATION = 0.2;
 
 /** The module: data first, then the routines; says only what changes from one step to the next. */
 export class ProgramWriter {
   readonly warnings = new Set<string>();
   private readonly place: Place;
   private readonly robot: Robot;
-  private readonly configuration: Configuration;
   private readonly data = new Declarations();
   private readonly code = new BlockWriter();
   private readonly local = new Set<string>();
@@ -32,9 +32,8 @@ export class ProgramWriter {
   constructor(place: Place, configuration: Configuration) {
     this.place = place;
     this.robot = place.robot;
-    this.configuration = configuration;
     this.near = place.robot.home_rad;
-    this.solves = solveAll(place.robot, flangePose(place.robot.arm, place.robot.home_rad), { near: place.robot.home_rad }).kind !== "no-solver";
+    this.solves = configuration.hasCfx;
   }
 
   write(): readonly EmittedFile[] {
@@ -234,7 +233,7 @@ export class ProgramWriter {
     if (typeof to === "number") return add(`SetAO ${name},${part(to)};`);
     if (step.pulse_s === undefined) return add(`SetDO ${name},${to ? 1 : 0};`);
     if (!to) throw new CannotSay(step.id, `${called(step)} is a pulse that goes off; PulseDO goes on.`, "Turn the sense of the line in the controller's configuration.");
-    add(`PulseDO\\PLength:=${part(step.pulse_s)},${name};`);
+    add(`PulseDO\\High\\PLength:=${part(step.pulse_s)},${name};`);
   }
 
   private waitFor(step: Extract<Step, { type: "wait-for" }>, add: (line: string) => void): void {
@@ -277,10 +276,14 @@ export class ProgramWriter {
     const { target, path } = step, tool = target.tool ?? (path === "ptp" && "q" in target ? this.tool ?? "flange" : "flange");
     this.tool = tool;
     const ratio = step.acceleration?.ratio ?? 1;
+    if (ratio < LEAST_ACCELERATION) throw new CannotSay(step.id, `${called(step)} accelerates by ${part(100 * ratio)} %; RAPID goes down to ${100 * LEAST_ACCELERATION} %.`, "Let it accelerate more, or move more slowly.");
     if (ratio !== this.acceleration) add(`AccSet ${part(100 * ratio)},100;`);
     this.acceleration = ratio;
     const posture = this.place.posture(step, path === "ptp" ? target : this.reached(target), this.near), at = `${this.speed(step)},${this.data.zone(this.zone_mm(step, next))},${this.toolName(tool, step.id)}`;
     this.near = posture ?? this.near;
+    if (path === "ptp" && !this.solves && "pose" in target && target.branch !== undefined) {
+      throw new CannotSay(step.id, `${called(step)} asks for a posture; what the configuration numbers of the ${this.robot.name} mean is not known here.`, "Teach the point as joint angles, or leave the posture to the robot.");
+    }
     if (path === "ptp" && "q" in target) return add(`MoveAbsJ ${this.joints(step, target.q)},${at};`);
     const frame = "q" in target ? "world" : target.frame, object = frame === "world" ? "" : `\\WObj:=${this.frame(frame, step.id)}`;
     const goal = this.point(step, this.inFrame(target, frame), posture, "");
@@ -330,8 +333,8 @@ export class ProgramWriter {
   }
 
   private point(step: MoveStep, inFrame: Pose<"frame", "tcp">, posture: readonly number[] | undefined, ending: string): string {
-    if (!this.solves) this.warnings.add("The postures of this arm are not solved here: configurations are written as 0 and not asked for. Try the first motion slowly.");
-    const text = targetText(inFrame, confText(this.robot, this.solves ? posture : undefined, this.configuration.hasCfx)), name = this.pointName(step, ending);
+    if (!this.solves) this.warnings.add("What the configuration numbers mean for this arm is not known here: they are written as 0 and not asked for. Try the first motion slowly.");
+    const text = targetText(inFrame, confText(this.robot, this.solves ? posture : undefined, this.solves)), name = this.pointName(step, ending);
     this.data.add(`point ${name}`, `CONST robtarget ${name}:=${text};`, step.id);
     return name;
   }

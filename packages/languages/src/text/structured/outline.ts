@@ -187,10 +187,11 @@ export class Outline<V> {
 
   /** The steps of a body as one text to compare; undefined when it leaves the loop. */
   private trial(body: Block): string | undefined {
-    const steps: Step[] = [], { warnings, count } = this, kept = warnings.length;
+    const steps: Step[] = [], { warnings, count, groupCount } = this, kept = warnings.length;
     const flow = this.fresh(() => this.block(body, steps));
     warnings.length = kept;
     this.count = count;
+    this.groupCount = groupCount;
     return flow === "next" ? JSON.stringify(steps) : undefined;
   }
 
@@ -244,10 +245,16 @@ export class Outline<V> {
     this.pallets[variable] = pallet;
     const step = this.dress(), steps: Step[] = [];
     for (const { name, from } of found.counters) machine.setCount(name, from);
-    for (const each of found.before) for (const _ of machine.statement(each)) { /* only its effect counts */ }
+    for (const each of found.before) this.silently(each);
     this.fresh(() => this.block(body, steps));
     this.add(out, { ...step, type: "pallet", pallet: variable, steps }, statement);
     return true;
+  }
+
+  /** Executes a statement of which only the effect on variables counts. */
+  private silently(statement: Statement): void {
+    const doing = this.machine.statement(statement);
+    while (doing.next().done !== true);
   }
 
   private nest(outer: Counter): { variable: string; place: TextPlace; before: Block; body: Block; counts: number[]; counters: Counter[] } | undefined {
@@ -259,14 +266,14 @@ export class Outline<V> {
         machine.setCount(counter.name, counter.from);
         const body: Block = counter.body.filter(({ kind }) => kind !== "comment"), loops = body.filter((each): each is Loop => each.kind === "while" || each.kind === "for");
         if (loops.length === 1 && !body.some(({ kind }) => kind === "do" || kind === "wait-until")) {
-          for (const each of body) if (each.kind === "assign") for (const _ of machine.statement(each)) { /* the start of the inner counter */ }
+          for (const each of body) if (each.kind === "assign") this.silently(each); // the start of the inner counter
           counter = this.counter(loops[0]!);
           continue;
         }
         for (const [i, each] of counter.body.entries()) {
           if (each.kind === "comment") continue;
           if (each.kind !== "assign" && each.kind !== "if") return undefined;
-          for (const _ of machine.statement(each)) { /* only its effect counts */ }
+          this.silently(each);
           const variable = each.kind === "assign" ? holder(each.to) : undefined;
           if (variable !== undefined && machine.placeIn(variable) !== undefined) {
             return { variable, place: each, before: counter.body.slice(0, i + 1), body: counter.body.slice(i + 1), counts, counters };

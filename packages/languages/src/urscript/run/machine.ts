@@ -262,7 +262,7 @@ export class Machine extends BlockMachine<Value> {
     const via = isArc ? { via: this.target(args.required(0, "pose_via"), args.at, false) } : {};
     const speed = time > 0 ? { time_s: time } : this.speed(name === "movej", v === undefined ? undefined : asNumber(v, args.at), args.at);
     const target = this.target(goal, args.at, name === "movej");
-    this.arrive(goal, args.at);
+    this.arrive(goal, name === "movej", args.at);
     return { id, type: "move", path: name === "movej" ? "ptp" : isArc ? "circ" : "lin", target, ...via, speed, blend_m: blend };
   }
 
@@ -293,10 +293,12 @@ export class Machine extends BlockMachine<Value> {
     return { pose: this.arm.world(matrixOf(value.six)), frame: "world" };
   }
 
-  private arrive(goal: Value, at: TextPlace): void {
+  /** A joint move ends in the angles it is given; the others lead the tool to where those angles would put it. */
+  private arrive(goal: Value, isJoint: boolean, at: TextPlace): void {
     if (typeof goal === "object" && goal.kind === "list") {
-      if (goal.solves === undefined) return this.arm.atJoints(asNumbers(goal, 6, at));
-      return this.arm.atPose(goal.solves.pose, goal.solves.near);
+      if (goal.solves !== undefined) return this.arm.atPose(goal.solves.pose, isJoint ? goal.solves.near : undefined);
+      const joints = asNumbers(goal, 6, at);
+      return isJoint ? this.arm.atJoints(joints) : this.arm.atPose(this.arm.six(this.arm.tipAt(joints)));
     }
     if (typeof goal !== "object") throw new TextError(at, "a pose or joint angles", `${kindOf(goal)} is no place to move to.`);
     this.arm.atPose(asPose(goal, at));

@@ -1,4 +1,4 @@
-import { branchOf, compose, palletPitch, pose, rotate, type Condition, type EmittedFile, type MoveStep, type Pallet, type Pose, type Robot, type SignalLine, type Step, type Target, type Vector3 } from "@twincell/core";
+import { branchOf, compose, flangeOfTcp, nearestSolution, palletPitch, pose, rotate, type Condition, type EmittedFile, type MoveStep, type Pallet, type Pose, type Robot, type SignalLine, type Step, type Target, type Vector3 } from "@twincell/core";
 import { asciiText } from "../../text/index.ts";
 import { BlockWriter, CannotSay, Names, Place, called, remark } from "../../writing/index.ts";
 import { DIGITAL_LINES, fullJointSpeed } from "../robots.ts";
@@ -203,20 +203,36 @@ export class ProgramWriter {
   }
 
   private move(step: MoveStep, next: Step | undefined, add: (line: string) => void): void {
-    const { target } = step, tool = target.tool ?? (step.path === "ptp" && "q" in target ? undefined : "flange");
+    const { target, path } = step, tool = target.tool ?? (path === "ptp" && "q" in target ? undefined : "flange");
     if (tool !== undefined && tool !== this.tool) {
       add(tool === "flange" ? "set_tcp(p[0, 0, 0, 0, 0, 0])" : `set_tcp(${this.names.of("tool", tool)})`);
       this.tool = tool;
     }
-    const posture = this.place.posture(step, target, this.near), blend = this.place.blend_m(step, this.before, next);
+    const posture = this.place.posture(step, path === "ptp" ? target : this.reached(target), this.near), blend = this.place.blend_m(step, this.before, next);
     const pace = this.pace(step), radius = num(blend) === "0" ? "" : `, r=${num(blend)}`;
-    if (step.path === "ptp") add(`movej(${this.jointGoal(target, posture)}, ${pace}${radius})`);
-    else if (step.path === "lin") add(`movel(${this.goal(target)}, ${pace}${radius})`);
+    if (path === "ptp") add(`movej(${this.jointGoal(target, posture)}, ${pace}${radius})`);
+    else if (path === "lin") add(`movel(${this.goal(target)}, ${pace}${radius})`);
     else {
       if (step.via === undefined) throw new CannotSay(step.id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
       add(`movec(${this.goal(step.via)}, ${this.goal(target)}, ${pace}${radius})`);
     }
     this.near = posture ?? this.near;
+  }
+
+  /** Off a joint move the tool is led, and the arm arrives in the posture nearest to the one before. */
+  private reached(target: Target): Target {
+    const { place } = this;
+    return { pose: compose(compose(pose<"frame", "world">(), place.worldFromBase), place.tip(target)), frame: "world", tool: target.tool ?? "flange" };
+  }
+
+  /** The posture in as few decimals as still lead to it. */
+  private nearest(target: Target, posture: readonly number[]): string {
+    const { place, robot } = this, baseFromFlange = flangeOfTcp(place.worldFromBase, compose(place.worldFromBase, place.tip(target)), place.tool(target.tool)), found = new Float64Array(posture.length);
+    for (const decimals of [1, 2, 3, 4, 5]) {
+      const near = posture.map(angle => Number(angle.toFixed(decimals)));
+      if (nearestSolution(robot, baseFromFlange, near, found) && found.every((angle, i) => Math.abs(angle - posture[i]!) < 1e-3)) return listText(near);
+    }
+    return listText(posture);
   }
 
   private goal(target: Target): string {
@@ -228,7 +244,7 @@ export class ProgramWriter {
   /** A pose alone is reached in the posture nearest to where the arm is; a branch that was taught is asked for by its angles. */
   private jointGoal(target: Target, posture: readonly number[] | undefined): string {
     if ("q" in target || target.branch === undefined || posture === undefined || branchOf(this.robot, posture) === undefined) return this.goal(target);
-    return `get_inverse_kin(${this.goal(target)}, ${listText(posture)})`;
+    return `get_inverse_kin(${this.goal(target)}, ${this.nearest(target, posture)})`;
   }
 
   private pace({ id, name, path, speed }: MoveStep): string {
