@@ -11,6 +11,10 @@ export interface DialectBench {
   readonly paths: readonly MoveStep["path"][];
   /** The dialect says everything that it does not list under `cannot`: random programs have signals, loops, decisions, calls and pallets as well. */
   readonly structured?: boolean;
+  /** Lines by the names and numbers that the language has. */
+  readonly signals?: Program["signals"];
+  /** False where the language cannot ask for a posture of this robot by its name. */
+  readonly branches?: boolean;
   /** What a controller executes of the files; left out, what the dialect says. */
   readonly runnable?: (files: readonly EmittedFile[]) => EmittedFile;
 }
@@ -35,7 +39,7 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
   const chosen = bench.runnable ?? ((files: readonly EmittedFile[]): EmittedFile => runnableFile(dialect, files)!);
   const runnable = (program: Program): EmittedFile => chosen(emit(program));
   const cannot = dialect.cannot.map(({ what }) => what);
-  const random = (seed: number): Program => randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths, cannot, ...(bench.structured === true && seed % 2 === 0 ? { can } : {}) });
+  const random = (seed: number): Program => randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths, cannot, ...(bench.signals === undefined ? {} : { signals: bench.signals }), ...(bench.branches === undefined ? {} : { branches: bench.branches }), ...(bench.structured === true && seed % 2 === 0 ? { can } : {}) });
   const can = new Set(CAPABILITIES.filter(capability => !cannot.includes(capability)));
   const parse = (text: string): Program => {
     const parsed = dialect.parse(text, robot, worldFromBase);
