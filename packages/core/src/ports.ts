@@ -125,6 +125,8 @@ export type Interpreted =
 export interface Resolution {
   /** Of a share of the joint speed. */
   readonly ratio?: number;
+  /** Smaller shares become this. */
+  readonly leastRatio?: number;
   readonly mps?: number;
   /** Speeds of a path above this are cut. */
   readonly mostMps?: number;
@@ -133,6 +135,8 @@ export interface Resolution {
   /** What rounding of joint values can do to where the tool is. */
   readonly position_m?: number;
   readonly angle_rad?: number;
+  /** Joint angles are written as the pose they reach, with the posture. */
+  readonly anglesAsPoses?: boolean;
 }
 
 /**

@@ -1,13 +1,15 @@
 import type { Dialect } from "@twincell/core";
+import { inform } from "./inform/index.ts";
 import { krl } from "./krl/index.ts";
 import { vPlus } from "./v-plus/index.ts";
 
+export { EXAMPLE_PULSES, inform, informDialect, informExamplePulses, type InformOptions, type PulseData } from "./inform/index.ts";
 export { emitPtpAxis, krl } from "./krl/index.ts";
 export { vPlus } from "./v-plus/index.ts";
 export * from "./prove.ts";
 
 /** Every dialect. A new one is a folder and one line here. */
-export const DIALECTS: readonly Dialect[] = [vPlus, krl];
+export const DIALECTS: readonly Dialect[] = [vPlus, krl, inform];
 
 /** The dialect of that id, or undefined. */
 export const dialectById = (id: string): Dialect | undefined => DIALECTS.find(dialect => dialect.id === id);

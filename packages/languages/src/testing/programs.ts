@@ -1,6 +1,6 @@
 import {
   branchOf, compose, emptyProgram, flangePose, identity, inverse, seededRandom, span,
-  type Capability, type MoveStep, type Pose, type Program, type Quaternion, type Random, type Robot, type Speed, type Step,
+  type Capability, type MoveStep, type Pose, type Program, type Quaternion, type Random, type Robot, type Speed, type Step, type Target,
 } from "@twincell/core";
 
 export interface ProgramChoices {
@@ -29,12 +29,14 @@ export function randomProgram(robot: Robot, { seed, steps, worldFromBase, paths,
     const branch = random() < 0.5 ? branchOf(robot, q) : undefined;
     const path = pick(random, paths), drawn = randomSpeed(random);
     const speed = "time_s" in drawn && (path === "circ" || cannot.includes("duration")) ? { mps: 0.1 } : drawn;
+    const passing = (by: string): Target =>
+      ({ pose: compose(inverse(frames[frame] ?? identity()), compose(worldFromBase, compose(flangePose(robot.arm, beside(robot, q, random)), tools[by] ?? identity<"flange", "tcp">()))), frame, tool: by });
+    const target: Target = random() < 0.4
+      ? { q, ...(random() < 0.5 ? { tool } : {}) }
+      : { pose: compose(inverse(frames[frame] ?? identity()), worldFromTcp), frame, tool, ...(branch === undefined ? {} : { branch }) };
     list.push({
-      ...base, type: "move", path,
-      target: random() < 0.4
-        ? { q, ...(random() < 0.5 ? { tool } : {}) }
-        : { pose: compose(inverse(frames[frame] ?? identity()), worldFromTcp), frame, tool, ...(branch === undefined ? {} : { branch }) },
-      ...(path === "circ" ? { via: { pose: compose(inverse(frames[frame] ?? identity()), compose(worldFromTcp, randomPose<"tcp", "tcp">(random, 0.2))), frame, tool } } : {}),
+      ...base, type: "move", path, target,
+      ...(path === "circ" ? { via: passing(target.tool ?? "flange") } : {}),
       speed, blend_m: random() < 0.5 ? 0 : 0.01,
     });
   }
@@ -52,6 +54,10 @@ function easyPosture(robot: Robot, random: Random): number[] {
   }
 }
 const EASE_M = 0.001;
+
+/** A posture near by, inside the limits. */
+const beside = (robot: Robot, q: readonly number[], random: Random): number[] =>
+  robot.arm.joints.map(({ limits: { lower_rad, upper_rad } }, i) => Math.min(upper_rad, Math.max(lower_rad, q[i]! + 0.3 * (random() - 0.5))));
 
 function randomSpeed(random: Random): Speed {
   const sort = random();
