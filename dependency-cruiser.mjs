@@ -11,7 +11,7 @@ const mayInstall = {
   core: [],
   languages: [],
   controllers: [],
-  formats: ["saxes", "xmlchars"],
+  formats: ["saxes", "xmlchars", "yaml", "@gltf-transform/", "property-graph"],
   recording: ["@mcap/", "@foxglove/"],
   project: ["zod"],
 };
@@ -44,8 +44,8 @@ export default {
     {
       name: "vendors-are-strangers", severity: "error",
       comment: "brands and dialects meet only in the port above them and in the shared folders named here",
-      from: { path: "^packages/(controllers|languages)/src/([^/]+)/", pathNot: "/src/(text|transport|guard|twin|testing)/" },
-      to: { path: "^packages/(controllers|languages)/src/[^/]+/", pathNot: "^packages/[^/]+/src/($2|text|transport|guard|twin|testing)/" },
+      from: { path: "^packages/(controllers|languages)/src/([^/]+)/", pathNot: "/src/(text|writing|transport|guard|twin|testing)/" },
+      to: { path: "^packages/(controllers|languages)/src/[^/]+/", pathNot: "^packages/[^/]+/src/($2|text|writing|transport|guard|twin|testing)/" },
     },
     {
       name: "driver-and-virtual-are-strangers", severity: "error", comment: "they share the codec and nothing else",

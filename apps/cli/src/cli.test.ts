@@ -30,6 +30,24 @@ test("fk answers the reference cases, in the root link and in the vendor's world
   });
 });
 
+test("ik --method compare puts one pose through each method; one method alone answers too; another name is refused", () => {
+  const pose = twincell(["fk", "--robot", "staubli_rx90l"], '{"q":[0.3,-1,1.2,0.4,0.7,-0.2]}').out, near = ["--near", "0.2,-1.1,1.3,0.3,0.6,-0.1"];
+  interface Tried { method: string; q: number[]; position_error_m: number; iterations: number; jump_rad: number; took_ms: number; sentence: string }
+  const [all] = twincell(["ik", "--robot", "staubli_rx90l", "--method", "compare", ...near], pose).lines() as { tried: Tried[] }[];
+  expect(all!.tried.map(({ method }) => method)).toEqual(["closed", "dls", "fabrik", "gradient"]);
+  for (const { position_error_m, jump_rad, took_ms, sentence } of all!.tried) {
+    expect(position_error_m).toBeLessThan(5e-3);
+    expect(jump_rad).toBeLessThan(1);
+    expect(took_ms).toBeGreaterThan(0);
+    expect(sentence).toMatch(/\.$/);
+  }
+  const [alone] = twincell(["ik", "--robot", "staubli_rx90l", "--method", "dls", ...near], pose).lines() as { tried: Tried[] }[];
+  expect(alone!.tried).toHaveLength(1);
+  alone!.tried[0]!.q.forEach((angle, j) => { expect(angle).toBeCloseTo([0.3, -1, 1.2, 0.4, 0.7, -0.2][j]!, 8); });
+  const wrong = twincell(["ik", "--robot", "staubli_rx90l", "--method", "magic"], pose);
+  expect([wrong.code, wrong.err]).toEqual([2, 'twincell: There is no method "magic". Methods: closed, dls, fabrik, gradient, compare.\n']);
+});
+
 test("ik gives every branch in (−π, π], whole turns with --within-limits, the nearest first with --near", () => {
   const pose = twincell(["fk", "--robot", "staubli_rx90l"], '{"q":[0.3,-1,1.2,0.4,0.7,-0.2]}').out;
   const [all] = twincell(["ik", "--robot", "staubli_rx90l"], pose).lines() as { solutions: number[][]; reach: { kind: string } }[];

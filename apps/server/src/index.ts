@@ -1,2 +1,3 @@
 export { serve, type Served, type ServeOptions } from "./serve.ts";
 export { lanAddresses } from "./lan.ts";
+export { nodeNetwork } from "./sockets/node-network.ts";

@@ -37,8 +37,10 @@ export interface JointSample {
   readonly gripperClosed: boolean;
   /** Id of the step being executed, or "". */
   readonly step: string;
-  /** Last fault in words, or "". */
+  /** Last fault, or what the program last said, in words; or "". */
   readonly message: string;
+  /** What the lines are that were ever written, by name. Lent like the rest; left out by sources that do not know. */
+  readonly signals?: ReadonlyMap<string, boolean | number>;
 }
 
 /** Live, virtual and recorded state come through one door; what a source cannot do it does not have. */
@@ -85,12 +87,15 @@ export interface RobotController extends StateSource {
   moveJoints(q_rad: ArrayLike<number>): Promise<CommandOutcome>;
   moveToPose(baseFromFlange: Pose<"base", "flange">): Promise<CommandOutcome>;
   moveToZero(): Promise<CommandOutcome>;
-  /** Executes steps one after the other; the iterator is asked for the next when it is needed (T-53). */
+  /**
+   * Executes primitive steps (`unrolled` makes them of a program) one after the other; the iterator is asked for the next
+   * when it is needed (T-53).
+   */
   run(steps: Iterable<Step>, context: Pick<Program, "tools" | "frames">): Promise<CommandOutcome>;
   /** Stops along the path. `emergency` also takes the drives off: moves are refused until `reset`. */
   stop(emergency?: boolean): void;
   reset(): CommandOutcome;
-  /** The lines in and out, by name; writing an input is for virtual robots only. Without it the controller has none. */
+  /** The lines in and out, by name. A controller without them does not have it. */
   readonly signals?: Signals;
   /** Virtual robots only (row T-18). */
   readonly jumpTo?: (q_rad: ArrayLike<number>) => CommandOutcome;

@@ -1,4 +1,5 @@
 export type { NotUnderstood } from "./refusal.ts";
+export * from "./files/index.ts";
 export * from "./mesh/stl.ts";
 export * from "./mesh/obj.ts";
 export * from "./mesh/ply.ts";
@@ -7,3 +8,5 @@ export * from "./urdf/model.ts";
 export { readUrdf } from "./urdf/read.ts";
 export { armFromUrdf, defaultTip, type PlacedShape, type UrdfChain } from "./urdf/chain.ts";
 export * from "./urdf/solids.ts";
+export * from "./xacro/index.ts";
+export * from "./dh/index.ts";

@@ -1,12 +1,14 @@
-/** Why a file was not read: one sentence, and the line when there is one. */
-export interface NotUnderstood { readonly kind: "not-understood"; readonly sentence: string; readonly line?: number }
+/** Why a file was not read: one sentence, and the line when there is one; the file where one draws in others. */
+export interface NotUnderstood { readonly kind: "not-understood"; readonly sentence: string; readonly line?: number; readonly file?: string }
 
 /** Thrown inside a reader and caught at its door; never seen outside this package. */
 export class Refusal extends Error {
-  readonly line: number | undefined;
-  constructor(sentence: string, line?: number) {
+  line: number | undefined;
+  file: string | undefined;
+  constructor(sentence: string, line?: number, file?: string) {
     super(sentence);
     this.line = line;
+    this.file = file;
   }
 }
 
@@ -16,6 +18,20 @@ export function answering<T>(read: () => T): T | NotUnderstood {
     return read();
   } catch (error) {
     if (!(error instanceof Refusal)) throw error;
-    return { kind: "not-understood", sentence: error.message, ...(error.line === undefined ? {} : { line: error.line }) };
+    const { message, line, file } = error;
+    return { kind: "not-understood", sentence: message, ...(line === undefined ? {} : { line }), ...(file === undefined ? {} : { file }) };
+  }
+}
+
+/** Runs a step that belongs to a place; a refusal that names none gets this one. */
+export function locating<T>(place: { readonly line: number; readonly file?: string }, step: () => T): T {
+  try {
+    return step();
+  } catch (error) {
+    if (error instanceof Refusal) {
+      error.line ??= place.line;
+      error.file ??= place.file;
+    }
+    throw error;
   }
 }

@@ -1,5 +1,6 @@
 import { allBranches, compose, explainReach, inverse, solveAll, solverScratch, travel, type Pose, type Reach } from "@twincell/core";
 import { given } from "../io/arguments.ts";
+import { methodOf, tried } from "../io/ik-methods.ts";
 import { jsonLines, lineWriter } from "../io/json-lines.ts";
 import { robotOf, ROBOT_OPTIONS } from "../io/robot.ts";
 import { UseFault, type Command } from "../io/usage.ts";
@@ -14,16 +15,21 @@ Reads POSE lines {"position":[x,y,z],"quaternion":[x,y,z,w]} and writes {"soluti
 Every distinct branch, angles in (−π, π]. An unreachable pose is an answer: "reach" says why.
 
   --within-limits   adds whole turns inside the limits and drops the rest
-  --near q1,q2,…    sorts by least total travel from these angles (radians)`,
+  --near q1,q2,…    sorts by least total travel from these angles (radians)
+  --method M        closed (as above), dls (damped least squares), fabrik, gradient, or compare (all four): one answer each, found from
+                    --near or from home, as {"tried":[{"method","q","position_error_m","angle_error_rad","iterations","jump_rad","took_ms","sentence"}]};
+                    gradient looks at the position alone; "q" is where the method ended, met or not`,
   async run(args) {
-    const options = given(args, { ...ROBOT_OPTIONS, "within-limits": { type: "boolean" }, near: { type: "string" }, json: { type: "boolean" } });
+    const options = given(args, { ...ROBOT_OPTIONS, "within-limits": { type: "boolean" }, near: { type: "string" }, method: { type: "string" }, json: { type: "boolean" } });
     const { robot, baseFromRoot, flangeFromTip } = await robotOf(options);
     const near = options.numbers("near"), joints = robot.arm.joints.length;
     if (near && near.length !== joints) throw new UseFault(`--near wants ${joints} angles, not ${near.length}.`);
 
+    const methods = methodOf(options.text("method"));
     const rootFromBase = inverse(baseFromRoot), tipFromFlange = inverse(flangeFromTip), scratch = solverScratch(), writer = lineWriter();
     for await (const { line, value } of jsonLines()) {
       const baseFromFlange = compose(compose(rootFromBase, poseOf(value, line)), tipFromFlange) as Pose<"base", "flange">;
+      if (methods) { writer.write({ tried: tried(methods, robot, baseFromFlange, near ?? robot.home_rad) }); continue; }
       const reach = solveAll(robot, baseFromFlange, near ? { near } : {}, scratch);
       const solutions = options.flag("within-limits")
         ? (reach.kind === "reached" ? reach.solutions.map(solution => solution.q_rad) : [])

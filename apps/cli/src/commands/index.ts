@@ -1,5 +1,6 @@
 import type { Command } from "../io/usage.ts";
 import { benchCommand } from "./bench.ts";
+import { calibrateCommand } from "./calibrate.ts";
 import { checkCommand } from "./check.ts";
 import { dialectsCommand } from "./dialects.ts";
 import { fkCommand } from "./fk.ts";
@@ -12,5 +13,5 @@ import { serveCommand } from "./serve.ts";
 import { simulateCommand } from "./simulate.ts";
 
 export const COMMANDS: readonly Command[] = [
-  robotsCommand, dialectsCommand, fkCommand, ikCommand, checkCommand, simulateCommand, postCommand, parseCommand, runCommand, serveCommand, benchCommand,
+  robotsCommand, dialectsCommand, fkCommand, ikCommand, checkCommand, simulateCommand, postCommand, parseCommand, runCommand, serveCommand, calibrateCommand, benchCommand,
 ];

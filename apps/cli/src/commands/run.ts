@@ -1,9 +1,9 @@
-import { pose, Stepper, type Executed, type Step } from "@twincell/core";
+import { pose, SignalTable, Stepper, type Executed, type Step } from "@twincell/core";
 import { given } from "../io/arguments.ts";
 import { dialectOf } from "../io/dialect.ts";
 import { readText } from "../io/files.ts";
 import { lineWriter } from "../io/json-lines.ts";
-import { momentWriter } from "../io/moments.ts";
+import { inputsFrom, ioOf, momentWriter } from "../io/moments.ts";
 import { readCell } from "../io/program.ts";
 import { robotOf, ROBOT_OPTIONS } from "../io/robot.ts";
 import { UseFault, type Command } from "../io/usage.ts";
@@ -15,11 +15,11 @@ const LONGEST_S = 24 * 3600;
 export const runCommand: Command = {
   name: "run",
   summary: "interpret a vendor's program text, one line per period",
-  usage: `twincell run FILE --robot R [--dialect D] [--cell CELL] [--period 0.01]
+  usage: `twincell run FILE --robot R [--dialect D] [--cell CELL] [--period 0.01] [--inputs part=true]
 
 Executes the text with the vendor's own conventions and writes the same lines as simulate, each with the text line under way.`,
   async run(args) {
-    const options = given(args, { ...ROBOT_OPTIONS, dialect: { type: "string" }, cell: { type: "string" }, period: { type: "string" }, json: { type: "boolean" } });
+    const options = given(args, { ...ROBOT_OPTIONS, dialect: { type: "string" }, cell: { type: "string" }, period: { type: "string" }, inputs: { type: "string" }, json: { type: "boolean" } });
     const [path] = options.positionals, period_s = options.number("period") ?? 0.01, cellPath = options.text("cell");
     if (path === undefined) throw new UseFault("FILE is missing.", "Give the path of a program text.");
     if (!(period_s >= 1e-4)) throw new UseFault(`--period wants at least 0.0001 s, not ${period_s}.`);
@@ -39,13 +39,14 @@ Executes the text with the vendor's own conventions and writes the same lines as
         yield step;
       }
     }
-    const stepper = new Stepper(robot, { ...interpreted.context, worldFromBase }, steps(interpreted.run()), robot.home_rad);
+    const signals = new SignalTable(Object.entries(inputsFrom(options.text("inputs"))));
+    const stepper = new Stepper(robot, { ...interpreted.context, worldFromBase }, steps(interpreted.run(signals)), robot.home_rad, { signals });
     const moment = momentWriter(robot, worldFromBase, interpreted.context.tools, step => seen.get(step)?.tool ?? tool);
     const writer = lineWriter(), q = Float64Array.from(robot.home_rad);
-    writer.write({ ...moment(0, q, false, ""), line: 0 });
+    writer.write({ ...moment(0, q, ioOf(false, {}, signals.all), ""), line: 0 });
     for (let i = 1; i * period_s < LONGEST_S; i++) {
       const now = stepper.advance(period_s, 1, q);
-      writer.write({ ...moment(i * period_s, q, now.gripperClosed, now.step), line: seen.get(now.step)?.line ?? 0 });
+      writer.write({ ...moment(i * period_s, q, ioOf(now.gripperClosed, {}, signals.all), now.step), line: seen.get(now.step)?.line ?? 0 });
       if (now.kind === "running") continue;
       await writer.end();
       if (now.kind !== "fault" || !now.fault) return 0;

@@ -1,40 +1,43 @@
-import { jointsOf, PlanCursor, planProgram, pose } from "@twincell/core";
+import { jointsOf, PlanCursor, planProgram, PlanSignals, pose } from "@twincell/core";
 import { given } from "../io/arguments.ts";
 import { lineWriter } from "../io/json-lines.ts";
-import { momentWriter, toolsBySteps } from "../io/moments.ts";
+import { inputsFrom, ioOf, momentWriter, toolsBySteps } from "../io/moments.ts";
 import { readCell, readProgram } from "../io/program.ts";
 import { UseFault, type Command } from "../io/usage.ts";
 
 export const simulateCommand: Command = {
   name: "simulate",
   summary: "a program laid out in time, one line per period",
-  usage: `twincell simulate PROGRAM [--cell CELL] [--period 0.01]
+  usage: `twincell simulate PROGRAM [--cell CELL] [--period 0.01] [--inputs part=true,level=2.5]
 
 Writes JSON lines {"t":s,"q":[…],"position":[…],"quaternion":[…],"io":{…},"step":ID}: joint angles and the TCP in the world,
-from the start to the end of the program. A step that cannot be carried out ends it with exit 1 and a sentence.
+from the start to the end of the program. Waits for signals take no time, and a loop without end goes round once. A step that
+cannot be carried out ends it with exit 1 and a sentence.
 
   --cell CELL     where the robot stands (default: in the origin)
-  --period S      seconds between two lines`,
+  --period S      seconds between two lines
+  --inputs LIST   what inputs are, for the decisions of the program (default: all off, levels 0)`,
   async run(args) {
-    const options = given(args, { cell: { type: "string" }, period: { type: "string" }, json: { type: "boolean" } });
+    const options = given(args, { cell: { type: "string" }, period: { type: "string" }, inputs: { type: "string" }, json: { type: "boolean" } });
     const [path] = options.positionals, period_s = options.number("period") ?? 0.01;
     if (path === undefined) throw new UseFault("PROGRAM is missing.", "Give the path of a program file.");
     if (!(period_s >= 1e-6)) throw new UseFault(`--period wants at least 0.000001 s, not ${period_s}.`);
     const { program, robot } = await readProgram(path), cellPath = options.text("cell");
     const worldFromBase = cellPath === undefined ? pose<"world", "base">() : (await readCell(cellPath)).robot.worldFromBase;
 
-    const answer = planProgram(program, robot, { worldFromBase }), { plan } = answer;
-    const moment = momentWriter(robot, worldFromBase, program.tools, toolsBySteps(program.steps));
+    const inputs = inputsFrom(options.text("inputs")), answer = planProgram(program, robot, { worldFromBase, inputs }), { plan } = answer;
+    const moment = momentWriter(robot, worldFromBase, program.tools, toolsBySteps(program)), outputs = new PlanSignals(plan);
+    const io = (t_s: number, closed: boolean) => ({ ...ioOf(closed, program.signals, new Map(Object.entries(inputs))), ...Object.fromEntries(outputs.at(t_s)) });
     const writer = lineWriter(), cursor = new PlanCursor(plan), q = new Float64Array(jointsOf(plan) || robot.arm.joints.length);
     if (plan.segments.length === 0) q.set(robot.home_rad);
     const lines = Math.floor(plan.duration_s / period_s + 1e-9);
     for (let i = 0; i <= lines; i++) {
       const now = plan.segments.length ? cursor.at(i * period_s, q) : { gripperClosed: false, step: "" };
-      writer.write(moment(i * period_s, q, now.gripperClosed, now.step));
+      writer.write(moment(i * period_s, q, io(i * period_s, now.gripperClosed), now.step));
     }
     if (lines * period_s < plan.duration_s - 1e-9) {
       const now = cursor.at(plan.duration_s, q);
-      writer.write(moment(plan.duration_s, q, now.gripperClosed, now.step));
+      writer.write(moment(plan.duration_s, q, io(plan.duration_s, now.gripperClosed), now.step));
     }
     await writer.end();
     if (answer.kind === "planned") return 0;

@@ -19,7 +19,11 @@ export const showDocument = (document: CellDocument): void => publish(createHist
 function inStep(document: CellDocument): CellDocument {
   const tools = Object.fromEntries(document.tools.map(tool => [tool.name, tool.flangeFromTcp]));
   const frames = Object.fromEntries(document.frames.map(frame => [frame.name, frame.worldFromFrame]));
-  const programs = document.programs.map(program => (agrees(program.tools, tools) && agrees(program.frames, frames) ? program : { ...program, tools: { ...program.tools, ...tools }, frames: { ...program.frames, ...frames } }));
+  const programs = document.programs.map(program => {
+    // Inside a pallet step the name of a pallet means its places: a frame of that name stays out.
+    const free = Object.fromEntries(Object.entries(frames).filter(([name]) => !Object.hasOwn(program.pallets, name)));
+    return agrees(program.tools, tools) && agrees(program.frames, free) ? program : { ...program, tools: { ...program.tools, ...tools }, frames: { ...program.frames, ...free } };
+  });
   return programs.every((program, i) => program === document.programs[i]) ? document : { ...document, programs };
 }
 const agrees = (has: Readonly<Record<string, Pose>>, wants: Readonly<Record<string, Pose>>): boolean =>

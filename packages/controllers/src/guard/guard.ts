@@ -216,6 +216,7 @@ export function createGuard(options: GuardOptions): Guard {
       alive() { if (state.holder === who) alive_s = scheduler.now_s(); },
       robot: {
         kind: controller.kind, name: controller.name, robot,
+        ...(controller.signals === undefined ? {} : { signals: controller.signals }),
         onSample: listen => controller.onSample(listen),
         close: () => { act({ type: "release", who }); },
         isMoving: () => controller.isMoving(),

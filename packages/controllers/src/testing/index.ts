@@ -1,5 +1,6 @@
 export { manualScheduler } from "@twincell/core";
 export * from "./contract.ts";
+export * from "./network.ts";
 export * from "./numeric.ts";
 export * from "./spoiled.ts";
 export { createVirtualController } from "../virtual/index.ts";

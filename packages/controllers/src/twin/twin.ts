@@ -100,6 +100,7 @@ export function createTwin(options: TwinOptions): Twin {
 
   return {
     kind: "twin", name: options.name ?? `Twin of ${real.name}`, robot, log,
+    ...(real.signals === undefined ? {} : { signals: real.signals }),
     get accuracy() { return { mirror_rad, command_rad }; },
     clearLog() { log.length = 0; mirror_rad = 0; command_rad = 0; awaiting = ""; },
     onSample: listen => samples.add(listen),

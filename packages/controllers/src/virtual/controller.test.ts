@@ -1,7 +1,8 @@
 import fc from "fast-check";
-import { distance, flangePose, manualScheduler, PlainFault, robotById, seededRandom, type Step, type Vector3 } from "@twincell/core";
+import { distance, emptyProgram, flangePose, manualScheduler, PlainFault, robotById, seededRandom, unrolled, type Program, type RobotController, type Step, type Vector3 } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { describeController, numericSolver, onSpoiledSample } from "../testing/index.ts";
+import { createTwin } from "../twin/index.ts";
 import { createVirtualController } from "./controller.ts";
 
 const robot = robotById("staubli_rx90l")!;
@@ -103,6 +104,44 @@ describe("virtual controller", () => {
     void controller.run(steps, { tools: {}, frames: {} });
     await scheduler.elapse(3);
     expect(seen).toEqual(["a false", "g true", "w true", "b true", "h false", "v false", " false"]);
+  });
+
+  test("outputs, inputs and pulses are in the samples; the program waits for an input", async () => {
+    const { scheduler, robot: controller } = bench();
+    const seen: string[] = [];
+    onSpoiledSample(controller, ({ step, signals }) => { const line = `${step} ${[...signals!].map(([name, value]) => `${name}=${value}`).join(",")}`; if (seen.at(-1) !== line) seen.push(line); });
+    const done: string[] = [], steps: Step[] = [
+      { id: "a", type: "set", signal: "lamp", to: true }, { id: "b", type: "wait-for", when: { signal: "part", is: true }, timeout_s: 5 }, { id: "c", type: "set", signal: "level", to: 2.5 },
+      { id: "d", type: "wait", s: 0.1 },
+    ];
+    void controller.run(steps, { tools: {}, frames: {} }).then(({ kind }) => done.push(kind));
+    await scheduler.elapse(1);
+    expect(done).toEqual([]);
+    controller.atTheRobot.setInput("part", true);
+    await scheduler.elapse(0.5);
+    expect(done).toEqual(["done"]);
+    expect(seen.filter(line => !line.startsWith("a"))).toEqual(["b lamp=true", "d lamp=true,part=true,level=2.5", " lamp=true,part=true,level=2.5"]);
+    expect([controller.signals.read("lamp"), controller.signals.read("level"), controller.signals.read("nothing")]).toEqual([true, 2.5, false]);
+  });
+
+  test("T-32 one program of points, waits and gripper actions, in a loop, runs alike on a virtual robot, a simulated real one and a twin", async () => {
+    const program: Program = {
+      ...emptyProgram(robot.id),
+      steps: [{ id: "r", type: "repeat", times: 2, steps: [move("a", near(0.1)), { id: "g", type: "gripper", closed: true }, { id: "w", type: "wait", s: 0.1 }, move("b", HOME), { id: "h", type: "gripper", closed: false }] }],
+    };
+    const runs = await Promise.all((["virtual", "real", "twin"] as const).map(async kind => {
+      const { scheduler, robot: virtual } = bench();
+      const real: RobotController = kind === "virtual" ? virtual : { ...virtual, kind: "real" }, controller = kind === "twin" ? createTwin({ real, scheduler }) : real;
+      const seen: string[] = [], outcomes: string[] = [];
+      onSpoiledSample(controller, ({ step, gripperClosed, q_rad }) => { seen.push(`${step} ${gripperClosed} ${q_rad.join()}`); });
+      void controller.run(unrolled(program), program).then(({ kind: outcome }) => outcomes.push(outcome));
+      await scheduler.elapse(5);
+      return { outcomes, seen };
+    }));
+    expect(runs[0]!.outcomes).toEqual(["done"]);
+    expect(new Set(runs[0]!.seen.map(line => line.split(" ").slice(0, 2).join(" ")))).toEqual(new Set(["a false", "g true", "w true", "b true", "h false", "a false", " false"]));
+    expect(runs[1]).toEqual(runs[0]);
+    expect(runs[2]).toEqual(runs[0]);
   });
 
   test("T-53 the next step is asked for when it is needed", async () => {

@@ -1,6 +1,6 @@
 import {
-  explainReach, solveAll, Stepper, type StepperState, type CommandOutcome, type JointSample, type OperatingMode, type Pose, type Program, type Reach, type Refusal, type Robot,
-  type RobotController, type SafetyState, type Scheduler, type Step,
+  explainReach, SignalTable, solveAll, Stepper, type StepperState, type CommandOutcome, type JointSample, type OperatingMode, type Pose, type Program, type Reach, type Refusal, type Robot,
+  type RobotController, type SafetyState, type Scheduler, type Signals, type Step,
 } from "@twincell/core";
 import { listeners } from "../listeners.ts";
 import { busy, closed, drivesOff, guardOpen, guardStillOpen, jointNumberRefusal, jointRefusal, manualMode, percentRefusal, programFault, protective, stillBraking, stopped } from "../refusals.ts";
@@ -37,10 +37,13 @@ export interface AtTheRobot {
   setGuardOpen(open: boolean): void;
   /** The robot stops by itself and stays so until reset. */
   protectiveStop(because: string): void;
+  /** What is connected to an input: a sensor, a button, another machine. */
+  setInput(signal: string, value: boolean | number): void;
 }
 
 export interface VirtualController extends RobotController {
   readonly kind: "virtual";
+  readonly signals: Signals;
   readonly jumpTo: (q_rad: ArrayLike<number>) => CommandOutcome;
   readonly atTheRobot: AtTheRobot;
   /** Longest time from the command to stop until standstill. */
@@ -64,10 +67,10 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
   // The slowest joint from full speed to rest, and the cycles in which the command comes through.
   const brakingTime_s = Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2)) + 2 * cycle_s;
   const q_rad = Float64Array.from(options.start_rad ?? robot.home_rad);
-  const samples = listeners<JointSample>();
+  const samples = listeners<JointSample>(), signals = new SignalTable();
   const lent: Lent = {
     sequence: 0, time_s: 0, q_rad: new Float64Array(n), moving: false, mode: options.mode ?? "automatic", safety: "normal",
-    override: 1, gripperClosed: false, step: "", message: "",
+    override: 1, gripperClosed: false, step: "", message: "", signals: signals.all,
   };
   let mode: OperatingMode = lent.mode, safety: SafetyState = "normal", override = 1, gripperClosed = false, message = "";
   let guardIsOpen = false, why: Refusal | null = null, command: Command | null = null, cycles = 0, skipped = 0, isClosed = false;
@@ -93,6 +96,7 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
       return { kind: "stopped", why: programFault(reason) };
     }
     gripperClosed = state.gripperClosed;
+    if (state.message !== "") message = state.message;
     at.begun = true;
     at.moving = state.moving;
     at.step = state.step;
@@ -133,7 +137,7 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
   function start(steps: Iterator<Step>, context: Pick<Program, "tools" | "frames">): Promise<CommandOutcome> {
     message = "";
     const plan = options.worldFromBase ? { ...context, worldFromBase: options.worldFromBase } : context;
-    const stepper = new Stepper(robot, plan, steps, q_rad, { gripperClosed });
+    const stepper = new Stepper(robot, plan, steps, q_rad, { gripperClosed, signals });
     return new Promise(resolve => { command = { stepper, resolve, stopping: null, begun: false, moving: false, step: "" }; });
   }
 
@@ -153,7 +157,7 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
   }
 
   return {
-    kind: "virtual", name, robot, brakingTime_s,
+    kind: "virtual", name, robot, brakingTime_s, signals,
     onSample: listen => samples.add(listen),
     close() {
       if (isClosed) return;
@@ -229,6 +233,7 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
         if (open && safety === "normal") brake("guard-stop", guardOpen(robot));
         if (!open && safety === "guard-stop") { safety = "normal"; why = null; message = ""; }
       },
+      setInput(signal, value) { signals.write(signal, value); },
       protectiveStop(because) { if (safety !== "emergency-stop") brake("protective-stop", protective(because)); },
     },
   };

@@ -7,4 +7,6 @@ export * from "./ortho-parallel.ts";
 export * from "./inverse.ts";
 export * from "./span.ts";
 export * from "./singularity.ts";
+export * from "./workspace.ts";
 export * from "./explain.ts";
+export * from "./numeric/index.ts";

@@ -5,6 +5,7 @@ import { isSingular } from "./singularity.ts";
 import { armScratch, flangePose, type ArmScratch } from "./forward.ts";
 import { MAX_BRANCHES, solveOrthoParallel } from "./ortho-parallel.ts";
 import type { Reach, Solution } from "./reach.ts";
+import { insideWorkspace } from "./workspace.ts";
 import { span } from "./span.ts";
 
 /** A solution counts when forward kinematics brings it back this close. */
@@ -65,8 +66,10 @@ export function solveAll(robot: Robot, baseFromFlange: Pose<"base", "flange">, o
   }
   if (inside.length === 0) return nearestLimit(robot, pool);
   if (branch !== undefined && wanted.length === 0) return nearestLimit(robot, pool);
-  if (near !== undefined) inside.sort((a, b) => travel(a.q_rad, near) - travel(b.q_rad, near));
-  return { kind: "reached", solutions: inside, singular: inside.some(({ q_rad }) => isSingular(family, q_rad)), considered };
+  const solutions = insideWorkspace(robot, inside);
+  if ("kind" in solutions) return solutions;
+  const sorted = near === undefined ? solutions : solutions.toSorted((a, b) => travel(a.q_rad, near) - travel(b.q_rad, near));
+  return { kind: "reached", solutions: sorted, singular: inside.some(({ q_rad }) => isSingular(family, q_rad)), considered };
 }
 
 /**

@@ -15,6 +15,8 @@ export type Reach =
   | { readonly kind: "reached"; readonly solutions: readonly Solution[]; readonly singular: boolean; readonly considered: number }
   | { readonly kind: "too-far"; readonly beyond_m: number; readonly reach_m: number }
   | { readonly kind: "too-near"; readonly inside_m: number; readonly nearest_m: number }
+  /** The links would reach it, but the maker declares a smaller workspace, counted from axis 2 to the wrist centre. */
+  | { readonly kind: "beyond-workspace"; readonly distance_m: number; readonly declared_m: number }
   /** The branch that comes closest to the limits; joint counts from 1. */
   | { readonly kind: "outside-limits"; readonly joint: number; readonly wanted_rad: number; readonly limit_rad: number; readonly branch: Branch }
   | { readonly kind: "no-solver"; readonly because: string }

@@ -5,14 +5,20 @@ import type { Plan } from "../trajectory/plan.ts";
 import { GRIPPER_S } from "../trajectory/planner.ts";
 import { checkBranch } from "./checks/branch.ts";
 import { checkCollision } from "./checks/collision.ts";
-import { layOut } from "./checks/layout.ts";
+import { layOut, type Layout } from "./checks/layout.ts";
 import { checkLimits } from "./checks/limits.ts";
 import { checkReach } from "./checks/reach.ts";
-import type { CheckScene, Severity } from "./checks/scene.ts";
+import type { CheckScene } from "./checks/scene.ts";
 import { checkSingular } from "./checks/singular.ts";
 import { checkSpeed } from "./checks/speed.ts";
-import type { Program } from "./program.ts";
-import type { Finding, StepVerdict, Verdict } from "./verdict.ts";
+import { checkWorkspace } from "./checks/workspace.ts";
+import { Book } from "./checks/book.ts";
+import { checkFlow } from "./checks/flow.ts";
+import { checkPayload } from "./checks/payload.ts";
+import { checkSignals } from "./checks/signals.ts";
+import type { Program, Step } from "./program.ts";
+import type { Verdict } from "./verdict.ts";
+import { everyStep } from "./walk.ts";
 
 export interface CheckOptions {
   /** The cell to keep clear of; without it collisions are not looked at and the verdict says so. */
@@ -48,25 +54,30 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
     ...(onProgress === undefined ? {} : { onProgress: (share: number) => { onProgress(share * layoutShare); } }),
     ...(cancelled === undefined ? {} : { cancelled }),
   });
-  const book = new Book();
+  const book = new Book(program);
   const scene: CheckScene = {
     program, robot, layout,
     context: { tools: program.tools, frames: program.frames, ...(worldFromBase === undefined ? {} : { worldFromBase }) },
-    add: (step, severity, finding) => { book.add(step, severity, finding); },
+    add: (id, severity, finding) => { book.add(id, severity, finding, layout.turns.get(id)); },
   };
   checkReach(scene);
+  checkWorkspace(scene);
   checkLimits(scene);
   checkSpeed(scene);
   checkBranch(scene);
   checkSingular(scene);
+  checkSignals(scene);
+  checkPayload(scene);
+  checkFlow(scene);
   const collision = cell === undefined ? undefined : checkCollision(scene, {
     cell, margin_m: options.margin_m ?? 0,
     ...(onProgress === undefined ? {} : { onProgress: (share: number) => { onProgress(layoutShare + share * (1 - layoutShare)); } }),
     ...(cancelled === undefined ? {} : { cancelled }),
   });
   onProgress?.(1);
-  const steps = program.steps.map(step => {
-    const evaluated = layout.evaluated.has(step.id) && collision?.unproven.has(step.id) !== true;
+  const unproven = new Set(Array.from(collision?.unproven ?? [], id => writtenId(layout, id)));
+  const written = [...everyStep(program)], steps = written.map(step => {
+    const evaluated = (layout.complete || layout.evaluated.has(step.id)) && !unproven.has(step.id) && !layout.unjudged.has(step.id);
     return { id: step.id, verdict: book.verdictOf(step.id, evaluated), findings: book.of(step.id) };
   });
   const ok = steps.every(step => step.verdict === "ok" || step.verdict === "warn");
@@ -74,34 +85,29 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
     ok, steps, duration_s: layout.plan.duration_s, clearance_m: collision?.clearance_m ?? null,
     assumptions: [
       ...robot.assumptions,
-      ...(program.steps.some(step => step.type === "gripper") ? [`The gripper is given ${GRIPPER_S} s to close or open.`] : []),
+      ...assumed(written, layout),
       cell === undefined ? "Collisions were not looked at: no cell was given." : "Objects stand where the cell draws them; gripped objects are not carried along.",
     ],
   };
-  return { verdict, plan: layout.plan };
+  return { verdict, plan: asWritten(layout) };
 }
 
-/** Findings by step, the worst first. */
-class Book {
-  private readonly found = new Map<string, { readonly severity: Severity; readonly finding: Finding }[]>();
+const writtenId = (layout: Layout, id: string): string => layout.turns.get(id)?.written.id ?? id;
 
-  add(step: string, severity: Severity, finding: Finding): void {
-    const list = this.found.get(step) ?? [];
-    // A joint that is over its limit is not also near it, and one sentence per fact is enough.
-    if (list.some(one => one.finding.code === finding.code && one.finding.joint === finding.joint)) return;
-    list.push({ severity, finding });
-    this.found.set(step, list);
-  }
+/** The plan with the ids that the program has. */
+function asWritten(layout: Layout): Plan {
+  if (layout.turns.size === 0) return layout.plan;
+  return { ...layout.plan, segments: layout.plan.segments.map(segment => ({ ...segment, step: writtenId(layout, segment.step) })) };
+}
 
-  of(step: string): readonly Finding[] {
-    const list = this.found.get(step) ?? [];
-    return [...list.filter(one => one.severity === "bad"), ...list.filter(one => one.severity === "warn")].map(one => one.finding);
-  }
-
-  verdictOf(step: string, evaluated: boolean): StepVerdict {
-    const list = this.found.get(step) ?? [];
-    if (list.some(one => one.severity === "bad")) return "bad";
-    if (!evaluated) return "unknown";
-    return list.length > 0 ? "warn" : "ok";
-  }
+function assumed(steps: readonly Step[], layout: Layout): string[] {
+  const has = (type: Step["type"]): boolean => steps.some(step => step.type === type);
+  return [
+    ...(has("gripper") ? [`The gripper is given ${GRIPPER_S} s to close or open.`] : []),
+    ...(has("wait-for") ? ["Waits for signals are given no time."] : []),
+    ...(has("if") ? ["Both sides of every decision were looked at, one after the other in the plan."] : []),
+    ...(steps.some(step => step.type === "repeat" && step.times === "forever") ? ["Loops without end were looked at twice round."] : []),
+    ...(steps.some(step => step.type === "move" && step.until !== undefined) ? ["Searches were looked at as if nothing is found before their end."] : []),
+    ...(layout.cut === undefined || !has("repeat") ? [] : [`Beyond ${layout.cut} steps, loops were looked at twice round; the duration is less than that of the whole program.`]),
+  ];
 }

@@ -3,8 +3,11 @@ import { seededRandom } from "../random.ts";
 import { robotById } from "../robots/library/index.ts";
 import { planProgram } from "../trajectory/planner.ts";
 import { samplePlan } from "../trajectory/sample.ts";
-import { emptyProgram, type Program, type Step } from "./program.ts";
-import { Stepper } from "./stepper.ts";
+import { flangePose } from "../kinematics/forward.ts";
+import { unrolled } from "./flow.ts";
+import { emptyProgram, type MoveStep, type Program, type Step } from "./program.ts";
+import { SignalTable } from "./signals.ts";
+import { Stepper, type StepperState } from "./stepper.ts";
 
 const robot = robotById("staubli_rx90l")!;
 const DT = 0.004;
@@ -137,3 +140,99 @@ describe("stepper", () => {
 });
 
 const near = (one: string, q: Float64Array): boolean => one.split(" ").every((x, j) => Math.abs(Number(x) - q[j]!) < 0.03);
+
+describe("signals, searches and blocks", () => {
+  const q = new Float64Array(6);
+  /** Plays until it ends; `seen` is told what holds after each slice. */
+  const run = (program: Program, signals: SignalTable, seen: (t_s: number, state: StepperState) => void = () => undefined): StepperState => {
+    const stepper = new Stepper(robot, program, unrolled(program, signals), robot.home_rad, { signals });
+    for (let k = 1; k < 20_000; k++) {
+      const state = stepper.advance(DT, 1, q);
+      seen(k * DT, state);
+      if (state.kind !== "running") return state;
+    }
+    throw new Error("The stepper never ended.");
+  };
+  const of = (...list: Step[]): Program => ({ ...program, signals: { part: { kind: "digital-in" }, lamp: { kind: "digital-out" }, level: { kind: "analogue-in" } }, steps: list });
+
+  test("an output is written when its step is reached, and a pulse goes back while the program goes on", () => {
+    const signals = new SignalTable(), changes: string[] = [];
+    let lamp: boolean | number = false;
+    run(of({ id: "w", type: "wait", s: 0.1 }, { id: "p", type: "set", signal: "lamp", to: true, pulse_s: 0.2 }, { id: "v", type: "wait", s: 0.5 }), signals, (t_s, state) => {
+      if (signals.read("lamp") !== lamp) { lamp = signals.read("lamp"); changes.push(`${t_s.toFixed(2)} ${state.step}`); }
+    });
+    expect(changes.length).toBe(2);
+    expect(Number(changes[0]!.split(" ")[0])).toBeCloseTo(0.1, 1);
+    expect(Number(changes[1]!.split(" ")[0]) - Number(changes[0]!.split(" ")[0])).toBeCloseTo(0.2, 1);
+    expect(changes[1]).toMatch(/ v$/);
+  });
+
+  test("the end of a program waits for its pulses", () => {
+    const signals = new SignalTable();
+    let end_s = 0;
+    expect(run(of({ id: "p", type: "set", signal: "lamp", to: true, pulse_s: 0.2 }), signals, t_s => { end_s = t_s; }).kind).toBe("done");
+    expect(end_s).toBeCloseTo(0.2, 1);
+    expect(signals.read("lamp")).toBe(false);
+  });
+
+  test("T-30 a wait for a signal ends within 10 ms of it, and a timeout is a fault that names signal and time", () => {
+    const signals = new SignalTable(), waiting = of({ id: "w", type: "wait-for", when: { signal: "part", is: true }, timeout_s: 2 });
+    let end_s = 0;
+    expect(run(waiting, signals, t_s => { end_s = t_s; if (t_s >= 1.3) signals.write("part", true); }).kind).toBe("done");
+    expect(Math.abs(end_s - 1.3)).toBeLessThanOrEqual(0.01);
+    const late = run(waiting, new SignalTable(), t_s => { end_s = t_s; });
+    expect(late).toMatchObject({ kind: "fault", fault: { step: "w", code: "signals.timeout", sentence: "Step “w” waited 2 s for the signal “part”." } });
+    expect(Math.abs(end_s - 2)).toBeLessThanOrEqual(0.01);
+  });
+
+  const down = (missing: "continue" | "fault"): Step => ({ id: "s", type: "move", path: "lin", target: at(0.6, 0.2, 0.3), speed: { mps: 0.1 }, blend_m: 0, until: { when: { signal: "part", is: true }, missing } });
+  const height = (): number => flangePose(robot.arm, q).position[2];
+
+  test("a search stops where its signal comes, and the next step starts from there", () => {
+    const over = { ...(steps[1] as MoveStep), target: at(0.6, 0.2, 0.4), blend_m: 0 }, signals = new SignalTable();
+    let seen_m = 0, stopped_m = 0;
+    const end = run(of(steps[0]!, over, down("fault"), { id: "w", type: "wait", s: 0.1 }), signals, (_t, state) => {
+      if (state.step === "s" && height() < 0.36 && signals.read("part") === false) { signals.write("part", true); seen_m = height(); }
+      if (state.step === "w") stopped_m = height();
+    });
+    expect(end.kind).toBe("done");
+    expect(seen_m - stopped_m).toBeGreaterThanOrEqual(0);
+    expect(seen_m - stopped_m).toBeLessThan(0.005);
+  });
+
+  test("a search that finds nothing is a fault, or goes on when it says so; one that has found already does not move", () => {
+    const over = { ...(steps[1] as MoveStep), target: at(0.6, 0.2, 0.4), blend_m: 0 };
+    expect(run(of(steps[0]!, over, down("fault")), new SignalTable())).toMatchObject({ kind: "fault", fault: { code: "search.missing", step: "s" } });
+    expect(run(of(steps[0]!, over, down("continue")), new SignalTable()).kind).toBe("done");
+    expect(height()).toBeCloseTo(0.3, 6);
+    expect(run(of(steps[0]!, over, down("fault")), new SignalTable([["part", true]])).kind).toBe("done");
+    expect(height()).toBeCloseTo(0.4, 6);
+  });
+
+  test("a decision is taken when the robot is there, even behind a move that is passed", () => {
+    const blended = { ...(steps[1] as MoveStep), blend_m: 0.02 }, signals = new SignalTable(), done: string[] = [];
+    const choice: Step = { id: "i", type: "if", when: { signal: "part", is: true }, then: [{ id: "yes", type: "wait", s: 0.1 }], else: [{ id: "no", type: "wait", s: 0.1 }] };
+    run(of(steps[0]!, blended, choice, steps[2]!), signals, (_t, state) => {
+      if (state.step === "b" && height() < 0.41) signals.write("part", true);
+      if (done.at(-1) !== state.step) done.push(state.step);
+    });
+    expect(done).toEqual(["a", "b", "yes", "c", ""]);
+  });
+
+  test("payload and message are told, a stop ends everything, a block by itself is a fault that says why", () => {
+    const load: Step = { id: "l", type: "payload", mass_kg: 2, center_m: [0, 0, 0.1] }, say: Step = { id: "m", type: "message", text: "Tray full." };
+    const state = run(of(load, say, { id: "r", type: "repeat", times: "forever", steps: [{ id: "x", type: "stop" }] }, { id: "never", type: "wait", s: 9 }), new SignalTable());
+    expect(state).toMatchObject({ kind: "done", message: "Tray full.", payload: { mass_kg: 2 } });
+    const stepper = new Stepper(robot, program, [{ id: "r", type: "repeat", times: 2, steps: [] }], robot.home_rad);
+    stepper.advance(DT, 1, q);
+    expect(stepper.advance(DT, 1, q)).toMatchObject({ kind: "fault", fault: { code: "program.block", step: "r" } });
+  });
+
+  test("a loop without end that does nothing lets time pass and can be stopped", () => {
+    const idle = of({ id: "r", type: "repeat", times: "forever", steps: [{ id: "c", type: "comment", text: "nothing" }] });
+    const stepper = new Stepper(robot, idle, unrolled(idle), robot.home_rad);
+    for (let k = 0; k < 100; k++) expect(stepper.advance(DT, 1, q).kind).toBe("running");
+    stepper.stop();
+    expect(stepper.advance(DT, 1, q).kind).toBe("stopped");
+  });
+});

@@ -5,7 +5,10 @@ import { GRIPPER_S } from "../trajectory/planner.ts";
 import { RunPlanner } from "../trajectory/run.ts";
 import { intervalAccelerations, sampleSegment, segmentKnot } from "../trajectory/sample.ts";
 import { explainStop, type Stuck } from "../trajectory/stop.ts";
-import type { MoveStep, Step } from "./program.ts";
+import type { Signals } from "../ports.ts";
+import type { MoveStep, PayloadStep, Step, WaitForStep } from "./program.ts";
+import { Pulses } from "./pulses.ts";
+import { SignalTable, holds } from "./signals.ts";
 
 /** What the stepper is doing after an `advance`. Lent until the next call. */
 export interface StepperState {
@@ -17,11 +20,23 @@ export interface StepperState {
   gripperClosed: boolean;
   /** Rate of the path, 0 … 1: follows the override as fast as the accelerations allow. */
   rate: number;
+  /** What the program last said to whoever stands at the robot, or "". */
+  message: string;
+  /** What the flange carries since the last payload step. */
+  payload: PayloadStep | undefined;
   /** Why, when `kind` is "fault". */
   fault: Stuck | undefined;
 }
 
-export interface StepperOptions { readonly gripperClosed?: boolean; readonly gripper_s?: number }
+export interface StepperOptions {
+  readonly gripperClosed?: boolean;
+  readonly gripper_s?: number;
+  /** The lines that steps write and wait for; when left out they only remember what is written. */
+  readonly signals?: Signals;
+}
+
+/** Whether the next step decides about a stop. */
+const goesOn = (step: MoveStep): boolean => step.until === undefined && (step.blend_m > 0 || (step.blend_ratio ?? 0) > 0 || step.path === "spline");
 
 /** Moves looked ahead over blends. A longer run of blended moves stops once at its end. */
 const MOST_AHEAD = 64;
@@ -33,6 +48,9 @@ const MOST_AHEAD = 64;
  *
  * The override scales time along the path and never changes the path; waits take their own seconds at any override
  * above 0. A change of override and `stop` slow the arm down along the path within its joint accelerations.
+ *
+ * Signals are looked at once a slice. A search slows down where its condition comes true and goes on with the next step
+ * from where it then stands. Steps are primitive (`unrolled` makes them so); comments are passed over.
  */
 export class Stepper {
   readonly robot: Robot;
@@ -46,11 +64,18 @@ export class Stepper {
   private readonly bend: Float64Array;
   private readonly most: Float64Array;
   private readonly least: Float64Array;
+  private readonly signals: Signals;
+  private readonly pulses: Pulses;
   private waiting: Step | undefined = undefined;
+  private waitFor: WaitForStep | undefined = undefined;
+  /** The search under way: always the last move of its run. */
+  private search: MoveStep | undefined = undefined;
+  private found = false;
   private segments: readonly Segment[] = [];
   private segment = 0;
   private t_s = 0;
   private stopping = false;
+  private ended = false;
   private faultBehind: Stuck | undefined = undefined;
 
   /**
@@ -62,12 +87,14 @@ export class Stepper {
     this.steps = Symbol.iterator in steps ? steps[Symbol.iterator]() : steps;
     this.planner = new RunPlanner(robot);
     this.gripper_s = options.gripper_s ?? GRIPPER_S;
+    this.signals = options.signals ?? new SignalTable();
+    this.pulses = new Pulses(this.signals);
     this.q = Float64Array.from(q0);
     this.qd = new Float64Array(this.q.length);
     this.bend = new Float64Array(2 * this.q.length);
     this.most = new Float64Array(this.q.length);
     this.least = new Float64Array(this.q.length);
-    this.state = { kind: "running", step: "", moving: false, gripperClosed: options.gripperClosed ?? false, rate: 0, fault: undefined };
+    this.state = { kind: "running", step: "", moving: false, gripperClosed: options.gripperClosed ?? false, rate: 0, message: "", payload: undefined, fault: undefined };
   }
 
   /**
@@ -79,10 +106,12 @@ export class Stepper {
   advance(dt_s: number, override: number, outQ: Float64Array): StepperState {
     const state = this.state, wanted = this.stopping ? 0 : Math.min(1, Math.max(0, override));
     let left_s = dt_s;
+    this.pulses.advance(dt_s);
     // The bound only guards against an iterator that yields steps of no duration for ever.
     for (let turn = 0; left_s > 0 && state.kind === "running" && turn < MOST_AHEAD; turn++) {
       const segment = this.segments[this.segment];
       if (segment === undefined) {
+        if (this.ended) { this.end(); break; }
         // Nothing is begun while the arm is held.
         if (this.stopping) { state.kind = "stopped"; break; }
         if (wanted === 0) break;
@@ -96,11 +125,13 @@ export class Stepper {
         state.rate = wanted;
         if (this.stopping) { state.kind = "stopped"; break; }
         if (wanted === 0) break;
+        if (this.waitFor !== undefined && !this.met(this.waitFor, left_s)) break;
         const rest_s = segment.duration_s - this.t_s;
         if (left_s < rest_s) { this.t_s += left_s; left_s = 0; } else { left_s -= rest_s; this.leave(); }
         continue;
       }
-      left_s = this.follow(segment, wanted, left_s);
+      if (this.searching(segment) && this.stands()) continue;
+      left_s = this.follow(segment, this.found ? 0 : wanted, left_s);
     }
     state.moving = state.kind === "running" && state.rate > 0 && this.segments[this.segment]?.kind === "motion";
     outQ.set(this.q);
@@ -129,6 +160,35 @@ export class Stepper {
     sampleSegment(segment, this.t_s, this.q);
     if (rate === 0 && this.stopping) state.kind = "stopped";
     return 0;
+  }
+
+  /** Whether the wait is over; a slice of it passes when it is not. */
+  private met(step: WaitForStep, left_s: number): boolean {
+    if (holds(step.when, this.signals)) { this.waitFor = undefined; this.t_s = 0; return true; }
+    this.t_s += left_s;
+    if (step.timeout_s !== undefined && this.t_s >= step.timeout_s - 1e-9) {
+      this.fail({ step: step.id, code: "signals.timeout", sentence: `Step “${step.id}” waited ${step.timeout_s} s for the signal “${step.when.signal}”.`, hint: "Look why the signal did not come, or give it more time." });
+    }
+    return false;
+  }
+
+  private searching(segment: Segment): boolean {
+    return this.search !== undefined && segment.step === this.search.id && this.segment + 1 === this.segments.length;
+  }
+
+  /** Looks for what the search looks for. True when the robot stands where it was found. */
+  private stands(): boolean {
+    this.found ||= holds(this.search!.until!.when, this.signals);
+    const begun = this.segment > 0 || this.t_s > 0;
+    if (!this.found || this.stopping || (begun && this.state.rate > 0)) return false;
+    this.search = undefined;
+    this.segments = [];
+    return true;
+  }
+
+  private fail(fault: Stuck): void {
+    this.state.kind = "fault";
+    this.state.fault = fault;
   }
 
   /**
@@ -173,10 +233,12 @@ export class Stepper {
   private leave(): void {
     this.segment++;
     this.t_s = 0;
-    if (this.segment >= this.segments.length && this.faultBehind !== undefined) {
-      this.state.kind = "fault";
-      this.state.fault = this.faultBehind;
-    }
+    if (this.segment < this.segments.length) return;
+    if (this.faultBehind !== undefined) { this.fail(this.faultBehind); return; }
+    const { search } = this;
+    this.search = undefined;
+    if (search?.until?.missing !== "fault" || this.found || holds(search.until.when, this.signals)) return;
+    this.fail({ step: search.id, code: "search.missing", sentence: `The search of step “${search.id}” came to its end without the signal “${search.until.when.signal}”.`, hint: "Look at the sensor, or let the search go further." });
   }
 
   private take(): Step | undefined {
@@ -193,16 +255,10 @@ export class Stepper {
     this.segments = [];
     this.segment = 0;
     this.t_s = 0;
-    if (step === undefined) { this.state.kind = "done"; this.state.step = ""; return; }
-    if (step.type !== "move") {
-      this.segments = [{
-        kind: "rest", step: step.id, start_s: 0, duration_s: step.type === "wait" ? step.s : step.type === "gripper" ? this.gripper_s : 0,
-        q_rad: this.q.slice(), gripperClosed: step.type === "gripper" ? step.closed : this.state.gripperClosed,
-      }];
-      return;
-    }
+    if (step === undefined) { this.end(); return; }
+    if (step.type !== "move") { this.begin(step); return; }
     const run: MoveStep[] = [step];
-    while (run.length < MOST_AHEAD && (run.at(-1)!.blend_m > 0 || run.at(-1)!.path === "spline")) {
+    while (run.length < MOST_AHEAD && goesOn(run.at(-1)!)) {
       const next = this.take();
       if (next?.type === "move" && passes(run.at(-1)!, next)) { run.push(next); continue; }
       this.waiting = next;
@@ -211,7 +267,38 @@ export class Stepper {
     this.layOut(run);
   }
 
+  /** The end waits for pulses that are still running. */
+  private end(): void {
+    this.ended = true;
+    this.state.step = "";
+    if (!this.pulses.pending) this.state.kind = "done";
+  }
+
+  /** What is not a move: done at once, or a rest. */
+  private begin(step: Exclude<Step, MoveStep>): void {
+    const { state } = this;
+    let duration_s = 0;
+    switch (step.type) {
+      case "wait": duration_s = step.s; break;
+      case "gripper": duration_s = this.gripper_s; break;
+      case "wait-for": this.waitFor = step; break;
+      case "set": this.pulses.set(step); break;
+      case "message": state.message = step.text; break;
+      case "payload": state.payload = step; break;
+      case "comment": return;
+      case "stop": this.end(); return;
+      case "call": case "repeat": case "if": case "pallet":
+        state.step = step.id;
+        this.fail({ step: step.id, code: "program.block", sentence: `Step “${step.id}” is a ${step.type}, which only its program can carry out.`, hint: "Hand over the program's unrolled steps." });
+        return;
+    }
+    this.segments = [{ kind: "rest", step: step.id, start_s: 0, duration_s, q_rad: this.q.slice(), gripperClosed: step.type === "gripper" ? step.closed : state.gripperClosed }];
+  }
+
   private layOut(run: readonly MoveStep[]): void {
+    const last = run.at(-1)!;
+    this.search = last.until === undefined ? undefined : last;
+    this.found = false;
     const moves = run.map(step => resolveMove(step, this.robot, this.context)), answer = this.planner.plan(moves, this.q);
     if (answer.kind === "timed") { this.segments = answer.run.parts; return; }
     // What comes before the step in the way is still done, with a stop at its end.

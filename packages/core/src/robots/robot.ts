@@ -1,4 +1,5 @@
 import type { Pose } from "../spatial/pose.ts";
+import type { Quaternion } from "../spatial/quaternion.ts";
 import type { Vector3 } from "../spatial/vector.ts";
 import type { LinkMass, SerialArm } from "./arm.ts";
 
@@ -16,8 +17,67 @@ export interface OrthoParallelGeometry {
   readonly formulaFromFlange: Pose<"formula", "flange">;
 }
 
+/**
+ * Axes 2, 3 and 4 parallel, each next axis of the wrist square to the one before and meeting it (UR and its kin).
+ *
+ *   formulaFromWrist = Rz(θ1) · T(a1, b, 0) · Ry(θ2) · Tz(c2) · Ry(θ3) · Tz(c3) · Ry(θ4) · Tz(c5) · Rz(θ5) · Ry(θ6)
+ *
+ * The formula's origin is on axis 1 at the height of axis 2; the wrist frame is where axes 5 and 6 meet.
+ */
+export interface ThreeParallelGeometry {
+  readonly kind: "three-parallel";
+  readonly a1_m: number; readonly b_m: number; readonly c2_m: number; readonly c3_m: number; readonly c5_m: number;
+  readonly offsets_rad: readonly [number, number, number, number, number, number];
+  readonly signs: readonly [number, number, number, number, number, number];
+  readonly baseFromFormula: Pose<"base", "formula">;
+  readonly wristFromFlange: Pose<"wrist", "flange">;
+}
+
+/**
+ * Ortho-parallel basis whose wrist axes need not meet in one point: axis 1 square to axis 2, axes 2 and 3 parallel, axes 4 and 5
+ * meet; axis 6 may lie anywhere (ABB GoFa, FANUC CRX). Up to 16 postures, found by a search over θ6.
+ *
+ *   formulaFromWrist = Rz(θ1) · T(a1, b, 0) · Ry(θ2) · Tz(c2) · Ry(θ3) · T(centre) · Rot(axis4, θ4) · Rot(axis5, θ5) · turn · Tx(e) · Rz(θ6)
+ *
+ * The formula's origin is on axis 1 at the height of axis 2. The wrist frame is on axis 6, where that is nearest to the
+ * centre: the point where axes 4 and 5 meet.
+ */
+export interface GeneralSixGeometry {
+  readonly kind: "general-6r";
+  readonly a1_m: number; readonly b_m: number; readonly c2_m: number; readonly e_m: number;
+  /** x and z from axis 3 to the centre [m]. */
+  readonly centre_m: readonly [number, number];
+  /** Unit vectors in the frame of link 3, θ4 = 0. */
+  readonly axis4: Vector3; readonly axis5: Vector3;
+  /** Link 3 from link 5, θ4 = θ5 = 0: z along axis 6, x from the centre to it. */
+  readonly turn: Quaternion;
+  readonly offsets_rad: readonly [number, number, number, number, number, number];
+  readonly signs: readonly [number, number, number, number, number, number];
+  readonly baseFromFormula: Pose<"base", "formula">;
+  readonly wristFromFlange: Pose<"wrist", "flange">;
+}
+
+/**
+ * Seven joints, shoulder and wrist each three axes through one point, and an elbow between (LBR iiwa).
+ *
+ *   formulaFromWrist = Rz(θ1) · Ry(θ2) · Rz(θ3) · Tz(c3) · Ry(θ4) · Rz(θ5) · Tz(c5) · Ry(θ6) · Rz(θ7)
+ *
+ * The formula's origin is the shoulder. An arm may miss the formula by `deviation_m` (CAD offsets of less than a
+ * millimetre): its postures are found by moving the formula's target until forward kinematics of the arm meets the wanted pose.
+ */
+export interface SphericalSevenGeometry {
+  readonly kind: "spherical-seven";
+  readonly c3_m: number; readonly c5_m: number;
+  readonly offsets_rad: readonly [number, number, number, number, number, number, number];
+  readonly signs: readonly [number, number, number, number, number, number, number];
+  readonly baseFromFormula: Pose<"base", "formula">;
+  readonly wristFromFlange: Pose<"wrist", "flange">;
+  /** The largest distance between flange and formula over all postures tried [m]. */
+  readonly deviation_m: number;
+}
+
 /** How the inverse of an arm is solved. Grows by new kinds. */
-export type KinematicFamily = OrthoParallelGeometry | { readonly kind: "general" };
+export type KinematicFamily = OrthoParallelGeometry | ThreeParallelGeometry | SphericalSevenGeometry | GeneralSixGeometry | { readonly kind: "general" };
 
 /** How far from axis 2 the maker lets the wrist centre go. Poses beyond it are refused even where the links would reach. */
 export interface DeclaredWorkspace {

@@ -5,3 +5,4 @@ export * from "./units.ts";
 export * from "./sine-cosine.ts";
 export * from "./turns.ts";
 export * from "./conventions.ts";
+export * from "./mirror.ts";

@@ -2,3 +2,4 @@ export * from "./jogged.ts";
 export * from "./jog.ts";
 export * from "./clutch.ts";
 export * from "./aids.ts";
+export * from "./glove.ts";

@@ -74,6 +74,24 @@ test("N-39 at the edge of reach that coordinate blocks and says why, the others 
   expect(jogStep(plain, q, tip([-0.25, 0, 0]), DT, q, scratch)).toMatchObject({ kind: "moved", blocked: [] });
 });
 
+test("N-39 a jog ends at the edge itself, within 0.1 mm of reach and within 0.01° of a limit, at every speed", () => {
+  for (const [x, y, z] of [[0.25, 0, 0], [0.5, 0.3, 0], [0.05, -0.02, 0.03], [0, 0, -0.4]] as const) {
+    const q = degs(0, -10, 30, 0, 40, 0), scratch = jogScratch();
+    let last = jogStep(plain, q, tip([x, y, z]), DT, q, scratch);
+    for (let i = 0; i < 2000 && last.kind === "moved"; i++) {
+      const from = q.slice();
+      last = jogStep(plain, q, tip([x, y, z]), DT, q, scratch);
+      expect(withinSpeed(from, q, DT)).toBe(true);
+    }
+    const reach = last.blocked[0]!.reach;
+    if (reach.kind === "too-far") {
+      const { distance_m, farthest_m } = span(robot, flangePose(robot.arm, q));
+      expect(farthest_m - distance_m).toBeLessThan(1e-4);
+    } else if (reach.kind === "outside-limits") expect(Math.abs(q[reach.joint - 1]! - reach.limit_rad)).toBeLessThan(radians(0.01));
+    else throw new Error(reach.kind);
+  }
+});
+
 test("N-41 rotation out of space stops every angle, position goes on", () => {
   const q = degs(0, -60, 110, 0, 118, 0), scratch = jogScratch();
   let last = jogStep(plain, q, tip([0, 0, 0], [0, 0.5, 0]), DT, q, scratch);
@@ -176,6 +194,26 @@ test("N-38 nothing sticks on or beside a singularity: a jog moves on, turns in p
       idle = step.fraction < 1e-3 && share < 0.3 ? idle + 1 : 0;
       expect(idle).toBeLessThan(5);
       expect(standing).toBeLessThan(75); // half a turn of joint 1 takes 46 steps; at a limit the coordinates that go may change
+    }
+  }
+});
+
+test("N-38 at a limit on a singularity the arm does not rock to and fro: it goes on or stands and says why, seed 5", () => {
+  const random = seededRandom(5), between = (a: number, b: number): number => a + (b - a) * random();
+  for (let run = 0; run < 700; run++) {
+    const cell: JogCell = { robot, worldFromBase: identity(), flangeFromTcp: pose([between(-0.1, 0.1), 0, between(0, 0.3)], fromAxisAngle([0, 1, 0], between(-1, 1))) };
+    const q = Float64Array.from(robot.arm.joints, ({ limits }) => between(limits.lower_rad, limits.upper_rad));
+    q[4] = 0;
+    const joint = Math.floor(random() * 6);
+    if (joint !== 4 && run % 2 === 0) { const { lower_rad, upper_rad } = robot.arm.joints[joint]!.limits; q[joint] = random() < 0.5 ? lower_rad : upper_rad; }
+    const command = tip([between(-0.3, 0.3), between(-0.3, 0.3), between(-0.3, 0.3)], run % 3 === 0 ? [0, 0, 0] : [between(-1, 1), between(-1, 1), between(-1, 1)]);
+    const scratch = jogScratch(), past: Float64Array[] = [q.slice()], apart = (a: Float64Array, b: Float64Array): number => Math.max(...a.map((angle, j) => Math.abs(angle - b[j]!)));
+    let rocking = 0;
+    for (let i = 0; i < 120 && jogStep(cell, q, command, DT, q, scratch).kind === "moved"; i++) {
+      past.unshift(q.slice());
+      const back = [2, 3, 4].some(steps => past.length > steps && apart(past[0]!, past[steps]!) < 1e-4 && apart(past[0]!, past[1]!) > 1e-3);
+      rocking = back ? rocking + 1 : 0;
+      expect(rocking).toBeLessThan(3);
     }
   }
 });

@@ -10,7 +10,7 @@ import type { OrthoParallelGeometry, Robot } from "../robots/robot.ts";
 import { compose, identity, inverse, type Pose } from "../spatial/pose.ts";
 import { fromAxisAngle, multiply, normalizeQuaternion, rotate, type Quaternion } from "../spatial/quaternion.ts";
 import { wrapAngle } from "../spatial/units.ts";
-import { norm, normalize, scale, type Vector3 } from "../spatial/vector.ts";
+import { dot, norm, normalize, scale, type Vector3 } from "../spatial/vector.ts";
 import { jogJoints } from "./jog-joints.ts";
 import type { JogBlock, Jogged } from "./jogged.ts";
 
@@ -36,12 +36,15 @@ export interface JogScratch {
   readonly worldFromFlange: Pose<"world", "flange">; readonly baseFromTcp: Pose<"base", "tcp">;
   readonly baseFromWorld: Pose<"base", "world">; readonly tcpFromFlange: Pose<"tcp", "flange">;
   readonly linear: Vector3; readonly angular: Vector3; readonly masked: Vector3; readonly axis: Vector3; readonly turns: Vector3; readonly turn: Quaternion;
+  /** The last turn in place of joints 1, 4, 6, this step's, and the wish it was for, so that one does not undo the other. All 0 where the tip moved. */
+  readonly turnedLast: Vector3; readonly turnedNow: Vector3; readonly turnedFor: Float64Array;
 }
 export const jogScratch = (): JogScratch => ({
   raw: new Float64Array(6 * MAX_BRANCHES), best: new Float64Array(6), start: new Float64Array(6), ahead: new Float64Array(6), turned: new Float64Array(6), arm: armScratch(),
   baseFromFlange: identity(), worldFromTcp: identity(), wanted: identity(),
   worldFromFlange: identity(), baseFromTcp: identity(), baseFromWorld: identity(), tcpFromFlange: identity(),
   linear: [0, 0, 0], angular: [0, 0, 0], masked: [0, 0, 0], axis: [0, 0, 0], turns: [0, 0, 0], turn: [0, 0, 0, 1],
+  turnedLast: [0, 0, 0], turnedNow: [0, 0, 0], turnedFor: new Float64Array(6),
 });
 
 const NONE: readonly JogBlock[] = [];
@@ -60,6 +63,10 @@ const SAME_TRAVEL_RAD = 1e-6;
 /** Weight of joints 2 and 3 in telling which solution continues the posture. */
 const FOLLOWS_WRIST = 1000;
 const TURN = 2 * Math.PI;
+/** What is left of a step that leaves the reach is taken up to this near to the edge [m, rad]. */
+const AT_THE_EDGE = 1e-5;
+/** Two steps count as the same wish while their directions differ by less than this cosine. */
+const SAME_WISH = 0.99;
 
 /**
  * One step of jogging, from where the arm stands (row N-38).
@@ -69,7 +76,8 @@ const TURN = 2 * Math.PI;
  * Follows the branch the arm is in. A step that asks a joint for more than its speed is shortened as a whole, so that near
  * a singularity the tip slows down instead of the arm jumping; on a singularity the free joints turn in place towards the
  * wanted direction. Where the whole step leaves the reach, each coordinate is tried: those that can go on do (row N-39),
- * rotation goes or stops as one (row N-41).
+ * rotation goes or stops as one (row N-41). Where
+ * none can, the last piece to the edge is taken, to 1e-5 (m, rad).
  *
  * @param q        joint angles [rad] the arm stands at. Read only.
  * @param dt_s     duration of the step; over 0.
@@ -93,9 +101,29 @@ export function jogStep(cell: JogCell, q: ArrayLike<number>, command: JogCommand
   scale(command.linear_mps, dt_s, linear);
   rotate(frame, scale(command.angular_rad_s, dt_s, angular), angular);
 
+  forgetOtherWish(scratch);
   const whole = towards(cell, frame, true, true, true, true, dt_s, out, scratch);
-  if (typeof whole === "number") return { kind: "moved", fraction: whole, blocked: NONE };
-  return oneByOne(cell, frame, dt_s, out, scratch);
+  let jogged: Jogged = typeof whole === "number" ? { kind: "moved", fraction: whole, blocked: NONE } : oneByOne(cell, frame, dt_s, out, scratch);
+  if (jogged.kind === "blocked") jogged = upToTheEdge(cell, frame, dt_s, out, scratch, jogged.blocked);
+  if (jogged.kind === "blocked" || !undoesTheLast(scratch)) return jogged;
+  out.set(scratch.start);
+  return { kind: "blocked", blocked: refused(NEITHER_WAY).blocked.filter(({ coordinate }, c) => (c < 3 ? linear[c] !== 0 : norm(angular) !== 0) && !jogged.blocked.some(other => other.coordinate === coordinate)).concat(jogged.blocked) };
+}
+
+/** Halves the step until the largest share of it that stays in reach is known, and takes that. */
+function upToTheEdge(cell: JogCell, frame: Quaternion, dt_s: number, out: Float64Array, scratch: JogScratch, blocked: readonly JogBlock[]): Jogged {
+  const { linear, angular, masked } = scratch, length = norm(linear) + norm(angular);
+  rotate(frame, linear, masked);
+  let inside = 0, outside = 1;
+  while ((outside - inside) * length > AT_THE_EDGE / 2) {
+    const middle = (inside + outside) / 2;
+    if (solveAt(cell, masked, true, middle, scratch) === undefined) inside = middle; else outside = middle;
+  }
+  if (inside * length < AT_THE_EDGE) return { kind: "blocked", blocked };
+  scale(linear, inside, linear);
+  scale(angular, inside, angular);
+  const part = towards(cell, frame, true, true, true, true, dt_s, out, scratch);
+  return typeof part === "number" ? { kind: "moved", fraction: part * inside, blocked: NONE } : { kind: "blocked", blocked };
 }
 
 /** Tries x, y, z and rotation on top of what already goes, again after each success: one may make room for another. */
@@ -139,6 +167,7 @@ function towards(cell: JogCell, frame: Quaternion, x: boolean, y: boolean, z: bo
       const turned = fraction < 1 && fraction * length < ALL_BUT_STANDING && turnInPlace(cell.robot, dt_s, out, scratch);
       if (turned !== false) return turned === true ? 0 : turned;
       out.set(best);
+      scratch.turnedNow[0] = 0; scratch.turnedNow[1] = 0; scratch.turnedNow[2] = 0;
       return fraction;
     }
     scratch.turns[0] = best[0]! - start[0]!; scratch.turns[1] = best[3]! - start[3]!; scratch.turns[2] = best[5]! - start[5]!;
@@ -216,8 +245,30 @@ function turnInPlace(robot: Robot, dt_s: number, out: Float64Array, scratch: Jog
   turned.set(best);
   const atShoulder = shoulder_m < ON_SINGULARITY && Math.abs(turns[0]) > ON_SINGULARITY;
   const done = atShoulder ? turnShoulder(robot, family, dt_s, scratch) : wrist < ON_SINGULARITY && turnWrist(robot, family, dt_s, scratch);
-  if (done === true) out.set(best); else best.set(turned);
-  return done;
+  if (done !== true) { best.set(turned); return done; }
+  out.set(best);
+  for (let i = 0; i < 3; i++) scratch.turnedNow[i] = turns[i]!;
+  return true;
+}
+
+const NEITHER_WAY: Reach = { kind: "no-solver", because: "The arm stands on a singularity; turned in place to either side it meets a limit, and the tip would not move." };
+
+/** Whether this step turned in place against the last one; if not, it is the last one from now on. Without it, a limit on either side would rock the arm for ever. */
+function undoesTheLast({ turnedNow, turnedLast }: JogScratch): boolean {
+  if (dot(turnedNow, turnedLast) < 0) return true;
+  for (let i = 0; i < 3; i++) turnedLast[i] = turnedNow[i]!;
+  return false;
+}
+
+/** A turn in place is held against the next one only while the hand goes on asking for about the same. */
+function forgetOtherWish({ linear, angular, turnedFor, turnedLast }: JogScratch): void {
+  let along = 0, now = 0, before = 0;
+  for (let i = 0; i < 6; i++) {
+    const value = i < 3 ? linear[i]! : angular[i - 3]!, last = turnedFor[i]!;
+    along += value * last; now += value * value; before += last * last;
+    turnedFor[i] = value;
+  }
+  if (!(along > SAME_WISH * Math.sqrt(now * before))) { turnedLast[0] = 0; turnedLast[1] = 0; turnedLast[2] = 0; }
 }
 
 /** Wrist centre on axis 1: the solver leaves joints 1 and 4 where it is told to, once the centre is on the axis to the last digit. */

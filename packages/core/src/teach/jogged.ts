@@ -7,7 +7,7 @@ export interface JogBlock {
   readonly sentence: string;
 }
 
-/** fraction: how much of the wanted step was taken; below 1 the joints would have been too fast. */
+/** fraction: how much of the wanted step was taken; below 1 the joints would have been too fast, or the reach ends there. */
 export type Jogged =
   | { readonly kind: "moved"; readonly fraction: number; readonly blocked: readonly JogBlock[] }
   | { readonly kind: "blocked"; readonly blocked: readonly JogBlock[] };

@@ -10,3 +10,4 @@ export * from "./run.ts";
 export * from "./plan-path.ts";
 export * from "./judge.ts";
 export * from "./deviation.ts";
+export * from "./jerk/index.ts";

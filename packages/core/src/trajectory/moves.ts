@@ -54,5 +54,6 @@ export function resolveMove(step: MoveStep, robot: Robot, context: PlanContext):
   };
 }
 
-/** Whether the robot goes from one move into the next without stopping. */
-export const passes = (step: MoveStep, next: MoveStep): boolean => step.blend_m > 0 || (step.path === "spline" && next.path === "spline");
+/** Whether the robot goes from one move into the next without stopping. A search ends where it stops. */
+export const passes = (step: MoveStep, next: MoveStep): boolean =>
+  step.until === undefined && (step.blend_m > 0 || (step.blend_ratio ?? 0) > 0 || (step.path === "spline" && next.path === "spline"));

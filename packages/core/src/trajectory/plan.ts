@@ -7,7 +7,11 @@ export interface Plan {
   readonly duration_s: number;
   /** In order, without gaps. */
   readonly segments: readonly Segment[];
+  /** What the program writes to its outputs, in order of time. */
+  readonly writes: readonly SignalWrite[];
 }
+
+export interface SignalWrite { readonly at_s: number; readonly signal: string; readonly to: boolean | number }
 
 interface SegmentBase {
   /** Id of the step it belongs to. */

@@ -1,8 +1,10 @@
-import type { MoveStep, Program, Step } from "../program/program.ts";
+import { flow, type Happening } from "../program/flow.ts";
+import type { MoveStep, PrimitiveStep, Program, SetStep } from "../program/program.ts";
+import { SignalTable, holds } from "../program/signals.ts";
 import type { Robot } from "../robots/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import { passes, resolveMove } from "./moves.ts";
-import type { MotionSegment, Plan, Segment } from "./plan.ts";
+import type { MotionSegment, Plan, Segment, SignalWrite } from "./plan.ts";
 import type { Slowed } from "./run-timing.ts";
 import { PATH_TOLERANCE_M, RunPlanner } from "./run.ts";
 import { explainStop, type Stuck } from "./stop.ts";
@@ -16,6 +18,8 @@ export interface PlanOptions {
   readonly tolerance_m?: number;
   /** Time a gripper is given to close or open [s]. */
   readonly gripper_s?: number;
+  /** What inputs are, for decisions; false and 0 otherwise. */
+  readonly inputs?: Readonly<Record<string, boolean | number>>;
 }
 
 /** Not published for most grippers; a plan gives one this long. */
@@ -28,12 +32,14 @@ export type PlanAnswer =
   | { readonly kind: "planned"; readonly plan: Plan; readonly notes: readonly PlanNote[] }
   | { readonly kind: "stuck"; readonly stuck: Stuck; readonly plan: Plan; readonly notes: readonly PlanNote[] };
 
-const isMove = (step: Step | undefined): step is MoveStep => step?.type === "move";
+/** Loops beyond this many steps are laid out in part. */
+const MOST_PLANNED = 200_000;
 
 /**
  * Lays a program out in time: joints together on joint moves, straight and circular TCP paths within `tolerance_m`,
- * corners blended, and every joint within its speed and acceleration at every instant. A program that cannot be carried
- * out gives the plan up to the step that stands in the way.
+ * corners blended, and every joint within its speed and acceleration at every instant. Loops, calls and pallets are
+ * carried out, a loop "forever" once; waits for signals take no time. A program that cannot be carried out gives the plan
+ * up to the step that stands in the way.
  *
  * The program is trusted to come from `parseProgram`.
  */
@@ -41,11 +47,10 @@ export function planProgram(program: Program, robot: Robot, options: PlanOptions
   const writer = new PlanWriter(robot, options);
   const planner = new RunPlanner(robot, options.tolerance_m ?? PATH_TOLERANCE_M);
   const context = { tools: program.tools, frames: program.frames, ...(options.worldFromBase === undefined ? {} : { worldFromBase: options.worldFromBase }) };
-  const steps = program.steps;
-  for (let i = 0; i < steps.length;) {
-    const step = steps[i]!;
-    if (step.type !== "move") { writer.rest(step); i++; continue; }
-    let moves = runFrom(steps, i).map(move => resolveMove(move, robot, context));
+  for (const part of inRuns(flow(program, { decide: when => holds(when, writer.signals), rounds: 1, mostSteps: MOST_PLANNED }))) {
+    if (part.kind === "step") { if (part.step.type !== "move") writer.rest(part.step, part.stands); continue; }
+    if (part.kind !== "run") continue;
+    let moves = part.moves.map(({ step }) => resolveMove(step, robot, context));
     for (;;) {
       const answer = planner.plan(moves, writer.q);
       if (answer.kind === "timed") { writer.run(answer.run.parts, answer.run.slowed); break; }
@@ -58,27 +63,37 @@ export function planProgram(program: Program, robot: Robot, options: PlanOptions
       }
       return { kind: "stuck", stuck, plan: writer.plan(program.robot), notes: writer.notes };
     }
-    i += moves.length;
   }
   return { kind: "planned", plan: writer.plan(program.robot), notes: writer.notes };
 }
 
-/** The moves from step `at` on that are passed without a stop in between. */
-export function runFrom(steps: readonly Step[], at: number): MoveStep[] {
-  const run: MoveStep[] = [];
-  for (let i = at; ; i++) {
-    const step = steps[i], next = steps[i + 1];
-    if (!isMove(step)) return run;
-    run.push(step);
-    if (!isMove(next) || !passes(step, next)) return run;
+type StepHappening = Extract<Happening, { kind: "step" }>;
+/** A move that happens, with the step it comes from. */
+export type MoveHappening = StepHappening & { readonly step: MoveStep };
+
+/** The same happenings with moves that are passed without a stop in between as one. */
+export function* inRuns(happenings: Iterable<Happening>): Generator<Happening | { readonly kind: "run"; readonly moves: readonly MoveHappening[] }, void> {
+  let moves: MoveHappening[] = [];
+  for (const happening of happenings) {
+    const last = moves.at(-1);
+    if (happening.kind === "passed" && happening.step.type === "comment") { yield happening; continue; }
+    const move = isMove(happening) ? happening : undefined;
+    if (last !== undefined && !(move !== undefined && passes(last.step, move.step))) { yield { kind: "run", moves }; moves = []; }
+    if (move === undefined) yield happening; else moves.push(move);
   }
+  if (moves.length > 0) yield { kind: "run", moves };
 }
+
+const isMove = (happening: Happening): happening is MoveHappening => happening.kind === "step" && happening.step.type === "move";
 
 /** Appends segments and keeps the time and the posture they end at. */
 export class PlanWriter {
   readonly q: Float64Array;
   readonly notes: PlanNote[] = [];
+  /** What the outputs are by now. */
+  readonly signals: SignalTable;
   private readonly segments: Segment[] = [];
+  private readonly writes: SignalWrite[] = [];
   private readonly gripper_s: number;
   private t_s = 0;
   private closed = false;
@@ -86,15 +101,28 @@ export class PlanWriter {
   constructor(robot: Robot, options: PlanOptions) {
     this.q = Float64Array.from(options.start_rad ?? robot.home_rad);
     this.gripper_s = options.gripper_s ?? GRIPPER_S;
+    this.signals = new SignalTable(Object.entries(options.inputs ?? {}));
   }
 
   get now_s(): number { return this.t_s; }
 
-  rest(step: Exclude<Step, MoveStep>): void {
+  /** @param stands  a stop that the program does not say: it is only there when it takes time. */
+  rest(step: Exclude<PrimitiveStep, MoveStep>, stands = false): void {
     if (step.type === "gripper") this.closed = step.closed;
+    if (step.type === "set") this.write(step);
     const duration_s = step.type === "wait" ? step.s : step.type === "gripper" ? this.gripper_s : 0;
+    if (stands && duration_s === 0) return;
     this.segments.push({ kind: "rest", step: step.id, start_s: this.t_s, duration_s, q_rad: this.q.slice(), gripperClosed: this.closed });
     this.t_s += duration_s;
+  }
+
+  private write({ signal, to, pulse_s }: SetStep): void {
+    this.signals.write(signal, to);
+    this.writes.push({ at_s: this.t_s, signal, to });
+    // A plan decides by what is written: a pulse is over before the next decision.
+    if (pulse_s === undefined || typeof to !== "boolean") return;
+    this.signals.write(signal, !to);
+    this.writes.push({ at_s: this.t_s + pulse_s, signal, to: !to });
   }
 
   run(parts: readonly MotionSegment[], slowed: readonly Slowed[]): void {
@@ -111,5 +139,7 @@ export class PlanWriter {
   /** Goes on from another posture, for drawing what comes behind a step that cannot be carried out. */
   jumpTo(q_rad: ArrayLike<number>): void { this.q.set(q_rad); }
 
-  plan(robot: string): Plan { return { robot, duration_s: this.t_s, segments: this.segments }; }
+  plan(robot: string): Plan {
+    return { robot, duration_s: this.t_s, segments: this.segments, writes: this.writes.sort((a, b) => a.at_s - b.at_s) };
+  }
 }

@@ -174,13 +174,14 @@ export class RunPath {
 
   /** How far along each leg its corner begins and ends. Half of a leg at most, so that two corners never meet. */
   private corner(leg: Leg, next: Leg): { readonly leave: number; readonly join: number } {
-    const blend = leg.move.step.blend_m;
+    const { blend_m: blend, blend_ratio: ratio = 0 } = leg.move.step;
     // A move to where the robot stands has no direction a curve could leave in.
     if (leg.length <= SHORTEST_M || next.length <= SHORTEST_M) return { leave: leg.length, join: 0 };
     if (leg.path !== undefined && next.path !== undefined) {
-      const d = Math.min(blend, leg.length / 2, next.length / 2);
+      const half = Math.min(leg.length, next.length) / 2, d = ratio > 0 ? ratio * half : Math.min(blend, half);
       return { leave: leg.length - d, join: d };
     }
+    if (ratio > 0) return { leave: leg.length * (1 - ratio / 2), join: next.length * ratio / 2 };
     return { leave: leg.length - this.withinBlend(leg, blend, true), join: this.withinBlend(next, blend, false) };
   }
 

@@ -132,3 +132,20 @@ export class PlanCursor {
     return moment;
   }
 }
+
+/** The outputs of a plan at an instant. One per player; going back costs a start from the beginning. */
+export class PlanSignals {
+  /** Lent: changes with every call of `at`. */
+  readonly values: Map<string, boolean | number> = new Map();
+  private readonly plan: Plan;
+  private next = 0;
+  private last_s = Number.NEGATIVE_INFINITY;
+  constructor(plan: Plan) { this.plan = plan; }
+
+  at(t_s: number): ReadonlyMap<string, boolean | number> {
+    if (t_s < this.last_s) { this.next = 0; this.values.clear(); }
+    this.last_s = t_s;
+    for (let write = this.plan.writes[this.next]; write !== undefined && write.at_s <= t_s; write = this.plan.writes[++this.next]) this.values.set(write.signal, write.to);
+    return this.values;
+  }
+}

@@ -1,4 +1,5 @@
 import { compose, copyPose, identity, inverse, type Joint, type Pose, type SerialArm } from "@twincell/core";
+import { limitsWith } from "../limits.ts";
 import { answering, Refusal, type NotUnderstood } from "../refusal.ts";
 import { shorten } from "../xml.ts";
 import type { UrdfJoint, UrdfRobot, UrdfShape } from "./model.ts";
@@ -23,10 +24,6 @@ export interface UrdfChain {
   /** What had to be assumed, one sentence each. */
   readonly assumptions: readonly string[];
 }
-
-/** Speed and ramp that are assumed where a file gives none. */
-const ASSUMED_SPEED_RAD_S = Math.PI;
-const RAMP_S = 0.25;
 
 /**
  * The serial arm between two links. Fixed joints melt into their neighbours; links beside the chain ride along on the
@@ -92,16 +89,13 @@ function armJoint(joint: UrdfJoint, parentFromJoint: Pose, assumptions: string[]
   const { name, type, axis, limit } = joint;
   if (type !== "revolute" && type !== "continuous") throw new Refusal(`Joint ${shorten(name)} is ${type}; an arm here has joints that turn.`, joint.line);
   if (joint.mimic) throw new Refusal(`Joint ${shorten(name)} follows joint ${shorten(joint.mimic.joint)}; it has no motion of its own.`, joint.line);
-  const speed = limit && limit.velocity > 0 ? limit.velocity : ASSUMED_SPEED_RAD_S, bounded = type === "revolute" && limit !== undefined;
-  if (!bounded) assumptions.push(`Joint ${name} has no limits in the file: ±360° are assumed.`);
-  if (speed !== limit?.velocity) assumptions.push(`Joint ${name} has no speed in the file: 180°/s is assumed.`);
-  assumptions.push(`Joint ${name} has no acceleration in the file: full speed is assumed to be reached in ${RAMP_S} s.`);
+  const isBounded = type === "revolute" && limit !== undefined;
   return {
     name, axis, parentFromJoint: parentFromJoint as Pose<"parent", "joint">,
-    limits: {
-      lower_rad: bounded ? limit.lower : -2 * Math.PI, upper_rad: bounded ? limit.upper : 2 * Math.PI,
-      speed_rad_s: speed, acceleration_rad_s2: speed / RAMP_S,
-    },
+    limits: limitsWith(name, {
+      ...(isBounded ? { lower_rad: limit.lower, upper_rad: limit.upper } : {}), speed_rad_s: limit?.velocity,
+      torque_Nm: limit && limit.effort > 0 ? limit.effort : undefined,
+    }, assumptions),
   };
 }
 

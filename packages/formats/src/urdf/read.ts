@@ -1,5 +1,5 @@
 import { fromAxisAngle, multiply, normalize, pose, type Pose, type Quaternion, type Vector3 } from "@twincell/core";
-import { answering, Refusal, type NotUnderstood } from "../refusal.ts";
+import { answering, locating, Refusal, type NotUnderstood } from "../refusal.ts";
 import { attributeOf, childOf, childrenOf, numbersIn, parseXml, shorten, type Element } from "../xml.ts";
 import type { UrdfGeometry, UrdfJoint, UrdfLink, UrdfRead, UrdfRobot, UrdfShape } from "./model.ts";
 
@@ -10,20 +10,26 @@ import type { UrdfGeometry, UrdfJoint, UrdfLink, UrdfRead, UrdfRobot, UrdfShape 
  */
 export function readUrdf(text: string): UrdfRead | NotUnderstood {
   return answering(() => {
-    const root = parseXml(text), warnings: string[] = [];
-    if (root.name !== "robot") throw new Refusal(`The file begins with <${shorten(root.name)}>; a robot description begins with <robot>.`, root.line);
+    const root = parseXml(text);
     refuseXacro(root);
-    const colours = new Map<string, readonly number[]>();
-    for (const material of childrenOf(root, "material")) {
-      const rgba = colourOf(material);
-      if (rgba && material.attributes["name"]) colours.set(material.attributes["name"], rgba);
-    }
-    const links = childrenOf(root, "link").map(element => linkOf(element, colours));
-    const joints = childrenOf(root, "joint").map(element => jointOf(element, warnings));
-    const robot = { name: root.attributes["name"] ?? "robot", root: rootOf(links, joints, root.line), links, joints };
-    checkTree(robot);
-    return { kind: "read", robot, warnings };
+    return { kind: "read", ...robotOf(root) };
   });
+}
+
+/** The robot of a parsed description in which nothing is left to expand. @throws {Refusal} */
+export function robotOf(root: Element): { readonly robot: UrdfRobot; readonly warnings: readonly string[] } {
+  const warnings: string[] = [];
+  if (root.name !== "robot") throw new Refusal(`The file begins with <${shorten(root.name)}>; a robot description begins with <robot>.`, root.line, root.file);
+  const colours = new Map<string, readonly number[]>();
+  for (const material of childrenOf(root, "material")) {
+    const rgba = colourOf(material);
+    if (rgba && material.attributes["name"]) colours.set(material.attributes["name"], rgba);
+  }
+  const links = childrenOf(root, "link").map(element => locating(element, () => linkOf(element, colours)));
+  const joints = childrenOf(root, "joint").map(element => locating(element, () => jointOf(element, warnings)));
+  const robot = { name: root.attributes["name"] ?? "robot", root: rootOf(links, joints, root.line), links, joints };
+  checkTree(robot);
+  return { robot, warnings };
 }
 
 function refuseXacro(element: Element): void {

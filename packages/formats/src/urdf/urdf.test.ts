@@ -33,7 +33,7 @@ describe("a chain becomes an arm", () => {
   test("fixed joints melt in, axes are unit vectors, limits are kept", () => {
     const { arm } = chain(text, "base_link", "tip");
     expect(arm.joints.map(({ name, axis }) => [name, axis])).toEqual([["j1", [0, 0, 1]], ["j2", [0, -1, 0]]]);
-    expect(arm.joints[0]!.limits).toEqual({ lower_rad: -1, upper_rad: 2, speed_rad_s: 3, acceleration_rad_s2: 12 });
+    expect(arm.joints[0]!.limits).toEqual({ lower_rad: -1, upper_rad: 2, speed_rad_s: 3, acceleration_rad_s2: 12, torque_Nm: 4 });
     const flange = flangePose(arm, [0, 0]);
     [0, 0.1, 1].forEach((v, k) => { expect(flange.position[k]).toBeCloseTo(v, 12); });
   });

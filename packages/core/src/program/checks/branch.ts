@@ -29,7 +29,7 @@ export function checkBranch(scene: CheckScene): void {
       continue;
     }
     // A straight or circular path keeps its posture; where it blends on, the end is not the taught point.
-    if (move.step.blend_m > 0) continue;
+    if (move.step.blend_m > 0 || (move.step.blend_ratio ?? 0) > 0) continue;
     const taught = move.q_rad, arrived = branchOf(scene.robot, last);
     if (taught !== undefined) {
       let off = 0;

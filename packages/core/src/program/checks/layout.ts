@@ -3,25 +3,40 @@ import { Follower } from "../../trajectory/follow.ts";
 import { GoalFinder } from "../../trajectory/goal.ts";
 import { resolveMove, type Move, type PlanContext } from "../../trajectory/moves.ts";
 import type { Plan } from "../../trajectory/plan.ts";
-import { PlanWriter, runFrom, type PlanNote, type PlanOptions } from "../../trajectory/planner.ts";
+import { PlanWriter, inRuns, type MoveHappening, type PlanNote, type PlanOptions } from "../../trajectory/planner.ts";
 import { PATH_TOLERANCE_M, RunPlanner } from "../../trajectory/run.ts";
 import type { RunStop } from "../../trajectory/run-path.ts";
-import type { Program } from "../program.ts";
+import { flow, type Happening, type Visit } from "../flow.ts";
+import type { MoveStep, Program, Step } from "../program.ts";
+import { everyStep } from "../walk.ts";
 
 /** A step that could not be laid out as taught, and when. */
 export interface Obstacle { readonly move: Move; readonly stop: RunStop; readonly at_s: number }
 
-/** A whole program laid out as far as it goes, so that every step can be judged. */
+/** One carrying out of a step that is carried out more than once, or at the place of a pallet. */
+export interface Turn { readonly written: Step; readonly visits: readonly Visit[] }
+
+/**
+ * A whole program laid out as far as it goes, so that every step can be judged. A step that is carried out again gets
+ * an id of its own for every time; `turns` says which step it was, and where.
+ */
 export interface Layout {
   readonly plan: Plan;
   readonly notes: readonly PlanNote[];
   readonly obstacles: readonly Obstacle[];
-  /** The moves by step id. */
+  /** The moves by id. */
   readonly moves: ReadonlyMap<string, Move>;
   /** Posture in which each move begins. */
   readonly starts: ReadonlyMap<string, Float64Array>;
-  /** Steps that were laid out, or found to be impossible. */
+  readonly turns: ReadonlyMap<string, Turn>;
+  /** Ids, as the program has them, of steps that were laid out, or found to be impossible. */
   readonly evaluated: ReadonlySet<string>;
+  /** Decisions that lead to too many postures: what follows was not looked at from all of them. */
+  readonly unjudged: ReadonlySet<string>;
+  /** Nothing was left out: a step that is not `evaluated` is never reached. */
+  readonly complete: boolean;
+  /** Loops were cut short because the program has more than this many steps. */
+  readonly cut: number | undefined;
 }
 
 export interface LayoutOptions extends PlanOptions {
@@ -29,41 +44,125 @@ export interface LayoutOptions extends PlanOptions {
   readonly cancelled?: () => boolean;
 }
 
+/** Twice round shows how the end of a loop goes into its beginning. */
+const ROUNDS = 2;
+/** Loops beyond this many steps go round twice only. */
+const MOST_LAID_OUT = 100_000;
+/** Postures that decisions may lead to at one place of the program; with more the decision stays unjudged. */
+const MOST_POSTURES = 8;
+/** Postures this near are one [rad]. */
+const SAME_RAD = 1e-9;
+
 /**
  * Like `planProgram`, but goes on behind a step that cannot be carried out, from the posture its target would have, and
- * beyond joint limits, so that the path there can be drawn and named (rows L-38, L-40).
+ * beyond joint limits, so that the path there can be drawn and named (rows L-38, L-40). Both sides of a decision are laid
+ * out, and what follows from every posture they lead to.
  */
 export function layOut(program: Program, robot: Robot, options: LayoutOptions = {}): Layout {
-  const writer = new PlanWriter(robot, options), planner = new RunPlanner(robot, options.tolerance_m ?? PATH_TOLERANCE_M);
-  const goals = new GoalFinder(robot, new Follower(robot.arm));
-  const context: PlanContext = { tools: program.tools, frames: program.frames, ...(options.worldFromBase === undefined ? {} : { worldFromBase: options.worldFromBase }) };
-  const obstacles: Obstacle[] = [], moves = new Map<string, Move>(), starts = new Map<string, Float64Array>(), evaluated = new Set<string>();
-  const steps = program.steps;
+  const sheet = new Sheet(program, robot, options), count = Math.max(1, Array.from(everyStep(program)).length);
+  let complete = true;
+  for (const part of inRuns(flow(program, { rounds: ROUNDS, mostSteps: MOST_LAID_OUT }))) {
+    if (options.cancelled?.() === true) { complete = false; break; }
+    options.onProgress?.(sheet.evaluated.size / count);
+    if (part.kind === "run") sheet.run(part.moves); else sheet.happen(part);
+  }
+  return sheet.finish(complete);
+}
 
-  const write = (run: readonly Move[]): RunStop | undefined => {
-    const first = writer.q.slice(), answer = planner.plan(run, writer.q, true);
-    if (answer.kind === "stopped") return answer.stop;
-    for (let k = 0; k < run.length; k++) {
-      const id = run[k]!.step.id, part = answer.run.parts[k]!;
-      starts.set(id, k === 0 ? first : part.q_rad.slice(0, first.length));
-      evaluated.add(id);
+class Sheet {
+  readonly evaluated = new Set<string>();
+  private readonly program: Program;
+  private readonly robot: Robot;
+  private readonly context: PlanContext;
+  private readonly writer: PlanWriter;
+  private readonly planner: RunPlanner;
+  private readonly goals: GoalFinder;
+  private readonly obstacles: Obstacle[] = [];
+  private readonly moves = new Map<string, Move>();
+  private readonly starts = new Map<string, Float64Array>();
+  private readonly unjudged = new Set<string>();
+  private readonly turns = new Map<string, Turn>();
+  private readonly times = new Map<string, number>();
+  /** Postures the robot may be in here; none where the program never gets to. */
+  private postures: readonly Float64Array[];
+  private readonly forks: { readonly before: readonly Float64Array[]; after: readonly Float64Array[] }[] = [];
+  private made = 0;
+
+  constructor(program: Program, robot: Robot, options: LayoutOptions) {
+    this.program = program;
+    this.robot = robot;
+    this.context = { tools: program.tools, frames: program.frames, ...(options.worldFromBase === undefined ? {} : { worldFromBase: options.worldFromBase }) };
+    this.writer = new PlanWriter(robot, options);
+    this.planner = new RunPlanner(robot, options.tolerance_m ?? PATH_TOLERANCE_M);
+    this.goals = new GoalFinder(robot, new Follower(robot.arm));
+    this.postures = [this.writer.q.slice()];
+  }
+
+  happen(happening: Happening): void {
+    switch (happening.kind) {
+      case "step":
+        if (this.postures.length === 0 || happening.step.type === "move") return;
+        this.made++;
+        this.evaluated.add(happening.step.id);
+        return this.writer.rest(happening.step, happening.stands);
+      case "passed": if (this.postures.length > 0) this.evaluated.add(happening.step.id); return;
+      case "fork": this.forks.push({ before: this.postures, after: [] }); return;
+      case "other": {
+        const fork = this.forks.at(-1)!;
+        fork.after = this.postures;
+        this.postures = fork.before;
+        return this.stand();
+      }
+      case "join": {
+        const after = distinct([...this.forks.pop()!.after, ...this.postures]);
+        if (after.length > MOST_POSTURES) this.unjudged.add(happening.step.id);
+        this.postures = after.slice(0, MOST_POSTURES);
+        return this.stand();
+      }
+      case "end": this.postures = [];
     }
-    writer.run(answer.run.parts, answer.run.slowed);
-    return undefined;
-  };
+  }
 
-  for (let i = 0; i < steps.length;) {
-    if (options.cancelled?.() === true) break;
-    options.onProgress?.(i / steps.length);
-    const step = steps[i]!;
-    if (step.type !== "move") { writer.rest(step); evaluated.add(step.id); i++; continue; }
-    const run = runFrom(steps, i).map(move => resolveMove(move, robot, context));
-    for (const move of run) moves.set(move.step.id, move);
-    i += run.length;
-    let rest: readonly Move[] = run;
+  /** A run from every posture the robot may be in. */
+  run(run: readonly MoveHappening[]): void {
+    const ends: Float64Array[] = [];
+    for (const posture of this.postures) {
+      this.writer.jumpTo(posture);
+      this.lay(run.map(happening => this.resolve(happening)));
+      ends.push(this.writer.q.slice());
+    }
+    this.made += run.length;
+    this.postures = distinct(ends);
+    this.stand();
+  }
+
+  finish(complete: boolean): Layout {
+    const { writer, obstacles, moves, starts, turns, evaluated, unjudged } = this;
+    return { plan: writer.plan(this.program.robot), notes: writer.notes, obstacles, moves, starts, turns, evaluated, unjudged, complete, cut: this.made > MOST_LAID_OUT ? MOST_LAID_OUT : undefined };
+  }
+
+  private stand(): void {
+    if (this.postures[0] !== undefined) this.writer.jumpTo(this.postures[0]);
+  }
+
+  /** The move under an id that no other carrying out has. */
+  private resolve({ step, written, visits }: MoveHappening): Move {
+    const time = (this.times.get(step.id) ?? 0) + 1;
+    this.times.set(step.id, time);
+    this.evaluated.add(step.id);
+    const own: MoveStep = time === 1 ? step : { ...step, id: `${step.id}\0${time}` };
+    if (time > 1 || visits.length > 0) this.turns.set(own.id, { written, visits });
+    const move = resolveMove(own, this.robot, this.context);
+    this.moves.set(own.id, move);
+    return move;
+  }
+
+  private lay(run: readonly Move[]): void {
+    const { writer, obstacles } = this;
+    let rest = run;
     while (rest.length > 0) {
-      const stop = write(rest);
-      if (stop === undefined) break;
+      const stop = this.write(rest);
+      if (stop === undefined) return;
       const at = stop.move, move = rest[at]!;
       if (stop.kind === "goal" && stop.goal.beyond_rad !== undefined) {
         // It fails by joint limits only: the path is laid out beyond them.
@@ -72,15 +171,27 @@ export function layOut(program: Program, robot: Robot, options: LayoutOptions = 
         rest = rest.map((other, k) => (k === at ? { ...other, q_rad } : other));
         continue;
       }
-      if (at > 0) write(rest.slice(0, at));
+      if (at > 0) this.write(rest.slice(0, at));
       obstacles.push({ move, stop, at_s: writer.now_s });
-      starts.set(move.step.id, writer.q.slice());
-      evaluated.add(move.step.id);
-      const goal = goals.find(move, writer.q);
+      this.starts.set(move.step.id, writer.q.slice());
+      const goal = this.goals.find(move, writer.q);
       if (goal.kind === "posture") writer.jumpTo(goal.q_rad);
       else if (goal.beyond_rad !== undefined) writer.jumpTo(goal.beyond_rad);
       rest = rest.slice(at + 1);
     }
   }
-  return { plan: writer.plan(program.robot), notes: writer.notes, obstacles, moves, starts, evaluated };
+
+  private write(run: readonly Move[]): RunStop | undefined {
+    const first = this.writer.q.slice(), answer = this.planner.plan(run, this.writer.q, true);
+    if (answer.kind === "stopped") return answer.stop;
+    for (let k = 0; k < run.length; k++) this.starts.set(run[k]!.step.id, k === 0 ? first : answer.run.parts[k]!.q_rad.slice(0, first.length));
+    this.writer.run(answer.run.parts, answer.run.slowed);
+    return undefined;
+  }
+}
+
+function distinct(postures: readonly Float64Array[]): readonly Float64Array[] {
+  const kept: Float64Array[] = [];
+  for (const posture of postures) if (!kept.some(other => other.every((q, j) => Math.abs(q - posture[j]!) <= SAME_RAD))) kept.push(posture);
+  return kept;
 }

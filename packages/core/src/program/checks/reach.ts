@@ -3,9 +3,10 @@ import { solveAll } from "../../kinematics/inverse.ts";
 import { span } from "../../kinematics/span.ts";
 import type { Reach } from "../../kinematics/reach.ts";
 import { explainStop } from "../../trajectory/stop.ts";
+import type { MoveStep } from "../program.ts";
 import type { Finding } from "../verdict.ts";
 import { reachRepairs } from "./repairs.ts";
-import type { CheckScene } from "./scene.ts";
+import { startOf, type CheckScene } from "./scene.ts";
 
 /** Targets and paths the arm cannot get to: too far, too near, no posture inside the limits, no circle, no way through. */
 export function checkReach(scene: CheckScene): void {
@@ -25,7 +26,7 @@ export function checkReach(scene: CheckScene): void {
   }
   // A blend cuts the corner: the target itself is never visited, yet it was taught and must be reachable.
   for (const move of scene.layout.moves.values()) {
-    if (move.step.blend_m === 0 || move.q_rad !== undefined || move.step.path === "ptp" || scene.robot.family.kind === "general") continue;
+    if (!blends(move.step) || move.q_rad !== undefined || move.step.path === "ptp" || scene.robot.family.kind === "general") continue;
     const { distance_m, nearest_m, farthest_m } = span(scene.robot, move.baseFromFlange);
     if (distance_m <= farthest_m && distance_m >= nearest_m) continue;
     const reach = solveAll(scene.robot, move.baseFromFlange);
@@ -33,19 +34,17 @@ export function checkReach(scene: CheckScene): void {
   }
 }
 
-const away = (reach: Reach): boolean => reach.kind === "too-far" || reach.kind === "too-near";
+const away = (reach: Reach): boolean => reach.kind === "too-far" || reach.kind === "too-near" || reach.kind === "beyond-workspace";
+const blends = ({ blend_m, blend_ratio = 0 }: MoveStep): boolean => blend_m > 0 || blend_ratio > 0;
 
 const percent = (share: number): string => `At ${Math.round(share * 100)} % of the way:`;
-
-function startOf(scene: CheckScene, step: string): number {
-  return scene.layout.plan.segments.find(segment => segment.step === step)?.start_s ?? 0;
-}
 
 function reachFinding(reach: Reach, at_s: number, repairs: Finding["repairs"]): Finding {
   const base = { at_s, sentence: explainReach(reach), repairs };
   switch (reach.kind) {
     case "too-far": return { ...base, code: "reach.too-far", value: reach.reach_m + reach.beyond_m, limit: reach.reach_m, unit: "m" };
     case "too-near": return { ...base, code: "reach.too-near", value: reach.nearest_m - reach.inside_m, limit: reach.nearest_m, unit: "m" };
+    case "beyond-workspace": return { ...base, code: "reach.beyond-workspace", value: reach.distance_m, limit: reach.declared_m, unit: "m" };
     case "outside-limits": return { ...base, code: "limits.joint", joint: reach.joint, value: reach.wanted_rad, limit: reach.limit_rad, unit: "rad" };
     case "reached": case "no-solver": case "not-a-pose": return { ...base, code: `reach.${reach.kind}`, value: 0, limit: 0, unit: "1" };
   }

@@ -1,5 +1,6 @@
 import type { Reach } from "../../kinematics/reach.ts";
 import { nearestSolution, solveAll, solverScratch } from "../../kinematics/inverse.ts";
+import { isInsideWorkspace } from "../../kinematics/workspace.ts";
 import { sameBranch } from "../../kinematics/branch.ts";
 import { compose, copyPose, inverse, type Pose } from "../../spatial/pose.ts";
 import { fromAxisAngle, multiply } from "../../spatial/quaternion.ts";
@@ -19,7 +20,7 @@ export function reachRepairs(scene: CheckScene, move: Move, reach?: Reach): Repa
   if (!("pose" in target)) return [];
   const near = scene.layout.starts.get(move.step.id) ?? Float64Array.from(scene.robot.home_rad);
   const out = new Float64Array(near.length), scratch = solverScratch();
-  const reachable = (baseFromTcp: Pose<"base", "tcp">): boolean => nearestSolution(scene.robot, compose(baseFromTcp, move.tcpFromFlange), near, out, scratch);
+  const reachable = (baseFromTcp: Pose<"base", "tcp">): boolean => nearestSolution(scene.robot, compose(baseFromTcp, move.tcpFromFlange), near, out, scratch) && isInsideWorkspace(scene.robot, out);
   const found: Repair[] = [];
   const offer = (baseFromTcp: Pose<"base", "tcp">, sentence: string): boolean => {
     if (!reachable(baseFromTcp)) return false;
@@ -34,7 +35,7 @@ export function reachRepairs(scene: CheckScene, move: Move, reach?: Reach): Repa
   }
   spin: for (const angle of SPINS_DEG) for (const sign of [1, -1]) if (offer(turnTool(base, [0, 0, 1], radians(sign * angle)), `Turn the tool by ${sign * angle}° about its own axis.`)) break spin;
   // A shift by what is missing first, rounded up to whole millimetres.
-  const missing = reach?.kind === "too-far" ? reach.beyond_m : reach?.kind === "too-near" ? reach.inside_m : 0;
+  const missing = reach?.kind === "too-far" ? reach.beyond_m : reach?.kind === "too-near" ? reach.inside_m : reach?.kind === "beyond-workspace" ? reach.distance_m - reach.declared_m : 0;
   const shifts = SHIFTS_M.map(shift => Math.ceil((missing + shift) * 1000) / 1000);
   for (const shift of shifts) if (offer(towardsBase(base, shift), `Move the target ${Math.round(shift * 1000)} mm towards the robot.`)) break;
   for (const shift of shifts) if (offer(towardsBase(base, -shift), `Move the target ${Math.round(shift * 1000)} mm away from the robot.`)) break;
@@ -69,10 +70,11 @@ const CAREFUL = { ratio: 0.25 };
 
 /** The step as a joint move to that target. */
 export function jointMove(step: MoveStep, target: Target): MoveStep {
-  const { id, name, group, speed, blend_m } = step;
+  const { id, name, group, speed, acceleration, blend_m, blend_ratio, until } = step;
   return {
     id, type: "move", path: "ptp", target, speed: "ratio" in speed ? speed : CAREFUL, blend_m,
-    ...(name === undefined ? {} : { name }), ...(group === undefined ? {} : { group }),
+    ...(name === undefined ? {} : { name }), ...(group === undefined ? {} : { group }), ...(acceleration === undefined ? {} : { acceleration }),
+    ...(blend_ratio === undefined ? {} : { blend_ratio }), ...(until === undefined ? {} : { until }),
   };
 }
 

@@ -22,6 +22,11 @@ export function* motions(scene: CheckScene): Generator<MotionSegment> {
   for (const segment of scene.layout.plan.segments) if (segment.kind === "motion" && segment.times_s.length > 1) yield segment;
 }
 
+/** When a step begins for the first time; 0 for one that is not in the plan. */
+export function startOf(scene: CheckScene, step: string): number {
+  return scene.layout.plan.segments.find(segment => segment.step === step)?.start_s ?? 0;
+}
+
 export const deg = (angle_rad: number): string => `${degrees(angle_rad).toFixed(1)}°`;
 export const seconds = (t_s: number): string => `${t_s.toFixed(2)} s`;
 /** A speed in m/s with as many digits as it needs. */

@@ -1,0 +1,3 @@
+export * from "./port.ts";
+export * from "./weather.ts";
+export * from "./memory.ts";

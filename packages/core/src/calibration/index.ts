@@ -1,0 +1,5 @@
+export * from "./eigen.ts";
+export * from "./residual.ts";
+export * from "./frame.ts";
+export * from "./register.ts";
+export * from "./tcp.ts";

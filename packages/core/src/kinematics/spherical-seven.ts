@@ -1,0 +1,137 @@
+import type { SphericalSevenGeometry } from "../robots/robot.ts";
+import type { Pose } from "../spatial/pose.ts";
+
+/** Below this sine of θ2 or θ6 the axes on both sides are one line, and one of the two angles is free to choose. */
+const SINGULAR_SINE = 2e-10;
+/** Outside the reach by no more than this is a rounding of its edge [m]. */
+const EDGE_M = 4e-10;
+/** Nearer than this to upright, shoulder to wrist has no vertical plane: the elbow then counts from the formula's x axis. */
+const UPRIGHT_SINE = 1e-9;
+const TURN = 2 * Math.PI;
+
+/**
+ * Closed-form inverse of a seven-joint arm with spherical shoulder and wrist, all eight branches of one elbow angle.
+ *
+ *   w = unit vector shoulder → wrist, r its length;   t1 ⊥ w in the vertical plane through w, upwards;   t2 = w × t1
+ *   t = cos ψ · t1 + sin ψ · t2                                     where the elbow stands off the line shoulder–wrist
+ *   cos θ4 = (r² − c3² − c5²) / (2 c3 c5);   α = atan2(c5 |sin θ4|, c3 + c5 cos θ4)
+ *   u = cos α · w + sin α · t = Rz(θ1) Ry(θ2) ẑ                     the upper arm;   θ2 = ±
+ *   d = sin α · w − cos α · t = ± Rz(θ1) Ry(θ2) Rz(θ3) x̂            the side the forearm bends to;   θ4 = ±
+ *   Rz(θ5) Ry(θ6) Rz(θ7) = R04ᵀ R                                   θ6 = ±
+ *
+ * ψ = 0 is the elbow in the vertical plane and above, and it counts right-handed about shoulder → wrist. It decides θ3 of a
+ * stretched arm as well. Where θ2 = 0 (or π) θ1 is taken from `near`, or 0; where θ6 = 0 (or π) θ5 likewise.
+ *
+ * @param elbow_rad  the elbow angle ψ.
+ * @param out        receives up to eight solutions of seven angles [rad], the robot's own zero and sign, in (−π, π].
+ *                   Order: θ2 ≥ 0, θ2 < 0; within it θ4 ≥ 0, θ4 < 0; within it θ6 ≥ 0, θ6 < 0.
+ * @param near       seven joint angles that free angles are taken from, or undefined.
+ * @returns number of solutions: 0 … 8. Allocates nothing. Limits are not looked at.
+ * @see Shimizu, Kakuya, Yoon, Kitagaki, Kosuge, Analytical Inverse Kinematic Computation for 7-DOF Redundant Manipulators
+ *      With Joint Limits, IEEE Transactions on Robotics 24 (2008).
+ */
+export function solveSphericalSeven(geometry: SphericalSevenGeometry, baseFromFlange: Pose, elbow_rad: number, out: Float64Array, near?: ArrayLike<number>): number {
+  const { c3_m: c3, c5_m: c5, signs, offsets_rad: offsets, baseFromFormula, wristFromFlange } = geometry;
+
+  // Wanted wrist in the formula frame: baseFromFormula⁻¹ · baseFromFlange · wristFromFlange⁻¹.
+  const q = baseFromFlange.quaternion, f = wristFromFlange.quaternion, g = baseFromFormula.quaternion;
+  const fx = -f[0], fy = -f[1], fz = -f[2], fw = f[3];
+  const hx = q[3] * fx + q[0] * fw + q[1] * fz - q[2] * fy, hy = q[3] * fy - q[0] * fz + q[1] * fw + q[2] * fx;
+  const hz = q[3] * fz + q[0] * fy - q[1] * fx + q[2] * fw, hw = q[3] * fw - q[0] * fx - q[1] * fy - q[2] * fz;
+  const gx = -g[0], gy = -g[1], gz = -g[2], gw = g[3];
+  const x = gw * hx + gx * hw + gy * hz - gz * hy, y = gw * hy - gx * hz + gy * hw + gz * hx;
+  const z = gw * hz + gx * hy - gy * hx + gz * hw, w = gw * hw - gx * hx - gy * hy - gz * hz;
+  const r11 = 1 - 2 * (y * y + z * z), r12 = 2 * (x * y - z * w), r13 = 2 * (x * z + y * w);
+  const r21 = 2 * (x * y + z * w), r22 = 1 - 2 * (x * x + z * z), r23 = 2 * (y * z - x * w);
+  const r31 = 2 * (x * z - y * w), r32 = 2 * (y * z + x * w), r33 = 1 - 2 * (x * x + y * y);
+  const o = baseFromFormula.position, p = baseFromFlange.position, s = wristFromFlange.position;
+  const ax = p[0] - o[0], ay = p[1] - o[1], az = p[2] - o[2];
+  const bx = 2 * (gy * az - gz * ay), by = 2 * (gz * ax - gx * az), bz = 2 * (gx * ay - gy * ax);
+  const px = ax + gw * bx + gy * bz - gz * by - r11 * s[0] - r12 * s[1] - r13 * s[2];
+  const py = ay + gw * by + gz * bx - gx * bz - r21 * s[0] - r22 * s[1] - r23 * s[2];
+  const pz = az + gw * bz + gx * by - gy * bx - r31 * s[0] - r32 * s[1] - r33 * s[2];
+
+  const r2 = px * px + py * py + pz * pz, r = Math.sqrt(r2);
+  if (r > c3 + c5 + EDGE_M || r < Math.abs(c3 - c5) - EDGE_M) return 0;
+  const wx = r > 0 ? px / r : 0, wy = r > 0 ? py / r : 0, wz = r > 0 ? pz / r : 1, level = Math.sqrt(wx * wx + wy * wy);
+  // t1 = (ẑ − wz w) / level, or x̂ where w is upright.
+  let t1x: number, t1y: number, t1z: number;
+  if (level > UPRIGHT_SINE) { t1x = -wz * wx / level; t1y = -wz * wy / level; t1z = level; }
+  else { t1x = 1 - wx * wx; t1y = -wx * wy; t1z = -wx * wz; }
+  const t2x = wy * t1z - wz * t1y, t2y = wz * t1x - wx * t1z, t2z = wx * t1y - wy * t1x;
+  const kp = Math.cos(elbow_rad), sp = Math.sin(elbow_rad);
+  const tx = kp * t1x + sp * t2x, ty = kp * t1y + sp * t2y, tz = kp * t1z + sp * t2z;
+
+  const cosine = (r2 - c3 * c3 - c5 * c5) / (2 * c3 * c5), cos4 = cosine > 1 ? 1 : cosine < -1 ? -1 : cosine;
+  const sin4 = Math.sqrt((1 - cos4) * (1 + cos4)), t4 = Math.atan2(sin4, cos4);
+  const across = c5 * sin4, along = c3 + c5 * cos4, length = Math.sqrt(across * across + along * along);
+  const ka = length > 0 ? along / length : 1, sa = length > 0 ? across / length : 0;
+  const ux = ka * wx + sa * tx, uy = ka * wy + sa * ty, uz = ka * wz + sa * tz;
+  const dx = sa * wx - ka * tx, dy = sa * wy - ka * ty, dz = sa * wz - ka * tz;
+  const sin2 = Math.sqrt(ux * ux + uy * uy), free2 = sin2 < SINGULAR_SINE, positive2 = Math.atan2(sin2, uz);
+  const positive1 = free2 ? signs[0] * (near === undefined ? 0 : near[0]!) - offsets[0] : Math.atan2(uy, ux);
+  const k1 = free2 ? Math.cos(positive1) : ux / sin2, s1 = free2 ? Math.sin(positive1) : uy / sin2;
+  const near5 = signs[4] * (near === undefined ? 0 : near[4]!) - offsets[4];
+  // d seen from frame 2 is (cos θ3, sin θ3, 0) for θ2, θ4 ≥ 0; each other sign turns it by π.
+  const inX = uz * (k1 * dx + s1 * dy) - sin2 * dz, inY = k1 * dy - s1 * dx, positive3 = Math.atan2(inY, inX);
+  // Frame 4 has the axes y4 = u × d and z4 = cos θ4 · u + sin θ4 · d, x4 = y4 × z4; its turn by π about z4 goes into θ5.
+  const y4x = uy * dz - uz * dy, y4y = uz * dx - ux * dz, y4z = ux * dy - uy * dx;
+  const z4x = cos4 * ux + sin4 * dx, z4y = cos4 * uy + sin4 * dy, z4z = cos4 * uz + sin4 * dz;
+  const x4x = y4y * z4z - y4z * z4y, x4y = y4z * z4x - y4x * z4z, x4z = y4x * z4y - y4y * z4x;
+  const m13 = x4x * r13 + x4y * r23 + x4z * r33, m23 = y4x * r13 + y4y * r23 + y4z * r33, m33 = z4x * r13 + z4y * r23 + z4z * r33;
+  const sin6 = Math.sqrt(m13 * m13 + m23 * m23), free6 = sin6 < SINGULAR_SINE, positive6 = free6 ? (m33 > 0 ? 0 : Math.PI) : Math.atan2(sin6, m33);
+
+  let at = 0;
+  const last2 = free2 ? 1 : -1, last6 = free6 ? 1 : -1;
+  for (let shoulder = 1; shoulder >= last2; shoulder -= 2) {
+    for (let elbow = 1; elbow >= -1; elbow -= 2) {
+      // θ4 < 0 turns frame 4 by π about its z axis, and θ5 takes that back.
+      const turned5 = elbow === 1 ? 0 : Math.PI, t5 = free6 ? near5 - turned5 : Math.atan2(m23, m13), k5 = Math.cos(t5), s5 = Math.sin(t5);
+      const v11 = x4x * r11 + x4y * r21 + x4z * r31, v12 = x4x * r12 + x4y * r22 + x4z * r32;
+      const v21 = y4x * r11 + y4y * r21 + y4z * r31, v22 = y4x * r12 + y4y * r22 + y4z * r32;
+      const t7 = Math.atan2(k5 * v21 - s5 * v11, k5 * v22 - s5 * v12);
+      for (let wrist = 1; wrist >= last6; wrist -= 2) {
+        const half = wrist === 1 ? 0 : Math.PI;
+        out[at] = shoulder === 1 ? positive1 : positive1 + Math.PI;
+        out[at + 1] = shoulder * positive2;
+        out[at + 2] = positive3 + (shoulder === 1 ? 0 : Math.PI) + (elbow === 1 ? 0 : Math.PI);
+        out[at + 3] = elbow * t4;
+        out[at + 4] = t5 + turned5 + half;
+        out[at + 5] = wrist * positive6;
+        out[at + 6] = t7 + half;
+        at += 7;
+      }
+    }
+  }
+  for (let joint = 0; joint < 7; joint++) {
+    const sign = signs[joint]!, offset = offsets[joint]!;
+    for (let i = joint; i < at; i += 7) {
+      let angle = sign * (out[i]! + offset);
+      if (angle > Math.PI || angle <= -Math.PI) {
+        angle -= TURN * Math.floor((angle + Math.PI) / TURN);
+        if (angle <= -Math.PI) angle += TURN; else if (angle > Math.PI) angle -= TURN;
+      }
+      out[i] = angle;
+    }
+  }
+  return at / 7;
+}
+
+/**
+ * The elbow angle ψ [rad, in (−π, π]] of a posture, as `solveSphericalSeven` counts it; of the formula where the arm deviates from it.
+ * Whatever ψ it is, solving the posture's own pose with it gives the posture back. Allocates nothing.
+ */
+export function elbowOfSphericalSeven(geometry: SphericalSevenGeometry, q_rad: ArrayLike<number>, at = 0): number {
+  const { c3_m: c3, c5_m: c5, signs, offsets_rad: offsets } = geometry;
+  const t1 = signs[0] * q_rad[at]! - offsets[0], t2 = signs[1] * q_rad[at + 1]! - offsets[1], t3 = signs[2] * q_rad[at + 2]! - offsets[2], t4 = signs[3] * q_rad[at + 3]! - offsets[3];
+  const k1 = Math.cos(t1), s1 = Math.sin(t1), k2 = Math.cos(t2), s2 = Math.sin(t2), k3 = Math.cos(t3), s3 = Math.sin(t3), s4 = Math.sin(t4), k4 = Math.cos(t4);
+  const side = s4 < 0 ? -1 : 1, across = c5 * s4 * side, along = c3 + c5 * k4, length = Math.sqrt(across * across + along * along);
+  const ka = length > 0 ? along / length : 1, sa = length > 0 ? across / length : 0;
+  const ux = k1 * s2, uy = s1 * s2, uz = k2;
+  const dx = side * (k1 * k2 * k3 - s1 * s3), dy = side * (s1 * k2 * k3 + k1 * s3), dz = -side * s2 * k3;
+  const tx = sa * ux - ka * dx, ty = sa * uy - ka * dy, tz = sa * uz - ka * dz;
+  const wx = ka * ux + sa * dx, wy = ka * uy + sa * dy, wz = ka * uz + sa * dz, level = Math.sqrt(wx * wx + wy * wy);
+  // t1 and t2 as the solver takes them.
+  if (level > UPRIGHT_SINE) return Math.atan2(tx * wy - ty * wx, level * level * tz - wz * (wx * tx + wy * ty));
+  return Math.atan2(wz * ty - wy * tz, tx);
+}

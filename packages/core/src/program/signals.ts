@@ -1,0 +1,20 @@
+import type { Signals } from "../ports.ts";
+import type { Condition } from "./program.ts";
+
+/** Whether a condition is true now. A digital line counts as 0 or 1 beside a level, an analogue one as on when it is not 0. */
+export function holds(when: Condition, signals: Pick<Signals, "read">): boolean {
+  const value = signals.read(when.signal);
+  if ("is" in when) return (typeof value === "number" ? value !== 0 : value) === when.is;
+  const level = typeof value === "number" ? value : value ? 1 : 0;
+  return "above" in when ? level > when.above : level < when.below;
+}
+
+/** Lines that only remember: what a program writes is what it reads. */
+export class SignalTable implements Signals {
+  private readonly values: Map<string, boolean | number>;
+  constructor(values: Iterable<readonly [string, boolean | number]> = []) { this.values = new Map(values); }
+  read(signal: string): boolean | number { return this.values.get(signal) ?? false; }
+  write(signal: string, value: boolean | number): void { this.values.set(signal, value); }
+  /** Every line that was ever written to; changes with them. */
+  get all(): ReadonlyMap<string, boolean | number> { return this.values; }
+}

@@ -1,0 +1,1 @@
+export { dhTableText, readDhTable, writeDhTable, type DhRead } from "./table.ts";

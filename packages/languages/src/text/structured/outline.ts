@@ -1,0 +1,280 @@
+import type { Condition, Executed, Group, Pallet, Pose, Step, TextFault, TextPlace } from "@twincell/core";
+import { TextError, textFault } from "../faults.ts";
+import type { BlockMachine, Flow } from "./machine.ts";
+import { fitPallet } from "./pallet.ts";
+import type { Block, Statement } from "./tree.ts";
+
+/** A machine whose program can be written down as steps instead of being carried out. */
+export interface OutlineMachine<V> extends BlockMachine<V> {
+  /** The condition of one line that an expression is, if it is one. */
+  condition(when: Extract<Statement, { kind: "if" }>["branches"][number]["when"]): Condition | undefined;
+  /** Variables that are frames although they change. */
+  readonly places: Set<string>;
+  /** The pose in a variable, with the frame it is given in; undefined when it holds none. */
+  placeIn(variable: string): { readonly frame: string; readonly pose: Pose<"frame", "place"> } | undefined;
+  /** Remembers how things stand; the answer brings that back. */
+  remember(): () => void;
+}
+
+/** More steps than this are taken for a program that repeats itself for ever. */
+const MOST_STEPS = 200_000;
+
+type Loop = Extract<Statement, { kind: "while" | "for" }>;
+/** A loop that counts: its variable, how it runs, and its body without the counting. */
+interface Counter { readonly name: string; readonly from: number; readonly step: number; readonly times: number; readonly body: Block }
+
+/** Writes a program down as steps that keep its loops, decisions and calls. Loops that do something else each time are written out. */
+export class Outline<V> {
+  readonly groups: Record<string, Group> = {};
+  readonly routines: Record<string, readonly Step[]> = {};
+  readonly pallets: Record<string, Pallet> = {};
+  readonly warnings: TextFault[] = [];
+  private readonly machine: OutlineMachine<V>;
+  private name: string | undefined;
+  private group: string | undefined;
+  private groupCount = 0;
+  private count = 0;
+
+  constructor(machine: OutlineMachine<V>) { this.machine = machine; }
+
+  /** @throws {TextError} where the text cannot be executed, or leaves a block in a way that steps cannot. */
+  steps(block: Block): Step[] {
+    const steps: Step[] = [];
+    this.block(block, steps);
+    return steps;
+  }
+
+  private block(block: Block, out: Step[]): Flow {
+    for (const statement of block) {
+      const flow = this.statement(statement, out);
+      if (flow !== "next") return flow;
+    }
+    return "next";
+  }
+
+  private statement(statement: Statement, out: Step[]): Flow {
+    const { machine } = this;
+    switch (statement.kind) {
+      case "comment": this.comment(statement.text, out); return "next";
+      case "if": return this.decision(statement, out);
+      case "while": case "for": return this.loop(statement, out);
+      case "do": {
+        const routine = machine.routine(statement.name);
+        if (routine === undefined || statement.args.length > 0 || routine.parameters.length > 0) return this.run(machine.statement(statement), out);
+        if (!Object.hasOwn(this.routines, routine.name)) {
+          const step = this.dress(statement);
+          this.routines[routine.name] = [];
+          const inside: Step[] = [];
+          this.fresh(() => this.block(routine.body, inside));
+          this.routines[routine.name] = inside;
+          this.add(out, { ...step, type: "call", routine: routine.name }, statement);
+        } else this.add(out, { ...this.dress(statement), type: "call", routine: routine.name }, statement);
+        return "next";
+      }
+      default: return this.run(machine.statement(statement), out);
+    }
+  }
+
+  private run(executed: Generator<Executed, Flow>, out: Step[]): Flow {
+    for (;;) {
+      const next = executed.next();
+      if (next.done === true) return next.value;
+      const { step, line } = next.value;
+      if (step !== undefined) this.add(out, { ...step, ...this.dress({ line, column: 1 }) }, { line, column: 1 });
+    }
+  }
+
+  private add(out: Step[], step: Step, at: TextPlace): void {
+    if (out.length >= MOST_STEPS) throw new TextError(at, "a program that ends", `The program has more than ${MOST_STEPS} steps: it repeats itself for ever.`);
+    out.push(step);
+  }
+
+  /** Id, name and group of the next step. */
+  private dress(_at: TextPlace): { readonly id: string; readonly name?: string; readonly group?: string } {
+    const { name, group } = this;
+    this.name = undefined;
+    return { id: `s${++this.count}`, ...(name === undefined ? {} : { name }), ...(group === undefined ? {} : { group }) };
+  }
+
+  /** A name before a step, `== name` before a group of steps, `- text` for a remark, `*` for neither. */
+  private comment(text: string, out: Step[]): void {
+    if (text.startsWith("==")) {
+      const title = text.replace(/^=+\s*/, "");
+      this.group = title === "" ? undefined : `g${++this.groupCount}`;
+      if (this.group !== undefined) this.groups[this.group] = { name: title };
+    } else if (text.startsWith("-")) out.push({ id: `s${++this.count}`, type: "comment", text: text.slice(1).trim(), ...(this.group === undefined ? {} : { group: this.group }) });
+    else if (text !== "" && !text.startsWith("*")) this.name = text;
+  }
+
+  /** Inside a block names and groups begin anew. */
+  private fresh<T>(read: () => T): T {
+    const { group } = this;
+    this.name = undefined;
+    const answer = read();
+    this.group = group;
+    this.name = undefined;
+    return answer;
+  }
+
+  private decision(statement: Extract<Statement, { kind: "if" }>, out: Step[]): Flow {
+    const { machine } = this, [first, ...others] = statement.branches;
+    const when = machine.condition(first!.when);
+    if (when === undefined) {
+      for (const { when: each, body } of statement.branches) if (machine.isTrue(each)) return this.block(body, out);
+      return statement.otherwise === undefined ? "next" : this.block(statement.otherwise, out);
+    }
+    const step = this.dress(statement), then: Step[] = [], otherwise: Step[] = [], back = machine.remember();
+    const flows = [this.fresh(() => this.block(first!.body, then))];
+    const rest: Block = others.length > 0
+      ? [{ ...statement, branches: others }]
+      : statement.otherwise ?? [];
+    const after = machine.remember();
+    back();
+    flows.push(this.fresh(() => this.block(rest, otherwise)));
+    after();
+    if (flows.some(flow => flow !== "next" && flow !== "halt")) throw new TextError(statement, "a decision that goes on behind its end", "The decision leaves its block, which steps cannot.");
+    this.add(out, { ...step, type: "if", when, then, ...(otherwise.length === 0 && others.length === 0 && statement.otherwise === undefined ? {} : { else: otherwise }) }, statement);
+    return "next";
+  }
+
+  private loop(statement: Loop, out: Step[]): Flow {
+    const { machine } = this;
+    if (statement.kind === "while" && isForever(statement)) return this.repeat(statement, "forever", statement.body, out);
+    const counter = this.counter(statement);
+    if (counter !== undefined && counter.times > 0) {
+      if (this.pallet(statement, counter, out)) return "next";
+      if (counter.times > 1 || statement.kind === "for") {
+        const back = machine.remember(), { count, groupCount, name, group } = this;
+        machine.setCount(counter.name, counter.from);
+        const first = this.trial(counter.body);
+        machine.setCount(counter.name, counter.from + counter.step * (counter.times - 1));
+        const last = this.trial(counter.body);
+        back();
+        this.count = count; this.groupCount = groupCount; this.name = name; this.group = group;
+        if (first !== undefined && first === last) {
+          machine.setCount(counter.name, counter.from);
+          const flow = this.repeat(statement, counter.times, counter.body, out);
+          machine.setCount(counter.name, counter.from + counter.step * counter.times);
+          return flow;
+        }
+      }
+    }
+    const before = out.length;
+    const flow = this.run(machine.statement(statement), out);
+    if (out.length > before) this.warnings.push(textFault(statement, "a loop that does the same each time", `The loop of line ${statement.line} was written out: it became ${out.length - before} steps.`));
+    return flow;
+  }
+
+  private repeat(statement: Loop, times: number | "forever", body: Block, out: Step[]): Flow {
+    const step = this.dress(statement), steps: Step[] = [];
+    const flow = this.fresh(() => this.block(body, steps));
+    if (flow !== "next" && flow !== "halt") throw new TextError(statement, "a loop that runs to its end", "The loop is left from inside, which steps cannot.");
+    this.add(out, { ...step, type: "repeat", times, steps }, statement);
+    return "next";
+  }
+
+  /** The steps of a body as one text to compare; undefined when it leaves the loop. */
+  private trial(body: Block): string | undefined {
+    const steps: Step[] = [], { warnings, count } = this, kept = warnings.length;
+    const flow = this.fresh(() => this.block(body, steps));
+    warnings.length = kept;
+    this.count = count;
+    return flow === "next" ? JSON.stringify(steps) : undefined;
+  }
+
+  /** `for i`, or `while i < n: … i = i + 1 end` where nothing else changes i. */
+  private counter(statement: Loop): Counter | undefined {
+    const { machine } = this;
+    if (statement.kind === "for") {
+      const [from, last, step] = machine.counting(statement);
+      return step === 0 ? undefined : { name: statement.variable, from, step, times: Math.max(0, Math.floor((last - from) / step + 1e-9) + 1), body: statement.body };
+    }
+    const { when, body } = statement, end = body.findLast(({ kind }) => kind !== "comment");
+    if (when.kind !== "binary" || when.left.kind !== "variable" || (when.sign !== "<" && when.sign !== "<=") || end?.kind !== "assign") return undefined;
+    const { name } = when.left, { to, value } = end;
+    if (to.kind !== "variable" || to.name !== name || value.kind !== "binary" || value.sign !== "+" || value.left.kind !== "variable" || value.left.name !== name || value.right.kind !== "number") return undefined;
+    const step = value.right.value, rest = body.filter(each => each !== end);
+    if (!(step > 0) || assigns(rest, name)) return undefined;
+    const from = machine.numberOf(when.left), limit = machine.numberOf(when.right);
+    const times = when.sign === "<" ? Math.ceil((limit - from) / step - 1e-9) : Math.floor((limit - from) / step + 1e-9) + 1;
+    return { name, from, step, times: Math.max(0, times), body: rest };
+  }
+
+  /** A nest of loops that puts place after place of a pattern into one variable, and does the same at each. */
+  private pallet(statement: Loop, outer: Counter, out: Step[]): boolean {
+    const found = this.nest(outer);
+    if (found === undefined) return false;
+    const { machine } = this, { variable, place, body, counts } = found, back = machine.remember();
+    const wasPlace = machine.places.has(variable), places: Pose<"frame", "place">[] = [], visits: string[] = [];
+    let frame: string | undefined, same = true, visit: Step[] = [];
+    machine.places.add(variable);
+    const close = (): void => { if (places.length > 0) visits.push(JSON.stringify(visit.map(step => ({ ...step, id: "" })))); visit = []; };
+    try {
+      for (const { line, step } of machine.statement(statement)) {
+        if (step !== undefined) visit.push(step);
+        else if (line === place.line) {
+          close();
+          const now = machine.placeIn(variable);
+          same &&= now !== undefined && (frame === undefined || frame === now.frame);
+          if (now !== undefined) { frame = now.frame; places.push(now.pose); }
+          if (places.length > MOST_STEPS) same = false;
+        }
+        if (!same) break;
+      }
+    } finally { back(); }
+    close();
+    const [layers, lines, inLine] = [1, 1, 1, ...counts].slice(-3);
+    const pallet = same && counts.length <= 3 && visits.every(each => each === visits[0]) ? fitPallet(places, frame ?? "world", layers!, lines!, inLine!) : undefined;
+    if (pallet === undefined || (Object.hasOwn(this.pallets, variable) && JSON.stringify(this.pallets[variable]) !== JSON.stringify(pallet))) {
+      if (!wasPlace) machine.places.delete(variable);
+      return false;
+    }
+    this.pallets[variable] = pallet;
+    const step = this.dress(statement), steps: Step[] = [];
+    for (const { name, from } of found.counters) machine.setCount(name, from);
+    for (const each of found.before) for (const _ of machine.statement(each)) { /* only its effect counts */ }
+    this.fresh(() => this.block(body, steps));
+    this.add(out, { ...step, type: "pallet", pallet: variable, steps }, statement);
+    return true;
+  }
+
+  private nest(outer: Counter): { variable: string; place: TextPlace; before: Block; body: Block; counts: number[]; counters: Counter[] } | undefined {
+    const counts: number[] = [], counters: Counter[] = [], { machine } = this, back = machine.remember();
+    try {
+      for (let counter: Counter | undefined = outer; counter !== undefined;) {
+        counts.push(counter.times);
+        counters.push(counter);
+        machine.setCount(counter.name, counter.from);
+        const body: Block = counter.body.filter(({ kind }) => kind !== "comment"), loops = body.filter((each): each is Loop => each.kind === "while" || each.kind === "for");
+        if (loops.length === 1 && !body.some(({ kind }) => kind === "do" || kind === "wait-until")) {
+          for (const each of body) if (each.kind === "assign") for (const _ of machine.statement(each)) { /* the start of the inner counter */ }
+          counter = this.counter(loops[0]!);
+          continue;
+        }
+        for (const [i, each] of counter.body.entries()) {
+          if (each.kind === "comment") continue;
+          if (each.kind !== "assign" && each.kind !== "if") return undefined;
+          for (const _ of machine.statement(each)) { /* only its effect counts */ }
+          if (each.kind === "assign" && each.to.kind === "variable" && machine.placeIn(each.to.name) !== undefined) {
+            return { variable: each.to.name, place: each, before: counter.body.slice(0, i + 1), body: counter.body.slice(i + 1), counts, counters };
+          }
+        }
+        return undefined;
+      }
+      return undefined;
+    } finally { back(); }
+  }
+}
+
+const isForever = ({ when }: Extract<Statement, { kind: "while" }>): boolean => when.kind === "truth" && when.value;
+
+function assigns(block: Block, name: string): boolean {
+  return block.some(statement => {
+    switch (statement.kind) {
+      case "assign": return statement.to.kind === "variable" && statement.to.name === name;
+      case "if": return statement.branches.some(({ body }) => assigns(body, name)) || (statement.otherwise !== undefined && assigns(statement.otherwise, name));
+      case "while": case "for": return assigns(statement.body, name);
+      default: return false;
+    }
+  });
+}

@@ -1,0 +1,286 @@
+import { branchOf, compose, identity, palletPitch, pose, type Condition, type EmittedFile, type MoveStep, type Pallet, type Pose, type Robot, type SignalLine, type Step, type Target } from "@twincell/core";
+import { asciiText } from "../../text/index.ts";
+import { BlockWriter, CannotSay, Names, Place, called, remark } from "../../writing/index.ts";
+import { DIGITAL_LINES, fullJointSpeed } from "../robots.ts";
+import { RESERVED, TAKEN } from "./reserved.ts";
+import { controllerFromBase, listText, num, poseText } from "./pose.ts";
+
+/** Names longer than this are cut. */
+const LONGEST_NAME = 40;
+
+/** The script: one program, its routines inside it; says only what changes from one step to the next. */
+export class ProgramWriter {
+  readonly warnings = new Set<string>();
+  private readonly place: Place;
+  private readonly robot: Robot;
+  private readonly out = new BlockWriter();
+  private readonly names = new Names({ most: LONGEST_NAME, reserved: new Set([...RESERVED, ...TAKEN]), first: "p_", foldsCase: false });
+  private readonly loops = new Names({ most: LONGEST_NAME, reserved: new Set(), first: "i_", foldsCase: false });
+  private tool = "";
+  private group = "";
+  private near: readonly number[] | undefined;
+  private before: MoveStep | undefined;
+
+  constructor(place: Place) {
+    this.place = place;
+    this.robot = place.robot;
+    this.near = place.robot.home_rad;
+  }
+
+  write(): EmittedFile {
+    const { program } = this.place, { out } = this, name = this.names.of("program", program.name);
+    out.block(`def ${name}():`, "end", "", () => {
+      out.add(`#* ${asciiText(program.name)}`.trimEnd());
+      out.add(`#* ${asciiText(this.robot.name)}. Lengths in m, angles in rad, poses in the base of the controller.`);
+      this.declarations();
+      for (const [routine, steps] of Object.entries(program.routines)) {
+        this.begin();
+        out.block(`def ${this.names.of("routine", routine)}():`, "end", "", () => { this.steps(steps); });
+      }
+      this.begin();
+      this.steps(program.steps);
+    });
+    return out.file(`${name}.script`, "\n");
+  }
+
+  /** Tools, frames and lines under the names that they have in the program. */
+  private declarations(): void {
+    const { place, out } = this, { program } = place, used = usedNames([program.steps, ...Object.values(program.routines)]);
+    for (const tool of used.tools) out.add(`global ${this.names.of("tool", tool)} = ${poseText(place.tool(tool))}`);
+    for (const pallet of used.pallets) if (Object.hasOwn(program.pallets, pallet) && program.pallets[pallet]!.frame !== "world") used.frames.add(program.pallets[pallet]!.frame);
+    for (const frame of used.frames) if (!Object.hasOwn(program.pallets, frame)) out.add(`global ${this.names.of("frame", frame)} = ${this.inController(place.frame(frame))}`);
+    for (const [signal, step] of used.signals) {
+      const line = Object.hasOwn(program.signals, signal) ? program.signals[signal] : undefined;
+      if (line?.address === undefined) throw new CannotSay(step.id, `${called(step)} uses the line ${signal}, whose number is not known.`, "Give the line its number in the list of signals.");
+      out.add(`global ${this.names.of("signal", signal)} = ${doorOf(line, line.address, step, signal).number}`);
+    }
+  }
+
+  private inController<From extends string>(pose: Pose<"world", From>): string {
+    const { place } = this;
+    return poseText(compose(compose(controllerFromBase(this.robot), place.baseFromWorld), pose));
+  }
+
+  /** What is said at one place holds nowhere else: routines and blocks say it anew. */
+  private begin(): void {
+    this.tool = "";
+    this.before = undefined;
+  }
+
+  private steps(steps: readonly Step[]): void {
+    const outer = this.group;
+    for (const [i, step] of steps.entries()) {
+      this.heading(step);
+      this.step(step, steps[i + 1]);
+      if (step.type !== "comment" && step.type !== "wait") this.before = step.type === "move" ? step : undefined;
+    }
+    this.group = outer;
+  }
+
+  private heading(step: Step): void {
+    const { groups } = this.place.program, add = (line: string): void => { this.out.add(line.trimEnd(), step.id); };
+    const group = step.group === undefined ? "" : remark(groups[step.group]?.name ?? step.group);
+    if (group !== this.group) add(`#== ${group}`);
+    this.group = group;
+    const name = remark(step.name ?? "");
+    if (name !== "" && step.type !== "comment") add(`# ${name}`);
+  }
+
+  private step(step: Step, next: Step | undefined): void {
+    const { out } = this, add = (line: string): void => { out.add(line, step.id); };
+    switch (step.type) {
+      case "move": return this.move(step, next, add);
+      case "wait": return add(`sleep(${num(step.s)})`);
+      case "gripper": return add(`set_tool_digital_out(0, ${truth(step.closed)})`);
+      case "set": return this.set(step, add);
+      case "wait-for": return out.block(`while ${this.until(step.when, step)}:`, "end", step.id, () => { add("sync()"); });
+      case "payload": {
+        const center = listText(step.center_m);
+        return add(step.inertia_kgm2 === undefined ? `set_payload(${num(step.mass_kg)}, ${center})` : `set_target_payload(${num(step.mass_kg)}, ${center}, ${listText(step.inertia_kgm2)})`);
+      }
+      case "message": return add(`textmsg("${asciiText(step.text).replace(/"/g, "'")}")`);
+      case "stop": return add("halt");
+      case "comment": return add(`#- ${asciiText(step.text)}`.trimEnd());
+      case "call": add(`${this.names.of("routine", step.routine)}()`); return this.begin();
+      case "repeat": return this.repeat(step);
+      case "if": return this.decision(step);
+      case "pallet": return this.pallet(step);
+    }
+  }
+
+  private repeat(step: Extract<Step, { type: "repeat" }>): void {
+    const inside = (): void => { this.begin(); this.steps(step.steps); };
+    if (step.times === "forever") this.out.block("while True:", "end", step.id, inside);
+    else this.counted(this.loops.fresh("count"), `${step.times}`, step.id, inside);
+    this.begin();
+  }
+
+  private counted(name: string, times: string, id: string, inside: () => void): void {
+    const variable = this.names.fresh(name);
+    this.out.add(`${variable} = 0`, id);
+    this.out.block(`while ${variable} < ${times}:`, "end", id, () => {
+      inside();
+      this.out.add(`${variable} = ${variable} + 1`, id);
+    });
+  }
+
+  private decision(step: Extract<Step, { type: "if" }>): void {
+    const { out } = this;
+    const inside = (steps: readonly Step[]) => (): void => { this.begin(); this.steps(steps); };
+    out.add(`if ${this.condition(step.when, step)}:`, step.id);
+    out.indented(inside(step.then));
+    if (step.else !== undefined) {
+      out.add("else:", step.id);
+      out.indented(inside(step.else));
+    }
+    out.add("end", step.id);
+    this.begin();
+  }
+
+  /** A loop over layers, lines and places; the place is a frame that changes with them. */
+  private pallet(step: Extract<Step, { type: "pallet" }>): void {
+    const { program } = this.place, pallet = Object.hasOwn(program.pallets, step.pallet) ? program.pallets[step.pallet] : undefined;
+    if (pallet === undefined) throw new CannotSay(step.id, `${called(step)} works on the pallet ${step.pallet}, which the program does not have.`, "Choose another pallet.");
+    const order = pallet.order ?? "rows", byRows = order.startsWith("rows"), isShifted = pallet.interleave === "odd-rows-shifted";
+    if (isShifted && !byRows) throw new CannotSay(step.id, `${called(step)} visits the interleaved pallet ${step.pallet} by columns, which no plain loop does.`, "Visit it by rows.");
+    const variable = this.names.of("frame", step.pallet), { out } = this;
+    const line = this.names.fresh(`${variable}_line`), along = this.names.fresh(`${variable}_along`), layer = this.names.fresh(`${variable}_layer`), at = this.names.fresh(`${variable}_at`);
+    const lines = byRows ? pallet.rows : pallet.columns, inLine = byRows ? pallet.columns : pallet.rows;
+    const loop = (name: string, times: string, inside: () => void): void => {
+      out.add(`${name} = 0`, step.id);
+      out.block(`while ${name} < ${times}:`, "end", step.id, () => { inside(); out.add(`${name} = ${name} + 1`, step.id); });
+    };
+    const count = isShifted ? `${inLine} - ${line} % 2` : `${inLine}`;
+    const visit = (): void => {
+      out.add(`${at} = ${along}`, step.id);
+      if (order.endsWith("zigzag")) {
+        out.block(`if ${line} % 2 == 1:`, "end", step.id, () => { out.add(`${at} = ${isShifted ? inLine - 2 : inLine - 1} - ${along}`, step.id); });
+      }
+      out.add(`global ${variable} = ${this.placeText(pallet, layer, byRows ? line : at, byRows ? at : line, isShifted ? line : "")}`, step.id);
+      this.begin();
+      this.steps(step.steps);
+    };
+    loop(layer, `${pallet.layers}`, () => { loop(line, `${lines}`, () => { loop(along, count, visit); }); });
+    this.begin();
+  }
+
+  private placeText(pallet: Pallet, layer: string, row: string, column: string, shifted: string): string {
+    const pitch = palletPitch(pallet), turn = poseText(pose([0, 0, 0], pallet.origin.quaternion)).replace(/^p\[0, 0, 0, /, "").replace(/\]$/, "");
+    const term = (step_m: number, factor: string): string => num(step_m) === "0" ? "" : step_m < 0 ? ` - ${fine(-step_m)} * ${factor}` : ` + ${fine(step_m)} * ${factor}`;
+    const place = ([0, 1, 2] as const).map(i =>
+      `${fine(pallet.origin.position[i])}${term(pitch.column[i], column)}${shifted === "" ? "" : term(pitch.column[i] / 2, `(${shifted} % 2)`)}${term(pitch.row[i], row)}${term(pitch.layer[i], layer)}`);
+    const text = `p[${place.join(", ")}, ${turn}]`;
+    if (pallet.frame !== "world") return `pose_trans(${this.names.of("frame", pallet.frame)}, ${text})`;
+    return `pose_trans(${this.inController(identity())}, ${text})`;
+  }
+
+  private set(step: Extract<Step, { type: "set" }>, add: (line: string) => void): void {
+    const door = this.door(step.signal, step), { to } = step;
+    if (door.isInput) throw new CannotSay(step.id, `${called(step)} writes the line ${step.signal}, which is an input.`, "Choose an output.");
+    if (door.isDigital !== (typeof to === "boolean")) throw new CannotSay(step.id, `${called(step)} writes ${String(to)} to the ${door.isDigital ? "digital" : "analogue"} line ${step.signal}.`, "Choose a value of that line.");
+    if (typeof to === "number" && !(to >= 0 && to <= 1)) throw new CannotSay(step.id, `${called(step)} writes ${to} to an analogue output; the controller takes 0 to 1.`, "Give it as a share of the full output.");
+    add(`set_${door.name}_out(${this.names.of("signal", step.signal)}, ${typeof to === "boolean" ? truth(to) : num(to)})`);
+  }
+
+  private condition(when: Condition, step: Step): string {
+    const door = this.door(when.signal, step), read = `get_${door.name}_${door.isInput ? "in" : "out"}(${this.names.of("signal", when.signal)})`;
+    if ("is" in when) return when.is ? read : `not ${read}`;
+    return "above" in when ? `${read} > ${num(when.above)}` : `${read} < ${num(when.below)}`;
+  }
+
+  /** As long as this is true, the condition is not. */
+  private until(when: Condition, step: Step): string {
+    return "is" in when ? this.condition({ ...when, is: !when.is }, step) : `not (${this.condition(when, step)})`;
+  }
+
+  private door(signal: string, step: Step): Door {
+    const { signals } = this.place.program, line = Object.hasOwn(signals, signal) ? signals[signal] : undefined;
+    if (line?.address === undefined) throw new CannotSay(step.id, `${called(step)} uses the line ${signal}, whose number is not known.`, "Give the line its number in the list of signals.");
+    return doorOf(line, line.address, step, signal);
+  }
+
+  private move(step: MoveStep, next: Step | undefined, add: (line: string) => void): void {
+    const { target } = step, tool = target.tool ?? (step.path === "ptp" && "q" in target ? undefined : "flange");
+    if (tool !== undefined && tool !== this.tool) {
+      add(tool === "flange" ? "set_tcp(p[0, 0, 0, 0, 0, 0])" : `set_tcp(${this.names.of("tool", tool)})`);
+      this.tool = tool;
+    }
+    const posture = this.place.posture(step, target, this.near), blend = this.place.blend_m(step, this.before, next);
+    const pace = this.pace(step), radius = num(blend) === "0" ? "" : `, r=${num(blend)}`;
+    if (step.path === "ptp") add(`movej(${this.jointGoal(target, posture)}, ${pace}${radius})`);
+    else if (step.path === "lin") add(`movel(${this.goal(target)}, ${pace}${radius})`);
+    else {
+      if (step.via === undefined) throw new CannotSay(step.id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
+      add(`movec(${this.goal(step.via)}, ${this.goal(target)}, ${pace}${radius})`);
+    }
+    this.near = posture ?? this.near;
+  }
+
+  private goal(target: Target): string {
+    if ("q" in target) return listText(target.q);
+    if (target.frame === "world") return poseText(compose(controllerFromBase(this.robot), this.place.tip(target)));
+    return `pose_trans(${this.names.of("frame", target.frame)}, ${poseText(target.pose)})`;
+  }
+
+  /** A pose alone is reached in the posture nearest to where the arm is; a branch that was taught is asked for by its angles. */
+  private jointGoal(target: Target, posture: readonly number[] | undefined): string {
+    if ("q" in target || target.branch === undefined || posture === undefined || branchOf(this.robot, posture) === undefined) return this.goal(target);
+    return `get_inverse_kin(${this.goal(target)}, ${listText(posture)})`;
+  }
+
+  private pace({ id, name, path, speed }: MoveStep): string {
+    const full_rad_s = fullJointSpeed(this.robot)!, full_mps = this.robot.maxTcpSpeed_mps;
+    if ("time_s" in speed) {
+      if (path === "circ") throw new CannotSay(id, `${called({ id, ...(name === undefined ? {} : { name }) })} is an arc of given duration; movec takes a speed.`, "Give the arc a speed.");
+      return `t=${num(speed.time_s)}`;
+    }
+    if (path !== "ptp") return `v=${num("mps" in speed ? speed.mps : speed.ratio * full_mps)}`;
+    if ("ratio" in speed) return `v=${num(speed.ratio * full_rad_s)}`;
+    this.warnings.add("movej takes a speed of the joints: a joint move of given tool speed gets its share of the full speed.");
+    return `v=${num(Math.min(1, speed.mps / full_mps) * full_rad_s)}`;
+  }
+}
+
+const truth = (value: boolean): string => value ? "True" : "False";
+/** A pitch is added many times over: it is written to a tenth of a micrometre. */
+const fine = (value: number): string => { const text = value.toFixed(7).replace(/\.?0+$/, ""); return text === "-0" ? "0" : text; };
+
+interface Door { readonly name: string; readonly number: number; readonly isInput: boolean; readonly isDigital: boolean }
+
+/** Which function reads or writes a line, and under which number. */
+function doorOf({ kind }: SignalLine, address: number, step: Step, signal: string): Door {
+  const isInput = kind.endsWith("in"), isDigital = kind.startsWith("digital"), { standard, configurable, tool } = DIGITAL_LINES;
+  if (!isDigital) {
+    if (address < 2) return { name: "standard_analog", number: address, isInput, isDigital };
+    if (isInput && address < 4) return { name: "tool_analog", number: address - 2, isInput, isDigital };
+  } else if (address < standard) return { name: "standard_digital", number: address, isInput, isDigital };
+  else if (address < standard + configurable) return { name: "configurable_digital", number: address - standard, isInput, isDigital };
+  else if (address < standard + configurable + tool) return { name: "tool_digital", number: address - standard - configurable, isInput, isDigital };
+  throw new CannotSay(step.id, `${called(step)} uses the line ${signal} with the number ${address}, which the controller does not have.`, "Digital lines are 0 to 17 (16 and 17 at the tool), analogue ones 0 and 1, inputs to 3.");
+}
+
+/** Tools, frames and lines in the order in which steps first use them. */
+function usedNames(lists: readonly (readonly Step[])[]): { tools: Set<string>; frames: Set<string>; pallets: Set<string>; signals: Map<string, Step> } {
+  const tools = new Set<string>(), frames = new Set<string>(), pallets = new Set<string>(), signals = new Map<string, Step>();
+  const note = (signal: string, step: Step): void => { if (!signals.has(signal)) signals.set(signal, step); };
+  const look = (steps: readonly Step[]): void => {
+    for (const step of steps) {
+      switch (step.type) {
+        case "move":
+          for (const target of step.via === undefined ? [step.target] : [step.via, step.target]) {
+            if (target.tool !== undefined && target.tool !== "flange") tools.add(target.tool);
+            if ("pose" in target && target.frame !== "world") frames.add(target.frame);
+          }
+          break;
+        case "set": note(step.signal, step); break;
+        case "wait-for": note(step.when.signal, step); break;
+        case "if": note(step.when.signal, step); look(step.then); look(step.else ?? []); break;
+        case "repeat": look(step.steps); break;
+        case "pallet": pallets.add(step.pallet); look(step.steps); break;
+        default: break;
+      }
+    }
+  };
+  for (const steps of lists) look(steps);
+  return { tools, frames, pallets, signals };
+}

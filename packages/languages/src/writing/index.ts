@@ -1,0 +1,5 @@
+export * from "./text-writer.ts";
+export * from "./names.ts";
+export * from "./numbers.ts";
+export * from "./cannot.ts";
+export * from "./place.ts";

@@ -1,0 +1,40 @@
+import type { EmittedFile } from "@twincell/core";
+
+/** Collects lines together with the step that each came from, indented by blocks. */
+export class BlockWriter {
+  private readonly lines: string[] = [];
+  private readonly steps: string[] = [];
+  private depth = 0;
+
+  add(line: string, step = ""): void {
+    this.lines.push(line === "" ? "" : "  ".repeat(this.depth) + line);
+    this.steps.push(step);
+  }
+
+  /** A line that opens a block, what is inside, and the line that closes it. */
+  block(open: string, close: string, step: string, inside: () => void): void {
+    this.add(open, step);
+    this.depth++;
+    inside();
+    this.depth--;
+    this.add(close, step);
+  }
+
+  /** The lines of what is inside go one level down. */
+  indented(inside: () => void): void {
+    this.depth++;
+    inside();
+    this.depth--;
+  }
+
+  file(name: string, lineEnd: string): EmittedFile {
+    return { name, text: this.lines.map(line => line + lineEnd).join(""), lines: this.steps };
+  }
+
+  /** Number and length of the longest line, from 1. */
+  longest(): { readonly line: number; readonly length: number; readonly step: string } {
+    let at = 0;
+    for (const [i, line] of this.lines.entries()) if (line.length > (this.lines[at]?.length ?? 0)) at = i;
+    return { line: at + 1, length: this.lines[at]?.length ?? 0, step: this.steps[at] ?? "" };
+  }
+}
