@@ -142,6 +142,8 @@ export interface Resolution {
   readonly angle_rad?: number;
   /** Joint angles are written as the pose they reach, with the posture. */
   readonly anglesAsPoses?: boolean;
+  /** Poses are written as joint angles that reach them. */
+  readonly posesAsAngles?: boolean;
 }
 
 /**

@@ -97,7 +97,8 @@ function otherwise(wanted: Step, done: Step, next: Step | undefined, robot: Robo
   if (wanted.type !== "move" || done.type !== "move") return undefined;
   if (wanted.path !== done.path) return `moves by ${done.path}, not by ${wanted.path}.`;
   // On a joint move angles are angles; on the other paths only the tool counts.
-  if (wanted.path === "ptp" && "q" in wanted.target && !("q" in done.target) && resolution.anglesAsPoses !== true) return "ends in another sort of target.";
+  const isAngles = "q" in wanted.target, isWritten = "q" in done.target;
+  if (wanted.path === "ptp" && isAngles !== isWritten && !(isAngles ? resolution.anglesAsPoses === true : resolution.posesAsAngles === true)) return "ends in another sort of target.";
   if ((wanted.via === undefined) !== (done.via === undefined)) return done.via === undefined ? "passes through no other point." : "passes through another point.";
   if (!sameSpeed(wanted.speed, done.speed, robot, resolution)) return `moves at ${JSON.stringify(done.speed)}, not at ${JSON.stringify(wanted.speed)}.`;
   // A robot that is about to wait or to grip has stopped, whatever was said about passing.

@@ -27,7 +27,7 @@ function pulseResolution(pulses: Readonly<Record<string, PulseData>>): Resolutio
     angle_rad = Math.max(angle_rad, sum);
     position_m = Math.max(position_m, half.reduce((total, value, i) => total + value * (i < 3 ? 1 + HAND_M : HAND_M), 0));
   }
-  return { ...STEPS, anglesAsPoses: false, angle_rad, position_m };
+  return { ...STEPS, anglesAsPoses: false, posesAsAngles: true, angle_rad, position_m };
 }
 
 /** INFORM of Yaskawa controllers from the NX100 on. */

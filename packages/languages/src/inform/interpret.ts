@@ -16,7 +16,7 @@ const BEFOREHAND = { steps: 5_000, statements: 150_000 } as const;
 export type Opened =
   | { readonly kind: "opened"; readonly context: Context; readonly start: (signals?: Signals) => Run }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
-export interface Run { readonly steps: Generator<Executed, void>; readonly assumed: ReadonlyMap<string, TextPlace>; readonly met: ReadonlySet<string> }
+export interface Run { readonly steps: Generator<Executed, void>; readonly assumed: ReadonlyMap<string, TextPlace> }
 
 export function openInform(text: string, robot: Robot, worldFromBase: Pose<"world", "base">, pulses: PulseData | undefined): Opened {
   const arm = Arm.of(robot);
@@ -25,10 +25,10 @@ export function openInform(text: string, robot: Robot, worldFromBase: Pose<"worl
   }
   const read = readSource(text);
   if (read.kind === "not-understood") return read;
-  const context: Context = { tools: {}, frames: {} };
+  const context: Context = { tools: {}, frames: {}, signals: {} };
   const start = (signals?: Signals): Run => {
-    const state = new ControllerState(robot, arm, read.source, worldFromBase, context, pulses?.pulsesPerDegree), machine = new Machine(read.source, state, signals);
-    return { steps: machine.run(), assumed: state.assumed, met: machine.memory.met };
+    const state = new ControllerState(robot, arm, read.source, worldFromBase, context, pulses?.pulsesPerDegree), machine = new Machine(read.source, state, signals, context.signals);
+    return { steps: machine.run(), assumed: state.assumed };
   };
   return { kind: "opened", context, start };
 }

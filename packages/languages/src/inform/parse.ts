@@ -1,4 +1,4 @@
-import { emptyProgram, type Group, type Parsed, type Pose, type Program, type Robot, type SignalLine, type Step, type TextFault } from "@twincell/core";
+import { emptyProgram, type Group, type Parsed, type Pose, type Program, type Robot, type Step, type TextFault } from "@twincell/core";
 import { TextError, plainText, textFault, textLines } from "../text/index.ts";
 import { openInform } from "./interpret.ts";
 import type { PulseData } from "./robots.ts";
@@ -6,7 +6,6 @@ import { WaitsOutside } from "./run/machine.ts";
 
 /** A job with more steps than this is taken to repeat itself for ever. */
 const MOST_STEPS = 200_000;
-const KINDS: Readonly<Record<string, SignalLine["kind"]>> = { in: "digital-in", ot: "digital-out", ao: "analogue-out" };
 
 /**
  * The neutral program that jobs amount to, with TOOL.CND and UFRAME.CND behind them. The first job is executed with every
@@ -33,8 +32,7 @@ export function parseInform(text: string, robot: Robot, worldFromBase: Pose<"wor
   }
   for (const [name, at] of run.assumed) warnings.push(textFault(at, "TOOL.CND or UFRAME.CND behind the job", `${name} is kept on the controller: it is taken to be 0.`));
   for (const line of repeated) warnings.push(textFault({ line, column: 1 }, "an instruction that is executed once", `Line ${line} is executed more than once: every time became a step of its own.`));
-  const signals = Object.fromEntries([...run.met].map(name => [name, { kind: KINDS[name.split("_")[0]!]!, address: Number(name.split("_")[1]) }]));
-  const { tools, frames } = opened.context;
+  const { tools, frames, signals } = opened.context;
   return { kind: "parsed", warnings, program: { ...emptyProgram(robot.id, nameOf(lines)), ...withComments(lines, steps, from), tools, frames, signals } };
 }
 

@@ -3,7 +3,7 @@ import { TextError } from "../../text/index.ts";
 import type { Condition, Instruction, Job, Move, Position, Source, Statement } from "../read/syntax.ts";
 import { poseOf } from "./arm.ts";
 import { Memory, looksOutside } from "./memory.ts";
-import type { ControllerState } from "./state.ts";
+import type { Context, ControllerState } from "./state.ts";
 
 /** Instructions without a motion or a wait after which the job is taken to run on the spot for ever. */
 const INSTRUCTIONS_WITHOUT_MOTION = 100_000;
@@ -16,7 +16,7 @@ interface Frame { readonly job: Job; at: number; readonly last: number[]; readon
 
 /** Executes INFORM jobs instruction by instruction. Deterministic: the same text and the same signals give the same steps. */
 export class Machine {
-  readonly memory: Memory;
+  private readonly memory: Memory;
   private readonly source: Source;
   private readonly state: ControllerState;
   private readonly stack: Frame[] = [];
@@ -31,10 +31,10 @@ export class Machine {
   private idle = 0;
   private stopped = false;
 
-  constructor(source: Source, state: ControllerState, signals: Signals | undefined) {
+  constructor(source: Source, state: ControllerState, signals: Signals | undefined, met: Context["signals"]) {
     this.source = source;
     this.state = state;
-    this.memory = new Memory(signals);
+    this.memory = new Memory(signals, met);
   }
 
   /** @throws {TextError} where the text cannot be executed further. */

@@ -1,24 +1,30 @@
-import type { Condition as Neutral, Signals, TextPlace } from "@twincell/core";
+import type { Condition as Neutral, SignalLine, Signals, TextPlace } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
 import type { Condition, Operand } from "../read/syntax.ts";
 
 /** Least and greatest value of a variable, by its letter; R is a real. */
 const RANGES: Readonly<Record<string, readonly [number, number]>> = { B: [0, 255], I: [-32768, 32767], D: [-2147483648, 2147483647] };
 
+const KINDS: Readonly<Record<"IN" | "OT" | "AO", SignalLine["kind"]>> = { IN: "digital-in", OT: "digital-out", AO: "analogue-out" };
+
 /** Lines in and out by number, with the names that the steps know them by. */
-export const lineName = (wire: "IN" | "OT" | "AO", number: number): string => `${wire.toLowerCase()}_${number}`;
+const lineName = (wire: "IN" | "OT" | "AO", number: number): string => `${wire.toLowerCase()}_${number}`;
 
 /** Variables B, I, D, R and P, and the lines in and out. */
 export class Memory {
   /** Whether something outside was asked for, which may change by itself. */
   asked = false;
-  readonly met = new Set<string>();
+  private readonly met: Record<string, SignalLine>;
   private readonly values = new Map<string, number>();
   private readonly positions = new Map<string, number[]>();
   private readonly outputs = new Map<number, boolean>();
   private readonly outside: Signals | undefined;
 
-  constructor(outside: Signals | undefined) { this.outside = outside; }
+  /** @param met  receives the lines that are used, by name. */
+  constructor(outside: Signals | undefined, met: Record<string, SignalLine>) {
+    this.outside = outside;
+    this.met = met;
+  }
 
   value(operand: Operand): number {
     if (operand.kind === "number") return operand.value;
@@ -54,7 +60,7 @@ export class Memory {
 
   note(wire: "IN" | "OT" | "AO", number: number): string {
     const name = lineName(wire, number);
-    this.met.add(name);
+    this.met[name] ??= { kind: KINDS[wire], address: number };
     return name;
   }
 

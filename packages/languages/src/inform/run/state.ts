@@ -1,12 +1,16 @@
 import {
-  angleBetween, branchOf, compose, distance, flangePose, identity, inverse, type MoveStep, type Pose, type Robot, type Speed, type Target, type TextPlace,
+  angleBetween, branchOf, compose, distance, flangePose, identity, inverse, type MoveStep, type Pose, type Robot, type SignalLine, type Speed, type Target, type TextPlace,
 } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
 import type { Frame, Move, Position, Source } from "../read/syntax.ts";
 import { poseOf, type Arm } from "./arm.ts";
 
 /** Tools and frames by the names under which the steps know them. */
-export interface Context { readonly tools: Record<string, Pose<"flange", "tcp">>; readonly frames: Record<string, Pose<"world", "frame">> }
+export interface Context {
+  readonly tools: Record<string, Pose<"flange", "tcp">>;
+  readonly frames: Record<string, Pose<"world", "frame">>;
+  readonly signals: Record<string, SignalLine>;
+}
 
 /** Where corners begin by default, PL 0 … 4 [m]; further levels are set on the controller. */
 const LEVELS_M = [0, 0.0125, 0.025, 0.05, 0.1];

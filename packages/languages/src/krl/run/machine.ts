@@ -3,7 +3,7 @@ import { TextError } from "../../text/index.ts";
 import type { Declaration, Expression, Instruction, Motion, Routine, Source, Statement, Variable } from "../read/syntax.ts";
 import { BAS } from "./bas.ts";
 import { Lines } from "./signals.ts";
-import type { ControllerState } from "./state.ts";
+import type { Context, ControllerState } from "./state.ts";
 import { spelling } from "./system.ts";
 import { boolOf, evaluate, keyOf, numberOf, real, structureOf, whole, type Memory, type Structure, type Value } from "./values.ts";
 
@@ -47,10 +47,10 @@ export class Machine implements Memory {
   private idle = 0;
   private stopped = false;
 
-  constructor(source: Source, state: ControllerState, signals: Signals | undefined) {
+  constructor(source: Source, state: ControllerState, signals: Signals | undefined, met: Context["signals"]) {
     this.source = source;
     this.state = state;
-    this.lines = new Lines(source.signals, signals);
+    this.lines = new Lines(source.signals, signals, met);
   }
 
   /** @throws {TextError} where the text cannot be executed further. */
@@ -86,9 +86,9 @@ export class Machine implements Memory {
   call(name: string, args: readonly (Expression | undefined)[], at: TextPlace): Value {
     const routine = this.source.routines.get(name);
     if (routine?.isFunction !== true) throw new TextError(at, "a function of KRL or of this text", `"${name}" is no function that is understood here.`);
-    const depth = this.stack.length, frame = this.enter(routine, args, at), before = this.ready.length + (this.pending === undefined ? 0 : 1);
+    const depth = this.stack.length, frame = this.enter(routine, args, at), steps = (): number => this.times.size, before = steps();
     while (this.stack.length > depth) this.instruction(this.stack.at(-1)!);
-    if (this.ready.length + (this.pending === undefined ? 0 : 1) !== before) throw new TextError(at, "a function that computes", `Function ${name} moves the robot.`);
+    if (steps() !== before) throw new TextError(at, "a function that computes", `Function ${name} moves the robot.`);
     if (frame.result === undefined) throw new TextError(at, "a function with RETURN", `Function ${name} ends without a result.`);
     return frame.result;
   }

@@ -1,4 +1,4 @@
-import { branchOf, compose, flangePose, inverse, type MoveStep, type Pose, type Robot, type Speed, type Target, type TextPlace, type Vector3 } from "@twincell/core";
+import { branchOf, compose, flangePose, inverse, type MoveStep, type Pose, type Robot, type SignalLine, type Speed, type Target, type TextPlace, type Vector3 } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
 import type { Motion } from "../read/syntax.ts";
 import { travel, type Axes } from "./axes.ts";
@@ -7,7 +7,11 @@ import { System, type Named } from "./system.ts";
 import { component, toFrame, type Structure } from "./values.ts";
 
 /** Tools and frames by the names under which the steps know them. */
-export interface Context { readonly tools: Record<string, Pose<"flange", "tcp">>; readonly frames: Record<string, Pose<"world", "frame">> }
+export interface Context {
+  readonly tools: Record<string, Pose<"flange", "tcp">>;
+  readonly frames: Record<string, Pose<"world", "frame">>;
+  readonly signals: Record<string, SignalLine>;
+}
 
 const AXIS_NAMES = ["A1", "A2", "A3", "A4", "A5", "A6"] as const;
 
