@@ -79,7 +79,7 @@ describe("M-50 M-51 M-52 M-53 G-10 the list of axis positions", () => {
 });
 
 test("M-57 LIN and PTP to the same point, as the header and the data list are written", () => {
-  const target = { pose: pose([1.2, 0.1, 0.9], [0, 1, 0, 0]), frame: "world", tool: "flange", branch: { shoulder: "front", elbow: "up", wrist: "positive" } } as const;
+  const target = { pose: pose<"frame", "tcp">([1.2, 0.1, 0.9], [0, 1, 0, 0]), frame: "world", tool: "flange", branch: { shoulder: "front", elbow: "up", wrist: "positive" } } as const;
   const { files, src, dat } = emitted(program([
     move("home", [0, -90, 90, 0, 0, 0], { name: "Start", speed: { ratio: 0.5 } }),
     { id: "in", type: "move", path: "ptp", target, speed: { ratio: 0.5 }, blend_m: 0.02 },

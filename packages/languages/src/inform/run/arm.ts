@@ -52,6 +52,8 @@ export class Arm {
    * rear 1, and R, T, S below 180° 0 / from 180° on 1.
    */
   isOfType(axes_deg: readonly number[], rconf: readonly number[]): boolean {
+    // Without a type every posture will do: the nearest is taken.
+    if (rconf.length === 0) return true;
     const [flip = 0, lower = 0, rear = 0, rBig = 0, tBig = 0, sBig = 0] = rconf, [s, l, u, r, , t] = axes_deg as [number, number, number, number, number, number];
     const { ahead_m, above_m } = this.planar(l, u);
     const folded = ((r % 360) + 360) % 360;
