@@ -11,7 +11,7 @@ const mayInstall = {
   core: [],
   languages: [],
   controllers: [],
-  formats: ["saxes", "xmlchars", "yaml", "@gltf-transform/", "property-graph"],
+  formats: ["saxes", "xmlchars", "yaml"],
   recording: ["@mcap/", "@foxglove/"],
   project: ["zod"],
 };

@@ -1,6 +1,6 @@
 /** The whole path through every package: the example program is checked against its cell, exported, executed as text, planned, and measured against the carton's edges. */
 import { CellCollider, checkProgram, degrees, flangePose, compose, linkSolids, planProgram, robotById, rotate, samplePlan, type MoveStep, type Program, type Step, type Vector3 } from "@twincell/core";
-import { DIALECTS, proveText, vPlus } from "@twincell/languages";
+import { dialectsFor, proveText, vPlus } from "@twincell/languages";
 import { cellGeometry, recordedAsJoints, tracedCartonCell } from "@twincell/project";
 import { describe, expect, test } from "vitest";
 
@@ -18,7 +18,7 @@ test.each([["poses", program], ["joint angles", recorded]])("taught as %s: the c
   expect(verdict.ok).toBe(true);
 });
 
-describe.each(DIALECTS.map(dialect => [dialect.name, dialect] as const))("exported in %s", (_, dialect) => {
+describe.each(dialectsFor(robot).map(dialect => [dialect.name, dialect] as const))("exported in %s", (_, dialect) => {
   test.each([["poses", program], ["joint angles", recorded]])("taught as %s: the text, executed, is the program", (_, taught) => {
     const emitted = dialect.emit(taught, robot, worldFromBase);
     expect(emitted.kind).toBe("emitted");

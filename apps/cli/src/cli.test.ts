@@ -59,6 +59,18 @@ test("ik gives every branch in (−π, π], whole turns with --within-limits, th
   near!.solutions[0]!.forEach((angle, joint) => { expect(angle).toBeCloseTo([0.3, -1, 1.2, 0.4, 0.7, -0.2][joint]!, 9); });
 });
 
+test("ik --elbow turns the elbow of seven joints about the line from shoulder to wrist; another arm has none", () => {
+  const q = [0.3, 0.7, -0.4, -1.2, 0.5, 0.9, 0.2], iiwa = ["--robot", "kuka_lbr_iiwa_14_r820"], pose = twincell(["fk", ...iiwa], JSON.stringify({ q })).out;
+  for (const elbow of ["0", "-1.1", "2"]) {
+    const [answer] = twincell(["ik", ...iiwa, "--elbow", elbow], pose).lines() as { solutions: number[][] }[];
+    expect(answer!.solutions).toHaveLength(8);
+    const back = twincell(["fk", ...iiwa], answer!.solutions.map(solution => JSON.stringify({ q: solution })).join("\n")).lines() as { position: number[] }[];
+    const wanted = JSON.parse(pose) as { position: number[] };
+    for (const { position } of back) position.forEach((value, axis) => { expect(value).toBeCloseTo(wanted.position[axis]!, 9); });
+  }
+  expect(twincell(["ik", "--robot", "ur10e", "--elbow", "0"], pose)).toMatchObject({ code: 2, err: expect.stringContaining("has no elbow angle") as string });
+});
+
 test("a pose out of reach is an answer with its measure, not a failure", () => {
   const { code, lines } = twincell(["ik", "--robot", "staubli_rx90l"], '{"position":[3,0,1],"quaternion":[0,0,0,1]}');
   expect(code).toBe(0);

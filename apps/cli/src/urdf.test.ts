@@ -39,10 +39,18 @@ describe.skipIf(!present)("a robot from its URDF (the robots are not beside this
       });
     });
   }
-  test("an arm of another family says that it has no closed form, a wrong link or file is named", () => {
-    const ur10e = `${ROBOTS}ur10e/robot.urdf`, [pose] = twincell(["fk", "--robot", ur10e], [{ q: [0.3, -1, 1.2, 0.4, 0.8, -0.2] }]).lines;
-    const [answer] = twincell(["ik", "--robot", ur10e], [pose]).lines as { solutions: number[][]; reach: { kind: string } }[];
-    expect(answer).toMatchObject({ solutions: [], reach: { kind: "no-solver" } });
+  test("arms of other families are solved as well, each with all its postures; a wrong link is named", () => {
+    const ur10e = `${ROBOTS}ur10e/robot.urdf`;
+    for (const [path, q, count] of [
+      [ur10e, [0.3, -1, 1.2, 0.4, 0.8, -0.2], 8], [`${ROBOTS}kuka_lbr_iiwa_14_r820/robot.urdf`, [0.3, 0.7, -0.4, -1.2, 0.5, 0.9, 0.2], 8],
+      [`${ROBOTS}abb_crb15000_5_95/robot.urdf`, [0.785997997765218, 2.49576791806099, 0.26987265218164, -1.7265741463697, -1.2555922625249, 2.3471055195601], 8],
+    ] as const) {
+      const [pose] = twincell(["fk", "--robot", path], [{ q }]).lines;
+      const [answer] = twincell(["ik", "--robot", path, "--near", q.join(",")], [pose]).lines as { solutions: number[][]; reach: { kind: string } }[];
+      expect(answer!.reach.kind).toBe("reached");
+      expect(answer!.solutions).toHaveLength(count);
+      answer!.solutions[0]!.forEach((angle, j) => { expect(angle).toBeCloseTo(q[j]!, 8); });
+    }
     expect(twincell(["fk", "--robot", ur10e, "--tip", "nose"], [])).toMatchObject({ code: 2, err: expect.stringContaining("has no link nose") as string });
   });
 });

@@ -122,8 +122,10 @@ export type Parsed =
  * loops, calls and decisions have been carried out. A decision reads `signals` when it is reached.
  */
 export interface Executed { readonly line: number; readonly step?: Step }
+/** What the steps of a text refer to. Signals are named as the text names them, with the controller's numbers as addresses. */
+export type TextContext = Pick<Program, "tools" | "frames"> & Partial<Pick<Program, "signals">>;
 export type Interpreted =
-  | { readonly kind: "ready"; readonly run: (signals?: Signals) => Iterator<Executed, void>; readonly context: Pick<Program, "tools" | "frames"> }
+  | { readonly kind: "ready"; readonly run: (signals?: Signals) => Iterator<Executed, void>; readonly context: TextContext }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 /** Half a step of what a language can say of a number, and the most it can say. */
@@ -135,6 +137,8 @@ export interface Resolution {
   readonly mps?: number;
   /** Speeds of a path above this are cut. */
   readonly mostMps?: number;
+  /** Softer accelerations become this share. */
+  readonly leastAcceleration?: number;
   /** Of a waiting time [s]. */
   readonly wait_s?: number;
   /** What rounding of joint values can do to where the tool is. */

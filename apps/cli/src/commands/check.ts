@@ -1,27 +1,31 @@
-import { checkProgram, linkSolids, type Verdict } from "@twincell/core";
+import { checkProgram, type Verdict } from "@twincell/core";
 import { cellGeometry } from "@twincell/project";
 import { given } from "../io/arguments.ts";
 import { writeOne } from "../io/output.ts";
 import { readCell, readProgram } from "../io/program.ts";
+import { programRobot, ROBOT_HELP, ROBOT_OPTIONS } from "../io/robot.ts";
 import { UseFault, type Command } from "../io/usage.ts";
 
 export const checkCommand: Command = {
   name: "check",
   summary: "judge a program: reach, limits, speed, branches, collision",
-  usage: `twincell check PROGRAM [--cell CELL] [--margin M] [--junit FILE]
+  usage: `twincell check PROGRAM [--robot R] [--cell CELL] [--margin M] [--junit FILE]
 
 Writes VERDICT {"ok","steps":[{"id","verdict","findings":[…]}],…} and ends with 1 when any step is bad.
 
+  --robot R       the robot to judge it on; the one the program names when absent
   --cell CELL     the saved cell to keep clear of; without it collisions are not looked at
   --margin M      distance to keep from everything, in metres (default 0)
-  --junit FILE    the same as a JUnit report, one test case per step`,
+  --junit FILE    the same as a JUnit report, one test case per step
+
+${ROBOT_HELP}`,
   async run(args) {
-    const options = given(args, { cell: { type: "string" }, margin: { type: "string" }, junit: { type: "string" }, json: { type: "boolean" } });
+    const options = given(args, { ...ROBOT_OPTIONS, cell: { type: "string" }, margin: { type: "string" }, junit: { type: "string" }, json: { type: "boolean" } });
     const [path] = options.positionals, cellPath = options.text("cell"), margin_m = options.number("margin") ?? 0, junit = options.text("junit");
     if (path === undefined) throw new UseFault("PROGRAM is missing.", "Give the path of a program file.");
     if (margin_m < 0) throw new UseFault(`--margin wants 0 or more, not ${margin_m}.`);
-    const { program, robot } = await readProgram(path);
-    const cell = cellPath === undefined ? undefined : cellGeometry(await readCell(cellPath), linkSolids(robot));
+    const chosen = await programRobot(options), { program, robot, solids } = await readProgram(path, chosen);
+    const cell = cellPath === undefined ? undefined : cellGeometry(await readCell(cellPath), solids());
     const { verdict } = checkProgram(program, robot, { margin_m, ...(cell ? { cell } : {}) });
     if (junit !== undefined) await writeOne(junit, junitReport(program.name, verdict));
     process.stdout.write(`${JSON.stringify(verdict)}\n`);

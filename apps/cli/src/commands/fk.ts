@@ -1,7 +1,7 @@
 import { armScratch, compose, flangePose, identity, type Pose } from "@twincell/core";
 import { given } from "../io/arguments.ts";
 import { jsonLines, lineWriter } from "../io/json-lines.ts";
-import { robotOf, ROBOT_OPTIONS } from "../io/robot.ts";
+import { robotOf, ROBOT_HELP, ROBOT_OPTIONS } from "../io/robot.ts";
 import { jointsOf } from "../io/values.ts";
 import type { Command } from "../io/usage.ts";
 
@@ -11,7 +11,7 @@ export const fkCommand: Command = {
   usage: `twincell fk --robot R [--base LINK] [--tip LINK]  < joints.jsonl > poses.jsonl
 
 Reads JSON lines {"q":[…]} (radians) and writes POSE lines {"position":[x,y,z],"quaternion":[x,y,z,w]} of the tip in the base.
-R is an id of "twincell robots" or the path of a URDF.`,
+${ROBOT_HELP}`,
   async run(args) {
     const options = given(args, { ...ROBOT_OPTIONS, json: { type: "boolean" } });
     const { robot, baseFromRoot, flangeFromTip } = await robotOf(options);

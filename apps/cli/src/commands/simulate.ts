@@ -3,26 +3,30 @@ import { given } from "../io/arguments.ts";
 import { lineWriter } from "../io/json-lines.ts";
 import { inputsFrom, ioOf, momentWriter, toolsBySteps } from "../io/moments.ts";
 import { readCell, readProgram } from "../io/program.ts";
+import { programRobot, ROBOT_HELP, ROBOT_OPTIONS } from "../io/robot.ts";
 import { UseFault, type Command } from "../io/usage.ts";
 
 export const simulateCommand: Command = {
   name: "simulate",
   summary: "a program laid out in time, one line per period",
-  usage: `twincell simulate PROGRAM [--cell CELL] [--period 0.01] [--inputs part=true,level=2.5]
+  usage: `twincell simulate PROGRAM [--robot R] [--cell CELL] [--period 0.01] [--inputs part=true,level=2.5]
 
 Writes JSON lines {"t":s,"q":[…],"position":[…],"quaternion":[…],"io":{…},"step":ID}: joint angles and the TCP in the world,
 from the start to the end of the program. Waits for signals take no time, and a loop without end goes round once. A step that
 cannot be carried out ends it with exit 1 and a sentence.
 
+  --robot R       the robot that moves; the one the program names when absent
   --cell CELL     where the robot stands (default: in the origin)
   --period S      seconds between two lines
-  --inputs LIST   what inputs are, for the decisions of the program (default: all off, levels 0)`,
+  --inputs LIST   what inputs are, for the decisions of the program (default: all off, levels 0)
+
+${ROBOT_HELP}`,
   async run(args) {
-    const options = given(args, { cell: { type: "string" }, period: { type: "string" }, inputs: { type: "string" }, json: { type: "boolean" } });
+    const options = given(args, { ...ROBOT_OPTIONS, cell: { type: "string" }, period: { type: "string" }, inputs: { type: "string" }, json: { type: "boolean" } });
     const [path] = options.positionals, period_s = options.number("period") ?? 0.01;
     if (path === undefined) throw new UseFault("PROGRAM is missing.", "Give the path of a program file.");
     if (!(period_s >= 1e-6)) throw new UseFault(`--period wants at least 0.000001 s, not ${period_s}.`);
-    const { program, robot } = await readProgram(path), cellPath = options.text("cell");
+    const { program, robot } = await readProgram(path, await programRobot(options)), cellPath = options.text("cell");
     const worldFromBase = cellPath === undefined ? pose<"world", "base">() : (await readCell(cellPath)).robot.worldFromBase;
 
     const inputs = inputsFrom(options.text("inputs")), answer = planProgram(program, robot, { worldFromBase, inputs }), { plan } = answer;

@@ -1,12 +1,14 @@
 import { parseArgs } from "node:util";
 import { UseFault } from "./usage.ts";
 
-type Options = Readonly<Record<string, { readonly type: "string" | "boolean"; readonly short?: string }>>;
+type Options = Readonly<Record<string, { readonly type: "string" | "boolean"; readonly short?: string; readonly multiple?: boolean }>>;
 
 export interface Given {
   readonly positionals: readonly string[];
   text(name: string): string | undefined;
   flag(name: string): boolean;
+  /** Every value of an option that may be given again and again. */
+  list(name: string): readonly string[];
   /** A number, or the sentence that it is none. */
   number(name: string): number | undefined;
   /** Numbers with commas between them. */
@@ -30,6 +32,7 @@ export function given(args: readonly string[], options: Options): Given {
   return {
     positionals: parsed.positionals,
     text, flag: name => parsed.values[name] === true,
+    list: name => { const values = parsed.values[name]; return Array.isArray(values) ? values.filter(value => typeof value === "string") : []; },
     number: name => { const value = text(name); return value === undefined ? undefined : number(name, value); },
     numbers: name => text(name)?.split(",").map(part => number(name, part)),
   };

@@ -18,7 +18,7 @@ export async function writeWhole(folder: string, files: readonly { readonly name
 }
 
 /** Writes one file whole. */
-export const writeOne = async (path: string, text: string): Promise<void> => {
+export const writeOne = async (path: string, text: string | Uint8Array): Promise<void> => {
   const part = `${path}.part`;
   try {
     await mkdir(dirname(path), { recursive: true });

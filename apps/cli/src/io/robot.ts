@@ -1,56 +1,78 @@
-import { readFile } from "node:fs/promises";
-import { basename, extname } from "node:path";
-import { compose, inverse, LIBRARY, pose, robotById, robotFromArm, type Pose, type Robot } from "@twincell/core";
-import { armFromUrdf, readUrdf, type UrdfChain, type UrdfRobot } from "@twincell/formats";
+import { compose, inverse, LIBRARY, linkSolids, pose, robotById, robotFromArm, transformMesh, type LinkSolid, type Pose, type Robot, type SerialArm } from "@twincell/core";
 import type { Given } from "./arguments.ts";
+import { isRobotPath, robotFromFile } from "./robot-file.ts";
 import { UseFault } from "./usage.ts";
 
-export const ROBOT_OPTIONS = { robot: { type: "string" }, base: { type: "string" }, tip: { type: "string" } } as const;
+export const ROBOT_OPTIONS = { robot: { type: "string" }, base: { type: "string" }, tip: { type: "string" }, arg: { type: "string", multiple: true } } as const;
+
+/** How `--robot` is explained in the help of a command. */
+export const ROBOT_HELP = `R is an id of "twincell robots", a URDF, a xacro (its arguments: --arg name:=value, again for more) or a D-H table
+(.dh.json, .dh.csv, .dh.txt). LINK: the base is the root link when absent, the tip tool0, else flange, else the end of the longest chain.`;
 
 /** The robot that was asked for, and how the asked base and tip lie to its own. */
-export interface ChosenRobot { readonly robot: Robot; readonly baseFromRoot: Pose; readonly flangeFromTip: Pose }
+export interface ChosenRobot {
+  readonly robot: Robot;
+  readonly baseFromRoot: Pose;
+  readonly flangeFromTip: Pose;
+  /** Its solids for collisions; what could not be loaded is said in `notes`. */
+  solids(): { readonly solids: readonly LinkSolid[]; readonly notes: readonly string[] };
+}
 
-/** `--robot R [--base LINK] [--tip LINK]`: R is a library id or the path of a URDF. */
-export async function robotOf(options: Given): Promise<ChosenRobot> {
-  const wanted = options.text("robot");
-  if (wanted === undefined) throw new UseFault("--robot is missing.", `Library: ${LIBRARY.map(robot => robot.id).join(", ")}; or the path of a URDF.`);
+/** `--robot R [--base LINK] [--tip LINK] [--arg name:=value]…`: R is a library id or the path of a URDF, xacro or D-H table. */
+export async function robotOf(options: Given, wanted = options.text("robot")): Promise<ChosenRobot> {
+  const base = options.text("base"), tip = options.text("tip"), args = xacroArguments(options.list("arg")), choices = `Library: ${LIBRARY.map(robot => robot.id).join(", ")}; or the path of a URDF, xacro or D-H table.`;
+  if (wanted === undefined) throw new UseFault("--robot is missing.", choices);
   const known = robotById(wanted);
-  if (known) return libraryRobot(known, options.text("base"), options.text("tip"));
-  if (extname(wanted) === ".urdf") return urdfRobot(wanted, options.text("base"), options.text("tip"));
-  throw new UseFault(`There is no robot "${wanted}" in the library.`, `Library: ${LIBRARY.map(robot => robot.id).join(", ")}; or the path of a URDF.`);
+  if (known) return libraryRobot(known, base, tip);
+  if (!isRobotPath(wanted)) throw new UseFault(`There is no robot "${wanted}" in the library.`, choices);
+  const opened = await robotFromFile(wanted, base, tip, args);
+  return {
+    robot: opened.robot, baseFromRoot: opened.baseFromRoot, flangeFromTip: pose(),
+    solids: () => opened.solids() ?? { solids: linkSolids(opened.robot), notes: [] },
+  };
+}
+
+/** A robot that a program is judged or played on, with its solids. */
+export interface RobotToRun { readonly robot: Robot; solids(): readonly LinkSolid[] }
+
+/**
+ * The robot of `--robot`, or undefined where none is given. A program counts its poses from the robot's base: with `--base` the
+ * arm stands in that frame. What could not be loaded of its meshes is said on standard error.
+ */
+export async function programRobot(options: Given): Promise<RobotToRun | undefined> {
+  if (options.text("robot") === undefined) {
+    for (const name of ["base", "tip"]) if (options.text(name) !== undefined) throw new UseFault(`--${name} is given without --robot.`);
+    return undefined;
+  }
+  const { robot, baseFromRoot, solids } = await robotOf(options), asked = options.text("base");
+  const said = (): readonly LinkSolid[] => {
+    const found = solids();
+    for (const note of found.notes) process.stderr.write(`twincell: ${note}\n`);
+    return found.solids.map(solid => (solid.link === 0 && asked !== undefined ? { ...solid, mesh: transformMesh(solid.mesh, baseFromRoot) } : solid));
+  };
+  if (asked === undefined || asked === robot.frames.base) return { robot, solids: said };
+  return { robot: robotFromArm(movedBase(robot.arm, baseFromRoot), { ...robot, frames: { ...robot.frames, base: asked } }), solids: said };
+}
+
+function movedBase(arm: SerialArm, baseFromRoot: Pose): SerialArm {
+  const [first, ...rest] = arm.joints;
+  return first ? { ...arm, joints: [{ ...first, parentFromJoint: compose(baseFromRoot, first.parentFromJoint as Pose) as Pose<"parent", "joint"> }, ...rest] } : arm;
 }
 
 function libraryRobot(robot: Robot, base: string | undefined, tip: string | undefined): ChosenRobot {
   const { frames } = robot;
   if (tip !== undefined && tip !== frames.tip && tip !== "flange") throw new UseFault(`${robot.name} has no frame "${tip}".`, `Tips: ${frames.tip}, flange.`);
   if (base !== undefined && base !== frames.base && base !== "base") throw new UseFault(`${robot.name} has no frame "${base}".`, `Bases: ${frames.base}, base (the vendor's world).`);
-  return { robot, baseFromRoot: base === "base" ? inverse(robot.baseFromVendorWorld) as Pose : pose(), flangeFromTip: pose() };
+  return {
+    robot, baseFromRoot: base === "base" ? inverse(robot.baseFromVendorWorld) as Pose : pose(), flangeFromTip: pose(),
+    solids: () => ({ solids: linkSolids(robot), notes: [] }),
+  };
 }
 
-/**
- * The arm is laid out from the file's root, where axis 1 stands as the closed form wants it; another base is a fixed step from
- * there. Another tip becomes the arm's own flange.
- */
-async function urdfRobot(path: string, base: string | undefined, tip: string | undefined): Promise<ChosenRobot> {
-  const answer = readUrdf(await textOf(path));
-  if (answer.kind !== "read") throw new UseFault(`${path}${answer.line === undefined ? "" : `, line ${answer.line}`}: ${answer.sentence}`);
-  const chain = chainOf(path, answer.robot, undefined, tip);
-  const robot = robotFromArm(chain.arm, { id: basename(path, ".urdf"), frames: { base: chain.base, tip: chain.tip }, assumptions: chain.assumptions });
-  if (base === undefined || base === chain.base) return { robot, baseFromRoot: pose(), flangeFromTip: pose() };
-  const baseFromJoint = chainOf(path, answer.robot, base, tip).arm.joints[0]!.parentFromJoint, rootFromJoint = chain.arm.joints[0]!.parentFromJoint;
-  return { robot, baseFromRoot: compose(baseFromJoint as Pose, inverse(rootFromJoint) as Pose), flangeFromTip: pose() };
-}
-
-function chainOf(path: string, file: UrdfRobot, base: string | undefined, tip: string | undefined): UrdfChain {
-  const chain = armFromUrdf(file, base, tip);
-  if (chain.kind === "chain") return chain;
-  throw new UseFault(`${path}${chain.line === undefined ? "" : `, line ${chain.line}`}: ${chain.sentence}`);
-}
-
-async function textOf(path: string): Promise<string> {
-  try {
-    return await readFile(path, "utf8");
-  } catch (cause) {
-    throw new UseFault(`${path} cannot be read: ${cause instanceof Error ? cause.message : String(cause)}.`);
-  }
+function xacroArguments(given: readonly string[]): Readonly<Record<string, string>> {
+  return Object.fromEntries(given.map(text => {
+    const match = /^([^:=\s]+):=([\s\S]*)$/.exec(text);
+    if (!match) throw new UseFault(`--arg wants name:=value, not "${text}".`);
+    return [match[1]!, match[2]!];
+  }));
 }

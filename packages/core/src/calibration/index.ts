@@ -1,4 +1,3 @@
-export * from "./eigen.ts";
 export * from "./residual.ts";
 export * from "./frame.ts";
 export * from "./register.ts";

@@ -1,7 +1,7 @@
 import { fromMatrix, normalizeQuaternion, rotate, toMatrix, type Quaternion } from "../spatial/quaternion.ts";
 import { pose, transformPoint, type Pose } from "../spatial/pose.ts";
 import { subtract, type Vector3 } from "../spatial/vector.ts";
-import { symmetricEigen } from "./eigen.ts";
+import { symmetricEigen } from "../spatial/eigen.ts";
 import { isFinitePoint, meanOf, residualOf, type Residual } from "./residual.ts";
 
 /** A point known in the drawing of a thing and measured where it stands. */

@@ -2,7 +2,7 @@ import { toMatrix } from "../spatial/quaternion.ts";
 import { compose, inverse, pose, transformPoint, type Pose } from "../spatial/pose.ts";
 import { degrees } from "../spatial/units.ts";
 import type { Vector3 } from "../spatial/vector.ts";
-import { symmetricEigen } from "./eigen.ts";
+import { symmetricEigen } from "../spatial/eigen.ts";
 import { frameFromThreePoints, type FrameAnswer } from "./frame.ts";
 import { isFinitePoint, meanOf, residualOf, type Residual } from "./residual.ts";
 

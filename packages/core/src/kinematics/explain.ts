@@ -11,6 +11,7 @@ export function explainReach(reach: Reach): string {
     case "too-far": return `The wrist would be ${mm(reach.reach_m + reach.beyond_m)} from the shoulder; the arm is ${mm(reach.reach_m)} long.`;
     case "too-near": return `The wrist would be ${mm(reach.nearest_m - reach.inside_m)} from the shoulder; it cannot come nearer than ${mm(reach.nearest_m)}.`;
     case "beyond-workspace": return `The wrist would be ${mm(reach.distance_m)} from axis 2; the maker declares a reach of ${mm(reach.declared_m)}.`;
+    case "not-so-turned": return `The wrist can be brought there, but its axes 4 and 5 would have to stand ${deg(reach.short_rad)} off the angle they are built at.`;
     case "outside-limits": return `Joint ${reach.joint} would turn to ${deg(reach.wanted_rad)}; its limit is ${deg(reach.limit_rad)}.`;
     case "no-solver":
     case "not-a-pose": return reach.because;

@@ -29,7 +29,7 @@ describe("N-11 inverse of forward", () => {
       expect(travel(solutions[0]!.q_rad, q)).toBeLessThan(1e-6);
       for (const { q_rad, branch } of solutions) {
         expectSamePose(flangePose(robot.arm, q_rad), target);
-        expect(sameBranch(branch, branchOf(robot, q_rad)!)).toBe(true);
+        expect(sameBranch(branch!, branchOf(robot, q_rad)!)).toBe(true);
       }
     }
   });
@@ -39,7 +39,7 @@ describe("N-11 inverse of forward", () => {
     for (let n = 0; n < 200; n++) {
       const q = inLimits(random), branch = branchOf(robot, q)!;
       const { solutions } = reached(solveAll(robot, flangePose(robot.arm, q), { branch }));
-      expect(solutions.every(solution => sameBranch(solution.branch, branch))).toBe(true);
+      expect(solutions.every(solution => sameBranch(solution.branch!, branch))).toBe(true);
       expect(solutions.some(({ q_rad }) => travel(q_rad, q) < 1e-6)).toBe(true);
     }
   });

@@ -1,38 +1,39 @@
 import type { Robot } from "../robots/robot.ts";
-import { compose, identity, inverse, posesAgree, type Pose } from "../spatial/pose.ts";
-import { branchOfOrthoParallel, sameBranch, type Branch } from "./branch.ts";
-import { isSingular } from "./singularity.ts";
-import { armScratch, flangePose, type ArmScratch } from "./forward.ts";
-import { MAX_BRANCHES, solveOrthoParallel } from "./ortho-parallel.ts";
+import { compose, identity, inverse, type Pose } from "../spatial/pose.ts";
+import { branchOf, sameBranch, type Branch } from "./branch.ts";
+import { candidates, elbowOf, settle, settled, solverScratch, VERIFIED, type SolverScratch } from "./candidates.ts";
+import { nearestElbow } from "./elbow.ts";
+import { outOfReach } from "./out-of-reach.ts";
 import type { Reach, Solution } from "./reach.ts";
+import { isSingularPosture } from "./singularity.ts";
+import { LIMIT_SLACK_RAD, nearestTurn, turnsInside } from "./turns.ts";
 import { insideWorkspace } from "./workspace.ts";
-import { span } from "./span.ts";
 
-/** A solution counts when forward kinematics brings it back this close. */
-export const VERIFIED = { position_m: 1e-9, angle_rad: 1e-9 } as const;
+export { elbowOf, outOfReach, solverScratch, VERIFIED, type SolverScratch };
 
 const TURN = 2 * Math.PI;
-/** Rounding of limits given in degrees. */
-const LIMIT_SLACK_RAD = 1e-9;
-
-/** Working memory of the solvers: one per caller. */
-export interface SolverScratch { readonly raw: Float64Array; readonly q: Float64Array; readonly arm: ArmScratch; readonly pose: Pose<"base", "flange"> }
-export const solverScratch = (): SolverScratch => ({ raw: new Float64Array(6 * MAX_BRANCHES), q: new Float64Array(6), arm: armScratch(), pose: identity() });
+/** Two answers this close are one. Where two postures fall together, no arithmetic tells them apart more finely. */
+const SAME_RAD = 1e-7, SAME_SEARCHED_RAD = 1e-6;
+/** A pose this near to the last one is followed, not searched for. */
+const FOLLOWED_RAD = 0.05;
 
 export interface SolveOptions {
   /** Solutions come nearest first, and free angles stay as they are here (rows N-16, N-18). */
   readonly near?: ArrayLike<number>;
   readonly branch?: Branch;
+  /** Elbow angle of a seven-joint arm [rad]; else that of the branch, else that of `near`, else 0 or the nearest to these that the limits allow. */
+  readonly elbow_rad?: number;
 }
 
-/** Every distinct branch, angles in (−π, π], limits not looked at, each verified by forward kinematics. */
-export function allBranches(robot: Robot, baseFromFlange: Pose<"base", "flange">, near?: ArrayLike<number>, scratch = solverScratch()): Float64Array[] {
-  if (robot.family.kind !== "ortho-parallel") return [];
-  const count = solveOrthoParallel(robot.family, baseFromFlange, scratch.raw, near);
+/**
+ * Every distinct branch, angles in (−π, π], limits not looked at, each verified by forward kinematics; of seven joints those of
+ * one elbow angle. Empty for an arm without a solver of its own.
+ */
+export function allBranches(robot: Robot, baseFromFlange: Pose<"base", "flange">, near?: ArrayLike<number>, scratch = solverScratch(), elbow_rad?: number): Float64Array[] {
+  const count = candidates(robot, baseFromFlange, near, elbow_rad, scratch), same = robot.family.kind === "general-6r" ? SAME_SEARCHED_RAD : SAME_RAD;
   const solutions: Float64Array[] = [];
   for (let s = 0; s < count; s++) {
-    const q = scratch.raw.slice(6 * s, 6 * s + 6);
-    if (isVerified(robot, q, baseFromFlange, scratch) && !solutions.some(other => sameAngles(other, q))) solutions.push(q);
+    if (settle(robot, baseFromFlange, s, scratch) && !solutions.some(other => sameAngles(other, scratch.q, same))) solutions.push(scratch.q.map(inOneTurn));
   }
   return solutions;
 }
@@ -40,36 +41,48 @@ export function allBranches(robot: Robot, baseFromFlange: Pose<"base", "flange">
 /**
  * Whether a pose of the flange can be reached, by which joint angles, or why not.
  *
- * All branches of the closed form, each verified by forward kinematics to 1e-9, each expanded by ±2π where the limits
- * leave room; with `near` sorted by least total travel Σ|Δθ|.
+ * All branches of the arm's family, each verified by forward kinematics to 1e-9, each expanded by ±2π where the limits
+ * leave room; with `near` sorted by least total travel Σ|Δθ|. A seven-joint arm whose limits do not allow the elbow angle it
+ * would keep takes the nearest they allow; one that was asked for by `elbow_rad` is never changed.
  *
  * @see rows N-14 … N-18 and erratum E-06: the paper's 96 combinations are candidates, not solutions.
  */
 export function solveAll(robot: Robot, baseFromFlange: Pose<"base", "flange">, options: SolveOptions = {}, scratch = solverScratch()): Reach {
   const flaw = poseFlaw(baseFromFlange);
   if (flaw !== undefined) return { kind: "not-a-pose", because: flaw };
-  const family = robot.family;
-  if (family.kind !== "ortho-parallel") return { kind: "no-solver", because: `${robot.name} has no closed-form solver.` };
-  const { near, branch } = options;
+  if (robot.family.kind === "general") return { kind: "no-solver", because: `${robot.name} has no closed-form solver.` };
+  const { near, branch } = options, asked = options.elbow_rad ?? branch?.elbow_rad;
 
-  const found = allBranches(robot, baseFromFlange, near, scratch);
+  const found = allBranches(robot, baseFromFlange, near, scratch, asked);
   if (found.length === 0) return outOfReach(robot, baseFromFlange);
-  const wanted = branch === undefined ? found : found.filter(q => sameBranch(branchOfOrthoParallel(family, q), branch));
-  const pool = wanted.length > 0 ? wanted : found;
-
-  const inside: Solution[] = [];
-  let considered = 0;
-  for (const q of pool) {
-    const named = branchOfOrthoParallel(family, q);
-    for (const copy of turnsInside(robot, q)) inside.push({ q_rad: copy, branch: named });
-    considered += 3 ** 6;
+  const first = withinLimits(robot, found, branch);
+  if (first.inside.length === 0 && robot.family.kind === "spherical-seven" && options.elbow_rad === undefined) {
+    const elbow = nearestElbow(robot, baseFromFlange, asked ?? (near === undefined ? 0 : elbowOf(robot, near) ?? 0), near, scratch);
+    if (elbow !== undefined) return answer(robot, withinLimits(robot, allBranches(robot, baseFromFlange, near, scratch, elbow), branch), near);
   }
+  return answer(robot, first, near);
+}
+
+interface Sorted { readonly inside: Solution[]; readonly pool: readonly Float64Array[] }
+
+/** The wanted branch, or all where it is not among them, with all copies by whole turns inside the limits. */
+function withinLimits(robot: Robot, found: readonly Float64Array[], branch: Branch | undefined): Sorted {
+  const wanted = branch === undefined ? found : found.filter(q => { const named = branchOf(robot, q); return named !== undefined && sameBranch(named, branch); });
+  if (wanted.length === 0) return { inside: [], pool: found };
+  const inside: Solution[] = [];
+  for (const q of wanted) {
+    const named = branchOf(robot, q);
+    for (const copy of turnsInside(robot, q)) inside.push({ q_rad: copy, branch: named });
+  }
+  return { inside, pool: wanted };
+}
+
+function answer(robot: Robot, { inside, pool }: Sorted, near: ArrayLike<number> | undefined): Reach {
   if (inside.length === 0) return nearestLimit(robot, pool);
-  if (branch !== undefined && wanted.length === 0) return nearestLimit(robot, pool);
   const solutions = insideWorkspace(robot, inside);
   if ("kind" in solutions) return solutions;
   const sorted = near === undefined ? solutions : solutions.toSorted((a, b) => travel(a.q_rad, near) - travel(b.q_rad, near));
-  return { kind: "reached", solutions: sorted, singular: inside.some(({ q_rad }) => isSingular(family, q_rad)), considered };
+  return { kind: "reached", solutions: sorted, singular: pool.some(q => isSingularPosture(robot, q)), considered: pool.length * 3 ** robot.arm.joints.length };
 }
 
 /**
@@ -77,38 +90,58 @@ export function solveAll(robot: Robot, baseFromFlange: Pose<"base", "flange">, o
  * forward kinematics before it is handed out. Where the posture of `near` leaves its limits it may lie in another posture:
  * compare `branchOf` where that would be a jump.
  *
+ * A seven-joint arm keeps the elbow angle of `near`, or takes the nearest one that its limits allow.
+ *
  * @param out      receives the joint angles; untouched when there is none. May be `near`.
- * @param scratch  with it the call allocates nothing.
+ * @param scratch  with it the call allocates nothing, except for six joints without a closed form.
  * @returns true when there is one. `solveAll` tells why not.
  */
 export function nearestSolution(robot: Robot, baseFromFlange: Pose<"base", "flange">, near: ArrayLike<number>, out: Float64Array, scratch = solverScratch()): boolean {
-  const family = robot.family;
-  if (family.kind !== "ortho-parallel" || !isUnit(baseFromFlange)) return false;
-  const raw = scratch.raw, joints = robot.arm.joints;
-  const count = solveOrthoParallel(family, baseFromFlange, raw, near);
-  let best = -1, least = Infinity;
-  for (let s = 0; s < count; s++) {
-    let total = 0;
-    for (let j = 0; j < 6 && total < least; j++) {
-      const limits = joints[j]!.limits, angle = nearestTurn(raw[6 * s + j]!, near[j]!, limits.lower_rad, limits.upper_rad);
-      raw[6 * s + j] = angle;
-      total += Math.abs(angle - near[j]!); // NaN when no turn is inside: then the comparison below is false
-    }
-    if (total < least) { least = total; best = s; }
-  }
-  if (best < 0) return false;
-  for (let j = 0; j < 6; j++) scratch.q[j] = raw[6 * best + j]!;
-  if (!isVerified(robot, scratch.q, baseFromFlange, scratch)) return false;
-  for (let j = 0; j < 6; j++) out[j] = scratch.q[j]!;
-  return true;
+  if (robot.family.kind === "general" || !isUnit(baseFromFlange)) return false;
+  if ((robot.family.kind === "general-6r" || robot.family.kind === "three-parallel") && follows(robot, baseFromFlange, near, scratch)) { out.set(scratch.q); return true; }
+  if (nearestOf(robot, baseFromFlange, near, undefined, out, scratch)) return true;
+  if (robot.family.kind !== "spherical-seven") return false;
+  const elbow = nearestElbow(robot, baseFromFlange, elbowOf(robot, near) ?? 0, near, scratch);
+  return elbow !== undefined && nearestOf(robot, baseFromFlange, near, elbow, out, scratch);
 }
 
-/** The angle plus whole turns that lies inside the limits and nearest to `near`; NaN when none does. */
-function nearestTurn(angle: number, near: number, lower: number, upper: number): number {
-  let turned = angle + TURN * Math.round((near - angle) / TURN);
-  if (turned < lower - LIMIT_SLACK_RAD) turned += TURN * Math.ceil((lower - LIMIT_SLACK_RAD - turned) / TURN);
-  else if (turned > upper + LIMIT_SLACK_RAD) turned -= TURN * Math.ceil((turned - upper - LIMIT_SLACK_RAD) / TURN);
-  return turned >= lower - LIMIT_SLACK_RAD && turned <= upper + LIMIT_SLACK_RAD ? turned : NaN;
+function nearestOf(robot: Robot, baseFromFlange: Pose<"base", "flange">, near: ArrayLike<number>, elbow_rad: number | undefined, out: Float64Array, scratch: SolverScratch): boolean {
+  const raw = scratch.raw, joints = robot.arm.joints, n = joints.length;
+  const count = candidates(robot, baseFromFlange, near, elbow_rad, scratch);
+  // A candidate that does not meet its pose once refined is passed over, and the next nearest looked at.
+  for (let tried = 0; tried < count; tried++) {
+    let best = -1, least = Infinity;
+    for (let s = 0; s < count; s++) {
+      let total = 0;
+      for (let j = 0; j < n && total < least; j++) {
+        const limits = joints[j]!.limits, angle = nearestTurn(raw[n * s + j]!, near[j]!, limits.lower_rad, limits.upper_rad);
+        raw[n * s + j] = angle;
+        total += Math.abs(angle - near[j]!); // NaN when no turn is inside: then the comparison below is false
+      }
+      if (total < least) { least = total; best = s; }
+    }
+    if (best < 0) return false;
+    if (settle(robot, baseFromFlange, best, scratch)) {
+      for (let j = 0; j < n; j++) out[j] = scratch.q[j]!;
+      return true;
+    }
+    raw[n * best] = NaN;
+  }
+  return false;
+}
+
+/** Newton's method from `near`, where the way is short and stays inside the limits; the answer is in `scratch.q`. */
+function follows(robot: Robot, baseFromFlange: Pose<"base", "flange">, near: ArrayLike<number>, scratch: SolverScratch): boolean {
+  const joints = robot.arm.joints, n = joints.length;
+  if (scratch.q.length !== n) scratch.q = new Float64Array(n);
+  const q = scratch.q;
+  for (let j = 0; j < n; j++) q[j] = near[j]!;
+  if (!settled(robot, baseFromFlange, q, scratch) || !(travel(q, near) < FOLLOWED_RAD)) return false;
+  for (let j = 0; j < n; j++) {
+    const { lower_rad, upper_rad } = joints[j]!.limits;
+    if (!(q[j]! >= lower_rad - LIMIT_SLACK_RAD && q[j]! <= upper_rad + LIMIT_SLACK_RAD)) return false;
+  }
+  return true;
 }
 
 /** Total travel Σ|Δθ| [rad]. */
@@ -118,28 +151,13 @@ export function travel(a: ArrayLike<number>, b: ArrayLike<number>): number {
   return sum;
 }
 
-function isVerified(robot: Robot, q: Float64Array, wanted: Pose<"base", "flange">, scratch: SolverScratch): boolean {
-  return posesAgree(flangePose(robot.arm, q, scratch.pose, scratch.arm), wanted, VERIFIED.position_m, VERIFIED.angle_rad);
-}
-
 /** Equal up to whole turns, so that π and −π are one solution. */
-function sameAngles(a: Float64Array, b: Float64Array): boolean {
-  return a.every((angle, i) => { const gap = Math.abs(angle - b[i]!); return gap < 1e-7 || Math.abs(gap - TURN) < 1e-7; });
+function sameAngles(a: Float64Array, b: Float64Array, same_rad: number): boolean {
+  return a.every((angle, i) => { const gap = Math.abs(angle - b[i]!) % TURN; return gap < same_rad || TURN - gap < same_rad; });
 }
 
-/** All copies of q by whole turns of each joint that lie inside the limits. */
-function turnsInside(robot: Robot, q: Float64Array): Float64Array[] {
-  let copies: Float64Array[] = [new Float64Array(q.length)];
-  for (let j = 0; j < q.length; j++) {
-    const { lower_rad, upper_rad } = robot.arm.joints[j]!.limits;
-    const next: Float64Array[] = [];
-    for (let turns = Math.ceil((lower_rad - LIMIT_SLACK_RAD - q[j]!) / TURN); q[j]! + TURN * turns <= upper_rad + LIMIT_SLACK_RAD; turns++) {
-      for (const copy of copies) { const more = copy.slice(); more[j] = q[j]! + TURN * turns; next.push(more); }
-    }
-    copies = next;
-  }
-  return copies;
-}
+/** Refinement may step over the seam. */
+const inOneTurn = (angle: number): number => (angle > Math.PI ? angle - TURN : angle <= -Math.PI ? angle + TURN : angle);
 
 /** Of the solutions outside the limits, the one whose worst joint is least beyond. */
 function nearestLimit(robot: Robot, solutions: readonly Float64Array[]): Reach {
@@ -155,19 +173,12 @@ function nearestLimit(robot: Robot, solutions: readonly Float64Array[]): Reach {
       }
       if (beyond > worst) { worst = beyond; joint = j + 1; wanted = angle; limit = at; }
     }
-    if (worst < least && joint > 0 && robot.family.kind === "ortho-parallel") {
+    if (worst < least && joint > 0) {
       least = worst;
-      answer = { kind: "outside-limits", joint, wanted_rad: wanted, limit_rad: limit, branch: branchOfOrthoParallel(robot.family, q) };
+      answer = { kind: "outside-limits", joint, wanted_rad: wanted, limit_rad: limit, branch: branchOf(robot, q) };
     }
   }
   return answer ?? { kind: "no-solver", because: "No solution of the wanted branch exists for this pose." };
-}
-
-/** Why no branch of the closed form exists: the wrist centre lies beyond the stretched or inside the folded arm. */
-export function outOfReach(robot: Robot, baseFromFlange: Pose<"base", "flange">): Reach {
-  const { farthest_m, nearest_m, distance_m } = span(robot, baseFromFlange);
-  if (distance_m > farthest_m) return { kind: "too-far", beyond_m: distance_m - farthest_m, reach_m: farthest_m };
-  return { kind: "too-near", inside_m: nearest_m - distance_m, nearest_m };
 }
 
 /** False for NaN as well. */

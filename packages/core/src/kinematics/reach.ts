@@ -1,7 +1,7 @@
 import type { Branch } from "./branch.ts";
 
-/** Joint angles that reach a pose, with the branch they belong to. */
-export interface Solution { readonly q_rad: Float64Array; readonly branch: Branch }
+/** Joint angles that reach a pose, with the branch they belong to; undefined for arms whose postures have no names. */
+export interface Solution { readonly q_rad: Float64Array; readonly branch: Branch | undefined }
 
 /**
  * Whether and how a pose can be reached. "Why can it not?" is a `switch` over `kind`;
@@ -17,7 +17,9 @@ export type Reach =
   | { readonly kind: "too-near"; readonly inside_m: number; readonly nearest_m: number }
   /** The links would reach it, but the maker declares a smaller workspace, counted from axis 2 to the wrist centre. */
   | { readonly kind: "beyond-workspace"; readonly distance_m: number; readonly declared_m: number }
+  /** The wrist can be brought there, but not so turned: at best it is this far from the wanted orientation. */
+  | { readonly kind: "not-so-turned"; readonly short_rad: number }
   /** The branch that comes closest to the limits; joint counts from 1. */
-  | { readonly kind: "outside-limits"; readonly joint: number; readonly wanted_rad: number; readonly limit_rad: number; readonly branch: Branch }
+  | { readonly kind: "outside-limits"; readonly joint: number; readonly wanted_rad: number; readonly limit_rad: number; readonly branch: Branch | undefined }
   | { readonly kind: "no-solver"; readonly because: string }
   | { readonly kind: "not-a-pose"; readonly because: string };

@@ -7,6 +7,8 @@ const SINGULAR_SINE = 2e-10;
 const EDGE_M = 4e-10;
 /** Nearer than this to upright, shoulder to wrist has no vertical plane: the elbow then counts from the formula's x axis. */
 const UPRIGHT_SINE = 1e-9;
+/** An arm that misses the formula is given no straighter start than this [sine]: a stretched one could be refined to neither side. */
+const LEAST_BEND = 0.02;
 const TURN = 2 * Math.PI;
 
 /**
@@ -52,7 +54,9 @@ export function solveSphericalSeven(geometry: SphericalSevenGeometry, baseFromFl
   const pz = az + gw * bz + gx * by - gy * bx - r31 * s[0] - r32 * s[1] - r33 * s[2];
 
   const r2 = px * px + py * py + pz * pz, r = Math.sqrt(r2);
-  if (r > c3 + c5 + EDGE_M || r < Math.abs(c3 - c5) - EDGE_M) return 0;
+  // An arm that misses the formula may reach where the formula does not: a start is given for it to be refined.
+  const edge = EDGE_M + 2 * geometry.deviation_m;
+  if (r > c3 + c5 + edge || r < Math.abs(c3 - c5) - edge) return 0;
   const wx = r > 0 ? px / r : 0, wy = r > 0 ? py / r : 0, wz = r > 0 ? pz / r : 1, level = Math.sqrt(wx * wx + wy * wy);
   // t1 = (ẑ − wz w) / level, or x̂ where w is upright.
   let t1x: number, t1y: number, t1z: number;
@@ -63,7 +67,7 @@ export function solveSphericalSeven(geometry: SphericalSevenGeometry, baseFromFl
   const tx = kp * t1x + sp * t2x, ty = kp * t1y + sp * t2y, tz = kp * t1z + sp * t2z;
 
   const cosine = (r2 - c3 * c3 - c5 * c5) / (2 * c3 * c5), cos4 = cosine > 1 ? 1 : cosine < -1 ? -1 : cosine;
-  const sin4 = Math.sqrt((1 - cos4) * (1 + cos4)), t4 = Math.atan2(sin4, cos4);
+  const least = geometry.deviation_m > 0 ? LEAST_BEND : 0, sin4 = Math.max(least, Math.sqrt((1 - cos4) * (1 + cos4))), t4 = Math.atan2(sin4, cos4);
   const across = c5 * sin4, along = c3 + c5 * cos4, length = Math.sqrt(across * across + along * along);
   const ka = length > 0 ? along / length : 1, sa = length > 0 ? across / length : 0;
   const ux = ka * wx + sa * tx, uy = ka * wy + sa * ty, uz = ka * wz + sa * tz;

@@ -1,8 +1,8 @@
 import type { ThreeParallelGeometry } from "../robots/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 
-/** Below this sine of θ5 axes 4 and 6 are parallel, and θ6 is free to choose. */
-const SINGULAR_SINE = 2e-10;
+/** Below this sine of θ5 axes 4 and 6 are parallel, and θ6 is free to choose; room for right angles rounded to ten digits, and still verified to 1e-9. */
+const SINGULAR_SINE = 6e-10;
 /** Nearer than this to axis 1 the wrist leaves θ1 free to choose [m]; only where b = 0. */
 const SINGULAR_RADIUS_M = 4e-10;
 /** Below this sine of θ5 the sum of θ2, θ3, θ4 and θ6 is known far better than either: θ6 is then taken from the sum as found. */

@@ -97,6 +97,8 @@ test("a robot made of an arm says what was assumed and solves its own poses", ()
   expect(kr6.assumptions.some(sentence => sentence.includes("payload"))).toBe(false);
   expect(solveAll(kr6, flangePose(kr6.arm, [0.3, -1, 1.2, 0.4, 0.8, -0.2])).kind).toBe("reached");
   const ur10e = robotFromArm(armOf(robots.find(({ id }) => id === "ur10e")!));
-  expect(ur10e.family.kind).toBe("general");
+  expect(ur10e.family.kind).toBe("three-parallel");
+  expect(ur10e.reach_m).toBeCloseTo(1.304, 3);
+  expect(robotFromArm({ ...ur10e.arm, joints: ur10e.arm.joints.slice(0, 5) }).family.kind).toBe("general");
   expect(ur10e.home_rad).toEqual([0, 0, 0, 0, 0, 0]);
 });

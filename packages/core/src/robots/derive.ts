@@ -1,17 +1,16 @@
-import { flangePose, linkPoses } from "../kinematics/forward.ts";
-import { seededRandom } from "../random.ts";
+import { flangePose } from "../kinematics/forward.ts";
 import { compose, identity, inverse, pose, type Pose } from "../spatial/pose.ts";
 import { angleBetween, fromAxisAngle, multiply, rotate, type Quaternion } from "../spatial/quaternion.ts";
 import { wrapAngle } from "../spatial/units.ts";
-import { addScaled, cross, distance, dot, norm, subtract, type Vector3 } from "../spatial/vector.ts";
+import { addScaled, cross, dot, norm, subtract, type Vector3 } from "../spatial/vector.ts";
 import type { SerialArm } from "./arm.ts";
+import { axesAtZero, clean, deviation, distanceFrom, product, type Line, type Turned } from "./axes.ts";
 import type { OrthoParallelGeometry } from "./robot.ts";
 
 /** Lengths below this are taken for 0, directions this close for the same: rounding of dimensions as files give them. */
 const ROUNDING = 1e-9;
 /** The formula must meet the arm at every tried posture this closely [m, rad]. */
 const VERIFIED = 1e-9;
-const TRIED_POSTURES = 40;
 const Y: Vector3 = [0, 1, 0], Z: Vector3 = [0, 0, 1];
 type Six = [number, number, number, number, number, number];
 
@@ -81,19 +80,9 @@ export function orthoParallelFromArm(arm: SerialArm): OrthoParallelGeometry | nu
 /** Pose of the flange by the formula, elementary turn after turn. Slow and plain: `flangePose` is the way to compute it. */
 export function orthoParallelFlange(geometry: OrthoParallelGeometry, q_rad: ArrayLike<number>): Pose<"base", "flange"> {
   const { signs, offsets_rad, a1_m, a2_m, b_m, c1_m, c2_m, c3_m, c4_m } = geometry;
-  const steps: readonly (readonly [Vector3, Vector3])[] = [[[0, 0, 0], Z], [[a1_m, b_m, c1_m], Y], [[0, 0, c2_m], Y], [[a2_m, 0, c3_m], Z], [[0, 0, 0], Y], [[0, 0, 0], Z]];
-  const running: Pose = identity();
-  steps.forEach(([moved, about], j) => { compose(running, pose(moved, fromAxisAngle(about, signs[j]! * q_rad[j]! - offsets_rad[j]!)), running); });
+  const steps: readonly Turned[] = [[[0, 0, 0], Z], [[a1_m, b_m, c1_m], Y], [[0, 0, c2_m], Y], [[a2_m, 0, c3_m], Z], [[0, 0, 0], Y], [[0, 0, 0], Z]];
+  const running = product(identity(), steps, signs, offsets_rad, q_rad);
   return compose(compose(running as Pose<"base", "wrist">, pose<"wrist", "formula">([0, 0, c4_m])), geometry.formulaFromFlange);
-}
-
-interface Line { readonly along: Vector3; readonly through: Vector3 }
-
-/** Axes of all joints in the base, all angles 0. */
-function axesAtZero(arm: SerialArm): Line[] {
-  const links = Array.from({ length: arm.joints.length + 1 }, () => identity<"base", "link">());
-  linkPoses(arm, new Float64Array(arm.joints.length), links);
-  return arm.joints.map(({ axis }, i) => ({ along: rotate(links[i + 1]!.quaternion, axis), through: links[i + 1]!.position }));
 }
 
 /** Where two lines square to each other meet; undefined when they are not square or pass each other. */
@@ -103,16 +92,11 @@ function meeting(a: Line, b: Line): Vector3 | undefined {
   return distanceFrom(b, point) < ROUNDING ? point : undefined;
 }
 
-const distanceFrom = (line: Line, point: Vector3): number => norm(cross(subtract(point, line.through), line.along));
-
 /** Turn about z from one orientation to another where their z axes agree, else 0: the rest is the flange's own. */
 function spinOf(from: Quaternion, to: Quaternion): number {
   const between = multiply([-from[0], -from[1], -from[2], from[3]], to);
   return Math.hypot(between[0], between[1]) < ROUNDING ? wrapAngle(2 * Math.atan2(between[2], between[3])) : 0;
 }
-
-/** −0 and rounding to 0. */
-const clean = (length_m: number): number => (Math.abs(length_m) < 1e-12 ? 0 : length_m);
 
 function tidy(formulaFromFlange: Pose<"formula", "flange">): Pose<"formula", "flange"> {
   const isNothing = norm(formulaFromFlange.position) < 1e-12 && angleBetween(formulaFromFlange.quaternion, [0, 0, 0, 1]) < 1e-12;
@@ -120,11 +104,6 @@ function tidy(formulaFromFlange: Pose<"formula", "flange">): Pose<"formula", "fl
 }
 
 function agrees(arm: SerialArm, geometry: OrthoParallelGeometry): boolean {
-  const random = seededRandom(6), q = new Float64Array(6);
-  for (let n = 0; n < TRIED_POSTURES; n++) {
-    for (let j = 0; j < 6; j++) q[j] = 2 * Math.PI * (random() - 0.5);
-    const a = flangePose(arm, q), b = orthoParallelFlange(geometry, q);
-    if (!(distance(a.position, b.position) < VERIFIED && angleBetween(a.quaternion, b.quaternion) < VERIFIED)) return false;
-  }
-  return true;
+  const { position_m, angle_rad } = deviation(arm, q => orthoParallelFlange(geometry, q));
+  return position_m < VERIFIED && angle_rad < VERIFIED;
 }

@@ -1,7 +1,7 @@
 import { pose } from "../spatial/pose.ts";
 import { norm } from "../spatial/vector.ts";
 import type { SerialArm } from "./arm.ts";
-import { orthoParallelFromArm } from "./derive.ts";
+import { familyOf } from "./family.ts";
 import type { KinematicFamily, Robot } from "./robot.ts";
 
 /** Speed of the tool tip at full speed where nobody says it [m/s]. */
@@ -12,7 +12,7 @@ export type KnownOfRobot = Partial<Omit<Robot, "arm" | "family" | "assumptions">
 
 /** A robot around an arm that came from a file: closed form where its axes allow, home at zero or as near as the limits allow. */
 export function robotFromArm(arm: SerialArm, known: KnownOfRobot = {}): Robot {
-  const family: KinematicFamily = orthoParallelFromArm(arm) ?? { kind: "general" };
+  const family = familyOf(arm);
   const assumptions = [...(known.assumptions ?? [])];
   const assume = <T>(value: T | undefined, assumed: T, sentence: string): T => {
     if (value === undefined) assumptions.push(sentence);
@@ -28,7 +28,7 @@ export function robotFromArm(arm: SerialArm, known: KnownOfRobot = {}): Robot {
     payloadMax_kg: known.payloadMax_kg ?? known.payload_kg ?? 0,
     reach_m: assume(known.reach_m, reach_m, `The reach is not published: ${length} follows from the lengths of the links.`),
     reachMeasuredFrom: known.reachMeasuredFrom ?? (family.kind === "ortho-parallel" ? "axis-1" : "axis-2"),
-    reachMeasuredTo: known.reachMeasuredTo ?? (family.kind === "ortho-parallel" ? "wrist" : "flange"),
+    reachMeasuredTo: known.reachMeasuredTo ?? (family.kind === "general" ? "flange" : "wrist"),
     repeatability_m: assume(known.repeatability_m, 0, "The repeatability is not known: 0 mm is shown."),
     maxTcpSpeed_mps: assume(known.maxTcpSpeed_mps, ASSUMED_TCP_SPEED_MPS, `The largest speed of the tool tip is not known: ${ASSUMED_TCP_SPEED_MPS} m/s is assumed.`),
     sources: known.sources ?? { "arm": "The axes, limits and speeds of the robot file that was opened." },
@@ -37,8 +37,13 @@ export function robotFromArm(arm: SerialArm, known: KnownOfRobot = {}): Robot {
   };
 }
 
-/** From axis 1 to the wrist centre of the stretched arm; for another arm the sum of its links, which no reach exceeds. */
+/** From axis 1 to the wrist of the stretched arm, as makers count; for an arm of no family the sum of its links, which no reach exceeds. */
 function reachOf(arm: SerialArm, family: KinematicFamily): number {
-  if (family.kind === "ortho-parallel") return Math.abs(family.a1_m) + family.c2_m + Math.hypot(family.a2_m, family.c3_m);
-  return arm.joints.slice(1).reduce((sum, joint) => sum + norm(joint.parentFromJoint.position), norm(arm.lastJointFromFlange.position));
+  switch (family.kind) {
+    case "ortho-parallel": return Math.abs(family.a1_m) + family.c2_m + Math.hypot(family.a2_m, family.c3_m);
+    case "three-parallel": return Math.abs(family.a1_m) + family.c2_m + family.c3_m + family.c5_m;
+    case "spherical-seven": return family.c3_m + family.c5_m;
+    case "general-6r": return Math.abs(family.a1_m) + family.c2_m + Math.hypot(...family.centre_m);
+    case "general": return arm.joints.slice(1).reduce((sum, joint) => sum + norm(joint.parentFromJoint.position), norm(arm.lastJointFromFlange.position));
+  }
 }

@@ -6,3 +6,4 @@ export * from "./sine-cosine.ts";
 export * from "./turns.ts";
 export * from "./conventions.ts";
 export * from "./mirror.ts";
+export * from "./eigen.ts";

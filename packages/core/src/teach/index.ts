@@ -3,3 +3,4 @@ export * from "./jog.ts";
 export * from "./clutch.ts";
 export * from "./aids.ts";
 export * from "./glove.ts";
+export * from "./follow-target.ts";

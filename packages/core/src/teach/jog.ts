@@ -1,68 +1,22 @@
-import { branchOfOrthoParallel } from "../kinematics/branch.ts";
 import { explainReach } from "../kinematics/explain.ts";
-import { armScratch, flangePose, type ArmScratch } from "../kinematics/forward.ts";
-import { outOfReach } from "../kinematics/inverse.ts";
-import { MAX_BRANCHES, solveOrthoParallel } from "../kinematics/ortho-parallel.ts";
+import { flangePose } from "../kinematics/forward.ts";
 import type { Reach } from "../kinematics/reach.ts";
-import { singularDistances } from "../kinematics/singularity.ts";
-import { wristCentre } from "../kinematics/span.ts";
-import type { OrthoParallelGeometry, Robot } from "../robots/robot.ts";
-import { compose, identity, inverse, type Pose } from "../spatial/pose.ts";
+import { compose, inverse, type Pose } from "../spatial/pose.ts";
 import { fromAxisAngle, multiply, normalizeQuaternion, rotate, type Quaternion } from "../spatial/quaternion.ts";
-import { wrapAngle } from "../spatial/units.ts";
-import { dot, norm, normalize, scale, type Vector3 } from "../spatial/vector.ts";
+import { norm, normalize, scale, type Vector3 } from "../spatial/vector.ts";
+import { jogScratch, speedLoad, type JogCell, type JogCommand, type JogFrame, type JogScratch } from "./jog-cell.ts";
 import { jogJoints } from "./jog-joints.ts";
+import { continueNumeric, fitScratch, noteStart, turnNumeric } from "./jog-numeric.ts";
+import { continueOrthoParallel, turnOrthoParallel } from "./jog-ortho-parallel.ts";
 import type { JogBlock, Jogged } from "./jogged.ts";
 
-/** Which axes a Cartesian jog runs along: those of the world, the robot base, the tool tip, or worldFromUser of a work frame. */
-export type JogFrame = "world" | "base" | "tool" | Quaternion;
-
-/** What the hand asks for: joint speeds [rad/s], or a twist of the tool tip [m/s, rad/s about the tip]. */
-export type JogCommand =
-  | { readonly kind: "joints"; readonly speed_rad_s: ArrayLike<number> }
-  | { readonly kind: "tip"; readonly linear_mps: Vector3; readonly angular_rad_s: Vector3; readonly frame: JogFrame };
-
-/** Where the arm stands and what it carries. */
-export interface JogCell {
-  readonly robot: Robot;
-  readonly worldFromBase: Pose<"world", "base">;
-  readonly flangeFromTcp: Pose<"flange", "tcp">;
-}
-
-/** Working memory of `jogStep`: one per hand. */
-export interface JogScratch {
-  readonly raw: Float64Array; readonly best: Float64Array; readonly start: Float64Array; readonly ahead: Float64Array; readonly turned: Float64Array; readonly arm: ArmScratch;
-  readonly baseFromFlange: Pose<"base", "flange">; readonly worldFromTcp: Pose<"world", "tcp">; readonly wanted: Pose<"world", "tcp">;
-  readonly worldFromFlange: Pose<"world", "flange">; readonly baseFromTcp: Pose<"base", "tcp">;
-  readonly baseFromWorld: Pose<"base", "world">; readonly tcpFromFlange: Pose<"tcp", "flange">;
-  readonly linear: Vector3; readonly angular: Vector3; readonly masked: Vector3; readonly axis: Vector3; readonly turns: Vector3; readonly turn: Quaternion;
-  /** The last turn in place of joints 1, 4, 6, this step's, and the wish it was for, so that one does not undo the other. All 0 where the tip moved. */
-  readonly turnedLast: Vector3; readonly turnedNow: Vector3; readonly turnedFor: Float64Array;
-}
-export const jogScratch = (): JogScratch => ({
-  raw: new Float64Array(6 * MAX_BRANCHES), best: new Float64Array(6), start: new Float64Array(6), ahead: new Float64Array(6), turned: new Float64Array(6), arm: armScratch(),
-  baseFromFlange: identity(), worldFromTcp: identity(), wanted: identity(),
-  worldFromFlange: identity(), baseFromTcp: identity(), baseFromWorld: identity(), tcpFromFlange: identity(),
-  linear: [0, 0, 0], angular: [0, 0, 0], masked: [0, 0, 0], axis: [0, 0, 0], turns: [0, 0, 0], turn: [0, 0, 0, 1],
-  turnedLast: [0, 0, 0], turnedNow: [0, 0, 0], turnedFor: new Float64Array(6),
-});
+export { jogScratch, type JogCell, type JogCommand, type JogFrame, type JogScratch } from "./jog-cell.ts";
 
 const NONE: readonly JogBlock[] = [];
 const AXES = ["x", "y", "z"] as const;
 /** A step shortened below this [m, rad] is looked at twice: on a singularity the arm must turn in place instead. */
 const ALL_BUT_STANDING = 1e-6;
 const SHORTEST = 1e-12;
-/** This near to a singularity [m, sine] the tip does not notice its joints being turned in place. */
-const ON_SINGULARITY = 1e-8;
-/** A turn in place below this share of the joint speeds is rounding. */
-const LEAST_TURN = 1e-3;
-/** Rounding of limits given in degrees. */
-const LIMIT_SLACK_RAD = 1e-9;
-/** At a singularity two branches meet; within this travel they are the same posture. */
-const SAME_TRAVEL_RAD = 1e-6;
-/** Weight of joints 2 and 3 in telling which solution continues the posture. */
-const FOLLOWS_WRIST = 1000;
-const TURN = 2 * Math.PI;
 /** What is left of a step that leaves the reach is taken up to this near to the edge [m, rad]. */
 const AT_THE_EDGE = 1e-5;
 /** Two steps count as the same wish while their directions differ by less than this cosine. */
@@ -76,8 +30,9 @@ const SAME_WISH = 0.99;
  * Follows the branch the arm is in. A step that asks a joint for more than its speed is shortened as a whole, so that near
  * a singularity the tip slows down instead of the arm jumping; on a singularity the free joints turn in place towards the
  * wanted direction. Where the whole step leaves the reach, each coordinate is tried: those that can go on do (row N-39),
- * rotation goes or stops as one (row N-41). Where
- * none can, the last piece to the edge is taken, to 1e-5 (m, rad).
+ * rotation goes or stops as one (row N-41). Where none can, the last piece to the edge is taken, to 1e-5 (m, rad).
+ *
+ * The ortho-parallel family jogs by its closed form, every other arm by damped least squares.
  *
  * @param q        joint angles [rad] the arm stands at. Read only.
  * @param dt_s     duration of the step; over 0.
@@ -87,13 +42,14 @@ const SAME_WISH = 0.99;
 export function jogStep(cell: JogCell, q: ArrayLike<number>, command: JogCommand, dt_s: number, out: Float64Array, scratch: JogScratch = jogScratch()): Jogged {
   if (command.kind === "joints") return jogJoints(cell.robot, q, command.speed_rad_s, dt_s, out);
   for (let j = 0; j < q.length; j++) out[j] = q[j]!;
-  const family = cell.robot.family, { linear, angular, worldFromTcp } = scratch;
-  if (family.kind !== "ortho-parallel") return refused({ kind: "no-solver", because: `${cell.robot.name} has no closed-form solver.` });
+  const { linear, angular, worldFromTcp } = scratch;
   if (!command.linear_mps.every(Number.isFinite) || !command.angular_rad_s.every(Number.isFinite) || !(dt_s > 0) || !out.every(Number.isFinite)) {
     return refused({ kind: "not-a-pose", because: "A jog speed, its duration or a joint angle is not a finite number." });
   }
+  fitScratch(scratch, cell.robot);
   scratch.start.set(out);
   compose(cell.worldFromBase, flangePose(cell.robot.arm, out, scratch.baseFromFlange, scratch.arm), scratch.worldFromFlange);
+  if (scratch.numeric !== null) noteStart(scratch.numeric, scratch.baseFromFlange);
   compose(scratch.worldFromFlange, cell.flangeFromTcp, worldFromTcp);
   inverse(cell.worldFromBase, scratch.baseFromWorld);
   inverse(cell.flangeFromTcp, scratch.tcpFromFlange);
@@ -155,108 +111,60 @@ function oneByOne(cell: JogCell, frame: Quaternion, dt_s: number, out: Float64Ar
  * Writes `out` and returns the fraction taken, or returns why the pose cannot be had and leaves `out` alone.
  */
 function towards(cell: JogCell, frame: Quaternion, x: boolean, y: boolean, z: boolean, turns: boolean, dt_s: number, out: Float64Array, scratch: JogScratch): number | Reach {
-  const { masked, linear, start, best } = scratch;
+  const { masked, linear, start, best, numeric } = scratch;
   masked[0] = x ? linear[0] : 0; masked[1] = y ? linear[1] : 0; masked[2] = z ? linear[2] : 0;
   rotate(frame, masked, masked);
-  const length = norm(masked) + (turns ? norm(scratch.angular) : 0);
-  for (let fraction = 1; fraction >= SHORTEST;) {
+  const length = norm(masked) + (turns ? norm(scratch.angular) : 0), shortest = numeric === null ? SHORTEST : ALL_BUT_STANDING / length;
+  for (let fraction = 1; fraction >= shortest;) {
     const reach = solveAt(cell, masked, turns, fraction, scratch);
     if (reach !== undefined) return reach;
     const load = speedLoad(cell.robot, start, best, dt_s);
     if (load <= 1) {
-      const turned = fraction < 1 && fraction * length < ALL_BUT_STANDING && turnInPlace(cell.robot, dt_s, out, scratch);
+      const turned = fraction < 1 && fraction * length < ALL_BUT_STANDING && turnInPlace(cell, dt_s, out, scratch);
       if (turned !== false) return turned === true ? 0 : turned;
       out.set(best);
-      scratch.turnedNow[0] = 0; scratch.turnedNow[1] = 0; scratch.turnedNow[2] = 0;
+      scratch.turnedNow.fill(0);
       return fraction;
     }
-    scratch.turns[0] = best[0]! - start[0]!; scratch.turns[1] = best[3]! - start[3]!; scratch.turns[2] = best[5]! - start[5]!;
+    if (numeric === null) { scratch.turns[0] = best[0]! - start[0]!; scratch.turns[1] = best[3]! - start[3]!; scratch.turns[2] = best[5]! - start[5]!; }
     fraction *= Math.max(0.05, Math.min(0.9, 0.98 / load));
   }
-  const turned = turnInPlace(cell.robot, dt_s, out, scratch);
-  return typeof turned === "boolean" ? 0 : turned;
+  const turned = turnInPlace(cell, dt_s, out, scratch);
+  return turned === false && numeric !== null ? NO_WAY_OUT : typeof turned === "boolean" ? 0 : turned;
+}
+
+/** On a singularity: turns joints while the tip stands still, into `out`. False where no joint is free; why not, where one stands at its limit. */
+function turnInPlace({ robot }: JogCell, dt_s: number, out: Float64Array, scratch: JogScratch): boolean | Reach {
+  const { family } = robot, { start, best, turnedNow, numeric } = scratch;
+  const turned = numeric !== null ? turnNumeric(robot, numeric, dt_s, scratch) : family.kind === "ortho-parallel" && turnOrthoParallel(robot, family, dt_s, scratch);
+  if (turned !== true) return turned;
+  out.set(best);
+  for (let j = 0; j < out.length; j++) turnedNow[j] = best[j]! - start[j]!;
+  return true;
 }
 
 /** Solves the start pose moved by that fraction; `best` receives the solution nearest to the start, or a reason is returned. */
 function solveAt(cell: JogCell, shift: Vector3, turns: boolean, fraction: number, scratch: JogScratch): Reach | undefined {
-  const { worldFromTcp, wanted, angular, axis, turn, baseFromFlange } = scratch, family = cell.robot.family;
-  if (family.kind !== "ortho-parallel") return undefined;
+  const { worldFromTcp, wanted, angular, axis, turn, baseFromFlange, numeric } = scratch, { robot } = cell, { family } = robot;
   for (let i = 0; i < 3; i++) wanted.position[i] = worldFromTcp.position[i]! + shift[i]! * fraction;
   fromAxisAngle(normalize(angular, axis), turns ? norm(angular) * fraction : 0, turn);
   normalizeQuaternion(multiply(turn, worldFromTcp.quaternion, wanted.quaternion), wanted.quaternion);
   compose(scratch.baseFromWorld, wanted, scratch.baseFromTcp);
   compose(scratch.baseFromTcp, scratch.tcpFromFlange, baseFromFlange);
-  const count = solveOrthoParallel(family, baseFromFlange, scratch.raw, scratch.start);
-  return count === 0 ? outOfReach(cell.robot, baseFromFlange) : nearest(cell.robot, family, count, scratch);
-}
-
-/**
- * Copies the solution that continues the posture into `best`: joints 2 and 3, which no singularity of wrist or shoulder makes
- * leap, decide first, then least travel; of two that are as good as equal, one inside the limits.
- */
-function nearest(robot: Robot, family: OrthoParallelGeometry, count: number, { raw, best, start }: JogScratch): Reach | undefined {
-  let least = Infinity, chosen = 0, chosenJoint = 0;
-  for (let s = 0; s < count; s++) {
-    let total = 0;
-    for (let j = 0; j < 6; j++) {
-      const turned = raw[6 * s + j]! + TURN * Math.round((start[j]! - raw[6 * s + j]!) / TURN);
-      raw[6 * s + j] = turned;
-      total += Math.abs(turned - start[j]!) * (j === 1 || j === 2 ? FOLLOWS_WRIST : 1);
-    }
-    const outside = jointOutside(robot, raw, 6 * s, start);
-    const preferred = total < least - SAME_TRAVEL_RAD || (total < least + SAME_TRAVEL_RAD && chosenJoint > 0 && outside === 0);
-    if (preferred) { least = total; chosen = s; chosenJoint = outside; }
-  }
-  for (let j = 0; j < 6; j++) best[j] = raw[6 * chosen + j]!;
-  return chosenJoint === 0 ? undefined : outsideLimits(robot, family, best, chosenJoint);
-}
-
-function outsideLimits(robot: Robot, family: OrthoParallelGeometry, q: Float64Array, joint: number): Reach {
-  const { lower_rad, upper_rad } = robot.arm.joints[joint - 1]!.limits, wanted_rad = q[joint - 1]!;
-  return { kind: "outside-limits", joint, wanted_rad, limit_rad: wanted_rad < lower_rad ? lower_rad : upper_rad, branch: branchOfOrthoParallel(family, q) };
-}
-
-/** First joint (from 1) that would leave its limits, or go further out of them; 0 when none does. */
-function jointOutside(robot: Robot, angles: Float64Array, at: number, start: Float64Array): number {
-  for (let j = 0; j < 6; j++) {
-    const { lower_rad, upper_rad } = robot.arm.joints[j]!.limits, angle = angles[at + j]!;
-    if ((angle > upper_rad + LIMIT_SLACK_RAD && angle > start[j]!) || (angle < lower_rad - LIMIT_SLACK_RAD && angle < start[j]!)) return j + 1;
-  }
-  return 0;
-}
-
-/** The largest joint speed of the step as a share of what that joint can do. */
-function speedLoad(robot: Robot, from: Float64Array, to: Float64Array, dt_s: number): number {
-  let load = 0;
-  for (let j = 0; j < 6; j++) load = Math.max(load, Math.abs(to[j]! - from[j]!) / (robot.arm.joints[j]!.limits.speed_rad_s * dt_s));
-  return load;
-}
-
-/**
- * On a singularity the wanted direction needs other angles of the free joints however short the step is: turns them towards
- * these while the tip stands still to 1e-8 (m, rad). `turns` is how far joints 1, 4 and 6 want to go.
- *
- * @returns false, with `out` and `best` as they were, where no joint is free; why not, where one stands at its limit.
- */
-function turnInPlace(robot: Robot, dt_s: number, out: Float64Array, scratch: JogScratch): boolean | Reach {
-  const { start, best, turned, turns } = scratch, family = robot.family;
-  if (family.kind !== "ortho-parallel") return false;
-  const { wrist, shoulder_m } = singularDistances(family, start);
-  turned.set(best);
-  const atShoulder = shoulder_m < ON_SINGULARITY && Math.abs(turns[0]) > ON_SINGULARITY;
-  const done = atShoulder ? turnShoulder(robot, family, dt_s, scratch) : wrist < ON_SINGULARITY && turnWrist(robot, family, dt_s, scratch);
-  if (done !== true) { best.set(turned); return done; }
-  out.set(best);
-  for (let i = 0; i < 3; i++) scratch.turnedNow[i] = turns[i]!;
-  return true;
+  if (numeric !== null) return continueNumeric(robot, numeric, scratch);
+  return family.kind === "ortho-parallel" ? continueOrthoParallel(robot, family, scratch) : undefined;
 }
 
 const NEITHER_WAY: Reach = { kind: "no-solver", because: "The arm stands on a singularity; turned in place to either side it meets a limit, and the tip would not move." };
 
+const NO_WAY_OUT: Reach = { kind: "no-solver", because: "The arm stands on a singularity, and no turn in place of its joints brings the tip that way." };
+
 /** Whether this step turned in place against the last one; if not, it is the last one from now on. Without it, a limit on either side would rock the arm for ever. */
 function undoesTheLast({ turnedNow, turnedLast }: JogScratch): boolean {
-  if (dot(turnedNow, turnedLast) < 0) return true;
-  for (let i = 0; i < 3; i++) turnedLast[i] = turnedNow[i]!;
+  let along = 0;
+  for (let j = 0; j < turnedNow.length; j++) along += turnedNow[j]! * turnedLast[j]!;
+  if (along < 0) return true;
+  turnedLast.set(turnedNow);
   return false;
 }
 
@@ -268,43 +176,7 @@ function forgetOtherWish({ linear, angular, turnedFor, turnedLast }: JogScratch)
     along += value * last; now += value * value; before += last * last;
     turnedFor[i] = value;
   }
-  if (!(along > SAME_WISH * Math.sqrt(now * before))) { turnedLast[0] = 0; turnedLast[1] = 0; turnedLast[2] = 0; }
-}
-
-/** Wrist centre on axis 1: the solver leaves joints 1 and 4 where it is told to, once the centre is on the axis to the last digit. */
-function turnShoulder(robot: Robot, family: OrthoParallelGeometry, dt_s: number, scratch: JogScratch): boolean | Reach {
-  const { start, best, ahead, baseFromFlange, raw, turns } = scratch;
-  flangePose(robot.arm, start, baseFromFlange, scratch.arm);
-  const centre = wristCentre(family, baseFromFlange);
-  baseFromFlange.position[0] -= centre[0]; baseFromFlange.position[1] -= centre[1];
-  for (let part = partWithin(robot, turns[0], turns[1], 0, dt_s), tries = 0; tries < 8; part /= 2, tries++) {
-    ahead.set(start);
-    ahead[0] = start[0]! + turns[0] * part; ahead[3] = start[3]! + turns[1] * part;
-    const count = solveOrthoParallel(family, baseFromFlange, raw, ahead);
-    const reach = count === 0 ? undefined : nearest(robot, family, count, scratch);
-    if (reach !== undefined) return reach;
-    const load = speedLoad(robot, start, best, dt_s);
-    if (load <= 1) return load > LEAST_TURN;
-  }
-  return false;
-}
-
-/** Wrist straight: axes 4 and 6 are one line, and what one turns the other turns back. */
-function turnWrist(robot: Robot, family: OrthoParallelGeometry, dt_s: number, scratch: JogScratch): boolean | Reach {
-  const { start, best, turns } = scratch, part = partWithin(robot, 0, turns[1], turns[2], dt_s);
-  best.set(start);
-  best[3] = start[3]! + turns[1] * part; best[5] = start[5]! + turns[2] * part;
-  // The bend that is left over would point elsewhere after the turn: it is taken out.
-  const bend = wrapAngle(family.signs[4] * start[4]! - family.offsets_rad[4]);
-  if (Math.abs(bend) < ON_SINGULARITY) best[4] = start[4]! - family.signs[4] * bend;
-  const outside = jointOutside(robot, best, 0, start);
-  return outside === 0 ? speedLoad(robot, start, best, dt_s) > LEAST_TURN : outsideLimits(robot, family, best, outside);
-}
-
-/** The share of these turns of joints 1, 4 and 6 that their speeds allow in one step. */
-function partWithin(robot: Robot, turn1: number, turn4: number, turn6: number, dt_s: number): number {
-  const joints = robot.arm.joints, load = (turn: number, joint: number): number => Math.abs(turn) / (joints[joint]!.limits.speed_rad_s * dt_s);
-  return Math.min(1, 0.999 / Math.max(load(turn1, 0), load(turn4, 3), load(turn6, 5)));
+  if (!(along > SAME_WISH * Math.sqrt(now * before))) turnedLast.fill(0);
 }
 
 /** Unit quaternion worldFromFrame of the axes a jog runs along. */

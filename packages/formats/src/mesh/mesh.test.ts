@@ -29,6 +29,15 @@ describe("M-03 STL", () => {
     expect(meshVolume(mesh)).toBeCloseTo(meshVolume(ball), 9);
   });
 
+  test("M-04 the number of facets is that of the source, ASCII and binary", () => {
+    for (const facets of [4, 37, 500]) {
+      const ring = torusMesh(1, 0.3, facets, 3), count = ring.indices.length / 3, binary = writeStl(ring);
+      expect(new DataView(binary.buffer).getUint32(80, true)).toBe(count);
+      expect(read(readStl(binary)).report.triangles).toBe(count);
+      expect(read(readStl(bytesOf(asciiStl(ring)))).report.triangles).toBe(asciiStl(ring).split("endfacet").length - 1);
+    }
+  });
+
   test("the bytes are those of the format", () => {
     const bytes = writeStl({ positions: Float64Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0), indices: Uint32Array.of(0, 1, 2) }, "x");
     expect(bytes.length).toBe(134);

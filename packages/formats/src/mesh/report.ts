@@ -2,7 +2,7 @@ import { censusOfEdges, meshBounds, weldMesh, type TriangleMesh, type Vector3 } 
 
 /** What was read, what was mended, and what a person should know. */
 export interface MeshReport {
-  readonly format: "STL (binary)" | "STL (ASCII)" | "OBJ" | "PLY (binary)" | "PLY (ASCII)";
+  readonly format: "STL (binary)" | "STL (ASCII)" | "OBJ" | "PLY (binary)" | "PLY (ASCII)" | "COLLADA" | "glTF" | "GLB";
   /** Triangles in the file, before any were removed. */
   readonly triangles: number;
   readonly vertices: number;

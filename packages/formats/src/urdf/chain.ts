@@ -1,7 +1,8 @@
-import { compose, copyPose, identity, inverse, type Joint, type Pose, type SerialArm } from "@twincell/core";
+import { compose, copyPose, identity, inverse, type Joint, type LinkMass, type Pose, type SerialArm } from "@twincell/core";
 import { limitsWith } from "../limits.ts";
 import { answering, Refusal, type NotUnderstood } from "../refusal.ts";
 import { shorten } from "../xml.ts";
+import { massesOf } from "./masses.ts";
 import type { UrdfJoint, UrdfRobot, UrdfShape } from "./model.ts";
 
 /** A shape of the robot, seen from the moving link it is bolted to. Link 0 is the base, link i turns with joint i. */
@@ -21,6 +22,8 @@ export interface UrdfChain {
   readonly base: string;
   readonly tip: string;
   readonly shapes: readonly PlacedShape[];
+  /** Masses of the moving links with all that is bolted to them, when the file has them for every one. */
+  readonly masses?: readonly LinkMass[];
   /** What had to be assumed, one sentence each. */
   readonly assumptions: readonly string[];
 }
@@ -59,8 +62,9 @@ export function armFromUrdf(robot: UrdfRobot, base = robot.root, tip = defaultTi
     }
     if (joints.length === 0) throw new Refusal(`No joint turns between ${shorten(base)} and ${shorten(tip)}.`);
     placeSideLinks(robot, upTo, linkOf, assumptions);
+    const masses = massesOf(robot, linkOf, joints.length);
     return {
-      kind: "chain", base, tip, assumptions, shapes: shapesOf(robot, linkOf),
+      kind: "chain", base, tip, assumptions, shapes: shapesOf(robot, linkOf), ...(masses ? { masses } : {}),
       arm: { name: robot.name, joints, lastJointFromFlange: copyPose(running as Pose<"joint", "flange">) },
     };
   });
@@ -76,6 +80,12 @@ export function defaultTip(robot: UrdfRobot): string {
     if (length > longest) { longest = length; best = name; }
   }
   return best;
+}
+
+/** Links at which the file ends: what may be a tip. */
+export function endsOf(robot: UrdfRobot): readonly string[] {
+  const parents = new Set(robot.joints.map(joint => joint.parent));
+  return robot.links.map(({ name }) => name).filter(name => !parents.has(name));
 }
 
 /** Joints from the root down to a link. */

@@ -14,7 +14,7 @@ export interface InformOptions {
 }
 
 /** Half a step of VJ=, V= and TIMER, and where V= ends. TIMER is at least 0.01 s. */
-const STEPS: Resolution = { ratio: 0.5e-4, leastRatio: 1e-4, mps: 0.5e-4, mostMps: 1.5, wait_s: 0.01, anglesAsPoses: true };
+const STEPS: Resolution = { ratio: 0.5e-4, leastRatio: 1e-4, leastAcceleration: 0.2, mps: 0.5e-4, mostMps: 1.5, wait_s: 0.01, anglesAsPoses: true, posesAsAngles: true };
 /** Longest lever of an axis of the hand that is reckoned with [m]. */
 const HAND_M = 0.4;
 const DEG = Math.PI / 180;
@@ -27,7 +27,7 @@ function pulseResolution(pulses: Readonly<Record<string, PulseData>>): Resolutio
     angle_rad = Math.max(angle_rad, sum);
     position_m = Math.max(position_m, half.reduce((total, value, i) => total + value * (i < 3 ? 1 + HAND_M : HAND_M), 0));
   }
-  return { ...STEPS, anglesAsPoses: false, posesAsAngles: true, angle_rad, position_m };
+  return { ...STEPS, anglesAsPoses: false, angle_rad, position_m };
 }
 
 /** INFORM of Yaskawa controllers from the NX100 on. */

@@ -1,4 +1,4 @@
-import { emptyProgram, seededRandom, type Dialect, type EmittedFile, type MoveStep, type Pose, type Program, type Robot, type TextFault } from "@twincell/core";
+import { CAPABILITIES, emptyProgram, everyStep, seededRandom, type Dialect, type EmittedFile, type MoveStep, type Pose, type Program, type Robot, type TextFault } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { proveText, runnableFile } from "../prove.ts";
 import { randomProgram } from "./programs.ts";
@@ -9,6 +9,10 @@ export interface DialectBench {
   readonly worldFromBase: Pose<"world", "base">;
   /** Paths that the dialect does not declare under `cannot`. */
   readonly paths: readonly MoveStep["path"][];
+  /** The dialect says everything that it does not list under `cannot`: random programs have signals, loops, decisions, calls and pallets as well. */
+  readonly structured?: boolean;
+  /** Its reader writes loops and calls out as what they do, so only programs without them come back as they were. */
+  readonly unrolls?: boolean;
   /** What a controller executes of the files; left out, what the dialect says. */
   readonly runnable?: (files: readonly EmittedFile[]) => EmittedFile;
 }
@@ -33,7 +37,8 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
   const chosen = bench.runnable ?? ((files: readonly EmittedFile[]): EmittedFile => runnableFile(dialect, files)!);
   const runnable = (program: Program): EmittedFile => chosen(emit(program));
   const cannot = dialect.cannot.map(({ what }) => what);
-  const random = (seed: number): Program => randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths, cannot });
+  const random = (seed: number): Program => randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths, cannot, ...(bench.structured === true && seed % 2 === 0 ? { can } : {}) });
+  const can = new Set(CAPABILITIES.filter(capability => !cannot.includes(capability)));
   const parse = (text: string): Program => {
     const parsed = dialect.parse(text, robot, worldFromBase);
     if (parsed.kind === "not-understood") throw new Error(JSON.stringify(parsed.faults));
@@ -50,7 +55,8 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
     });
 
     test.each(SEEDS)("emit, parse, emit gives the same runnable text (seed %d)", seed => {
-      const first = runnable(random(seed)), program = parse(first.text);
+      const whole = bench.unrolls === true ? randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths, cannot }) : random(seed);
+      const first = runnable(whole), program = parse(first.text);
       expect(runnable(program).text).toBe(first.text);
       expectProven(first, program);
     });
@@ -60,7 +66,7 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
     });
 
     test.each(SEEDS)("the text depends on the program alone, is ASCII, and says for every line which step it belongs to (seed %d)", seed => {
-      const program = random(seed), files = emit(program), ids = new Set(program.steps.map(step => step.id));
+      const program = random(seed), files = emit(program), ids = new Set(Array.from(everyStep(program), step => step.id));
       expect(emit(structuredClone(program))).toEqual(files);
       for (const { name, text, lines } of files) {
         expect(text, name).toMatch(/^[\r\n\t -~]*$/);

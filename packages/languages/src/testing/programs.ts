@@ -1,6 +1,6 @@
 import {
-  branchOf, compose, emptyProgram, flangePose, identity, inverse, seededRandom, span,
-  type Capability, type MoveStep, type Pose, type Program, type Quaternion, type Random, type Robot, type Speed, type Step, type Target,
+  PALLET_ORDERS, branchOf, compose, emptyProgram, flangePose, identity, inverse, seededRandom, span,
+  type Capability, type Condition, type MoveStep, type Pallet, type PalletStep, type Pose, type Program, type Quaternion, type Random, type Robot, type Speed, type Step, type Target,
 } from "@twincell/core";
 
 export interface ProgramChoices {
@@ -10,50 +10,148 @@ export interface ProgramChoices {
   readonly paths: readonly MoveStep["path"][];
   /** What the language lacks. */
   readonly cannot?: readonly Capability[];
+  /** What else the programs may ask for; plain points, waits and gripper actions when left out. */
+  readonly can?: ReadonlySet<Capability>;
 }
 
-/** A program whose every point the robot reaches: random postures, taught as joint angles or as poses of a tool in a frame. */
-export function randomProgram(robot: Robot, { seed, steps, worldFromBase, paths, cannot = [] }: ProgramChoices): Program {
-  const random = seededRandom(seed);
-  const tools: Program["tools"] = { torch: randomPose(random, 0.2), "long tool (2)": randomPose(random, 0.4) };
-  const frames: Program["frames"] = { carton: randomPose(random, 1), "Drehtisch ä": randomPose(random, 2) };
-  const list: Step[] = [];
-  for (let i = 0; i < steps; i++) {
-    const base = { id: `k${i}`, ...(random() < 0.3 ? { name: `Point ${i}` } : {}), ...(random() < 0.4 ? { group: random() < 0.5 ? "g1" : "g2" } : {}) };
-    const sort = random();
-    if (sort < 0.08) { list.push({ ...base, type: "wait", s: Math.round(random() * 1000) / 100 }); continue; }
-    if (sort < 0.16) { list.push({ ...base, type: "gripper", closed: random() < 0.5 }); continue; }
-    const q = easyPosture(robot, random);
+/** Lines with numbers that a language may use; outputs and inputs of most controllers are apart. */
+export const SIGNALS: Program["signals"] = {
+  lamp: { kind: "digital-out", address: 5 }, "Blow off": { kind: "digital-out", address: 6 }, part: { kind: "digital-in", address: 1003 }, tray_full: { kind: "digital-in", address: 1004 },
+  level: { kind: "analogue-in", address: 1 }, valve: { kind: "analogue-out", address: 2 },
+};
+
+/**
+ * A program whose every point the robot reaches: random postures, taught as joint angles or as poses of a tool in a frame.
+ * Whatever the language can say beside points is mixed in: signals, loops, decisions, calls, pallets, comments.
+ */
+export function randomProgram(robot: Robot, choices: ProgramChoices): Program {
+  const random = seededRandom(choices.seed), made = new Maker(robot, random, choices);
+  const steps = made.list(choices.steps, 0), { tools, frames, pallets, routines } = made;
+  const used = choices.can === undefined ? {} : { signals: SIGNALS, pallets, routines };
+  return { ...emptyProgram(robot.id, `Prüfung No. ${choices.seed}`), tools, frames, groups: { g1: { name: "Edge 1" }, g2: { name: "Edge 2" } }, ...used, steps };
+}
+
+class Maker {
+  readonly tools: Program["tools"];
+  readonly frames: Program["frames"];
+  readonly pallets: Record<string, Pallet> = {};
+  readonly routines: Record<string, readonly Step[]> = {};
+  private readonly robot: Robot;
+  private readonly random: Random;
+  private readonly choices: ProgramChoices;
+  private count = 0;
+
+  constructor(robot: Robot, random: Random, choices: ProgramChoices) {
+    this.robot = robot;
+    this.random = random;
+    this.choices = choices;
+    this.tools = { torch: randomPose(random, 0.2), "long tool (2)": randomPose(random, 0.4) };
+    this.frames = { carton: randomPose(random, 1), "Drehtisch ä": randomPose(random, 2) };
+  }
+
+  /** @param depth  blocks around the list. */
+  list(length: number, depth: number): readonly Step[] {
+    const steps: Step[] = [];
+    for (let i = 0; i < length; i++) {
+      const { random } = this, base = { id: `k${this.count++}`, ...(random() < 0.3 ? { name: `Point ${this.count}` } : {}), ...(random() < 0.4 ? { group: random() < 0.5 ? "g1" : "g2" } : {}) };
+      const sort = random();
+      if (sort < 0.08) steps.push({ ...base, type: "wait", s: Math.round(random() * 1000) / 100 });
+      else if (sort < 0.16) steps.push({ ...base, type: "gripper", closed: random() < 0.5 });
+      else steps.push((sort < 0.4 ? this.other(base, depth) : undefined) ?? this.move(base));
+    }
+    return steps;
+  }
+
+  private move(base: { readonly id: string }): MoveStep {
+    const { random, robot, tools, frames } = this, { worldFromBase, paths, can, cannot = [] } = this.choices;
+    const q = easyPosture(robot, random, EASE_M);
     const tool = pick(random, ["flange", ...Object.keys(tools)]), frame = pick(random, ["world", ...Object.keys(frames)]);
     const worldFromTcp = compose(worldFromBase, compose(flangePose(robot.arm, q), tools[tool] ?? identity<"flange", "tcp">()));
     const branch = random() < 0.5 ? branchOf(robot, q) : undefined;
     const path = pick(random, paths), drawn = randomSpeed(random);
     const speed = "time_s" in drawn && (path === "circ" || cannot.includes("duration")) ? { mps: 0.1 } : drawn;
-    const passing = (by: string): Target =>
-      ({ pose: compose(inverse(frames[frame] ?? identity()), compose(worldFromBase, compose(flangePose(robot.arm, beside(robot, q, random)), tools[by] ?? identity<"flange", "tcp">()))), frame, tool: by });
     const target: Target = random() < 0.4
       ? { q, ...(random() < 0.5 ? { tool } : {}) }
       : { pose: compose(inverse(frames[frame] ?? identity()), worldFromTcp), frame, tool, ...(branch === undefined ? {} : { branch }) };
-    list.push({
+    const passing = (by: string): Target =>
+      ({ pose: compose(inverse(frames[frame] ?? identity()), compose(worldFromBase, compose(flangePose(robot.arm, beside(robot, q, random)), tools[by] ?? identity<"flange", "tcp">()))), frame, tool: by });
+    return {
       ...base, type: "move", path, target,
       ...(path === "circ" ? { via: passing(target.tool ?? "flange") } : {}),
-      speed, blend_m: random() < 0.5 ? 0 : 0.01,
-    });
+      speed, ...(can?.has("acceleration") === true && random() < 0.3 ? { acceleration: { ratio: Math.ceil(random() * 100) / 100 } } : {}), blend_m: random() < 0.5 ? 0 : 0.01,
+    };
   }
-  return { ...emptyProgram(robot.id, `Prüfung No. ${seed}`), tools, frames, groups: { g1: { name: "Edge 1" }, g2: { name: "Edge 2" } }, steps: list };
+
+  /** One of the steps that only some languages have; undefined where none fits. */
+  private other(base: { readonly id: string }, depth: number): Step | undefined {
+    const { random } = this, { can } = this.choices, kind = pick(random, OTHERS);
+    if (can?.has(kind) !== true) return undefined;
+    switch (kind) {
+      case "set-digital": {
+        const to = random() < 0.5;
+        // Some controllers pulse an output on and never off.
+        return { ...base, type: "set", signal: pick(random, ["lamp", "Blow off"]), to, ...(to && can.has("pulse") && random() < 0.5 ? { pulse_s: 0.5 } : {}) };
+      }
+      case "set-analogue": return { ...base, type: "set", signal: "valve", to: Math.round(random() * 100) / 10 };
+      case "wait-for": return { ...base, type: "wait-for", when: this.condition(), ...(can.has("timeout") && random() < 0.3 ? { timeout_s: 2.5 } : {}) };
+      case "payload": return { ...base, type: "payload", mass_kg: Math.round(random() * 30) / 10, center_m: [0, 0, Math.round(random() * 100) / 1000] };
+      case "message": return { ...base, type: "message", text: `Part ${this.count} is done.` };
+      case "comment": return { id: base.id, type: "comment", text: `Comment ${this.count}` };
+      case "call": return { ...base, type: "call", routine: this.routine(depth) };
+      case "repeat": return depth >= DEEPEST ? undefined : { ...base, type: "repeat", times: pick(random, [1, 2, 3]), steps: this.list(3, depth + 1) };
+      case "if": return depth >= DEEPEST ? undefined : { ...base, type: "if", when: this.condition(), then: this.list(2, depth + 1), ...(random() < 0.5 ? { else: this.list(2, depth + 1) } : {}) };
+      case "pallet": return depth >= DEEPEST ? undefined : this.pallet(base);
+    }
+  }
+
+  private condition(): Condition {
+    const { random } = this;
+    if (this.choices.can?.has("read-analogue") === true && random() < 0.3) return random() < 0.5 ? { signal: "level", above: 2.5 } : { signal: "level", below: 7 };
+    return { signal: pick(random, ["part", "tray_full"]), is: random() < 0.5 };
+  }
+
+  /** A routine that is there already, or a new one. */
+  private routine(depth: number): string {
+    const names = Object.keys(this.routines);
+    // One that is being made would call itself.
+    if (names.length > 0 && (depth > 0 || this.random() < 0.5)) { const ready = names.find(name => this.routines[name]!.length > 0); if (ready !== undefined) return ready; }
+    const name = `Pick part ${names.length + 1}`;
+    this.routines[name] = [];
+    this.routines[name] = this.list(2, DEEPEST + 1).filter(step => step.type !== "call");
+    return name;
+  }
+
+  /** A small pallet around a posture with room on every side. */
+  private pallet(base: { readonly id: string }): PalletStep {
+    const { random, robot, frames } = this, { worldFromBase } = this.choices, name = `Tray ${Object.keys(this.pallets).length + 1}`;
+    const q = easyPosture(robot, random, ROOM_M, 0.1), frame = pick(random, ["world", ...Object.keys(frames)]);
+    const frameFromPlace = compose(inverse(frames[frame] ?? identity()), compose(worldFromBase, flangePose(robot.arm, q))) as Pose as Pose<"frame", "place">;
+    const [x, y, z] = frameFromPlace.position, order = pick(random, PALLET_ORDERS), shifted = order.startsWith("rows") && random() < 0.4;
+    this.pallets[name] = {
+      frame, origin: frameFromPlace, rowEnd: [x + 0.004, y + 0.001, z], columnEnd: [x - 0.001, y + 0.003, z + 0.001],
+      rows: pick(random, [1, 2, 3]), columns: pick(random, [2, 3]), layers: pick(random, [1, 2]), layer_m: 0.002, order, ...(shifted ? { interleave: "odd-rows-shifted" } : {}),
+    };
+    const at = (z_m: number): MoveStep["target"] => ({ pose: { position: [0, 0, z_m], quaternion: [0, 0, 0, 1] }, frame: name, tool: "flange", branch: branchOf(robot, q)! });
+    const move = (path: MoveStep["path"], z_m: number): MoveStep => ({ id: `k${this.count++}`, type: "move", path, target: at(z_m), speed: randomSpeed(random), blend_m: 0 });
+    const paths = this.choices.paths.filter(path => path === "ptp" || path === "lin");
+    return { ...base, type: "pallet", pallet: name, steps: [move(pick(random, paths), -0.003), move(pick(random, paths), 0), { id: `k${this.count++}`, type: "gripper", closed: false }] };
+  }
 }
 
+const OTHERS = ["set-digital", "set-analogue", "wait-for", "payload", "message", "comment", "call", "repeat", "if", "pallet"] as const satisfies readonly Capability[];
+const DEEPEST = 2;
+
 /** Joint angles a little inside the limits, with the arm not stretched: the text's resolution must not push them out of reach. */
-function easyPosture(robot: Robot, random: Random): number[] {
+function easyPosture(robot: Robot, random: Random, ease_m: number, inside = 0.01): number[] {
   for (;;) {
-    const q = robot.arm.joints.map(({ limits: { lower_rad, upper_rad } }) => lower_rad + (upper_rad - lower_rad) * (0.01 + 0.98 * random()));
+    const q = robot.arm.joints.map(({ limits: { lower_rad, upper_rad } }) => lower_rad + (upper_rad - lower_rad) * (inside + (1 - 2 * inside) * random()));
     // Other arms than these are not asked how far they are stretched.
     if (robot.family.kind !== "ortho-parallel") return q;
     const { distance_m, nearest_m, farthest_m } = span(robot, flangePose(robot.arm, q));
-    if (farthest_m - distance_m > EASE_M && distance_m - nearest_m > EASE_M) return q;
+    if (farthest_m - distance_m > ease_m && distance_m - nearest_m > ease_m && (inside < 0.05 || Math.abs(Math.sin(q.at(-2)!)) > 0.3)) return q;
   }
 }
-const EASE_M = 0.001;
+const EASE_M = 0.001, ROOM_M = 0.05;
 
 /** A posture near by, inside the limits. */
 const beside = (robot: Robot, q: readonly number[], random: Random): number[] =>

@@ -7,6 +7,7 @@ const bench: DialectBench = {
   robot: robotById("staubli_rx90l")!,
   worldFromBase: pose([0.3, -0.2, 0.75], [0, 0, Math.sin(0.4), Math.cos(0.4)]),
   paths: ["ptp", "lin"],
+  structured: true,
   runnable: files => files.find(file => file.name.endsWith(".v2"))!,
 };
 

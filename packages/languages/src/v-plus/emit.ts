@@ -1,14 +1,22 @@
-import type { Emitted, MoveStep, Pose, Program, Robot } from "@twincell/core";
+import { capabilitiesUsed, everyStep, type Capability, type Emitted, type MoveStep, type Pose, type Program, type Robot, type Step } from "@twincell/core";
 import { jointConvention } from "./robots.ts";
 import { MOST_POINTS, pointList } from "./write/point-list.ts";
 import { posturesOf, type Place } from "./write/postures.ts";
 import { ProgramWriter } from "./write/program.ts";
 
-/** The paths that V+ has no standard instruction for. */
-export const CANNOT = [
+/** What V+ has no standard instruction for. */
+export const CANNOT: readonly { readonly what: Capability; readonly because: string }[] = [
   { what: "circ", because: "Arcs are an option of the controller that standard V+ does not have." },
   { what: "spline", because: "V+ moves on joint-interpolated and straight paths only." },
-] as const;
+  { what: "search", because: "V+ searches by a reaction program (REACTI) that runs beside the motion." },
+  { what: "payload", because: "V+ learns the load from the controller's configuration, not from a program." },
+  { what: "timeout", because: "WAIT has no limit of time in V+." },
+  { what: "pulse", because: "V+ sets a signal and leaves it." },
+  { what: "set-analogue", because: "Analogue lines are an option of the controller that standard V+ does not have." },
+  { what: "read-analogue", because: "Analogue lines are an option of the controller that standard V+ does not have." },
+];
+/** Whole numbers are exact in the controller's reals up to here. */
+const MOST_TIMES = 2 ** 24;
 
 /** The point list of the paper and the runnable program, or the step that stands in the way: never a part of a program. */
 export function emitVPlus(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
@@ -16,19 +24,14 @@ export function emitVPlus(program: Program, robot: Robot, worldFromBase: Pose<"w
   if (convention === undefined) {
     return { kind: "cannot", step: "", sentence: `How V+ counts the joints of the ${robot.name} is not known.`, hint: "Export in the language of this robot's own controller." };
   }
-  const moves = program.steps.filter((step): step is MoveStep => step.type === "move");
-  const curved = moves.find(step => step.path === "circ" || step.path === "spline");
-  if (curved !== undefined) {
-    const because = CANNOT.find(({ what }) => what === curved.path)!.because;
-    return { kind: "cannot", step: curved.id, sentence: `Step ${curved.name ?? curved.id} is a ${curved.path} move. ${because}`, hint: "Replace it by straight moves through points on the curve." };
-  }
-  const unsaid = program.steps.find(step => step.type !== "move" && step.type !== "wait" && step.type !== "gripper");
-  if (unsaid !== undefined) return { kind: "cannot", step: unsaid.id, sentence: `Step ${unsaid.name ?? unsaid.id} is a ${unsaid.type} step, which is not written in V+ yet.`, hint: "Take the step out." };
+  const steps = [...everyStep(program)], moves = steps.filter((step): step is MoveStep => step.type === "move");
+  const refused = unspeakable(program, steps);
+  if (refused !== undefined) return refused;
   if (moves.length > MOST_POINTS) {
     return { kind: "cannot", step: moves[MOST_POINTS]!.id, sentence: `The program has ${moves.length} points; the array of the point list ends after ${MOST_POINTS}.`, hint: "Export it in parts." };
   }
   const place: Place = { robot, worldFromBase, tools: program.tools, frames: program.frames };
-  const postures = posturesOf(moves, place);
+  const postures = posturesOf(program, place);
   if (postures.kind === "cannot") return postures;
   return {
     kind: "emitted",
@@ -37,9 +40,32 @@ export function emitVPlus(program: Program, robot: Robot, worldFromBase: Pose<"w
   };
 }
 
+/** The first step that V+ has no words for. */
+function unspeakable(program: Program, steps: readonly Step[]): Extract<Emitted, { kind: "cannot" }> | undefined {
+  const refuse = (step: Step, sentence: string, hint: string): Extract<Emitted, { kind: "cannot" }> => ({ kind: "cannot", step: step.id, sentence: `Step ${step.name ?? step.id} ${sentence}`, hint });
+  const used = capabilitiesUsed(program);
+  for (const { what, because } of CANNOT) {
+    const step = used.get(what);
+    if (step === undefined) continue;
+    if (step.type === "move" && step.path === what) return refuse(step, `is a ${what} move. ${because}`, "Replace it by straight moves through points on the curve.");
+    return refuse(step, `asks for: ${what}. ${because}`, "Say it in another way, or export in another language.");
+  }
+  for (const step of steps) {
+    const signal = step.type === "set" ? step.signal : step.type === "wait-for" || step.type === "if" ? step.when.signal : undefined;
+    if (signal !== undefined && (Object.hasOwn(program.signals, signal) ? program.signals[signal]!.address : undefined) === undefined) {
+      return refuse(step, `names the signal “${signal}”, whose number is not known. V+ counts its lines.`, "Give the signal its address: outputs count from 1, inputs from 1001.");
+    }
+    if (step.type === "repeat" && step.times !== "forever" && step.times > MOST_TIMES) return refuse(step, `repeats ${step.times} times; a loop of V+ counts to ${MOST_TIMES}.`, "Put one loop into another.");
+    if (step.type !== "pallet") continue;
+    const pallet = program.pallets[step.pallet];
+    if (pallet?.interleave === "odd-rows-shifted" && pallet.order?.startsWith("columns") === true) return refuse(step, "visits shifted rows column by column, which loops of V+ do not say.", "Visit the pallet row by row.");
+  }
+  return undefined;
+}
+
 function warnings(program: Program, robot: Robot, moves: readonly MoveStep[]): string[] {
   const said: string[] = [];
-  const blended = moves.filter(step => step.blend_m > 0);
+  const blended = moves.filter(step => step.blend_m > 0 || (step.blend_ratio ?? 0) > 0);
   if (program.robot !== robot.id) said.push(`The program was taught on ${program.robot} and is written for ${robot.id}.`);
   if (blended.length > 0) said.push(`V+ has no blend radius: ${counted(blended.length, "step passes", "steps pass")} its point on a continuous path whose corner depends on the speed.`);
   const paced = moves.filter(step => step.path === "ptp" && "mps" in step.speed);

@@ -1,9 +1,9 @@
-import type { Executed, Interpreted, Pose, Robot } from "@twincell/core";
+import type { Executed, Interpreted, Pose, Robot, Signals } from "@twincell/core";
 import { TextError, textFault } from "../text/index.ts";
 import { readSource } from "./read/source.ts";
 import { jointConvention } from "./robots.ts";
 import { Machine } from "./run/machine.ts";
-import type { Tools } from "./run/state.ts";
+import type { Met } from "./run/state.ts";
 
 /**
  * How far a program is run beforehand to meet its tools and its faults: enough to see that it runs on the spot.
@@ -22,8 +22,8 @@ export function interpretVPlus(text: string, robot: Robot, worldFromBase: Pose<"
   }
   const read = readSource(text);
   if (read.kind === "not-understood") return read;
-  const tools: Tools = {};
-  const run = (): Generator<Executed, void> => new Machine(read.source, robot, convention, worldFromBase, tools).run();
+  const met: Met = { tools: {}, lines: {} };
+  const run = (signals?: Signals): Generator<Executed, void> => new Machine(read.source, robot, convention, worldFromBase, met, signals).run();
   try {
     let steps = 0, statements = 0;
     for (const { step } of run()) {
@@ -34,5 +34,5 @@ export function interpretVPlus(text: string, robot: Robot, worldFromBase: Pose<"
     if (!(cause instanceof TextError)) throw cause;
     return { kind: "not-understood", faults: [cause.fault] };
   }
-  return { kind: "ready", run, context: { tools, frames: {} } };
+  return { kind: "ready", run, context: { tools: met.tools, frames: {}, signals: met.lines } };
 }

@@ -1,6 +1,7 @@
 import { emptyProgram, type Group, type Parsed, type Pose, type Program, type Robot, type Step, type TextFault } from "@twincell/core";
 import { TextError, plainText, textFault, textLines } from "../text/index.ts";
 import { interpretVPlus } from "./interpret.ts";
+import { structuredProgram } from "./read/structure.ts";
 
 /** A program with more steps than this is taken to repeat itself for ever. */
 const MOST_STEPS = 20_000;
@@ -10,12 +11,15 @@ const POINT_LIST_RATIO = 0.2;
 const POINT = /^\s*(?:DO\s+)?DECOMPOSE\s+([A-Z][A-Z0-9_.]*)\s*\[\s*([0-9]+)\s*\]\s*=\s*#PPOINT\s*\(/i;
 
 /**
- * The neutral program that a V+ text amounts to. A runnable program is executed and its motions written down, so loops,
- * calls and arrays come out as what they do. A point list moves nothing: each of its points becomes a joint move.
+ * The neutral program that a V+ text amounts to. Loops, calls, decisions and pallets that a neutral program has too are
+ * kept. Any other text is executed and its motions written down, so its loops and arrays come out as what they do. A point list moves nothing: each of its points becomes a joint move.
  */
 export function parseVPlus(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Parsed {
   const lines = textLines(text).map(plainText);
   const isList = lines.some(line => POINT.test(line)) && !lines.some(line => /^\s*\.PROGRAM\b/i.test(line));
+  const structured = isList ? undefined : structuredProgram(text, lines, robot, worldFromBase, nameOf(lines));
+  if (structured?.kind === "program") return { kind: "parsed", program: structured.program, warnings: [] };
+  if (structured?.kind === "not-understood") return structured;
   const source = isList ? lines.map(asMove).join("\n") : text;
   const interpreted = interpretVPlus(source, robot, worldFromBase);
   if (interpreted.kind === "not-understood") return interpreted;
@@ -42,7 +46,7 @@ export function parseVPlus(text: string, robot: Robot, worldFromBase: Pose<"worl
   const warnings: TextFault[] = [];
   if (isList) warnings.push(textFault({ line: 1, column: 1 }, "a program with MOVE", "A point list fills an array and moves nothing: each of its points became a joint move."));
   for (const line of repeated) warnings.push(textFault({ line, column: 1 }, "a statement that is executed once", `Line ${line} is executed more than once: every time became a step of its own.`));
-  return { kind: "parsed", warnings, program: { ...emptyProgram(robot.id, nameOf(lines)), ...named, tools: interpreted.context.tools } };
+  return { kind: "parsed", warnings, program: { ...emptyProgram(robot.id, nameOf(lines)), ...named, tools: interpreted.context.tools, signals: interpreted.context.signals ?? {} } };
 }
 
 /** The line of a point list as the move to its point, every character of the point in its column. Other lines stay as they are. */

@@ -213,7 +213,7 @@ describe("executing V+", () => {
   });
 
   test("locations of a disk file, signals and the world shifted by BASE", () => {
-    const steps = executed(".LOCATIONS\npick 500 0 -200 0 180 0\n#safe 0 -90 90 0 0 0\n.END\n.PROGRAM a()\nMOVE #safe\nSIGNAL 5\nWAIT SIG(5, -6)\nBASE 100,0,0,0\nMOVES pick\n.END\n") as MoveStep[];
+    const steps = executed(".LOCATIONS\npick 500 0 -200 0 180 0\n#safe 0 -90 90 0 0 0\n.END\n.PROGRAM a()\nMOVE #safe\nSIGNAL 5\nWAIT SIG(5, -6)\nBASE 100,0,0,0\nMOVES pick\n.END\n") .filter(step => step.type === "move");
     expect(q_deg(steps[0]!)).toEqual([0, -90, 90, 0, 0, 0]);
     expect(shoulderPose(steps[1]!).mm).toEqual([600, 0, -200]);
   });
@@ -223,6 +223,26 @@ describe("executing V+", () => {
     expect(step).toMatchObject({ path: "lin", target: { tool: "torch" } });
     const ready = vPlus.interpret(body("SET torch = TRANS(0,0,140,0,0,0)", "TOOL torch", "TOOL TRANS(0,0,50)", "TOOL NULL"), robot);
     expect(ready).toMatchObject({ kind: "ready", context: { tools: { torch: { position: [0, 0, 0.14] }, tool: { position: [0, 0, 0.05] } } } });
+  });
+});
+
+describe("signals, messages and ends", () => {
+  test("lines are called by the variables that hold their numbers, else by their numbers; inputs count from 1001", () => {
+    const text = body("lamp = 5", "SIGNAL lamp", "SIGNAL -7, 2001", "WAIT SIG(-1003)", "ACCEL 50, 50", "MOVE #PPOINT()", "TYPE \"Tray full\"", "HALT", "DELAY 9");
+    expect(executed(text).map(({ id: _, ...step }) => step)).toMatchObject([
+      { type: "set", signal: "lamp", to: true }, { type: "set", signal: "out_7", to: false }, { type: "set", signal: "out_2001", to: true },
+      { type: "wait-for", when: { signal: "in_1003", is: false } }, { type: "move", acceleration: { ratio: 0.5 } }, { type: "message", text: "Tray full" }, { type: "stop" },
+    ]);
+    expect(vPlus.interpret(text, robot)).toMatchObject({ context: { signals: { lamp: { kind: "digital-out", address: 5 }, in_1003: { kind: "digital-in", address: 1003 } } } });
+  });
+
+  test("a decision reads the line when it is come to, an output as it was written", () => {
+    const interpreted = vPlus.interpret(body("FOR i = 1 TO 2", "IF SIG(1001) THEN", "DELAY 1", "ELSE", "DELAY 2", "END", "END", "SIGNAL 3", "IF SIG(3) THEN", "DELAY 3", "END"), robot);
+    if (interpreted.kind !== "ready") throw new Error(JSON.stringify(interpreted.faults));
+    let reads = 0;
+    const run = interpreted.run({ read: () => ++reads > 1, write: () => { throw new Error("A text writes nothing by itself."); } }), seen: unknown[] = [];
+    for (let next = run.next(); next.done !== true; next = run.next()) if (next.value.step?.type === "wait") seen.push(next.value.step.s);
+    expect(seen).toEqual([2, 1, 3]);
   });
 });
 
@@ -242,7 +262,7 @@ describe("faults have a place and say what is expected", () => {
     ["GOTO 7", 2, 6],
     ["ELSEIF x == 2 THEN", 2, 1],
     ["CALL nobody()", 2, 1],
-    ["WAIT SIG(1003)", 2, 6],
+    ["WAIT SIG(1003, -5)", 2, 6],
     ["MOVE 5", 2, 6],
     ["SPEED 0", 2, 1],
     ["x = 5 §", 2, 7],

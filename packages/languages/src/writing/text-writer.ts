@@ -27,6 +27,11 @@ export class BlockWriter {
     this.depth--;
   }
 
+  /** All lines of another writer, at this depth. */
+  append(other: BlockWriter): void {
+    for (const [i, line] of other.lines.entries()) this.add(line, other.steps[i] ?? "");
+  }
+
   file(name: string, lineEnd: string): EmittedFile {
     return { name, text: this.lines.map(line => line + lineEnd).join(""), lines: this.steps };
   }

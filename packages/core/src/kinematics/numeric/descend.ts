@@ -35,7 +35,7 @@ const WORTH_A_STEP = 1e-6, STEPS_IN_PLACE = 8;
 export function descend(arm: SerialArm, wanted: Pose<"base", "flange">, aim: Descent, scratch: DampedScratch): boolean {
   const { q, rows, normal, uphill, step, trial, error, trialError, pressed } = scratch, n = arm.joints.length, w2 = aim.turnWeight_m * aim.turnWeight_m;
   clampInto(arm, q);
-  let damping = 0, growth = 2, inPlace = 0, cost = 0, fresh = true;
+  let damping = 0, growth = 2, inPlace = 0, cost = 0, largest = 0, fresh = true;
   for (scratch.iterations = 0; ; scratch.iterations++) {
     if (fresh) {
       jacobian(arm, q, null, rows, scratch.jacobian);
@@ -43,16 +43,16 @@ export function descend(arm: SerialArm, wanted: Pose<"base", "flange">, aim: Des
       scratch.position_m = lengthAt(error, 0); scratch.angle_rad = lengthAt(error, 3);
       if (scratch.position_m < aim.position_m && (w2 === 0 || scratch.angle_rad < aim.angle_rad)) return true;
       cost = costOf(error, w2);
-      const largest = normalEquations(rows, error, w2, n, normal, uphill);
+      largest = normalEquations(rows, error, w2, n, normal, uphill);
       for (let j = 0; j < n; j++) {
         const { lower_rad, upper_rad } = arm.joints[j]!.limits, push = uphill[j]!;
         pressed[j] = (push > 0 && q[j]! >= upper_rad - AT_LIMIT_RAD) || (push < 0 && q[j]! <= lower_rad + AT_LIMIT_RAD) ? 1 : 0;
       }
       if (damping === 0) damping = FIRST_DAMPING * largest;
-      if (!(largest > 0) || inPlace >= STEPS_IN_PLACE || damping > LAST_DAMPING * largest) return false;
+      if (!(largest > 0) || inPlace >= STEPS_IN_PLACE) return false;
     }
-    if (scratch.iterations >= aim.steps) return false;
-    if (!solveHeld(normal, uphill, damping, pressed, n, scratch.factor, step)) { damping = damping > 0 ? damping * 10 : Number.MIN_VALUE; fresh = damping > 1e300; continue; }
+    if (scratch.iterations >= aim.steps || damping > LAST_DAMPING * largest) return false;
+    if (!solveHeld(normal, uphill, damping, pressed, n, scratch.factor, step)) { damping = Math.max(10 * damping, Number.EPSILON * largest); fresh = false; continue; }
     for (let j = 0; j < n; j++) trial[j] = q[j]! + step[j]!;
     clampInto(arm, trial);
     flangePose(arm, trial, scratch.flange, scratch.jacobian.arm);
@@ -68,8 +68,6 @@ export function descend(arm: SerialArm, wanted: Pose<"base", "flange">, aim: Des
     } else {
       damping *= growth;
       growth *= 2;
-      // Too short a step to measure: the posture stays, and the descent ends at the next look.
-      if (growth > 1e12) { inPlace = STEPS_IN_PLACE; fresh = true; }
     }
   }
 }

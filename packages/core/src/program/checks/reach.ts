@@ -46,6 +46,7 @@ function reachFinding(reach: Reach, at_s: number, repairs: Finding["repairs"]): 
     case "too-near": return { ...base, code: "reach.too-near", value: reach.nearest_m - reach.inside_m, limit: reach.nearest_m, unit: "m" };
     case "beyond-workspace": return { ...base, code: "reach.beyond-workspace", value: reach.distance_m, limit: reach.declared_m, unit: "m" };
     case "outside-limits": return { ...base, code: "limits.joint", joint: reach.joint, value: reach.wanted_rad, limit: reach.limit_rad, unit: "rad" };
+    case "not-so-turned": return { ...base, code: "reach.not-so-turned", value: reach.short_rad, limit: 0, unit: "rad" };
     case "reached": case "no-solver": case "not-a-pose": return { ...base, code: `reach.${reach.kind}`, value: 0, limit: 0, unit: "1" };
   }
 }

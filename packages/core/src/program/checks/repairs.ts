@@ -50,10 +50,11 @@ export function postureRepairs(scene: CheckScene, move: Move, most = 2): Repair[
   const found: Repair[] = [], target = move.step.target;
   for (const solution of reach.solutions) {
     if (found.length >= most) break;
-    if (found.some(repair => "pose" in (repair.replace?.type === "move" ? repair.replace.target : target) && sameAs(repair, solution.branch))) continue;
-    const next: Target = "pose" in target ? { ...target, branch: solution.branch } : { ...target, q: [...solution.q_rad] };
+    const { branch, q_rad } = solution;
+    if (branch === undefined || found.some(repair => "pose" in (repair.replace?.type === "move" ? repair.replace.target : target) && sameAs(repair, branch))) continue;
+    const next: Target = "pose" in target ? { ...target, branch } : { ...target, q: [...q_rad] };
     found.push({
-      sentence: `Go there by a joint move with shoulder ${solution.branch.shoulder}, elbow ${solution.branch.elbow}, wrist ${solution.branch.wrist}.`,
+      sentence: `Go there by a joint move with shoulder ${branch.shoulder}, elbow ${branch.elbow}, wrist ${branch.wrist}.`,
       replace: jointMove(move.step, next),
     });
   }

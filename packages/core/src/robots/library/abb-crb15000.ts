@@ -1,25 +1,29 @@
 import { pose } from "../../spatial/pose.ts";
+import type { SerialArm } from "../arm.ts";
+import { familyOf } from "../family.ts";
 import type { Robot } from "../robot.ts";
 import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_DRAWN, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, inDegrees, joint, turned } from "./write.ts";
+
+const arm: SerialArm = {
+  name: "ABB GoFa CRB 15000-5/0.95",
+  joints: [
+    joint("joint_1", [0, 0, 0.265], [0, 0, 1], inDegrees(-180, 180, 125)),
+    joint("joint_2", [0, 0, 0], [0, 1, 0], inDegrees(-180, 180, 125)),
+    joint("joint_3", [0, 0, 0.444], [0, 1, 0], inDegrees(-225, 85, 140)),
+    joint("joint_4", [0, 0, 0.11], [1, 0, 0], inDegrees(-180, 180, 200)),
+    joint("joint_5", [0.47, 0, 0], [0, 1, 0], inDegrees(-180, 180, 200)),
+    joint("joint_6", [0.101, 0, 0.08], [1, 0, 0], inDegrees(-180, 180, 200)),
+  ],
+  lastJointFromFlange: turned([0, 0, 0], [0, Math.PI / 2, 0]),
+};
 
 /** No spherical wrist: axis 6 passes axis 5 at 80 mm. */
 export const abbCrb15000: Robot = {
   id: "abb_crb15000_5_95",
   name: "ABB GoFa CRB 15000-5/0.95",
   vendor: "ABB",
-  arm: {
-    name: "ABB GoFa CRB 15000-5/0.95",
-    joints: [
-      joint("joint_1", [0, 0, 0.265], [0, 0, 1], inDegrees(-180, 180, 125)),
-      joint("joint_2", [0, 0, 0], [0, 1, 0], inDegrees(-180, 180, 125)),
-      joint("joint_3", [0, 0, 0.444], [0, 1, 0], inDegrees(-225, 85, 140)),
-      joint("joint_4", [0, 0, 0.11], [1, 0, 0], inDegrees(-180, 180, 200)),
-      joint("joint_5", [0.47, 0, 0], [0, 1, 0], inDegrees(-180, 180, 200)),
-      joint("joint_6", [0.101, 0, 0.08], [1, 0, 0], inDegrees(-180, 180, 200)),
-    ],
-    lastJointFromFlange: turned([0, 0, 0], [0, Math.PI / 2, 0]),
-  },
-  family: { kind: "general" },
+  arm,
+  family: familyOf(arm),
   frames: { base: "base_link", tip: "tool0" },
   baseFromVendorWorld: pose(),
   home_rad: [0, 0, 0, 0, Math.PI / 2, 0],

@@ -1,26 +1,30 @@
 import { pose } from "../../spatial/pose.ts";
+import type { SerialArm } from "../arm.ts";
+import { familyOf } from "../family.ts";
 import type { Robot } from "../robot.ts";
 import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_DRAWN, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, inRadians, joint } from "./write.ts";
+
+const arm: SerialArm = {
+  name: "KUKA LBR iiwa 14 R820",
+  joints: [
+    joint("joint_a1", [0, 0, 0], [0, 0, 1], inRadians(-2.9668, 2.9668, 1.4834)),
+    joint("joint_a2", [-0.00043624, 0, 0.36], [0, 1, 0], inRadians(-2.0942, 2.0942, 1.4834)),
+    joint("joint_a3", [0, 0, 0], [0, 0, 1], inRadians(-2.9668, 2.9668, 1.7452)),
+    joint("joint_a4", [0.00043624, 0, 0.42], [0, -1, 0], inRadians(-2.0942, 2.0942, 1.3089)),
+    joint("joint_a5", [0, 0, 0], [0, 0, 1], inRadians(-2.9668, 2.9668, 2.2688)),
+    joint("joint_a6", [0, 0, 0.4], [0, 1, 0], inRadians(-2.0942, 2.0942, 2.356)),
+    joint("joint_a7", [0, 0, 0], [0, 0, 1], inRadians(-3.0541, 3.0541, 2.356)),
+  ],
+  lastJointFromFlange: pose([0, 0, 0.126]),
+};
 
 /** Seven joints: shoulder, elbow and wrist of three, one and three axes. */
 export const kukaLbrIiwa14: Robot = {
   id: "kuka_lbr_iiwa_14_r820",
   name: "KUKA LBR iiwa 14 R820",
   vendor: "KUKA",
-  arm: {
-    name: "KUKA LBR iiwa 14 R820",
-    joints: [
-      joint("joint_a1", [0, 0, 0], [0, 0, 1], inRadians(-2.9668, 2.9668, 1.4834)),
-      joint("joint_a2", [-0.00043624, 0, 0.36], [0, 1, 0], inRadians(-2.0942, 2.0942, 1.4834)),
-      joint("joint_a3", [0, 0, 0], [0, 0, 1], inRadians(-2.9668, 2.9668, 1.7452)),
-      joint("joint_a4", [0.00043624, 0, 0.42], [0, -1, 0], inRadians(-2.0942, 2.0942, 1.3089)),
-      joint("joint_a5", [0, 0, 0], [0, 0, 1], inRadians(-2.9668, 2.9668, 2.2688)),
-      joint("joint_a6", [0, 0, 0.4], [0, 1, 0], inRadians(-2.0942, 2.0942, 2.356)),
-      joint("joint_a7", [0, 0, 0], [0, 0, 1], inRadians(-3.0541, 3.0541, 2.356)),
-    ],
-    lastJointFromFlange: pose([0, 0, 0.126]),
-  },
-  family: { kind: "general" },
+  arm,
+  family: familyOf(arm),
   frames: { base: "base_link", tip: "tool0" },
   baseFromVendorWorld: pose(),
   home_rad: [0, Math.PI / 6, 0, -Math.PI / 2, 0, Math.PI / 3, 0],

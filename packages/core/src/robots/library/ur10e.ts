@@ -1,28 +1,32 @@
 import { pose } from "../../spatial/pose.ts";
+import type { SerialArm } from "../arm.ts";
+import { familyOf } from "../family.ts";
 import type { Robot } from "../robot.ts";
 import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_DRAWN, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, inDegrees, joint, solid, turned } from "./write.ts";
 
 /** The angles of the data file, rounded as it rounds them, so that its poses are met to the last digit. */
 const QUARTER = 1.570796327;
 
+const arm: SerialArm = {
+  name: "Universal Robots UR10e",
+  joints: [
+    joint("shoulder_pan_joint", turned([0, 0, 0.1807], [0, 0, Math.PI]), [0, 0, 1], inDegrees(-360, 360, 120, 330)),
+    joint("shoulder_lift_joint", turned([0, 0, 0], [QUARTER, 0, 0]), [0, 0, 1], inDegrees(-360, 360, 120, 330)),
+    joint("elbow_joint", [-0.6127, 0, 0], [0, 0, 1], inDegrees(-180, 180, 180, 150)),
+    joint("wrist_1_joint", [-0.57155, 0, 0.17415], [0, 0, 1], inDegrees(-360, 360, 180, 54)),
+    joint("wrist_2_joint", turned([0, -0.11985, -2.458164590756244e-11], [QUARTER, 0, 0]), [0, 0, 1], inDegrees(-360, 360, 180, 54)),
+    joint("wrist_3_joint", turned([0, 0.11655, -2.390480459346185e-11], [1.570796326589793, Math.PI, Math.PI]), [0, 0, 1], inDegrees(-360, 360, 180, 54)),
+  ],
+  lastJointFromFlange: pose(),
+};
+
 /** The controller's base is the root link turned by 180° about z. */
 export const ur10e: Robot = {
   id: "ur10e",
   name: "Universal Robots UR10e",
   vendor: "Universal Robots",
-  arm: {
-    name: "Universal Robots UR10e",
-    joints: [
-      joint("shoulder_pan_joint", turned([0, 0, 0.1807], [0, 0, Math.PI]), [0, 0, 1], inDegrees(-360, 360, 120, 330)),
-      joint("shoulder_lift_joint", turned([0, 0, 0], [QUARTER, 0, 0]), [0, 0, 1], inDegrees(-360, 360, 120, 330)),
-      joint("elbow_joint", [-0.6127, 0, 0], [0, 0, 1], inDegrees(-180, 180, 180, 150)),
-      joint("wrist_1_joint", [-0.57155, 0, 0.17415], [0, 0, 1], inDegrees(-360, 360, 180, 54)),
-      joint("wrist_2_joint", turned([0, -0.11985, -2.458164590756244e-11], [QUARTER, 0, 0]), [0, 0, 1], inDegrees(-360, 360, 180, 54)),
-      joint("wrist_3_joint", turned([0, 0.11655, -2.390480459346185e-11], [1.570796326589793, Math.PI, Math.PI]), [0, 0, 1], inDegrees(-360, 360, 180, 54)),
-    ],
-    lastJointFromFlange: pose(),
-  },
-  family: { kind: "general" },
+  arm,
+  family: familyOf(arm),
   frames: { base: "base_link", tip: "tool0" },
   baseFromVendorWorld: turned([0, 0, 0], [0, 0, Math.PI]),
   home_rad: [0, -Math.PI / 2, Math.PI / 2, -Math.PI / 2, -Math.PI / 2, 0],

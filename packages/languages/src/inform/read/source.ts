@@ -77,6 +77,7 @@ class SourceReader {
   }
 
   private header(word: string, rest: string, at: TextPlace): void {
+    if (this.builder === undefined && (word === "//NAME" || word === "//POS" || word === "//INST")) throw new TextError(at, "/JOB", `${word} stands outside a job.`);
     switch (word) {
       case "/JOB":
         if (this.section !== "outside" && this.section !== "tool" && this.section !== "user") throw new TextError(at, "END", `The job of line ${this.opened} has no END.`);

@@ -152,6 +152,13 @@ const READERS: Readonly<Record<string, Reader>> = {
     const name = variable(cursor), from = position(cursor);
     return { kind: "element", get: true, position: from, element: bracketed(cursor), with: { kind: "variable", name } };
   },
+  GETS: cursor => {
+    const at = cursor.here, to = cursor.take().toUpperCase();
+    if (!/^PX[0-9]{3}$/.test(to)) throw new TextError(at, "a variable such as PX000", `"${to}" takes no position.`);
+    if (cursor.next !== "$PX000") throw cursor.unexpected("$PX000, the position of the robot");
+    cursor.take();
+    return { kind: "here", position: positionKey(`P${to.slice(2)}`) };
+  },
   CLEAR: cursor => {
     if (cursor.next === "STACK") return nothing(cursor);
     const from = variable(cursor);

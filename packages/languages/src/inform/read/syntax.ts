@@ -48,6 +48,8 @@ export type Statement = TextPlace & (
   | { readonly kind: "message"; readonly text: string }
   | { readonly kind: "arithmetic"; readonly word: "SET" | "ADD" | "SUB" | "MUL" | "DIV"; readonly to: string; readonly by: Operand }
   | { readonly kind: "element"; readonly get: boolean; readonly position: string; readonly element: number; readonly with: Operand }
+  /** Keeps the position of the robot in a variable. */
+  | { readonly kind: "here"; readonly position: string }
   | { readonly kind: "clear"; readonly from: string; readonly count: number }
   | { readonly kind: "shift"; readonly position: string; readonly frame: "BASE" | "ROBOT" | "USER"; readonly user: number }
   | { readonly kind: "shift-off" }

@@ -1,4 +1,4 @@
-import { Fault, type Executed, type MoveStep, type Signals, type Step, type TextPlace } from "@twincell/core";
+import { Fault, type Executed, type MoveStep, type Pose, type Signals, type Step, type TextPlace } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
 import type { Condition, Instruction, Job, Move, Position, Source, Statement } from "../read/syntax.ts";
 import { poseOf } from "./arm.ts";
@@ -28,6 +28,8 @@ export class Machine {
   /** The point on the way of an arc that has begun; how many points of it were met. */
   private arc: { readonly points: number; readonly via: { readonly position: Position; readonly line: number } | undefined } = { points: 0, via: undefined };
   private inCurve = false;
+  /** Positions that were taken from the robot itself, by their variable. */
+  private readonly taken = new Map<string, Pose<"base", "flange">>();
   private idle = 0;
   private stopped = false;
 
@@ -128,6 +130,7 @@ export class Machine {
         break;
       case "arithmetic": this.arithmetic(statement); break;
       case "element": this.element(statement); break;
+      case "here": this.taken.set(statement.position, this.state.here); break;
       case "clear": memory.clear(statement.from, statement.count); break;
       case "shift": {
         const [x, y, z, rx, ry, rz] = memory.position(statement.position), { baseFromFrame } = this.state.frameOf(statement.frame, statement.user, statement);
@@ -167,6 +170,8 @@ export class Machine {
   // Motion --------------------------------------------------------------------------------------------------------------
 
   private move(move: Extract<Statement, { kind: "move" }>, frame: Frame): void {
+    const taken = this.taken.get(move.position);
+    if (taken !== undefined) return this.begin(move, taken);
     const position = this.positionOf(move, frame);
     if (move.motion !== "MOVC") this.endArc(move);
     if (move.motion !== "MOVS") this.inCurve = false;
@@ -181,6 +186,15 @@ export class Machine {
       }
       case "MOVC": return this.arcPoint(move, position, frame);
     }
+  }
+
+  /** An arc or a curve that begins where the robot was when it was asked. */
+  private begin(move: Extract<Statement, { kind: "move" }>, taken: Pose<"base", "flange">): void {
+    if ((move.motion !== "MOVC" && move.motion !== "MOVS") || !this.state.isAt(taken, move)) throw new TextError(move, "a position of this job", "A motion back to a position that was taken from the robot is not understood here.");
+    this.endArc(move);
+    this.inCurve = move.motion === "MOVS";
+    if (move.motion === "MOVC") this.arc = { points: 1, via: undefined };
+    this.note(move);
   }
 
   /** Three points are an arc: where it begins, one on the way, and its end. */

@@ -50,9 +50,12 @@ export class ControllerState {
     this.baseFromFlange = flangePose(robot.arm, robot.home_rad);
   }
 
+  /** Where the robot is sent, to be compared with later. */
+  get here(): Pose<"base", "flange"> { return this.baseFromFlange; }
+
   /** Whether the robot is there already: arcs and curves begin with the point before them once more. */
-  isAt(position: Position, at: TextPlace): boolean {
-    const there = this.flangeOf(position, at), here = this.baseFromFlange;
+  isAt(position: Position | Pose<"base", "flange">, at: TextPlace): boolean {
+    const there = "quaternion" in position ? position : this.flangeOf(position, at), here = this.baseFromFlange;
     return distance(there.position, here.position) < SAME.position_m && angleBetween(there.quaternion, here.quaternion) < SAME.angle_rad;
   }
 

@@ -31,6 +31,7 @@ export class JobWriter {
   private readonly pallets = new Map<string, PalletLoop>();
   private readonly isMain: boolean;
   private arrival: Arrival | undefined;
+  private here: string | undefined;
   private shift = "";
   private group = "";
   private labels = 0;
@@ -160,15 +161,21 @@ export class JobWriter {
 
   private move(step: MoveStep, next: Step | undefined, before: Step | undefined): void {
     const { place, postures } = this.setting, add = (line: string): void => { this.out.add(line, step.id); };
-    const { q_rad, from_rad, via_rad } = postures.get(step.id)!, { target, frame, loop } = this.taught(step.target);
+    const { q_rad, via_rad } = postures.get(step.id)!, { target, frame, loop } = this.taught(step.target);
     // Joint angles are reached with any tool; the one in force stays.
     const tool = step.target.tool ?? (step.path === "ptp" ? this.arrival?.written?.tool : undefined) ?? "flange";
     this.shiftFor(loop, step.id);
     const speed = speedText(step, place.robot.maxTcpSpeed_mps), acceleration = accelerationText(step);
     const corner_m = step.until === undefined && this.goesOn(next) ? this.corner(step, before, next) : 0, corner = cornerText(step.path, corner_m);
-    const start = this.arrival ?? { q_rad: from_rad, written: undefined };
     if (step.path === "circ" || (step.path === "spline" && !(before?.type === "move" && before.path === "spline" && this.arrival !== undefined))) {
-      add(`${step.path === "circ" ? "MOVC" : "MOVS"} ${this.points.repeat(step, start, frame, tool)} ${speed} PL=0`);
+      const word = step.path === "circ" ? "MOVC" : "MOVS";
+      if (this.arrival !== undefined) add(`${word} ${this.points.repeat(step, this.arrival, frame, tool)} ${speed} PL=0`);
+      else {
+        // Reached from several sides: the robot is asked where it stands.
+        this.here ??= this.setting.controller.variable("P");
+        add(`GETS PX${this.here.slice(1)} $PX000`);
+        add(`${word} ${this.here} ${speed} PL=0`);
+      }
     }
     if (step.path === "circ") {
       const via = this.taught(step.via!);

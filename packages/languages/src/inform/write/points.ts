@@ -1,4 +1,4 @@
-import { compose, flangePose, inverse, type MoveStep, type Pose, type Robot, type Target } from "@twincell/core";
+import { compose, inverse, type MoveStep, type Pose, type Robot, type Target } from "@twincell/core";
 import type { AxisConvention, PulseData } from "../robots.ts";
 import type { Controller } from "./controller.ts";
 import { axisValues, pulseText, rconfText, rectanPose, rectanText } from "./location.ts";
@@ -46,9 +46,8 @@ export class Points {
     const { q_rad, written } = arrival;
     if (this.pulses !== undefined) return this.pulsePoint(id, tool, q_rad);
     if (written?.frame === frame && written.tool === tool) return this.rectanPoint(id, frame, tool, written.text, q_rad);
-    const worldFromFlange = written === undefined
-      ? compose(this.place.worldFromBase, flangePose(this.robot.arm, q_rad))
-      : compose(compose(this.worldFrom(written.frame), rectanPose<"frame", "tcp">(written.text)), inverse(rectanPose<"flange", "tcp">(rectanText(this.place.tool(written.tool)))));
+    const { frame: before, tool: by, text } = written!;
+    const worldFromFlange = compose(compose(this.worldFrom(before), rectanPose<"frame", "tcp">(text)), inverse(rectanPose<"flange", "tcp">(rectanText(this.place.tool(by)))));
     const tip = compose(inverse(this.worldFrom(frame)), compose(worldFromFlange, rectanPose<"flange", "tcp">(rectanText(this.place.tool(tool)))));
     return this.rectanPoint(id, frame, tool, rectanText(tip), q_rad);
   }

@@ -2,8 +2,8 @@ import {
   branchOf, compose, degrees, explainReach, flangeOfTcp, flangePose, identity, inverse, palletPlaces, solveAll, type MoveStep, type Pose, type Program, type Robot, type Step, type Target,
 } from "@twincell/core";
 
-/** The joint angles in which a point is reached first, and those that its motion begins with. */
-export interface Posture { readonly q_rad: ArrayLike<number>; readonly from_rad: ArrayLike<number>; readonly via_rad: ArrayLike<number> | undefined }
+/** The joint angles in which a point is reached first, and the point on the way to it. */
+export interface Posture { readonly q_rad: ArrayLike<number>; readonly via_rad: ArrayLike<number> | undefined }
 /** By step id. */
 export type PostureMap = ReadonlyMap<string, Posture>;
 export interface Flaw { readonly kind: "cannot"; readonly step: string; readonly sentence: string; readonly hint: string }
@@ -115,7 +115,7 @@ class Walk {
       };
     }
     this.near = reached.q_rad;
-    if (!this.found.has(step.id)) this.found.set(step.id, { q_rad: reached.q_rad, from_rad, via_rad: via?.q_rad });
+    if (!this.found.has(step.id)) this.found.set(step.id, { q_rad: reached.q_rad, via_rad: via?.q_rad });
     return undefined;
   }
 

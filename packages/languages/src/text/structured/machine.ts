@@ -123,12 +123,20 @@ export abstract class BlockMachine<V> {
     return "next";
   }
 
+  /** Makes the variables that a routine has from its beginning. */
+  protected prepare(_routine: Routine, _names: Map<string, V>): void { /* most languages have none */ }
+
   *call(routine: Routine, args: readonly Argument[], at: TextPlace): Generator<Executed, Flow> {
     this.enter(routine, args, at);
     try {
-      const flow = yield* this.block(routine.body);
-      return flow === "halt" ? "halt" : "next";
+      return (yield* this.block(routine.body)) === "halt" ? "halt" : "next";
     } finally { this.leave(); }
+  }
+
+  /** Does something in the variables of a routine that takes no arguments. */
+  inside<T>(routine: Routine, act: () => T): T {
+    this.enter(routine, [], routine);
+    try { return act(); } finally { this.leave(); }
   }
 
   /** What a routine answers inside an expression; it must not move. */
@@ -166,6 +174,7 @@ export abstract class BlockMachine<V> {
       else if (optional !== true) throw new TextError(at, `a value for ${name}`, `${routine.name} is called without its argument ${name}.`);
     }
     this.scopes.push({ routine: routine.name, names });
+    this.prepare(routine, names);
     this.returned = undefined;
   }
 

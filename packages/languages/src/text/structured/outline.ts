@@ -30,12 +30,19 @@ export class Outline<V> {
   readonly pallets: Record<string, Pallet> = {};
   readonly warnings: TextFault[] = [];
   private readonly machine: OutlineMachine<V>;
+  private readonly spelt: (name: string) => string;
+  /** Routines that end the whole program. */
+  private readonly endsAll = new Set<string>();
   private name: string | undefined;
   private group: string | undefined;
   private groupCount = 0;
   private count = 0;
 
-  constructor(machine: OutlineMachine<V>) { this.machine = machine; }
+  /** @param spelt  a name as the text has it, where the language does not tell capital letters from small ones. */
+  constructor(machine: OutlineMachine<V>, spelt: (name: string) => string = name => name) {
+    this.machine = machine;
+    this.spelt = spelt;
+  }
 
   /** @throws {TextError} where the text cannot be executed, or leaves a block in a way that steps cannot. */
   steps(block: Block): Step[] {
@@ -61,15 +68,15 @@ export class Outline<V> {
       case "do": {
         const routine = machine.routine(statement.name);
         if (routine === undefined || statement.args.length > 0 || routine.parameters.length > 0) return this.run(machine.statement(statement), out);
-        if (!Object.hasOwn(this.routines, routine.name)) {
-          const step = this.dress(statement);
-          this.routines[routine.name] = [];
+        const name = this.spelt(routine.name), step = this.dress();
+        if (!Object.hasOwn(this.routines, name)) {
+          this.routines[name] = [];
           const inside: Step[] = [];
-          this.fresh(() => this.block(routine.body, inside));
-          this.routines[routine.name] = inside;
-          this.add(out, { ...step, type: "call", routine: routine.name }, statement);
-        } else this.add(out, { ...this.dress(statement), type: "call", routine: routine.name }, statement);
-        return "next";
+          if (this.fresh(() => machine.inside(routine, () => this.block(routine.body, inside))) === "halt") this.endsAll.add(name);
+          this.routines[name] = inside;
+        }
+        this.add(out, { ...step, type: "call", routine: name }, statement);
+        return this.endsAll.has(name) ? "halt" : "next";
       }
       default: return this.run(machine.statement(statement), out);
     }
@@ -80,7 +87,7 @@ export class Outline<V> {
       const next = executed.next();
       if (next.done === true) return next.value;
       const { step, line } = next.value;
-      if (step !== undefined) this.add(out, { ...step, ...this.dress({ line, column: 1 }) }, { line, column: 1 });
+      if (step !== undefined) this.add(out, { ...step, ...this.dress() }, { line, column: 1 });
     }
   }
 
@@ -90,7 +97,7 @@ export class Outline<V> {
   }
 
   /** Id, name and group of the next step. */
-  private dress(_at: TextPlace): { readonly id: string; readonly name?: string; readonly group?: string } {
+  private dress(): { readonly id: string; readonly name?: string; readonly group?: string } {
     const { name, group } = this;
     this.name = undefined;
     return { id: `s${++this.count}`, ...(name === undefined ? {} : { name }), ...(group === undefined ? {} : { group }) };
@@ -123,7 +130,7 @@ export class Outline<V> {
       for (const { when: each, body } of statement.branches) if (machine.isTrue(each)) return this.block(body, out);
       return statement.otherwise === undefined ? "next" : this.block(statement.otherwise, out);
     }
-    const step = this.dress(statement), then: Step[] = [], otherwise: Step[] = [], back = machine.remember();
+    const step = this.dress(), then: Step[] = [], otherwise: Step[] = [], back = machine.remember();
     const flows = [this.fresh(() => this.block(first!.body, then))];
     const rest: Block = others.length > 0
       ? [{ ...statement, branches: others }]
@@ -166,7 +173,7 @@ export class Outline<V> {
   }
 
   private repeat(statement: Loop, times: number | "forever", body: Block, out: Step[]): Flow {
-    const step = this.dress(statement), steps: Step[] = [];
+    const step = this.dress(), steps: Step[] = [];
     const flow = this.fresh(() => this.block(body, steps));
     if (flow !== "next" && flow !== "halt") throw new TextError(statement, "a loop that runs to its end", "The loop is left from inside, which steps cannot.");
     this.add(out, { ...step, type: "repeat", times, steps }, statement);
@@ -204,7 +211,7 @@ export class Outline<V> {
   private pallet(statement: Loop, outer: Counter, out: Step[]): boolean {
     const found = this.nest(outer);
     if (found === undefined) return false;
-    const { machine } = this, { variable, place, body, counts } = found, back = machine.remember();
+    const { machine } = this, { place, body, counts } = found, variable = this.spelt(found.variable), back = machine.remember();
     const wasPlace = machine.places.has(variable), places: Pose<"frame", "place">[] = [], visits: string[] = [];
     let frame: string | undefined, same = true, visit: Step[] = [];
     machine.places.add(variable);
@@ -214,7 +221,7 @@ export class Outline<V> {
         if (step !== undefined) visit.push(step);
         else if (line === place.line) {
           close();
-          const now = machine.placeIn(variable);
+          const now = machine.placeIn(found.variable);
           same &&= now !== undefined && (frame === undefined || frame === now.frame);
           if (now !== undefined) { frame = now.frame; places.push(now.pose); }
           if (places.length > MOST_STEPS) same = false;
@@ -230,12 +237,18 @@ export class Outline<V> {
       return false;
     }
     this.pallets[variable] = pallet;
-    const step = this.dress(statement), steps: Step[] = [];
+    const step = this.dress(), steps: Step[] = [];
     for (const { name, from } of found.counters) machine.setCount(name, from);
-    for (const each of found.before) for (const _ of machine.statement(each)) { /* only its effect counts */ }
+    for (const each of found.before) this.silently(each);
     this.fresh(() => this.block(body, steps));
     this.add(out, { ...step, type: "pallet", pallet: variable, steps }, statement);
     return true;
+  }
+
+  /** Executes a statement of which only the effect on variables counts. */
+  private silently(statement: Statement): void {
+    const doing = this.machine.statement(statement);
+    while (doing.next().done !== true);
   }
 
   private nest(outer: Counter): { variable: string; place: TextPlace; before: Block; body: Block; counts: number[]; counters: Counter[] } | undefined {
@@ -247,14 +260,14 @@ export class Outline<V> {
         machine.setCount(counter.name, counter.from);
         const body: Block = counter.body.filter(({ kind }) => kind !== "comment"), loops = body.filter((each): each is Loop => each.kind === "while" || each.kind === "for");
         if (loops.length === 1 && !body.some(({ kind }) => kind === "do" || kind === "wait-until")) {
-          for (const each of body) if (each.kind === "assign") for (const _ of machine.statement(each)) { /* the start of the inner counter */ }
+          for (const each of body) if (each.kind === "assign") this.silently(each); // the start of the inner counter
           counter = this.counter(loops[0]!);
           continue;
         }
         for (const [i, each] of counter.body.entries()) {
           if (each.kind === "comment") continue;
           if (each.kind !== "assign" && each.kind !== "if") return undefined;
-          for (const _ of machine.statement(each)) { /* only its effect counts */ }
+          this.silently(each);
           if (each.kind === "assign" && each.to.kind === "variable" && machine.placeIn(each.to.name) !== undefined) {
             return { variable: each.to.name, place: each, before: counter.body.slice(0, i + 1), body: counter.body.slice(i + 1), counts, counters };
           }

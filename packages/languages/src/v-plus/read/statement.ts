@@ -23,6 +23,12 @@ const accuracy: Reader = cursor => {
   return { kind: "nothing" };
 };
 
+/** One text is a message; anything else is put together on the terminal as the program runs. */
+const message: Reader = (cursor, word) => {
+  if (cursor.nextKind !== "text" || cursor.second !== "") return without(cursor, word);
+  return { kind: "type", text: cursor.take().slice(1, -1) };
+};
+
 function speed(cursor: Cursor): Body<Statement> {
   const value = readExpression(cursor);
   if (cursor.accept(",")) readExpression(cursor);
@@ -116,9 +122,9 @@ const READERS: Readonly<Record<string, Reader>> = {
   RETURN: () => ({ kind: "return" }),
   STOP: () => ({ kind: "stop" }), HALT: () => ({ kind: "stop" }),
   FINE: accuracy, COARSE: accuracy, NULL: accuracy, NONULL: accuracy, OVERLAP: accuracy, NOOVERLAP: accuracy, SINGLE: accuracy, MULTIPLE: accuracy,
-  ACCEL: cursor => { expressions(cursor); return { kind: "nothing" }; },
+  ACCEL: cursor => ({ kind: "accel", percent: expressions(cursor)[0]! }),
   PAUSE: () => ({ kind: "nothing" }),
-  TYPE: without, PARAMETER: without, ATTACH: without, DETACH: without, GLOBAL: without, LOCAL: without, AUTO: without, TIMER: without,
+  TYPE: message, PARAMETER: without, ATTACH: without, DETACH: without, GLOBAL: without, LOCAL: without, AUTO: without, TIMER: without,
 };
 
 function handMove(cursor: Cursor, straight: boolean): Body<Statement> {

@@ -37,6 +37,8 @@ export type Statement = TextPlace & (
   | { readonly kind: "wait"; readonly condition?: Expression }
   | { readonly kind: "gripper"; readonly closed: boolean; readonly immediate: boolean }
   | { readonly kind: "signal"; readonly signals: readonly Expression[] }
+  | { readonly kind: "accel"; readonly percent: Expression }
+  | { readonly kind: "type"; readonly text: string }
   | { readonly kind: "call"; readonly program: string; readonly args: readonly Expression[] }
   | { readonly kind: "return" }
   | { readonly kind: "stop" }

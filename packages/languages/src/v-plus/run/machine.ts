@@ -1,10 +1,10 @@
-import type { Executed, MoveStep, Pose, Robot, Step, TextPlace } from "@twincell/core";
+import { SignalTable, type Executed, type MoveStep, type Pose, type Robot, type Signals, type Step, type TextPlace } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
-import type { Instruction, Routine, Source, Statement } from "../read/syntax.ts";
+import type { Expression, Instruction, Routine, Source, Statement } from "../read/syntax.ts";
 import type { JointConvention } from "../robots.ts";
-import { ControllerState, type Tools } from "./state.ts";
+import { ControllerState, type Met } from "./state.ts";
 import { fromTrans, times, type Transform } from "./transform.ts";
-import { evaluate, keyOf, location, number, transform, type Precision, type Value } from "./values.ts";
+import { evaluate, keyOf, location, number, signalName, transform, type Precision, type Value } from "./values.ts";
 
 /** Statements without a motion or a wait after which the program is taken to run on the spot for ever. */
 const STATEMENTS_WITHOUT_MOTION = 100_000;
@@ -31,9 +31,11 @@ export class Machine {
   private readonly times = new Map<number, number>();
   private idle = 0;
 
-  constructor(source: Source, robot: Robot, convention: JointConvention, worldFromBase: Pose<"world", "base">, tools: Tools) {
+  constructor(source: Source, robot: Robot, convention: JointConvention, worldFromBase: Pose<"world", "base">, met: Met, signals: Signals = new SignalTable()) {
     this.source = source;
-    this.state = new ControllerState(robot, convention, worldFromBase, tools);
+    this.state = new ControllerState(robot, convention, worldFromBase, met, signals);
+    // A program that looks at a line waits for something outside: it does not run on the spot.
+    this.state.onRead = () => { this.idle = 0; };
     this.continuousPath_m = step => continuousPath(robot, step);
   }
 
@@ -135,8 +137,16 @@ export class Machine {
       case "duration": state.setDuration(number(statement.value, state), statement.always); break;
       case "path": state.continuous = statement.continuous; break;
       case "break": yield* this.settle(0); break;
-      case "signal": for (const signal of statement.signals) state.setSignal(number(signal, state)); break;
+      case "signal": return yield* this.set(statement);
+      case "accel": {
+        const percent = number(statement.percent, state);
+        if (!(percent > 0)) throw new TextError(statement.percent, "a percentage above 0", `The acceleration is ${percent} %.`);
+        state.accelerate(percent);
+        break;
+      }
+      case "type": yield* this.settle(state.continuous ? "continuous" : 0); return yield this.done(statement, { id: this.stepId(statement.line), type: "message", text: statement.text });
       case "wait":
+        if (statement.condition !== undefined && isOneSignal(statement.condition)) return yield* this.waitFor(statement, statement.condition.args[0]);
         if (statement.condition !== undefined && number(statement.condition, state) === 0) {
           throw new TextError(statement.condition, "a condition that comes true", "The program waits for a condition that nothing here makes true.");
         }
@@ -146,7 +156,10 @@ export class Machine {
       case "move": case "approach": case "depart": case "drive": return yield* this.motion(statement);
       case "call": this.call(statement, stack); break;
       case "return": stack.pop(); break;
-      case "stop": stack.length = 0; break;
+      case "stop":
+        stack.length = 0;
+        yield* this.settle(0);
+        return yield this.done(statement, { id: this.stepId(statement.line), type: "stop" });
       case "nothing": break;
     }
     yield* this.note({ line: statement.line });
@@ -184,6 +197,24 @@ export class Machine {
     if (!(s >= 0)) throw new TextError(statement, "a time of 0 s or more", `The time is ${s} s.`);
     yield* this.settle(0);
     yield this.done(statement, { id: this.stepId(statement.line), type: "wait", s });
+  }
+
+  /** A program runs ahead of its motions: without BREAK a signal is set while the robot still moves. */
+  private *set(statement: Extract<Statement, { kind: "signal" }>): Generator<Executed, void> {
+    yield* this.settle(this.state.continuous ? "continuous" : 0);
+    for (const expression of statement.signals) {
+      const signed = Math.trunc(number(expression, this.state));
+      if (signed === 0) throw new TextError(expression, "a signal from 1", "There is no signal 0.");
+      const signal = this.state.line(Math.abs(signed), signalName(expression)), to = signed > 0;
+      this.state.wrote(signal, to);
+      yield this.done(statement, { id: this.stepId(statement.line), type: "set", signal, to });
+    }
+  }
+
+  private *waitFor(statement: Statement, expression: Expression): Generator<Executed, void> {
+    yield* this.settle(0);
+    const signed = Math.trunc(number(expression, this.state)), signal = this.state.line(Math.abs(signed), signalName(expression));
+    yield this.done(statement, { id: this.stepId(statement.line), type: "wait-for", when: { signal, is: signed > 0 } });
   }
 
   private *gripper(statement: Extract<Statement, { kind: "gripper" }>): Generator<Executed, void> {
@@ -234,6 +265,9 @@ export class Machine {
     }
   }
 }
+
+const isOneSignal = (condition: Expression): condition is Extract<Expression, { kind: "call" }> & { readonly args: readonly [Expression] } =>
+  condition.kind === "call" && condition.name === "SIG" && condition.args.length === 1 && condition.args[0] !== undefined;
 
 const newFrame = (routine: Routine): Frame => ({ routine, at: 0, last: [], step: [], chosen: [] });
 

@@ -1,5 +1,5 @@
 import {
-  compose, degrees, flangePose, identity, inverse, radians, type Branch, type MoveStep, type Pose, type Robot, type Speed, type Target, type TextPlace,
+  compose, degrees, flangePose, identity, inverse, radians, type Branch, type MoveStep, type Pose, type Robot, type SignalLine, type Signals, type Speed, type Target, type TextPlace,
 } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
 import type { ConfigWord } from "../read/syntax.ts";
@@ -18,6 +18,12 @@ const CONFIG: Readonly<Record<ConfigWord, Partial<Branch>>> = {
 
 /** Tools by the name under which the steps know them. */
 export type Tools = Record<string, Pose<"flange", "tcp">>;
+export type Lines = Record<string, SignalLine>;
+/** What the text was found to refer to; grows while it runs. */
+export interface Met { readonly tools: Tools; readonly lines: Lines }
+
+/** Outputs count from 1, inputs from 1001, soft signals, which are both, from 2001. */
+const FIRST_INPUT = 1001, FIRST_SOFT = 2001;
 
 /** The controller while a program runs: variables, signals, tool, speed, and where the arm has been sent. */
 export class ControllerState implements Memory {
@@ -28,7 +34,13 @@ export class ControllerState implements Memory {
   private readonly worldFromVendor: Pose<"frame", "vendor-world">;
   private readonly vendorFromBase: Pose<"vendor-world", "base">;
   private readonly variables = new Map<string, Value>();
-  private readonly signals = new Map<number, boolean>();
+  private readonly signals: Signals;
+  private readonly written = new Map<string, boolean>();
+  /** The lines that were met, by the names of the steps; shared with whoever executes the text. */
+  private readonly lines: Lines;
+  /** Called when a line is read: what it says may change from outside. */
+  onRead: () => void = () => undefined;
+  private acceleration: MoveStep["acceleration"];
   private readonly tools: Tools;
   private tool: { readonly name: string; readonly flangeFromTcp: Transform } = { name: "flange", flangeFromTcp: NULL_TRANSFORM };
   private base: Transform = NULL_TRANSFORM;
@@ -42,8 +54,10 @@ export class ControllerState implements Memory {
   /** The joints there; unknown after a move to a transformation, whose joints the controller chooses. */
   private joints_deg: readonly number[] | undefined;
 
-  constructor(robot: Robot, convention: JointConvention, worldFromBase: Pose<"world", "base">, tools: Tools) {
+  constructor(robot: Robot, convention: JointConvention, worldFromBase: Pose<"world", "base">, { tools, lines }: Met, signals: Signals) {
     this.robot = robot;
+    this.lines = lines;
+    this.signals = signals;
     this.joints = robot.arm.joints.length;
     this.convention = convention;
     this.tools = tools;
@@ -56,8 +70,27 @@ export class ControllerState implements Memory {
 
   read(key: string): Value | undefined { return this.variables.get(key); }
   write(key: string, value: Value): void { this.variables.set(key, value); }
-  signal(number: number): boolean { return this.signals.get(number) ?? false; }
-  setSignal(number: number): void { this.signals.set(Math.abs(Math.trunc(number)), number > 0); }
+  signal(number: number, name: string | undefined): boolean {
+    this.onRead();
+    const line = this.line(number, name), value = this.written.get(line) ?? this.signals.read(line);
+    return typeof value === "number" ? value !== 0 : value;
+  }
+
+  /** The steps write the line when they are executed; the text, which is ahead of them, reads what it wrote. */
+  wrote(line: string, value: boolean): void { this.written.set(line, value); }
+
+  /** The name under which the steps know a line: that of its variable, or its number. */
+  line(number: number, name: string | undefined): string {
+    const isInput = number >= FIRST_INPUT && number < FIRST_SOFT, called = name ?? `${isInput ? "in" : "out"}_${number}`;
+    this.lines[called] ??= { kind: isInput ? "digital-in" : "digital-out", address: number };
+    return called;
+  }
+
+  accelerate(percent: number): void {
+    const ratio = Math.min(1, percent / 100);
+    this.acceleration = ratio < 1 ? { ratio } : undefined;
+  }
+
   here(): Transform { return times(times(inverted(this.base), this.flange), this.tool.flangeFromTcp); }
   reached(precision: Precision): Transform { return times(times(inverted(this.base), this.flangeAt(precision.joints_deg)), this.tool.flangeFromTcp); }
 
@@ -94,7 +127,7 @@ export class ControllerState implements Memory {
     const target = location.kind === "precision" ? this.toJoints(location) : this.toTransform(location);
     const speed = this.onceDuration ?? this.duration ?? this.onceSpeed ?? this.speed;
     this.onceDuration = this.onceSpeed = undefined;
-    return { id, type: "move", path: straight ? "lin" : "ptp", target, speed, blend_m: 0 };
+    return { id, type: "move", path: straight ? "lin" : "ptp", target, speed, ...(this.acceleration === undefined ? {} : { acceleration: this.acceleration }), blend_m: 0 };
   }
 
   /** DRIVE: one joint, counted from 1, by an angle. */

@@ -9,8 +9,8 @@ export type Value = number | string | Transform | Precision;
 /** Where values come from while a program runs. */
 export interface Memory {
   read(key: string): Value | undefined;
-  /** State of a digital signal. */
-  signal(number: number): boolean;
+  /** State of a digital signal; `name` is that of the variable that holds the number, if one does. */
+  signal(number: number, name: string | undefined): boolean;
   /** The tool now (HERE) and at the end of the motion under way (DEST), in the world of the program. */
   here(): Transform;
   /** Where the tool is when the joints have these values. */
@@ -109,6 +109,12 @@ function binary(expression: Extract<Expression, { kind: "binary" }>, memory: Mem
   }
 }
 
+/** Name of the variable that a signal is called by, with or without a sign. */
+export function signalName(expression: Expression): string | undefined {
+  const plain = expression.kind === "unary" ? expression.of : expression;
+  return plain.kind === "variable" && plain.indices.length === 0 ? plain.name : undefined;
+}
+
 type Call = Extract<Expression, { kind: "call" }>;
 type Evaluate = (args: readonly Expression[], memory: Memory, call: Call) => Value;
 
@@ -141,7 +147,7 @@ const FUNCTIONS: Readonly<Record<string, readonly [least: number, most: number, 
   }],
   SIG: [1, 15, (args, memory) => truth(args.every(arg => {
     const signal = Math.trunc(number(arg, memory));
-    return memory.signal(Math.abs(signal)) === signal > 0;
+    return memory.signal(Math.abs(signal), signalName(arg)) === signal > 0;
   }))],
   INVERSE: [1, 1, ([a], memory) => inverted(transform(a!, memory))],
   RX: [1, 1, ([angle], memory) => about("x", number(angle!, memory))],

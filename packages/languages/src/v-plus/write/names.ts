@@ -24,4 +24,4 @@ export function vPlusName(name: string, taken: ReadonlySet<string> = new Set()):
 }
 
 /** What a person called something, as it can stand in a comment. Marks that the reader of comments keeps for itself are dropped. */
-export const commentText = (name: string): string => asciiText(name).replace(/^[*=;\s]+/, "");
+export const commentText = (name: string): string => asciiText(name).replace(/^[*=;\-\s]+/, "");

@@ -1,0 +1,73 @@
+import { existsSync, statSync } from "node:fs";
+import { basename, resolve } from "node:path";
+import { compose, inverse, pose, robotFromArm, type LinkSolid, type Pose, type Robot } from "@twincell/core";
+import { armFromUrdf, endsOf, loadMeshes, readDhTable, readRobot, urdfSolids, type NotUnderstood, type UrdfChain, type UrdfRobot } from "@twincell/formats";
+import { disk } from "./disk.ts";
+import { readText } from "./files.ts";
+import { UseFault } from "./usage.ts";
+
+/** A robot that was opened from a file. */
+export interface RobotFromFile {
+  readonly robot: Robot;
+  /** How the asked base lies to the root the arm is laid out from. */
+  readonly baseFromRoot: Pose;
+  /** Its shapes, meshes loaded, when the file has any. */
+  solids(): { readonly solids: readonly LinkSolid[]; readonly notes: readonly string[] } | undefined;
+}
+
+const DESCRIPTION = /\.(urdf|xacro|xml)$/i, TABLE = /\.(json|csv|tsv|txt|dh)$/i;
+
+/** Whether `--robot` is a path rather than an id of the library. */
+export const isRobotPath = (wanted: string): boolean => DESCRIPTION.test(wanted) || TABLE.test(wanted) || (/[/\\]/.test(wanted) && existsSync(wanted));
+
+/** Opens a URDF, a xacro or a D-H table. */
+export async function robotFromFile(path: string, base: string | undefined, tip: string | undefined, args: Readonly<Record<string, string>>): Promise<RobotFromFile> {
+  if (TABLE.test(path)) return fromTable(path, base, tip);
+  if (!existsSync(path)) throw new UseFault(`${path} cannot be read: there is no such file.`);
+  if (statSync(path).isDirectory()) throw new UseFault(`${path} is a folder, not a file.`, "Give the URDF or xacro in it.");
+  return fromDescription(path, base, tip, args);
+}
+
+const idOf = (path: string): string => basename(path).replace(/(\.urdf)?\.(urdf|xacro|xml)$|(\.dh)?\.(json|csv|tsv|txt|dh)$/i, "");
+
+async function fromTable(path: string, base: string | undefined, tip: string | undefined): Promise<RobotFromFile> {
+  const answer = readDhTable(await readText(path), idOf(path));
+  if (answer.kind !== "read") throw refused(path, answer);
+  if (base !== undefined && base !== "base") throw new UseFault(`${path} has no frame "${base}".`, "A D-H table has the frames base and flange.");
+  if (tip !== undefined && tip !== "flange") throw new UseFault(`${path} has no frame "${tip}".`, "A D-H table has the frames base and flange.");
+  const robot = robotFromArm(answer.arm, { id: idOf(path), frames: { base: "base", tip: "flange" }, assumptions: answer.assumptions });
+  return { robot, baseFromRoot: pose(), solids: () => undefined };
+}
+
+/**
+ * The arm is laid out from the file's root, where axis 1 stands as the closed form wants it; another base is a fixed step from
+ * there. Another tip becomes the arm's own flange.
+ */
+function fromDescription(path: string, base: string | undefined, tip: string | undefined, args: Readonly<Record<string, string>>): RobotFromFile {
+  const whole = resolve(path), answer = readRobot(whole, disk, { args });
+  if (answer.kind !== "read") throw refused(path, answer);
+  const chain = chainOf(path, answer.robot, undefined, tip);
+  const robot = robotFromArm(chain.arm, {
+    id: idOf(path), frames: { base: chain.base, tip: chain.tip }, assumptions: [...answer.warnings, ...chain.assumptions], ...(chain.masses ? { masses: chain.masses } : {}),
+  });
+  const solids = (): ReturnType<RobotFromFile["solids"]> => {
+    if (chain.shapes.length === 0) return undefined;
+    const meshes = loadMeshes(chain, whole, disk), found = urdfSolids(chain, meshes.meshOf);
+    return { solids: found.solids, notes: meshes.notes };
+  };
+  if (base === undefined || base === chain.base) return { robot, baseFromRoot: pose(), solids };
+  const baseFromJoint = chainOf(path, answer.robot, base, tip).arm.joints[0]!.parentFromJoint, rootFromJoint = chain.arm.joints[0]!.parentFromJoint;
+  return { robot, baseFromRoot: compose(baseFromJoint as Pose, inverse(rootFromJoint) as Pose), solids };
+}
+
+function chainOf(path: string, file: UrdfRobot, base: string | undefined, tip: string | undefined): UrdfChain {
+  const chain = armFromUrdf(file, base, tip);
+  if (chain.kind === "chain") return chain;
+  const ends = endsOf(file);
+  throw refused(path, chain, ends.length > 1 ? `The file ends in ${ends.slice(0, 12).join(", ")}${ends.length > 12 ? ", …" : ""}: choose with --tip.` : "");
+}
+
+function refused(path: string, { sentence, line, file }: NotUnderstood, hint = ""): UseFault {
+  const place = file === undefined || file === resolve(path) ? path : file;
+  return new UseFault(`${place}${line === undefined ? "" : `, line ${line}`}: ${sentence}`, hint);
+}

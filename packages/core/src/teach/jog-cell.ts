@@ -1,0 +1,57 @@
+import { armScratch, type ArmScratch } from "../kinematics/forward.ts";
+import { MAX_BRANCHES } from "../kinematics/ortho-parallel.ts";
+import type { DampedScratch } from "../kinematics/numeric/damped-scratch.ts";
+import type { SerialArm } from "../robots/arm.ts";
+import type { Robot } from "../robots/robot.ts";
+import { identity, type Pose } from "../spatial/pose.ts";
+import type { Quaternion } from "../spatial/quaternion.ts";
+import type { Vector3 } from "../spatial/vector.ts";
+
+/** Which axes a Cartesian jog runs along: those of the world, the robot base, the tool tip, or worldFromUser of a work frame. */
+export type JogFrame = "world" | "base" | "tool" | Quaternion;
+
+/** What the hand asks for: joint speeds [rad/s], or a twist of the tool tip [m/s, rad/s about the tip]. */
+export type JogCommand =
+  | { readonly kind: "joints"; readonly speed_rad_s: ArrayLike<number> }
+  | { readonly kind: "tip"; readonly linear_mps: Vector3; readonly angular_rad_s: Vector3; readonly frame: JogFrame };
+
+/** Where the arm stands and what it carries. */
+export interface JogCell {
+  readonly robot: Robot;
+  readonly worldFromBase: Pose<"world", "base">;
+  readonly flangeFromTcp: Pose<"flange", "tcp">;
+}
+
+/** What jogging an arm by damped least squares needs beside the rest. */
+export interface NumericJog {
+  readonly arm: SerialArm; readonly damped: DampedScratch; readonly found: Float64Array; readonly baseFromStart: Pose<"base", "flange">; readonly turnWeight_m: number;
+}
+
+/** Working memory of `jogStep`: one per hand. Fits itself to the number of joints when it first meets an arm. */
+export interface JogScratch {
+  readonly raw: Float64Array; readonly ahead: Float64Array; readonly arm: ArmScratch;
+  best: Float64Array; start: Float64Array; turned: Float64Array; numeric: NumericJog | null;
+  readonly baseFromFlange: Pose<"base", "flange">; readonly worldFromTcp: Pose<"world", "tcp">; readonly wanted: Pose<"world", "tcp">;
+  readonly worldFromFlange: Pose<"world", "flange">; readonly baseFromTcp: Pose<"base", "tcp">;
+  readonly baseFromWorld: Pose<"base", "world">; readonly tcpFromFlange: Pose<"tcp", "flange">;
+  readonly linear: Vector3; readonly angular: Vector3; readonly masked: Vector3; readonly axis: Vector3; readonly turns: Vector3; readonly turn: Quaternion;
+  /** The last turn in place of the joints, this step's, and the wish it was for, so that one does not undo the other. All 0 where the tip moved. */
+  turnedLast: Float64Array; turnedNow: Float64Array; readonly turnedFor: Float64Array;
+}
+export const jogScratch = (): JogScratch => ({
+  raw: new Float64Array(6 * MAX_BRANCHES), best: new Float64Array(6), start: new Float64Array(6), ahead: new Float64Array(6), turned: new Float64Array(6), arm: armScratch(), numeric: null,
+  baseFromFlange: identity(), worldFromTcp: identity(), wanted: identity(),
+  worldFromFlange: identity(), baseFromTcp: identity(), baseFromWorld: identity(), tcpFromFlange: identity(),
+  linear: [0, 0, 0], angular: [0, 0, 0], masked: [0, 0, 0], axis: [0, 0, 0], turns: [0, 0, 0], turn: [0, 0, 0, 1],
+  turnedLast: new Float64Array(6), turnedNow: new Float64Array(6), turnedFor: new Float64Array(6),
+});
+
+/** The largest joint speed of the step as a share of what that joint can do. */
+export function speedLoad(robot: Robot, from: Float64Array, to: Float64Array, dt_s: number): number {
+  let load = 0;
+  for (let j = 0; j < to.length; j++) load = Math.max(load, Math.abs(to[j]! - from[j]!) / (robot.arm.joints[j]!.limits.speed_rad_s * dt_s));
+  return load;
+}
+
+/** A turn in place below this share of the joint speeds is rounding. */
+export const LEAST_TURN = 1e-3;

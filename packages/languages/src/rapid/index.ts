@@ -1,0 +1,17 @@
+import { identity, type Dialect } from "@twincell/core";
+import { CANNOT, emitRapid } from "./emit.ts";
+import { interpretRapid } from "./interpret.ts";
+import { parseRapid } from "./parse.ts";
+
+/** RAPID of ABB's IRC5 and OmniCore controllers. */
+export const rapid: Dialect = {
+  id: "rapid",
+  brand: "ABB",
+  name: "RAPID",
+  extensions: [".mod", ".pgf", ".prg", ".sys"],
+  maturity: "experimental",
+  cannot: CANNOT,
+  emit: (program, robot, worldFromBase = identity()) => emitRapid(program, robot, worldFromBase),
+  parse: (text, robot, worldFromBase = identity()) => parseRapid(text, robot, worldFromBase),
+  interpret: (text, robot, worldFromBase = identity()) => interpretRapid(text, robot, worldFromBase),
+};

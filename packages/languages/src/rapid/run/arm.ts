@@ -1,0 +1,49 @@
+import { branchOf, flangePose, type Branch, type Pose, type Robot } from "@twincell/core";
+import { octant, solved, type Confdata } from "./configuration.ts";
+import { NOTHING, fromPose, times, toPose, type Frame } from "./frame.ts";
+
+/** Where the arm is sent. The controller counts from the base of the robot; its joints are those of the library, in degrees. */
+export class ControllerArm {
+  readonly robot: Robot;
+  private readonly worldFromBase: Frame;
+  flange: Frame;
+  tool: Frame = NOTHING;
+  /** Unknown after a pose whose joint angles are not solved here. */
+  joints_deg: readonly number[] | undefined;
+
+  constructor(robot: Robot, worldFromBase: Pose<"world", "base">) {
+    this.robot = robot;
+    this.worldFromBase = fromPose(worldFromBase);
+    this.joints_deg = robot.home_rad.map(angle => angle / Math.PI * 180);
+    this.flange = this.flangeAt(this.joints_deg);
+  }
+
+  world<Into extends string, From extends string>(base: Frame): Pose<Into, From> { return toPose(times(this.worldFromBase, base)); }
+  flangeAt(joints_deg: readonly number[]): Frame { return fromPose(flangePose(this.robot.arm, joints_deg.map(angle => angle / 180 * Math.PI))); }
+
+  atJoints(joints_deg: readonly number[]): void {
+    this.joints_deg = joints_deg;
+    this.flange = this.flangeAt(joints_deg);
+  }
+
+  /** The flange is there, in the configuration that is asked for or else in the nearest posture. Answers with the branch, where it has a name. */
+  atFlange(flange: Frame, conf: Confdata | undefined): Branch | undefined {
+    const near = this.joints_deg?.map(angle => angle / 180 * Math.PI), q = solved(this.robot, toPose(flange), near, conf);
+    this.flange = flange;
+    this.joints_deg = q?.map(angle => angle / Math.PI * 180);
+    return q === undefined ? undefined : branchOf(this.robot, q);
+  }
+
+  configuration(): Confdata {
+    const { joints_deg } = this;
+    if (joints_deg === undefined) return [0, 0, 0, 0];
+    const quarter = (joint: number): number => Math.floor(joints_deg[joint]! / 90);
+    return [quarter(0), quarter(3), quarter(5), octant(this.robot, joints_deg.map(angle => angle / 180 * Math.PI))];
+  }
+
+  /** Remembers where the arm is; the answer brings it back. */
+  remember(): () => void {
+    const { flange, tool, joints_deg } = this;
+    return () => { this.flange = flange; this.tool = tool; this.joints_deg = joints_deg; };
+  }
+}

@@ -1,0 +1,480 @@
+import { type Condition, type Executed, type MoveStep, type Pose, type Robot, type SignalLine, type Signals, type Speed, type Step, type Target, type TextPlace } from "@twincell/core";
+import { TextError } from "../../text/index.ts";
+import { BlockMachine, type Block, type Do, type Expression, type Flow, type Routine, type WaitUntil } from "../../text/structured/index.ts";
+import type { Datum, Source } from "../read/grammar.ts";
+import { ControllerArm } from "./arm.ts";
+import { Arguments } from "./arguments.ts";
+import type { Confdata } from "./configuration.ts";
+import { inverted, times, toPose, turned, type Frame } from "./frame.ts";
+import { FUNCTIONS } from "./functions.ts";
+import { predefined } from "./predefined.ts";
+import { asFrame, asNumber, asNumbers, asPosition, asRecord, asTruth, binary, fromFrame, placeOf, type Value } from "./values.ts";
+
+/** What the steps of a run refer to; filled while it goes on. */
+export interface Surroundings {
+  readonly tools: Record<string, Pose<"flange", "tcp">>;
+  readonly frames: Record<string, Pose<"world", "frame">>;
+  readonly signals: Record<string, SignalLine>;
+}
+/** The output that closes the gripper. */
+const GRIPPER = "dogripper";
+/** Instructions that change nothing of where the robot goes. */
+const SILENT = new Set([
+  "singarea", "tperase", "confl", "pathaccset", "worldaccset", "motionsup", "actunit", "deactunit", "clkreset", "clkstart", "clkstop",
+  "cirpathmode", "pathresol", "tunereset", "softdeact", "pdispoff", "eoffsoff", "waitrob",
+]);
+/** Instructions at which the robot stays until somebody starts it again. */
+const HALTS = new Set(["stop", "break", "systemstopaction"]);
+/** Records whose orientation a program may leave unset. */
+const UNSET = new Set(["num", "dnum", "bool", "string", "byte", "clock", "intnum"]);
+const MOST_ITEMS = 100_000;
+
+interface Motion { readonly goal: Expression; readonly via?: Expression; readonly speed: Expression; readonly zone?: Expression; readonly tool: Expression }
+
+/** Executes RAPID statement by statement. */
+export class Machine extends BlockMachine<Value> {
+  readonly arm: ControllerArm;
+  readonly surroundings: Surroundings;
+  /** Work objects that are frames although they change: the places of a pallet that is being read. */
+  readonly places = new Set<string>();
+  private readonly source: Source;
+  private readonly known: ReadonlyMap<string, Value>;
+  private readonly changing: ReadonlySet<string>;
+  private readonly outputs = new Map<string, boolean | number>();
+  private readonly signals: Signals | undefined;
+  private acceleration = 1;
+  private override = 1;
+  private fastest_mmps = Infinity;
+  private asksConfiguration = true;
+  private tool: Frame;
+
+  /** @param changing  data that get a value while the program runs. */
+  constructor(source: Source, changing: ReadonlySet<string>, robot: Robot, worldFromBase: Pose<"world", "base">, surroundings: Surroundings, signals?: Signals) {
+    super(source.routines);
+    this.source = source;
+    this.known = predefined(robot.maxTcpSpeed_mps);
+    this.changing = changing;
+    this.arm = new ControllerArm(robot, worldFromBase);
+    this.surroundings = surroundings;
+    this.signals = signals;
+    this.tool = { mm: [0, 0, 0], wxyz: [1, 0, 0, 0] };
+    for (const datum of source.data) this.make(datum, this.globals);
+  }
+
+  // --- data -------------------------------------------------------------------------------------------------------
+
+  private make(datum: Datum, into: Map<string, Value>): void {
+    const { name, type, value, sizes } = datum;
+    if (value !== undefined) into.set(name, this.evaluate(value));
+    else if (sizes.length > 0) into.set(name, this.empty(sizes, type));
+    else if (UNSET.has(type)) into.set(name, type === "bool" ? false : type === "string" ? "" : 0);
+  }
+
+  private empty(sizes: readonly Expression[], type: string): Value {
+    const [size, ...rest] = sizes, length = this.numberOf(size!);
+    if (!Number.isInteger(length) || length < 1 || length > MOST_ITEMS) throw new TextError(size!, `a size from 1 to ${MOST_ITEMS}`, `An array of ${length} items cannot be made.`);
+    return Array.from({ length }, (): Value => rest.length > 0 ? this.empty(rest, type) : type === "bool" ? false : type === "string" ? "" : 0);
+  }
+
+  protected override prepare(routine: Routine, names: Map<string, Value>): void {
+    for (const datum of this.source.local.get(routine.name) ?? []) this.make(datum, names);
+  }
+
+  *main(): Generator<Executed, Flow> {
+    const main = this.entry();
+    return main === undefined ? "next" : yield* this.call(main, [], main);
+  }
+
+  /** PROC main, or the only routine there is. */
+  entry(): Routine | undefined {
+    return this.source.routines.get("main") ?? (this.source.routines.size === 1 ? [...this.source.routines.values()][0] : undefined);
+  }
+
+  /** The body of the entry with its data made, to be written down. */
+  open(): Block {
+    const main = this.entry();
+    if (main === undefined) return [];
+    const names = new Map<string, Value>();
+    this.scopes.push({ routine: main.name, names });
+    this.prepare(main, names);
+    return main.body;
+  }
+
+  variable(name: string): Value | undefined {
+    return this.scopes.at(-1)?.names.get(name) ?? this.globals.get(name) ?? this.known.get(name);
+  }
+
+  evaluate(expression: Expression): Value {
+    switch (expression.kind) {
+      case "number": case "truth": case "text": return expression.value;
+      case "variable": {
+        const value = this.variable(expression.name) ?? this.level(expression.name);
+        if (value === undefined) throw new TextError(expression, "a datum that has a value", `"${this.spelt(expression.name)}" has no value here.`);
+        return value;
+      }
+      case "list": return expression.items.map(item => this.evaluate(item));
+      case "index": return expression.indices.reduce<Value>((value, index) => {
+        const i = this.numberOf(index), item = typeof value === "object" && Number.isInteger(i) ? value[i - 1] : undefined;
+        if (item === undefined) throw new TextError(index, "an item of the array", `The array has no item ${i}.`);
+        return item;
+      }, this.evaluate(expression.of));
+      case "component": {
+        const record = this.evaluate(expression.of), place = typeof record === "object" ? placeOf(record, expression.name) : undefined;
+        const value = typeof record === "object" && place !== undefined ? record[place] : undefined;
+        if (value === undefined) throw new TextError(expression, "a component of the record", `There is no component "${expression.name}" here.`);
+        return value;
+      }
+      case "unary": return expression.sign === "not" ? !this.isTrue(expression.of) : -this.numberOf(expression.of);
+      case "binary": return binary(expression.sign, this.evaluate(expression.left), this.evaluate(expression.right), expression);
+      case "call": return this.function(expression);
+    }
+  }
+
+  isTrue(expression: Expression): boolean {
+    const when = this.condition(expression);
+    return when === undefined ? asTruth(this.evaluate(expression), expression) : this.holds(when);
+  }
+  numberOf(expression: Expression): number { return asNumber(this.evaluate(expression), expression); }
+  fromNumber(value: number): Value { return value; }
+
+  protected store(to: Expression, value: Value): void {
+    if (to.kind === "variable") {
+      const names = this.scopes.at(-1)?.names;
+      (names?.has(to.name) === true ? names : this.globals).set(to.name, value);
+      return;
+    }
+    if (to.kind === "component") {
+      const record = this.evaluate(to.of), place = typeof record === "object" ? placeOf(record, to.name) : undefined;
+      if (typeof record !== "object" || place === undefined || place >= record.length) throw new TextError(to, "a component of the record", `There is no component "${to.name}" here.`);
+      return this.store(to.of, record.with(place, value));
+    }
+    if (to.kind === "index") {
+      const [index, ...rest] = to.indices, array = this.evaluate(to.of), i = this.numberOf(index!);
+      if (typeof array !== "object" || !Number.isInteger(i) || i < 1 || i > array.length) throw new TextError(index!, "an item of the array", `The array has no item ${i}.`);
+      const inner: Expression = { kind: "index", of: to.of, indices: [index!], line: to.line, column: to.column };
+      return rest.length > 0 ? this.store({ kind: "index", of: inner, indices: rest, line: to.line, column: to.column }, value) : this.store(to.of, array.with(i - 1, value));
+    }
+    throw new TextError(to, "a datum", "Only a datum can be given a value.");
+  }
+
+  private function(expression: Extract<Expression, { kind: "call" }>): Value {
+    const { name, args: given } = expression, routine = this.routine(name);
+    if (routine !== undefined) return this.answer(routine, given, expression);
+    const args = new Arguments(name, given, expression, each => this.evaluate(each));
+    switch (name) {
+      case "crobt": {
+        const base = times(this.arm.flange, this.tool);
+        return [...asRecord(fromFrame(base), expression, 2, "a pose"), [...this.arm.configuration()], NO_AXES];
+      }
+      case "cjointt": return [this.jointsNow(expression), NO_AXES];
+      case "cpos": return [...times(this.arm.flange, this.tool).mm];
+      case "calcrobt": return [...asRecord(fromFrame(times(this.arm.flangeAt(this.joints(args.value(0, "a jointtarget"), expression)), this.toolFrame(args.value(1, "a tool"), expression))), expression, 2, "a pose"), [0, 0, 0, 0], NO_AXES];
+      case "testdi": case "dinput": case "doutput": case "ainput": case "aoutput": {
+        const line = this.line(args.nameOf(0, "a line"), KIND_OF_FUNCTION[name]!), value = this.read(line);
+        return name === "testdi" ? value === true : Number(value);
+      }
+      case "isfile": case "present": return false;
+      default: break;
+    }
+    const known = Object.hasOwn(FUNCTIONS, name) ? FUNCTIONS[name] : undefined;
+    if (known === undefined) throw new TextError(expression, "a function of RAPID", `"${name}" is no function that is understood here.`);
+    const [count, run] = known;
+    if (args.count !== count) throw new TextError(expression, `${count} argument${count === 1 ? "" : "s"}`, `${name} takes ${count} argument${count === 1 ? "" : "s"}; ${args.count} are given.`);
+    return run(args.values(), args.options(), expression);
+  }
+
+  private jointsNow(at: TextPlace): Value {
+    const { joints_deg } = this.arm;
+    if (joints_deg === undefined) throw new TextError(at, "a MoveAbsJ before it", "The joint angles are the controller's choice here, and are not known.");
+    return [...joints_deg];
+  }
+
+  spelt(name: string): string { return this.source.spelling.get(name) ?? name; }
+
+  // --- lines ------------------------------------------------------------------------------------------------------
+
+  /** The line of that name, which is of that kind from now on. */
+  private line(name: string, kind: SignalLine["kind"]): string {
+    const { signals } = this.surroundings, spelt = this.source.spelling.get(name) ?? name;
+    signals[spelt] ??= { kind };
+    return spelt;
+  }
+
+  /** What a name is worth that is no datum but a line that was spoken of before. */
+  private level(name: string): Value | undefined {
+    const spelt = this.spelt(name);
+    return Object.hasOwn(this.surroundings.signals, spelt) ? Number(this.read(spelt)) : undefined;
+  }
+
+  private read(line: string): boolean | number {
+    const isDigital = this.surroundings.signals[line]!.kind.startsWith("digital"), value = this.outputs.get(line) ?? this.signals?.read(line);
+    return isDigital ? value === true || (typeof value === "number" && value !== 0) : Number(value ?? 0);
+  }
+
+  private holds(when: Condition): boolean {
+    const value = this.read(when.signal);
+    if ("is" in when) return (value === true) === when.is;
+    return "above" in when ? Number(value) > when.above : Number(value) < when.below;
+  }
+
+  condition(expression: Expression): Condition | undefined {
+    if (expression.kind === "unary" && expression.sign === "not") {
+      const inner = this.condition(expression.of);
+      return inner !== undefined && "is" in inner ? { signal: inner.signal, is: !inner.is } : undefined;
+    }
+    if (expression.kind === "call" && expression.name === "testdi") return { signal: this.lineOf(expression)!, is: true };
+    if (expression.kind !== "binary") return undefined;
+    const { sign, left, right } = expression, kind = left.kind === "call" ? KIND_OF_FUNCTION[left.name] : undefined;
+    const isLine = left.kind === "variable" && this.variable(left.name) === undefined && (right.kind === "number" || (right.kind === "variable" && this.known.has(right.name)));
+    if (!isLine && (kind === undefined || !["=", "<>", "<", ">"].includes(sign))) return undefined;
+    const signal = this.lineOf(left), value = right.kind === "number" || right.kind === "variable" ? this.evaluate(right) : undefined;
+    if (signal === undefined || typeof value !== "number") return undefined;
+    if (sign === ">" || sign === "<") return sign === ">" ? { signal, above: value } : { signal, below: value };
+    return value === 0 || value === 1 ? { signal, is: (value === 1) === (sign === "=") } : undefined;
+  }
+
+  private lineOf(expression: Expression): string | undefined {
+    if (expression.kind === "variable") return this.line(expression.name, "digital-in");
+    if (expression.kind !== "call" || !Object.hasOwn(KIND_OF_FUNCTION, expression.name)) return undefined;
+    const name = expression.args[0]?.value;
+    return name?.kind === "variable" ? this.line(name.name, KIND_OF_FUNCTION[expression.name]!) : undefined;
+  }
+
+  // --- waits ------------------------------------------------------------------------------------------------------
+
+  protected *waitUntil(statement: WaitUntil): Generator<Executed, void> {
+    const when = this.condition(statement.when);
+    if (when === undefined) {
+      if (!asTruth(this.evaluate(statement.when), statement.when)) throw new TextError(statement.when, "a condition that comes true", "The program waits for a condition that nothing here makes true.");
+      yield { line: statement.line };
+      return;
+    }
+    yield this.waitFor(statement, when, statement.timeout === undefined ? undefined : this.numberOf(statement.timeout));
+  }
+
+  private waitFor(at: TextPlace, when: Condition, timeout_s: number | undefined): Executed {
+    return this.done(at, { id: this.stepId(at), type: "wait-for", when, ...(timeout_s === undefined ? {} : { timeout_s }) });
+  }
+
+  // --- instructions -----------------------------------------------------------------------------------------------
+
+  protected *instruction(statement: Do): Generator<Executed, Flow | undefined> {
+    const { name } = statement, args = new Arguments(this.spelt(name), statement.args, statement, each => this.evaluate(each));
+    if (HALTS.has(name)) {
+      yield this.done(statement, { id: this.stepId(statement), type: "stop" });
+      return "halt";
+    }
+    const step = this.step(name, args, statement);
+    yield step === undefined ? { line: statement.line } : this.done(statement, step);
+    return undefined;
+  }
+
+  private step(name: string, args: Arguments, at: TextPlace): Step | undefined {
+    const id = (): string => this.stepId(at);
+    switch (name) {
+      case "moveabsj": case "movej": case "movel": case "movec": return this.move(name, args, id());
+      case "searchl": case "searchc": return this.search(name, args, id());
+      case "waittime": {
+        const s = args.number(0, "a time");
+        if (!(s >= 0)) throw new TextError(at, "a time of 0 s or more", `The time is ${s} s.`);
+        return { id: id(), type: "wait", s };
+      }
+      case "waitdi": case "waitdo": case "waitai": case "waitao": case "waituntil": return this.wait(name, args, at);
+      case "set": case "reset": return this.write(args.nameOf(0, "a line"), name === "set", at);
+      case "setdo": return this.write(args.nameOf(0, "a line"), args.number(1, "a value") !== 0, at);
+      case "setao": return this.write(args.nameOf(0, "a line"), args.number(1, "a value"), at);
+      case "pulsedo": {
+        const pulse_s = args.option("plength") ?? 0.2, signal = this.line(args.nameOf(0, "a line"), "digital-out");
+        return { id: id(), type: "set", signal, to: true, pulse_s };
+      }
+      case "gripload": return this.payload(args.value(0, "a load"), at);
+      case "tpwrite": {
+        const text = args.value(0, "a text");
+        if (typeof text !== "string") throw new TextError(at, "a text", "TPWrite writes a text.");
+        const number = args.option("num");
+        return { id: id(), type: "message", text: number === undefined ? text : `${text}${number}` };
+      }
+      case "accset": this.acceleration = Math.min(1, Math.max(0.2, args.number(0, "a percentage") / 100)); return undefined;
+      case "velset": this.override = Math.min(1, Math.max(0.01, args.number(0, "a percentage") / 100)); this.fastest_mmps = args.number(1, "a speed"); return undefined;
+      case "confj": this.asksConfiguration = !args.has("off"); return undefined;
+      default:
+        if (SILENT.has(name)) return undefined;
+        throw new TextError(at, "an instruction of RAPID", REFUSED[name] ?? `"${this.spelt(name)}" is no instruction of RAPID that is understood here.`);
+    }
+  }
+
+  private wait(name: string, args: Arguments, at: TextPlace): Step {
+    const timeout = args.option("maxtime"), limit = timeout === undefined ? {} : { timeout_s: timeout };
+    const when = name === "waituntil" ? this.condition(args.given(0, "a condition")) : this.waited(name, args);
+    if (when !== undefined) return { id: this.stepId(at), type: "wait-for", when, ...limit };
+    if (!this.isTrue(args.given(0, "a condition"))) throw new TextError(at, "a condition that comes true", "The program waits for a condition that nothing here makes true.");
+    return { id: this.stepId(at), type: "wait", s: 0 };
+  }
+
+  private waited(name: string, args: Arguments): Condition {
+    const kind = name === "waitdi" ? "digital-in" : name === "waitdo" ? "digital-out" : name === "waitai" ? "analogue-in" : "analogue-out";
+    const signal = this.line(args.nameOf(0, "a line"), kind), value = args.number(1, "a value");
+    if (kind.startsWith("digital")) return { signal, is: value !== 0 };
+    if (args.has("gt")) return { signal, above: value };
+    if (args.has("lt")) return { signal, below: value };
+    throw new TextError(args.at, "\\GT or \\LT", "Only a wait for more or for less can be carried out.");
+  }
+
+  private write(name: string, to: boolean | number, at: TextPlace): Step {
+    if (name === GRIPPER && typeof to === "boolean") return { id: this.stepId(at), type: "gripper", closed: to };
+    const signal = this.line(name, typeof to === "boolean" ? "digital-out" : "analogue-out");
+    this.outputs.set(signal, to);
+    return { id: this.stepId(at), type: "set", signal, to };
+  }
+
+  /** A load is given in the tool; the step counts from the flange. */
+  private payload(load: Value, at: TextPlace): Step {
+    const [mass, cog, aom, ix, iy, iz] = asRecord(load, at, 6, "a load"), flange = times(this.tool, { mm: asPosition(cog, at), wxyz: [1, 0, 0, 0] }).mm;
+    const inertia = [ix, iy, iz].map(each => asNumber(each!, at)), axes = times(this.tool, asFrame([[0, 0, 0], aom!], at)).wxyz;
+    const base = { id: this.stepId(at), type: "payload", mass_kg: asNumber(mass!, at), center_m: [flange[0] / 1000, flange[1] / 1000, flange[2] / 1000] } satisfies Step;
+    if (inertia.every(each => each === 0)) return base;
+    // I = Σ I_k a_k a_kᵀ over the axes of moment.
+    const columns = ([[1, 0, 0], [0, 1, 0], [0, 0, 1]] as const).map(axis => turned(axes, [...axis])), entry = (i: number, j: number): number => columns.reduce((sum, axis, k) => sum + inertia[k]! * axis[i]! * axis[j]!, 0);
+    return { ...base, inertia_kgm2: [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)] };
+  }
+
+  // --- moves ------------------------------------------------------------------------------------------------------
+
+  private move(name: "moveabsj" | "movej" | "movel" | "movec", args: Arguments, id: string): MoveStep {
+    const shift = name === "movec" ? 1 : 0;
+    const motion: Motion = {
+      goal: args.given(shift, "a target"), speed: args.given(shift + 1, "a speed"), zone: args.given(shift + 2, "a zone"), tool: args.given(shift + 3, "a tool"),
+      ...(shift === 0 ? {} : { via: args.given(0, "a point on the arc") }),
+    };
+    return this.motion(name, motion, args, id);
+  }
+
+  private search(name: "searchl" | "searchc", args: Arguments, id: string): MoveStep {
+    const signal = this.line(args.nameOf(0, "a line"), "digital-in"), shift = name === "searchc" ? 1 : 0;
+    if (args.has("flanks")) throw new TextError(args.at, "\\PosFlank or \\NegFlank", "A search for either edge is not executed here.");
+    const motion: Motion = {
+      goal: args.given(2 + shift, "a target"), speed: args.given(3 + shift, "a speed"), tool: args.given(4 + shift, "a tool"),
+      ...(shift === 0 ? {} : { via: args.given(2, "a point on the arc") }),
+    };
+    const routine = this.scopes.at(-1)?.routine ?? "", is = !args.has("negflank") && !args.has("lowlevel");
+    return { ...this.motion(name === "searchl" ? "movel" : "movec", motion, args, id), until: { when: { signal, is }, missing: this.source.forgiving.has(routine) ? "continue" : "fault" } };
+  }
+
+  private motion(name: "moveabsj" | "movej" | "movel" | "movec", motion: Motion, args: Arguments, id: string): MoveStep {
+    const { goal, via } = motion, tool = this.useTool(motion.tool), object = args.optionGiven("wobj"), speed = this.speed(motion.speed, args);
+    const blend_m = motion.zone === undefined ? 0 : this.zone(motion.zone, args), acceleration = this.acceleration < 1 ? { acceleration: { ratio: this.acceleration } } : {};
+    const common = { id, type: "move", speed, ...acceleration, blend_m } as const;
+    if (name === "moveabsj") {
+      const joints = this.joints(this.evaluate(goal), goal);
+      this.arm.atJoints(joints);
+      return { ...common, path: "ptp", target: { q: joints.map(angle => angle / 180 * Math.PI), tool } };
+    }
+    const frame = this.workObject(object), target = this.target(goal, frame, tool, name === "movej", true);
+    const passing = via === undefined ? {} : { via: this.target(via, frame, tool, false, false) };
+    return { ...common, path: name === "movej" ? "ptp" : name === "movel" ? "lin" : "circ", target, ...passing };
+  }
+
+  private joints(value: Value, at: TextPlace): readonly number[] {
+    const [robax] = asRecord(value, at, 2, "a jointtarget [[…],[…]]");
+    return asNumbers(robax, at, 6, "six joint angles");
+  }
+
+  private toolFrame(value: Value, at: TextPlace): Frame {
+    const [holds, frame] = asRecord(value, at, 3, "a tool");
+    if (holds !== true) throw new TextError(at, "a tool that the robot holds", "Tools that stand still are not executed here.");
+    return asFrame(frame, at);
+  }
+
+  private useTool(tool: Expression): string {
+    this.tool = this.toolFrame(this.evaluate(tool), tool);
+    this.arm.tool = this.tool;
+    if (tool.kind === "variable" && tool.name === "tool0") return "flange";
+    return this.named(this.surroundings.tools, toPose<"flange", "tcp">(this.tool), tool.kind === "variable" ? this.spelt(tool.name) : "tool");
+  }
+
+  /** A work object: where it is in the base of the robot, and which frame it is for the steps. */
+  private workObject(object: Expression | undefined): { readonly name: string; readonly base: Frame } {
+    if (object === undefined || (object.kind === "variable" && object.name === "wobj0")) return { name: "world", base: { mm: [0, 0, 0], wxyz: [1, 0, 0, 0] } };
+    const [holds, , , user, own] = asRecord(this.evaluate(object), object, 5, "a work object");
+    if (holds !== false) throw new TextError(object, "a work object that stands still", "Work objects that the robot holds are not executed here.");
+    const base = times(asFrame(user, object), asFrame(own, object));
+    if (object.kind !== "variable") return { name: "world", base };
+    const { name } = object, spelt = this.spelt(name);
+    if (this.places.has(spelt)) return { name: spelt, base };
+    if (this.changing.has(name)) return { name: "world", base };
+    this.surroundings.frames[spelt] ??= this.arm.world(base);
+    return { name: spelt, base };
+  }
+
+  private target(expression: Expression, frame: { readonly name: string; readonly base: Frame }, tool: string, choosesPosture: boolean, isEnd: boolean): Target {
+    const [trans, rot, conf] = asRecord(this.evaluate(expression), expression, 4, "a robtarget [[…],[…],[…],[…]]");
+    const inFrame = asFrame([trans!, rot!], expression), tip = times(frame.base, inFrame), [cf1, cf4, cf6, cfx] = asNumbers(conf, expression, 4, "a configuration [cf1,cf4,cf6,cfx]");
+    const isNamed = frame.name !== "world", pose = isNamed ? toPose<"frame", "tcp">(inFrame) : this.arm.world<"frame", "tcp">(tip);
+    if (!isEnd) return { pose, frame: frame.name, tool };
+    const asked: Confdata | undefined = this.asksConfiguration ? [cf1!, cf4!, cf6!, cfx!] : undefined;
+    const branch = this.arm.atFlange(times(tip, inverted(this.tool)), choosesPosture || this.asksConfiguration ? asked : undefined);
+    return { pose, frame: frame.name, tool, ...(branch === undefined || !this.asksConfiguration ? {} : { branch }) };
+  }
+
+  private speed(expression: Expression, args: Arguments): Speed {
+    const time = args.option("t");
+    if (time !== undefined && time > 0) return { time_s: time };
+    const [tcp] = asNumbers(this.evaluate(expression), expression, 4, "a speed [v_tcp,v_ori,v_leax,v_reax]"), v_mmps = Math.min((args.option("v") ?? tcp!) * this.override, this.fastest_mmps);
+    if (!(v_mmps > 0)) throw new TextError(expression, "a speed above 0", `The speed is ${v_mmps} mm/s.`);
+    return { mps: v_mmps / 1000 };
+  }
+
+  private zone(expression: Expression, args: Arguments): number {
+    const [isStop, radius] = asRecord(this.evaluate(expression), expression, 7, "a zone");
+    const zone_mm = args.option("z") ?? asNumber(radius!, expression);
+    if (!(zone_mm >= 0)) throw new TextError(expression, "a zone of 0 mm or more", `The zone is ${zone_mm} mm.`);
+    return isStop === true ? 0 : zone_mm / 1000;
+  }
+
+  /** A tool met before keeps its name; two tools never share one. */
+  private named<T>(table: Record<string, T>, value: T, wanted: string): string {
+    const text = JSON.stringify(value);
+    for (let i = 1; ; i++) {
+      const name = i === 1 ? wanted : `${wanted}_${i}`, known = Object.hasOwn(table, name) ? table[name] : undefined;
+      if (known === undefined) table[name] = value;
+      if (known === undefined || JSON.stringify(known) === text) return name;
+    }
+  }
+
+  // --- writing a program down -------------------------------------------------------------------------------------
+
+  /** The place that a work object is, in the frame whose user frame it shares. */
+  placeIn(variable: string): { readonly frame: string; readonly pose: Pose<"frame", "place"> } | undefined {
+    const value = this.variable(variable);
+    if (typeof value !== "object" || value.length !== 5 || !this.changing.has(variable)) return undefined;
+    const at = { line: 1, column: 1 }, user = asFrame(value[3], at), own = asFrame(value[4], at);
+    const like = this.source.data.find(({ type, name }) => type === "wobjdata" && name !== variable && !this.changing.has(name) && JSON.stringify(asRecord(this.globals.get(name), at, 5, "a work object")[3]) === JSON.stringify(value[3]));
+    if (like === undefined) return { frame: "world", pose: this.arm.world(times(user, own)) };
+    const shared = asFrame(asRecord(this.globals.get(like.name), at, 5, "a work object")[4], at), spelt = this.spelt(like.name);
+    this.surroundings.frames[spelt] ??= this.arm.world(times(user, shared));
+    return { frame: spelt, pose: toPose(times(inverted(shared), own)) };
+  }
+
+  override remember(): () => void {
+    const values = super.remember(), arm = this.arm.remember(), { acceleration, override, fastest_mmps, asksConfiguration, tool } = this, outputs = new Map(this.outputs);
+    return () => {
+      values();
+      arm();
+      this.acceleration = acceleration;
+      this.override = override;
+      this.fastest_mmps = fastest_mmps;
+      this.asksConfiguration = asksConfiguration;
+      this.tool = tool;
+      this.outputs.clear();
+      for (const [line, value] of outputs) this.outputs.set(line, value);
+    };
+  }
+}
+
+const NO_AXES: Value = [9e9, 9e9, 9e9, 9e9, 9e9, 9e9];
+const KIND_OF_FUNCTION: Readonly<Record<string, SignalLine["kind"]>> = { testdi: "digital-in", dinput: "digital-in", doutput: "digital-out", ainput: "analogue-in", aoutput: "analogue-out" };
+const REFUSED: Readonly<Record<string, string>> = {
+  triggl: "Events on the way of a move are not executed here.", triggj: "Events on the way of a move are not executed here.",
+  pdispset: "Program displacement is not executed here: put it into the work object.", pdispon: "Program displacement is not executed here: put it into the work object.",
+  eoffsset: "Offsets of external axes are not executed here.",
+};

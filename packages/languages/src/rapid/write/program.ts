@@ -1,0 +1,362 @@
+import {
+  branchOf, compose, flangePose, inverse, palletPitch, pose, rotate, solveAll, type Condition, type EmittedFile, type MoveStep, type Pallet, type PayloadStep, type Pose, type Robot, type SignalLine, type Speed, type Step, type Target, type Vector3,
+} from "@twincell/core";
+import { asciiText } from "../../text/index.ts";
+import { BlockWriter, CannotSay, Place, called, fixed, remark } from "../../writing/index.ts";
+import { GRIPPER_SIGNAL, type Configuration } from "../robots.ts";
+import { confText, jointsText, mm, objectText, orientText, part, posText, targetText, toolText } from "./data.ts";
+import { Declarations } from "./declarations.ts";
+import { WORDS } from "./words.ts";
+
+const LONGEST_TEXT = 80;
+
+/** The module: data first, then the routines; says only what changes from one step to the next. */
+export class ProgramWriter {
+  readonly warnings = new Set<string>();
+  private readonly place: Place;
+  private readonly robot: Robot;
+  private readonly configuration: Configuration;
+  private readonly data = new Declarations();
+  private readonly code = new BlockWriter();
+  private readonly local = new Set<string>();
+  /** Whether postures are known: without one there is no configuration to ask for. */
+  private readonly solves: boolean;
+  private points = 0;
+  private tool = "flange";
+  private acceleration = 1;
+  private group = "";
+  private near: readonly number[] | undefined;
+  private before: MoveStep | undefined;
+
+  constructor(place: Place, configuration: Configuration) {
+    this.place = place;
+    this.robot = place.robot;
+    this.configuration = configuration;
+    this.near = place.robot.home_rad;
+    this.solves = solveAll(place.robot, flangePose(place.robot.arm, place.robot.home_rad), { near: place.robot.home_rad }).kind !== "no-solver";
+  }
+
+  write(): readonly EmittedFile[] {
+    const { place: { program }, data, code } = this, name = data.names.of("module", program.name);
+    for (const signal of Object.keys(program.signals)) this.signalName(signal);
+    for (const [routine, steps] of Object.entries(program.routines)) this.routine(data.names.of("routine", routine), steps, false);
+    this.routine("main", program.steps, true);
+    const out = new BlockWriter();
+    out.block(`MODULE ${name}`, "ENDMODULE", "", () => {
+      out.add(`!* ${asciiText(program.name)}`.trimEnd());
+      out.add(`!* ${asciiText(this.robot.name)}. Lengths in mm, angles in degrees.`);
+      for (const { line, step } of data.all) out.add(line, step);
+      out.append(code);
+    });
+    const pgf = new BlockWriter();
+    pgf.block("<Program>", "</Program>", "", () => { pgf.add(`<Module>${name}.mod</Module>`); });
+    const list = pgf.file(`${name}.pgf`, "\r\n"), header = "<?xml version=\"1.0\" encoding=\"ISO-8859-1\" ?>\r\n";
+    return [out.file(`${name}.mod`, "\r\n"), { ...list, text: header + list.text, lines: ["", ...list.lines] }];
+  }
+
+  private routine(name: string, steps: readonly Step[], isMain: boolean): void {
+    const { code } = this, body = new BlockWriter();
+    this.begin();
+    this.local.clear();
+    const forgives = this.searches(steps);
+    code.add(`PROC ${name}()`);
+    code.indented(() => {
+      const outer = this.swap(body);
+      if (isMain) for (const setting of this.solves ? ["ConfJ\\On;", "ConfL\\On;"] : ["ConfJ\\Off;", "ConfL\\Off;"]) body.add(setting);
+      this.steps(steps);
+      this.swap(outer);
+      for (const variable of this.local) code.add(`VAR num ${variable}:=0;`);
+      code.append(body);
+    });
+    if (forgives) {
+      code.add("ERROR");
+      code.indented(() => { code.block("IF ERRNO=ERR_WHLSEARCH THEN", "ENDIF", "", () => { code.add("TRYNEXT;"); }); });
+    }
+    code.add("ENDPROC");
+  }
+
+  private out: BlockWriter = this.code;
+  private swap(to: BlockWriter): BlockWriter {
+    const { out } = this;
+    this.out = to;
+    return out;
+  }
+
+  /** Whether the searches of a routine go on when they find nothing. One handler serves them all. */
+  private searches(steps: readonly Step[]): boolean {
+    const found: MoveStep[] = [];
+    const look = (list: readonly Step[]): void => {
+      for (const step of list) {
+        if (step.type === "move" && step.until !== undefined) found.push(step);
+        if (step.type === "repeat" || step.type === "pallet") look(step.steps);
+        if (step.type === "if") { look(step.then); look(step.else ?? []); }
+      }
+    };
+    look(steps);
+    const other = found.find(step => step.until!.missing !== found[0]!.until!.missing);
+    if (other !== undefined) throw new CannotSay(other.id, `${called(other)} does something else than the search before it when nothing is found.`, "One routine of RAPID has one answer to that: put one of the searches into a routine of its own.");
+    return found[0]?.until?.missing === "continue";
+  }
+
+  /** What is said at one place holds nowhere else: routines and blocks say it anew. */
+  private begin(): void {
+    this.acceleration = Number.NaN;
+    this.before = undefined;
+  }
+
+  private steps(steps: readonly Step[]): void {
+    const outer = this.group;
+    for (const [i, step] of steps.entries()) {
+      this.heading(step);
+      this.step(step, steps[i + 1]);
+      if (step.type !== "comment" && step.type !== "wait") this.before = step.type === "move" ? step : undefined;
+    }
+    this.group = outer;
+  }
+
+  private heading(step: Step): void {
+    const { groups } = this.place.program, add = (line: string): void => { this.out.add(line.trimEnd(), step.id); };
+    const group = step.group === undefined ? "" : remark(groups[step.group]?.name ?? step.group);
+    if (group !== this.group) add(`!== ${group}`);
+    this.group = group;
+    const name = remark(step.name ?? "");
+    if (name !== "" && step.type !== "comment") add(`! ${name}`);
+  }
+
+  private step(step: Step, next: Step | undefined): void {
+    const add = (line: string): void => { this.out.add(line, step.id); };
+    switch (step.type) {
+      case "move": return this.move(step, next, add);
+      case "wait": return add(`WaitTime ${part(step.s)};`);
+      case "gripper": return add(`SetDO ${GRIPPER_SIGNAL},${step.closed ? 1 : 0};`);
+      case "set": return this.set(step, add);
+      case "wait-for": return this.waitFor(step, add);
+      case "payload": return add(`GripLoad ${this.load(step)};`);
+      case "message": {
+        const text = asciiText(step.text).replace(/"/g, "\"\"");
+        if (text.length > LONGEST_TEXT) throw new CannotSay(step.id, `${called(step)} says ${text.length} characters; RAPID takes ${LONGEST_TEXT}.`, "Say it in fewer words.");
+        return add(`TPWrite "${text}";`);
+      }
+      case "stop": return add("EXIT;");
+      case "comment": return add(`!- ${asciiText(step.text)}`.trimEnd());
+      case "call": add(`${this.data.names.of("routine", step.routine)};`); return this.begin();
+      case "repeat": return this.repeat(step);
+      case "if": return this.decision(step);
+      case "pallet": return this.pallet(step);
+    }
+  }
+
+  // --- blocks -----------------------------------------------------------------------------------------------------
+
+  private repeat(step: Extract<Step, { type: "repeat" }>): void {
+    const inside = (): void => { this.begin(); this.steps(step.steps); };
+    if (step.times === "forever") this.out.block("WHILE TRUE DO", "ENDWHILE", step.id, inside);
+    else this.out.block(`FOR ${this.data.names.fresh("count")} FROM 1 TO ${step.times} DO`, "ENDFOR", step.id, inside);
+    this.begin();
+  }
+
+  private decision(step: Extract<Step, { type: "if" }>): void {
+    const { out } = this, inside = (steps: readonly Step[]) => (): void => { this.begin(); this.steps(steps); };
+    out.add(`IF ${this.condition(step.when, step)} THEN`, step.id);
+    out.indented(inside(step.then));
+    if (step.else !== undefined) {
+      out.add("ELSE", step.id);
+      out.indented(inside(step.else));
+    }
+    out.add("ENDIF", step.id);
+    this.begin();
+  }
+
+  /** A loop over layers, lines and places; the place is the object frame of a work object that changes with them. */
+  private pallet(step: Extract<Step, { type: "pallet" }>): void {
+    const { program } = this.place, { names } = this.data, pallet = Object.hasOwn(program.pallets, step.pallet) ? program.pallets[step.pallet] : undefined;
+    if (pallet === undefined) throw new CannotSay(step.id, `${called(step)} works on the pallet ${step.pallet}, which the program does not have.`, "Choose another pallet.");
+    const order = pallet.order ?? "rows", byRows = order.startsWith("rows"), isShifted = pallet.interleave === "odd-rows-shifted";
+    if (isShifted && !byRows) throw new CannotSay(step.id, `${called(step)} visits the interleaved pallet ${step.pallet} by columns, which no plain loop does.`, "Visit it by rows.");
+    const object = names.of("frame", step.pallet), { out } = this, add = (line: string): void => { out.add(line, step.id); };
+    if (pallet.frame !== "world") this.frame(pallet.frame, step.id);
+    this.data.add(`frame ${step.pallet}`, `PERS wobjdata ${object}:=${objectText(pallet.frame === "world" ? pose() : this.inBase(this.place.frame(pallet.frame)))};`, step.id);
+    const layer = names.fresh(`${object}_layer`), line = names.fresh(`${object}_line`), along = names.fresh(`${object}_along`), at = names.fresh(`${object}_at`);
+    const lines = byRows ? pallet.rows : pallet.columns, inLine = byRows ? pallet.columns : pallet.rows;
+    this.local.add(at);
+    const loop = (name: string, last: string, inside: () => void): void => { out.block(`FOR ${name} FROM 0 TO ${last} STEP 1 DO`, "ENDFOR", step.id, inside); };
+    const last = isShifted ? `${inLine - 1}-${line} MOD 2` : `${inLine - 1}`;
+    loop(layer, `${pallet.layers - 1}`, () => {
+      loop(line, `${lines - 1}`, () => {
+        loop(along, last, () => {
+          add(`${at}:=${along};`);
+          if (order.endsWith("zigzag")) out.block(`IF ${line} MOD 2=1 THEN`, "ENDIF", step.id, () => { add(`${at}:=${isShifted ? inLine - 2 : inLine - 1}-${along};`); });
+          add(`${object}.oframe:=${this.placeText(pallet, layer, byRows ? line : at, byRows ? at : line, isShifted ? line : "")};`);
+          this.begin();
+          this.steps(step.steps);
+        });
+      });
+    });
+    this.begin();
+  }
+
+  private placeText(pallet: Pallet, layer: string, row: string, column: string, shifted: string): string {
+    const isFree = pallet.frame === "world", toBase = (v: Vector3): Vector3 => isFree ? rotate(this.place.baseFromWorld.quaternion, v) : v;
+    const origin = isFree ? compose(this.place.baseFromWorld, compose(pose<"world", "frame">(), pallet.origin)) : pallet.origin, pitch = palletPitch(pallet);
+    const columns = toBase(pitch.column), rows = toBase(pitch.row), layers = toBase(pitch.layer);
+    const fine = (value_m: number): string => fixed(value_m * 1000, 5);
+    const term = (pitch_m: number, factor: string): string => fine(pitch_m) === "0" ? "" : `${pitch_m < 0 ? "-" : "+"}${fine(Math.abs(pitch_m))}*${factor}`;
+    const parts = ([0, 1, 2] as const).map(i =>
+      `${fine(origin.position[i])}${term(columns[i], column)}${shifted === "" ? "" : term(columns[i] / 2, `(${shifted} MOD 2)`)}${term(rows[i], row)}${term(layers[i], layer)}`);
+    return `[[${parts.join(",")}],${orientText(origin.quaternion)}]`;
+  }
+
+  // --- lines ------------------------------------------------------------------------------------------------------
+
+  /** The name of a line is that of the controller's configuration: it is written as it is, or not at all. */
+  private signalName(signal: string, step?: Step): string {
+    if (/^[A-Za-z][A-Za-z0-9_]{0,31}$/.test(signal) && !WORDS.has(signal.toLowerCase())) {
+      if (this.data.names.of("signal", signal) === signal) return signal;
+    }
+    if (step === undefined) return "";
+    throw new CannotSay(step.id, `${called(step)} uses the line "${signal}", which is no name of RAPID.`, "Lines have the names of the controller's configuration: letters, digits and _, at most 32, a letter first.");
+  }
+
+  private lineOf(signal: string, step: Step): { readonly name: string; readonly kind: SignalLine["kind"] } {
+    const { signals } = this.place.program, name = this.signalName(signal, step);
+    if (!Object.hasOwn(signals, signal)) throw new CannotSay(step.id, `${called(step)} uses the line ${signal}, which is not in the list of signals.`, "Add it to the list.");
+    return { name, kind: signals[signal]!.kind };
+  }
+
+  private set(step: Extract<Step, { type: "set" }>, add: (line: string) => void): void {
+    const { name, kind } = this.lineOf(step.signal, step), { to } = step;
+    if (kind.endsWith("in")) throw new CannotSay(step.id, `${called(step)} writes the line ${step.signal}, which is an input.`, "Choose an output.");
+    if (kind.startsWith("digital") !== (typeof to === "boolean")) throw new CannotSay(step.id, `${called(step)} writes ${String(to)} to the line ${step.signal}, which is ${kind}.`, "Choose a value of that line.");
+    if (typeof to === "number") return add(`SetAO ${name},${part(to)};`);
+    if (step.pulse_s === undefined) return add(`SetDO ${name},${to ? 1 : 0};`);
+    if (!to) throw new CannotSay(step.id, `${called(step)} is a pulse that goes off; PulseDO goes on.`, "Turn the sense of the line in the controller's configuration.");
+    add(`PulseDO\\PLength:=${part(step.pulse_s)},${name};`);
+  }
+
+  private waitFor(step: Extract<Step, { type: "wait-for" }>, add: (line: string) => void): void {
+    const { when } = step, { name, kind } = this.lineOf(when.signal, step), limit = step.timeout_s === undefined ? "" : `\\MaxTime:=${part(step.timeout_s)}`;
+    const word = { "digital-in": "WaitDI", "digital-out": "WaitDO", "analogue-in": "WaitAI", "analogue-out": "WaitAO" }[kind];
+    if ("is" in when) return add(kind.startsWith("digital") ? `${word} ${name},${when.is ? 1 : 0}${limit};` : this.mismatch(when, step));
+    add(kind.startsWith("analogue") ? `${word} ${name}${"above" in when ? "\\GT" : "\\LT"},${part("above" in when ? when.above : when.below)}${limit};` : this.mismatch(when, step));
+  }
+
+  private condition(when: Condition, step: Step): string {
+    const { name, kind } = this.lineOf(when.signal, step), word = { "digital-in": "DInput", "digital-out": "DOutput", "analogue-in": "AInput", "analogue-out": "AOutput" }[kind];
+    if ("is" in when) return kind.startsWith("digital") ? `${word}(${name})=${when.is ? 1 : 0}` : this.mismatch(when, step);
+    if (!kind.startsWith("analogue")) return this.mismatch(when, step);
+    return "above" in when ? `${word}(${name})>${part(when.above)}` : `${word}(${name})<${part(when.below)}`;
+  }
+
+  private mismatch(when: Condition, step: Step): never {
+    throw new CannotSay(step.id, `${called(step)} asks the line ${when.signal} for what it cannot answer.`, "Ask a digital line whether it is on, an analogue one for a limit.");
+  }
+
+  // --- loads ------------------------------------------------------------------------------------------------------
+
+  /** What the flange carries, as the controller wants it: seen from the tool in use. */
+  private load(step: PayloadStep): string {
+    const { mass_kg, center_m, inertia_kgm2 = [0, 0, 0, 0, 0, 0] } = step, tool = this.place.tool(this.tool), tcpFromFlange = inverse(tool);
+    if (!(mass_kg > 0)) return "load0";
+    if (inertia_kgm2.slice(3).some(each => each !== 0)) throw new CannotSay(step.id, `${called(step)} has moments of deviation; RAPID takes moments about three axes of the load.`, "Give the inertia about the load's own axes.");
+    const center = compose(tcpFromFlange, pose<"flange", "load">(center_m)), [ix, iy, iz] = inertia_kgm2;
+    const text = `[${part(mass_kg)},${posText(center.position)},${orientText(center.quaternion)},${part(ix)},${part(iy)},${part(iz)}]`;
+    const own = this.data.names.of(`load ${text}`, "load");
+    this.data.add(`load ${text}`, `CONST loaddata ${own}:=${text};`, step.id);
+    return own;
+  }
+
+  // --- moves ------------------------------------------------------------------------------------------------------
+
+  private move(step: MoveStep, next: Step | undefined, add: (line: string) => void): void {
+    const { target, path } = step, tool = target.tool ?? (path === "ptp" && "q" in target ? this.tool : "flange");
+    this.tool = tool;
+    const ratio = step.acceleration?.ratio ?? 1;
+    if (ratio !== this.acceleration) add(`AccSet ${part(100 * ratio)},100;`);
+    this.acceleration = ratio;
+    const posture = this.place.posture(step, path === "ptp" ? target : this.reached(target), this.near), at = `${this.speed(step)},${this.data.zone(this.zone_mm(step, next))},${this.toolName(tool, step.id)}`;
+    this.near = posture ?? this.near;
+    if (path === "ptp" && "q" in target) return add(`MoveAbsJ ${this.joints(step, target.q)},${at};`);
+    const frame = "q" in target ? "world" : target.frame, object = frame === "world" ? "" : `\\WObj:=${this.frame(frame, step.id)}`;
+    const goal = this.point(step, this.inFrame(target, frame), posture, "");
+    if (step.until !== undefined) return this.search(step, goal, object, tool, add);
+    if (path === "ptp") return add(`MoveJ ${goal},${at}${object};`);
+    if (path === "lin") return add(`MoveL ${goal},${at}${object};`);
+    add(`MoveC ${this.via(step, frame)},${goal},${at}${object};`);
+  }
+
+  /** Off a joint move only the tool's pose is written: of taught angles the posture is kept, not the turns of an axis. */
+  private reached(target: Target): Target {
+    const branch = "q" in target ? branchOf(this.robot, target.q) : undefined;
+    if (!("q" in target) || branch === undefined) return target;
+    const { place } = this;
+    return { pose: compose(compose(pose<"frame", "world">(), place.worldFromBase), place.tip(target)), frame: "world", tool: target.tool ?? "flange", branch };
+  }
+
+  private via(step: MoveStep, frame: string): string {
+    if (step.via === undefined) throw new CannotSay(step.id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
+    return this.point(step, this.inFrame(step.via, frame), this.near, "_via");
+  }
+
+  /** A target as it is seen from a work object; both points of an arc count from one. */
+  private inFrame(target: Target, frame: string): Pose<"frame", "tcp"> {
+    if ("pose" in target && target.frame === frame && frame !== "world") return target.pose;
+    return compose(inverse(frame === "world" ? pose<"base", "frame">() : this.inBase(this.place.frame(frame))), this.place.tip(target));
+  }
+
+  private search(step: MoveStep, goal: string, object: string, tool: string, add: (line: string) => void): void {
+    const { when } = step.until!;
+    if (step.path !== "lin" && step.path !== "circ") throw new CannotSay(step.id, `${called(step)} is a search along a joint move; RAPID searches on straight lines and arcs.`, "Make it a straight move.");
+    const { name, kind } = this.lineOf(when.signal, step);
+    if (!("is" in when) || !kind.startsWith("digital")) throw new CannotSay(step.id, `${called(step)} searches for a level; RAPID searches for a digital line.`, "Search for a digital line.");
+    this.data.add("found", `VAR robtarget ${this.data.names.of("found", "found")};`);
+    const found = this.data.names.of("found", "found"), via = step.path === "circ" ? `${this.via(step, "q" in step.target ? "world" : step.target.frame)},` : "";
+    add(`Search${step.path === "lin" ? "L" : "C"}\\Stop,${name}\\${when.is ? "HighLevel" : "LowLevel"},${found},${via}${goal},${this.speed(step)},${this.toolName(tool, step.id)}${object};`);
+  }
+
+  private zone_mm(step: MoveStep, next: Step | undefined): string {
+    return step.until === undefined ? mm(this.place.blend_m(step, this.before, next)) : "0";
+  }
+
+  private joints(step: MoveStep, q: readonly number[]): string {
+    const text = jointsText(q), name = this.pointName(step, "");
+    this.data.add(`point ${name}`, `CONST jointtarget ${name}:=${text};`, step.id);
+    return name;
+  }
+
+  private point(step: MoveStep, inFrame: Pose<"frame", "tcp">, posture: readonly number[] | undefined, ending: string): string {
+    if (!this.solves) this.warnings.add("The postures of this arm are not solved here: configurations are written as 0 and not asked for. Try the first motion slowly.");
+    const text = targetText(inFrame, confText(this.robot, this.solves ? posture : undefined, this.configuration.hasCfx)), name = this.pointName(step, ending);
+    this.data.add(`point ${name}`, `CONST robtarget ${name}:=${text};`, step.id);
+    return name;
+  }
+
+  /** What a person called it, or p10, p20 and so on. */
+  private pointName({ name }: MoveStep, ending: string): string {
+    const stem = name === undefined || remark(name) === "" ? `p${10 * ++this.points}` : remark(name);
+    return this.data.names.fresh(stem + ending);
+  }
+
+  private toolName(tool: string, step: string): string {
+    if (tool === "flange") return "tool0";
+    const name = this.data.names.of("tool", tool);
+    this.data.add(`tool ${tool}`, `PERS tooldata ${name}:=${toolText(this.place.tool(tool))};`, step);
+    return name;
+  }
+
+  private frame(frame: string, step: string): string {
+    const name = this.data.names.of("frame", frame);
+    if (!Object.hasOwn(this.place.program.pallets, frame)) this.data.add(`frame ${frame}`, `PERS wobjdata ${name}:=${objectText(this.inBase(this.place.frame(frame)))};`, step);
+    return name;
+  }
+
+  private inBase<From extends string>(worldFromOther: Pose<"world", From>): Pose<"base", From> { return compose(this.place.baseFromWorld, worldFromOther); }
+
+  private speed({ speed, path }: MoveStep): string {
+    const full_mps = this.robot.maxTcpSpeed_mps;
+    if ("time_s" in speed) return `v1000\\T:=${part(speed.time_s)}`;
+    if ("ratio" in speed && path === "ptp") this.warnings.add("RAPID holds speeds of the tool: a joint move at a share of the full joint speed gets that share of the tool's full speed.");
+    return this.data.speed(fixed(1000 * pace(speed, full_mps), 4));
+  }
+}
+
+const pace = (speed: Exclude<Speed, { readonly time_s: number }>, full_mps: number): number => "mps" in speed ? speed.mps : speed.ratio * full_mps;
