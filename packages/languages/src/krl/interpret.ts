@@ -3,7 +3,8 @@ import { TextError, textFault } from "../text/index.ts";
 import { readSource } from "./read/source.ts";
 import type { Source } from "./read/syntax.ts";
 import { Axes } from "./run/axes.ts";
-import { Machine, WaitsOutside } from "./run/machine.ts";
+import { WaitsOutside } from "./run/frame.ts";
+import { Machine } from "./run/machine.ts";
 import { ControllerState, type Context } from "./run/state.ts";
 
 /**

@@ -1,5 +1,5 @@
 import {
-  PALLET_ORDERS, branchOf, compose, emptyProgram, flangePose, identity, inverse, seededRandom, span,
+  PALLET_ORDERS, branchOf, compose, emptyProgram, flangePose, identity, inverse, seededRandom,
   type Capability, type Condition, type MoveStep, type Pallet, type PalletStep, type Pose, type Program, type Quaternion, type Random, type Robot, type Speed, type Step, type Target,
 } from "@twincell/core";
 
@@ -147,8 +147,10 @@ function easyPosture(robot: Robot, random: Random, ease_m: number, inside = 0.01
     const q = robot.arm.joints.map(({ limits: { lower_rad, upper_rad } }) => lower_rad + (upper_rad - lower_rad) * (inside + (1 - 2 * inside) * random()));
     // Other arms than these are not asked how far they are stretched.
     if (robot.family.kind !== "ortho-parallel") return q;
-    const { distance_m, nearest_m, farthest_m } = span(robot, flangePose(robot.arm, q));
-    if (farthest_m - distance_m > ease_m && distance_m - nearest_m > ease_m && (inside < 0.05 || Math.abs(Math.sin(q.at(-2)!)) > 0.3)) return q;
+    // From the elbow itself: a wrist behind the shoulder is as far as one in front, seen from the elbow alone.
+    const { c2_m, c3_m, a2_m, signs, offsets_rad } = robot.family, k = Math.hypot(a2_m, c3_m), bend = signs[2] * q[2]! - offsets_rad[2] + Math.atan2(a2_m, c3_m);
+    const length_m = Math.sqrt(c2_m * c2_m + k * k + 2 * c2_m * k * Math.cos(bend));
+    if (c2_m + k - length_m > ease_m && length_m - Math.abs(c2_m - k) > ease_m && (inside < 0.05 || Math.abs(Math.sin(q.at(-2)!)) > 0.3)) return q;
   }
 }
 const EASE_M = 0.001, ROOM_M = 0.05;

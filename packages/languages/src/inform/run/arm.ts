@@ -5,8 +5,13 @@ interface Display { readonly atZero_deg: readonly number[]; readonly senses: rea
 const DISPLAYS: Readonly<Record<string, Display>> = { yaskawa_gp8: { atZero_deg: [0, 0, 0, 0, 0, 0], senses: [1, 1, 1, 1, 1, 1] } };
 
 const DEG = 180 / Math.PI;
-/** This close to a border either side is right. */
-const BORDER_DEG = 1e-3, BORDER_M = 1e-6;
+/** What the rounding of a written position may add to an axis at its limit. */
+const LIMIT_SLACK_RAD = 1e-4;
+/**
+ * This close to a border of a manipulator type either side is right [°, m]: next to it, and as far as the rounding of a
+ * written position moves a stretched arm or a straight wrist.
+ */
+export const BORDERS = { exact: { deg: 1e-3, m: 1e-6 }, written: { deg: 0.5, m: 2e-3 } } as const;
 
 /** The axes S, L, U, R, B, T of a robot as its controller shows them, and the manipulator types of a posture. */
 export class Arm {
@@ -38,7 +43,7 @@ export class Arm {
     for (const q of allBranches(this.robot, baseFromFlange, this.radians(near_deg))) {
       let copies: number[][] = [[]];
       for (const [i, { limits }] of joints.entries()) {
-        const turns = [-1, 0, 1].map(n => q[i]! + 2 * Math.PI * n).filter(x => x >= limits.lower_rad - 1e-6 && x <= limits.upper_rad + 1e-6);
+        const turns = [-1, 0, 1].map(n => q[i]! + 2 * Math.PI * n).filter(x => x >= limits.lower_rad - LIMIT_SLACK_RAD && x <= limits.upper_rad + LIMIT_SLACK_RAD);
         copies = copies.flatMap(copy => turns.map(x => [...copy, x]));
       }
       for (const copy of copies) found.push(this.degrees(copy));
@@ -51,15 +56,15 @@ export class Arm {
    * Whether axis values are of that manipulator type: flip 0 / no flip 1 by the angle of R, upper 0 / lower arm 1, front 0 /
    * rear 1, and R, T, S below 180° 0 / from 180° on 1.
    */
-  isOfType(axes_deg: readonly number[], rconf: readonly number[]): boolean {
+  isOfType(axes_deg: readonly number[], rconf: readonly number[], { deg, m }: { readonly deg: number; readonly m: number } = BORDERS.exact): boolean {
     // Without a type every posture will do: the nearest is taken.
     if (rconf.length === 0) return true;
     const [flip = 0, lower = 0, rear = 0, rBig = 0, tBig = 0, sBig = 0] = rconf, [s, l, u, r, , t] = axes_deg as [number, number, number, number, number, number];
     const { ahead_m, above_m } = this.planar(l, u);
     const folded = ((r % 360) + 360) % 360;
-    return agrees(Math.cos(folded / DEG) * 90, flip === 0, BORDER_DEG)
-      && agrees(above_m * (ahead_m < 0 ? -1 : 1), lower === 0, BORDER_M) && agrees(ahead_m, rear === 0, BORDER_M)
-      && agrees(Math.abs(r) - 180, rBig === 1, BORDER_DEG) && agrees(Math.abs(t) - 180, tBig === 1, BORDER_DEG) && agrees(Math.abs(s) - 180, sBig === 1, BORDER_DEG);
+    return agrees(Math.cos(folded / DEG) * 90, flip === 0, deg)
+      && agrees(above_m * (ahead_m < 0 ? -1 : 1), lower === 0, m) && agrees(ahead_m, rear === 0, m)
+      && agrees(Math.abs(r) - 180, rBig === 1, deg) && agrees(Math.abs(t) - 180, tBig === 1, deg) && agrees(Math.abs(s) - 180, sBig === 1, deg);
   }
 
   /**

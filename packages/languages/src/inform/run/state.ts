@@ -3,7 +3,7 @@ import {
 } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
 import type { Frame, Move, Position, Source } from "../read/syntax.ts";
-import { poseOf, type Arm } from "./arm.ts";
+import { BORDERS, poseOf, type Arm } from "./arm.ts";
 
 /** Tools and frames by the names under which the steps know them. */
 export interface Context {
@@ -103,7 +103,8 @@ export class ControllerState {
     const flange = this.flangeOf(position, at), place = this.place(position, at), all = this.arm.reaching(flange, this.axes_deg);
     this.baseFromFlange = flange;
     if (all.length === 0) return place;
-    const candidates = all.filter(axes => this.arm.isOfType(axes, position.rconf)), [taken] = candidates;
+    const ofType = (border: typeof BORDERS.exact | typeof BORDERS.written): number[] | undefined => all.find(axes => this.arm.isOfType(axes, position.rconf, border));
+    const taken = ofType(BORDERS.exact) ?? ofType(BORDERS.written);
     if (taken === undefined) {
       if (this.shift === undefined) throw new TextError(at, "a manipulator type that the point can be reached with", `The point cannot be reached within the axis limits as RCONF ${position.rconf.slice(0, 6).join(",")}.`);
       this.axes_deg = all[0]!;
