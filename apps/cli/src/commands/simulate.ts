@@ -12,8 +12,8 @@ export const simulateCommand: Command = {
   usage: `twincell simulate PROGRAM [--robot R] [--cell CELL] [--period 0.01] [--inputs part=true,level=2.5]
 
 Writes JSON lines {"t":s,"q":[…],"position":[…],"quaternion":[…],"io":{…},"step":ID}: joint angles and the TCP in the world,
-from the start to the end of the program. Waits for signals take no time, and a loop without end goes round once. A step that
-cannot be carried out ends it with exit 1 and a sentence.
+from the start to the end of the program; how long it takes, and on what that rests, on stderr. Waits for signals take no
+time, and a loop without end goes round once. A step that cannot be carried out ends it with exit 1 and a sentence.
 
   --robot R       the robot that moves; the one the program names when absent
   --cell CELL     where the robot stands (default: in the origin)
@@ -44,7 +44,10 @@ ${ROBOT_HELP}`,
       writer.write(moment(plan.duration_s, q, io(plan.duration_s, now.gripperClosed), now.step));
     }
     await writer.end();
-    if (answer.kind === "planned") return 0;
+    if (answer.kind === "planned") {
+      process.stderr.write(`The program takes ${plan.duration_s.toFixed(2)} s.${answer.assumptions.length > 0 ? ` This rests on: ${answer.assumptions.join(" ")}` : ""}\n`);
+      return 0;
+    }
     process.stderr.write(`twincell: Step ${answer.stuck.step}: ${answer.stuck.sentence} ${answer.stuck.hint}\n`);
     return 1;
   },

@@ -1,5 +1,5 @@
 import {
-  distance, identity, type CommandOutcome, type JointSample, type Pose, type Refusal, type RobotController, type Scheduler,
+  distance, hardBrakingTime_s, identity, type CommandOutcome, type JointSample, type Pose, type Refusal, type RobotController, type Scheduler,
 } from "@twincell/core";
 import { listeners } from "../listeners.ts";
 import { jointNumberRefusal, jointRefusal, percentRefusal } from "../refusals.ts";
@@ -72,7 +72,7 @@ export function createGuard(options: GuardOptions): Guard {
   const { controller, scheduler } = options, { robot, jumpTo } = controller, n = robot.arm.joints.length;
   const rules = { deadMan: options.deadMan ?? controller.kind !== "virtual" };
   const isSafe = options.isSafe ?? (() => true), silence_s = options.silence_s ?? 0.06, cap_mps = options.manualCap_mps ?? MANUAL_CAP_MPS;
-  const braking_s = options.brakingTime_s ?? Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2));
+  const braking_s = options.brakingTime_s ?? hardBrakingTime_s(robot);
   const flangeFromTcp = options.flangeFromTcp ?? identity<"flange", "tcp">(), tcp = tcpOf(robot.arm, flangeFromTcp), bound_mps = speedBound(robot, flangeFromTcp);
   const changes = listeners<GuardState>(), notices = listeners<Refusal>();
 

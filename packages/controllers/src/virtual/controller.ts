@@ -1,5 +1,5 @@
 import {
-  explainReach, SignalTable, solveAll, Stepper, type StepperState, type CommandOutcome, type JointSample, type OperatingMode, type Pose, type Program, type Reach, type Refusal, type Robot,
+  explainReach, hardBrakingTime_s, SignalTable, solveAll, Stepper, type StepperState, type CommandOutcome, type JointSample, type OperatingMode, type Pose, type Program, type Reach, type Refusal, type Robot,
   type RobotController, type SafetyState, type Scheduler, type Signals, type Step,
 } from "@twincell/core";
 import { listeners } from "../listeners.ts";
@@ -65,7 +65,7 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
   const solve: Solve | null = options.solve === undefined ? (pose, near) => solveAll(robot, pose, { near }) : options.solve;
   const name = options.name ?? `Virtual ${robot.name}`, n = robot.arm.joints.length;
   // The slowest joint from full speed to rest, and the cycles in which the command comes through.
-  const brakingTime_s = Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2)) + 2 * cycle_s;
+  const brakingTime_s = hardBrakingTime_s(robot) + 2 * cycle_s;
   const q_rad = Float64Array.from(options.start_rad ?? robot.home_rad);
   const samples = listeners<JointSample>(), signals = new SignalTable();
   const lent: Lent = {
@@ -153,7 +153,7 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
   function brake(state: SafetyState, reason: Refusal): void {
     if (state !== "normal") { safety = state; why = reason; }
     message = reason.sentence;
-    if (command && !command.stopping) { command.stopping = reason; command.stepper.stop(); }
+    if (command && !command.stopping) { command.stopping = reason; command.stepper.stop(true); }
   }
 
   return {

@@ -3,6 +3,7 @@ import type { Robot } from "../robots/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import type { Plan } from "../trajectory/plan.ts";
 import { GRIPPER_S } from "../trajectory/planner.ts";
+import { motionAssumptions } from "../robots/jerk.ts";
 import { checkBranch } from "./checks/branch.ts";
 import { checkCollision } from "./checks/collision.ts";
 import { layOut, type Layout } from "./checks/layout.ts";
@@ -84,7 +85,7 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
   const verdict: Verdict = {
     ok, steps, duration_s: layout.plan.duration_s, clearance_m: collision?.clearance_m ?? null,
     assumptions: [
-      ...robot.assumptions,
+      ...robot.assumptions, ...motionAssumptions(robot),
       ...assumed(written, layout),
       cell === undefined ? "Collisions were not looked at: no cell was given." : "Objects stand where the cell draws them; gripped objects are not carried along.",
     ],

@@ -1,5 +1,6 @@
 import { describe, expect, test } from "vitest";
 import { seededRandom } from "../random.ts";
+import { brakingTime_s } from "../robots/jerk.ts";
 import { robotById } from "../robots/library/index.ts";
 import { planProgram } from "../trajectory/planner.ts";
 import { samplePlan } from "../trajectory/sample.ts";
@@ -85,7 +86,7 @@ describe("stepper", () => {
 
   test("a stop at any instant of any program ends within the braking time", () => {
     const random = seededRandom(9), between = (a: number, b: number): number => a + (b - a) * random();
-    const braking_s = Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2));
+    const braking_s = brakingTime_s(robot);
     for (let round = 0; round < 60; round++) {
       const list = Array.from({ length: 6 }, (_, i): Step => ({
         id: `s${i}`, type: "move", path: i > 0 && random() < 0.6 ? "lin" : "ptp", target: at(between(0.45, 0.65), between(-0.3, 0.3), between(0.3, 0.55)),

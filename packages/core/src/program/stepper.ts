@@ -1,5 +1,6 @@
+import { jerkOf } from "../robots/jerk.ts";
 import type { Robot } from "../robots/robot.ts";
-import { resolveMove, passes, type PlanContext } from "../trajectory/moves.ts";
+import { blends, resolveMove, passes, type PlanContext } from "../trajectory/moves.ts";
 import type { MotionSegment as Motion, Segment } from "../trajectory/plan.ts";
 import { GRIPPER_S } from "../trajectory/planner.ts";
 import { RunPlanner } from "../trajectory/run.ts";
@@ -36,7 +37,10 @@ export interface StepperOptions {
 }
 
 /** Whether the next step decides about a stop. */
-const goesOn = (step: MoveStep): boolean => step.until === undefined && (step.blend_m > 0 || (step.blend_ratio ?? 0) > 0 || step.path === "spline");
+const goesOn = (step: MoveStep): boolean => step.until === undefined && (blends(step) || step.path === "spline");
+
+/** A rate this near to the wanted one is the wanted one. */
+const LAST_OF_RATE = 1e-6;
 
 /** Moves looked ahead over blends. A longer run of blended moves stops once at its end. */
 const MOST_AHEAD = 64;
@@ -47,7 +51,7 @@ const MOST_AHEAD = 64;
  * more as are passed without a stop, so that a list changed behind the iterator takes effect at the next stop (T-53).
  *
  * The override scales time along the path and never changes the path; waits take their own seconds at any override
- * above 0. A change of override and `stop` slow the arm down along the path within its joint accelerations.
+ * above 0. A change of override and `stop` slow the arm down along the path within its joint accelerations and jerks.
  *
  * Signals are looked at once a slice. A search slows down where its condition comes true and goes on with the next step
  * from where it then stands. Steps are primitive (`unrolled` makes them so); comments are passed over.
@@ -75,6 +79,9 @@ export class Stepper {
   private segment = 0;
   private t_s = 0;
   private stopping = false;
+  private hard = false;
+  /** How fast the rate changes [1/s]. */
+  private change = 0;
   private ended = false;
   private faultBehind: Stuck | undefined = undefined;
 
@@ -116,6 +123,7 @@ export class Stepper {
         if (this.stopping) { state.kind = "stopped"; break; }
         if (wanted === 0) break;
         this.next();
+        this.change = 0;
         state.rate = wanted; // From rest the rate is free: nothing moves yet.
         continue;
       }
@@ -138,8 +146,15 @@ export class Stepper {
     return state;
   }
 
-  /** Slows down along the path and ends there; the steps that are left are not executed. */
-  stop(): void { this.stopping = true; }
+  /**
+   * Slows down along the path and ends there; the steps that are left are not executed.
+   *
+   * @param hard  as fast as the accelerations allow, without sparing the gears: for emergencies.
+   */
+  stop(hard = false): void {
+    this.stopping = true;
+    this.hard ||= hard;
+  }
 
   /** Posture the arm has reached; lent. */
   get posture(): Float64Array { return this.q; }
@@ -192,41 +207,52 @@ export class Stepper {
   }
 
   /**
-   * The rate after dt on its way to `wanted`:  |q̈ λ² + q̇ λ̇| ≤ a for every joint. λ̇ = 0 is always allowed, because the
-   * plan itself keeps the limits.
+   * The rate after dt on its way to `wanted`:  |q̈ λ² + q̇ λ̇| ≤ a and |q̇ λ̈| ≤ j for every joint. λ̇ = 0 is always allowed,
+   * because the plan itself keeps the limits; where both rules cannot be kept, the acceleration is.
    */
   private nextRate(segment: Motion, wanted: number, dt_s: number): number {
     const rate = this.state.rate, n = this.q.length;
-    if (rate === wanted) return wanted;
+    if (rate === wanted) { this.change = 0; return wanted; }
     sampleSegment(segment, this.t_s, this.q, this.qd);
     // What the plan itself asks for within this slice: at its start, and in every interval it enters.
     const reach_s = this.t_s + Math.max(rate, wanted) * dt_s, first = segmentKnot(segment, this.t_s), times = segment.times_s;
     this.most.fill(Number.NEGATIVE_INFINITY);
     this.least.fill(Number.POSITIVE_INFINITY);
-    for (let i = first; i + 1 < times.length && times[i]! <= reach_s; i++) this.seeBends(segment, i);
+    for (let i = first; i + 1 < times.length && times[i]! <= reach_s; i++) this.seeBends(segment, i, this.t_s, reach_s);
     const next = this.segments[this.segment + 1];
-    if (reach_s > segment.duration_s && next?.kind === "motion" && next.times_s.length > 1) this.seeBends(next, 0);
-    let change = Number.POSITIVE_INFINITY;
+    if (reach_s > segment.duration_s && next?.kind === "motion" && next.times_s.length > 1) this.seeBends(next, 0, 0, reach_s - segment.duration_s);
+    let most = Number.POSITIVE_INFINITY, jerk = Number.POSITIVE_INFINITY;
     for (let j = 0; j < n; j++) {
-      const limit = this.robot.arm.joints[j]!.limits.acceleration_rad_s2;
+      const limits = this.robot.arm.joints[j]!.limits;
       // The speed may still grow within the slice.
       const speed = this.qd[j]!, growth = Math.max(0, speed > 0 ? this.most[j]! : -this.least[j]!), fastest = Math.abs(speed) + growth * (reach_s - this.t_s);
       if (fastest < 1e-9) continue;
       // λ̇ adds q̇ λ̇: what is left of the limit on the side it pushes to.
       const forward = wanted > rate === speed > 0, bend = (forward ? this.most[j]! : -this.least[j]!) * rate * rate;
-      change = Math.min(change, Math.max(0, limit - bend) / fastest);
+      most = Math.min(most, Math.max(0, limits.acceleration_rad_s2 - bend) / fastest);
+      jerk = Math.min(jerk, jerkOf(limits) / fastest);
     }
-    const step = change * dt_s;
-    return wanted > rate ? Math.min(wanted, rate + step) : Math.max(wanted, rate - step);
+    const up = wanted > rate ? 1 : -1, left = Math.abs(wanted - rate);
+    // Slow enough to come to λ̇ = 0 at `wanted`, with steps of dt.
+    const arriving = this.hard || jerk === Number.POSITIVE_INFINITY ? Number.POSITIVE_INFINITY : Math.sqrt((jerk * dt_s) ** 2 / 4 + 2 * jerk * left) - (jerk * dt_s) / 2;
+    const ramped = this.hard ? Number.POSITIVE_INFINITY : up * this.change + jerk * dt_s;
+    this.change = up * Math.min(most, arriving, ramped);
+    const step = Math.abs(this.change) * dt_s;
+    // A change that still goes the other way is taken back first.
+    if (up * this.change <= 0) return Math.min(1, Math.max(0, rate + this.change * dt_s));
+    if (step >= left || left - step < LAST_OF_RATE) { this.change = 0; return wanted; }
+    return rate + up * step;
   }
 
-  /** Widens `most` and `least` by the accelerations of one interval of a plan. */
-  private seeBends(segment: Motion, i: number): void {
-    const n = this.q.length;
+  /** Widens `most` and `least` by the accelerations of one interval of a plan from one instant to another. */
+  private seeBends(segment: Motion, i: number, from_s: number, to_s: number): void {
+    const n = this.q.length, t0 = segment.times_s[i]!, h = segment.times_s[i + 1]! - t0;
     intervalAccelerations(segment, i, n, this.bend);
+    const u = h > 0 ? Math.max(0, (from_s - t0) / h) : 0, v = h > 0 ? Math.min(1, (to_s - t0) / h) : 1;
     for (let j = 0; j < n; j++) {
-      this.most[j] = Math.max(this.most[j]!, this.bend[j]!, this.bend[n + j]!);
-      this.least[j] = Math.min(this.least[j]!, this.bend[j]!, this.bend[n + j]!);
+      const begin = this.bend[j]!, slope = this.bend[n + j]! - begin, a = begin + slope * u, b = begin + slope * v;
+      this.most[j] = Math.max(this.most[j]!, a, b);
+      this.least[j] = Math.min(this.least[j]!, a, b);
     }
   }
 

@@ -7,6 +7,8 @@ export interface JointLimits {
   readonly speed_rad_s: number;
   /** Published by nobody for most arms: then an assumption, said so in `Robot.assumptions`. */
   readonly acceleration_rad_s2: number;
+  /** Published by hardly anybody: left out, `jerkOf` says what is assumed. */
+  readonly jerk_rad_s3?: number;
   /** Greatest torque at the joint, where it is published [N m]. */
   readonly torque_Nm?: number;
 }

@@ -1,4 +1,5 @@
 export * from "./arm.ts";
+export * from "./jerk.ts";
 export * from "./robot.ts";
 export * from "./derive.ts";
 export * from "./derive-three-parallel.ts";
@@ -6,6 +7,7 @@ export * from "./derive-spherical-seven.ts";
 export * from "./derive-general-six.ts";
 export * from "./family.ts";
 export * from "./foreign.ts";
+export * from "./parse-robot.ts";
 export * from "./dh.ts";
 export * from "./aligned.ts";
 export * from "./library/index.ts";

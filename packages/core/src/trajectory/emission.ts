@@ -1,78 +1,115 @@
 import type { MoveStep } from "../program/program.ts";
 import type { HermitePath } from "./hermite-path.ts";
 import type { MotionSegment } from "./plan.ts";
+import type { RoundedLaw } from "./rounded-law.ts";
 
 /** Halvings of an interval in time at most, so that the cubic in time meets the cubic along the path. */
 const MOST_HALVINGS = 8;
-/** [rad] between the cubic in time and the cubic along the path. */
+/** [rad] between the cubic in time and the cubic along the path. One radian moves the TCP by about a metre. */
 const TIME_TOLERANCE = 2e-7;
 
-/** Collects the nodes of one part in time. */
+/** Collects the nodes of one part in time: places along the path as a rounded law reaches them. Used again from run to run. */
 export class Emission {
-  private readonly path: HermitePath;
+  private readonly law: RoundedLaw;
   private readonly joints: number;
-  private readonly stretch: number;
-  private times: number[] = [];
-  private q: number[] = [];
-  private qd: number[] = [];
-  private t = 0;
-  private readonly a: Float64Array;
-  private readonly a1: Float64Array;
-  private readonly a2: Float64Array;
+  private path: HermitePath | undefined;
+  private stretch = 1;
+  private nodes = 0;
+  private times = new Float64Array(64);
+  private q: Float64Array;
+  private qd: Float64Array;
+  private begun_s = 0;
+  private now_s = 0;
+  /** Angles and slopes at the end of an interval and in its middle, and bends nobody asks for. */
+  private readonly end: Float64Array;
+  private readonly endSlope: Float64Array;
+  private readonly middle: Float64Array;
+  private readonly middleSlope: Float64Array;
+  private readonly bend: Float64Array;
 
-  constructor(path: HermitePath, joints: number, stretch: number) {
-    this.path = path; this.joints = joints; this.stretch = stretch;
-    this.a = new Float64Array(joints); this.a1 = new Float64Array(joints); this.a2 = new Float64Array(joints);
+  constructor(law: RoundedLaw, joints: number) {
+    this.law = law; this.joints = joints;
+    this.q = new Float64Array(64 * joints); this.qd = new Float64Array(64 * joints);
+    this.end = new Float64Array(joints); this.endSlope = new Float64Array(joints);
+    this.middle = new Float64Array(joints); this.middleSlope = new Float64Array(joints); this.bend = new Float64Array(joints);
   }
 
-  /** Starts a new part at s, where the path is in the interval behind `knot` and ṡ² = x. */
-  begin(knot: number, s: number, x: number): void {
-    this.times = []; this.q = []; this.qd = []; this.t = 0;
-    this.push(knot, s, Math.sqrt(x));
+  /** @param stretch  everything takes that much longer than the law says. */
+  start(path: HermitePath, stretch: number): void { this.path = path; this.stretch = stretch; }
+
+  /** Starts a new part at s, where the path is in the interval behind `knot` and the law at its node i. */
+  begin(knot: number, s: number, i: number): void {
+    this.nodes = 0;
+    this.begun_s = this.now_s = this.law.timeOf(i);
+    this.law.at(this.now_s);
+    this.evaluate(knot, s, this.end, this.endSlope);
+    this.push(this.now_s, this.law.speed, this.end, this.endSlope);
   }
 
-  private push(knot: number, s: number, rate: number): void {
+  /** On to the place s1 of the law's node i, halved in time until the cubic in time stays with the path. */
+  interval(s1: number, i: number, knot: number): void {
+    const end_s = this.law.timeOf(i);
+    if (end_s <= this.now_s) return;
+    this.law.at(end_s);
+    this.evaluate(knot, s1, this.end, this.endSlope);
+    this.fill(knot, this.now_s, end_s, s1, this.law.speed, MOST_HALVINGS);
+    this.now_s = end_s;
+  }
+
+  /** Nodes up to `to_s`, the one at `from_s` being there and the state at `to_s` in `end`. */
+  private fill(knot: number, from_s: number, to_s: number, s1: number, rate1: number, halvings: number): void {
+    const middle_s = (from_s + to_s) / 2, s = this.law.at(middle_s), rate = this.law.speed;
+    this.evaluate(knot, s, this.middle, this.middleSlope);
+    if (halvings > 0 && this.misses(rate1, to_s - from_s)) {
+      this.end.set(this.middle); this.endSlope.set(this.middleSlope);
+      this.fill(knot, from_s, middle_s, s, rate, halvings - 1);
+      this.evaluate(knot, s1, this.end, this.endSlope);
+      this.fill(knot, middle_s, to_s, s1, rate1, halvings - 1);
+      return;
+    }
+    this.push(to_s, rate1, this.end, this.endSlope);
+  }
+
+  /** Whether the cubic in time from the last node to `end` is off the path half way. */
+  private misses(rate1: number, h: number): boolean {
+    const n = this.joints, last = (this.nodes - 1) * n;
+    for (let j = 0; j < n; j++) {
+      const cubic = (this.q[last + j]! + this.end[j]!) / 2 + (h * (this.qd[last + j]! * this.stretch - this.endSlope[j]! * rate1)) / 8;
+      if (Math.abs(cubic - this.middle[j]!) > TIME_TOLERANCE) return true;
+    }
+    return false;
+  }
+
+  private evaluate(from: number, s: number, out: Float64Array, slope: Float64Array): void {
+    const path = this.path;
+    if (path === undefined) return;
     // An interval of the grid may reach over a node of the path. Equal places are borders of pieces, which it does not.
-    const places = this.path.s;
-    while (s > places[knot + 1]! && knot + 2 < this.path.nodes && places[knot + 2]! > places[knot + 1]!) knot++;
-    this.path.evaluate(knot, s, 0, this.a, this.a1, this.a2);
-    this.times.push(this.t * this.stretch);
-    for (let j = 0; j < this.joints; j++) { this.q.push(this.a[j]!); this.qd.push((this.a1[j]! * rate) / this.stretch); }
+    const places = path.s;
+    let knot = from;
+    while (s > places[knot + 1]! && knot + 2 < path.nodes && places[knot + 2]! > places[knot + 1]!) knot++;
+    path.evaluate(knot, s, 0, out, slope, this.bend);
   }
 
-  /** One interval of constant s̈, halved in time until the cubic in time stays with the path. */
-  interval(s0: number, s1: number, x0: number, x1: number, dt: number, knot: number): void {
-    const rate0 = Math.sqrt(x0), u = (Math.sqrt(x1) - rate0) / dt, t0 = this.t;
-    const pieces = 1 << this.halvings(s0, rate0, u, dt, knot);
-    for (let k = 1; k <= pieces; k++) {
-      const t = (dt * k) / pieces;
-      this.t = t0 + t;
-      this.push(knot, k === pieces ? s1 : s0 + rate0 * t + 0.5 * u * t * t, k === pieces ? Math.sqrt(x1) : rate0 + u * t);
+  private push(t_s: number, rate: number, q: Float64Array, slope: Float64Array): void {
+    const n = this.joints, at = this.nodes++;
+    if (at >= this.times.length) {
+      this.times = grown(this.times); this.q = grown(this.q); this.qd = grown(this.qd);
     }
-  }
-
-  /**
-   * How often to halve. Under constant s̈ the fourth derivative by time is about 3 q″ s̈² + 6 q‴ ṡ² s̈; a cubic over h misses by
-   * h⁴/384 of it. One radian moves the TCP by about a metre.
-   */
-  private halvings(s0: number, rate: number, u: number, dt: number, knot: number): number {
-    this.path.evaluate(knot, s0, 0, this.a, this.a1, this.a2);
-    let worst = 0;
-    const b = this.joints * (knot + 1), a = this.joints * knot, h = this.path.s[knot + 1]! - this.path.s[knot]!, top = Math.max(rate, rate + u * dt);
-    for (let j = 0; j < this.joints; j++) {
-      const jerk = Math.abs(this.path.q2[b + j]! - this.path.q2[a + j]!) / h;
-      worst = Math.max(worst, 3 * Math.abs(this.a2[j]!) * u * u + 6 * jerk * top * top * Math.abs(u));
-    }
-    let miss = (worst * dt ** 4) / 384, count = 0;
-    while (miss > TIME_TOLERANCE && count < MOST_HALVINGS) { miss /= 16; count++; }
-    return count;
+    this.times[at] = (t_s - this.begun_s) * this.stretch;
+    for (let j = 0; j < n; j++) { this.q[at * n + j] = q[j]!; this.qd[at * n + j] = (slope[j]! * rate) / this.stretch; }
   }
 
   part(step: MoveStep, start_s: number): MotionSegment {
-    const times_s = Float64Array.from(this.times);
+    const count = this.nodes, n = this.joints, times_s = this.times.slice(0, count);
     return {
-      kind: "motion", path: step.path, step: step.id, start_s, duration_s: times_s[times_s.length - 1]!,
-      times_s, q_rad: Float64Array.from(this.q), qd_rad_s: Float64Array.from(this.qd),
+      kind: "motion", path: step.path, step: step.id, start_s, duration_s: times_s[count - 1]!,
+      times_s, q_rad: this.q.slice(0, count * n), qd_rad_s: this.qd.slice(0, count * n),
     };
   }
+}
+
+function grown(from: Float64Array): Float64Array<ArrayBuffer> {
+  const to = new Float64Array(2 * from.length);
+  to.set(from);
+  return to;
 }

@@ -1,28 +1,31 @@
 import { flangePose } from "../kinematics/forward.ts";
+import type { JointLimits } from "../robots/arm.ts";
+import { jerkOf } from "../robots/jerk.ts";
 import type { Robot } from "../robots/robot.ts";
 import { compose } from "../spatial/pose.ts";
 import { distance } from "../spatial/vector.ts";
-import { trapezoid } from "./laws.ts";
+import { sCurve, type RestProfile } from "./laws.ts";
 import type { Move } from "./moves.ts";
 import type { MotionSegment } from "./plan.ts";
 import { paceOf, type Slowed, type TimedRun } from "./run-timing.ts";
-import type { TimingLimits } from "./timing.ts";
 
 /** Places along a joint leg at which the speed of its TCP is looked at. */
 const PLACES = 16;
 
 /**
- * The joint move that starts and ends at rest: all joints together on one trapezoid of speed, whose few knots the plan's
- * cubics pass exactly.
+ * The joint move that starts and ends at rest: all joints together along one line, on a rounded trapezoid of speed whose
+ * few knots the plan's cubics pass exactly. The joint with the least room rules speed, acceleration and jerk.
  */
-export function timeJointLeg(move: Move, q0: Float64Array, q1: Float64Array, limits: TimingLimits, robot: Robot): TimedRun {
+export function timeJointLeg(move: Move, q0: Float64Array, q1: Float64Array, robot: Robot): TimedRun {
   const n = q0.length, step = move.step, pace = paceOf(step.speed, "ptp", robot), slowed: Slowed[] = [];
-  let fastest = Number.POSITIVE_INFINITY, acceleration = Number.POSITIVE_INFINITY, ruling = 0;
+  const share = step.acceleration?.ratio ?? 1;
+  let fastest = Number.POSITIVE_INFINITY, acceleration = Number.POSITIVE_INFINITY, jerk = Number.POSITIVE_INFINITY, ruling = 0;
   for (let j = 0; j < n; j++) {
-    const way = Math.abs(q1[j]! - q0[j]!);
+    const way = Math.abs(q1[j]! - q0[j]!), limits = robot.arm.joints[j]!.limits;
     if (way === 0) continue;
-    if (limits.speed_rad_s[j]! / way < fastest) { fastest = limits.speed_rad_s[j]! / way; ruling = j; }
-    acceleration = Math.min(acceleration, limits.acceleration_rad_s2[j]! / way);
+    if (limits.speed_rad_s / way < fastest) { fastest = limits.speed_rad_s / way; ruling = j; }
+    acceleration = Math.min(acceleration, (limits.acceleration_rad_s2 * share) / way);
+    jerk = Math.min(jerk, jerkOf(limits) / way);
   }
   if (!(fastest < Number.POSITIVE_INFINITY)) return { parts: [segment(move, 0, new Float64Array(1), q0.slice(), new Float64Array(n))], slowed, duration_s: 0 };
   const way = Math.abs(q1[ruling]! - q0[ruling]!), limit = robot.arm.joints[ruling]!.limits.speed_rad_s;
@@ -32,15 +35,10 @@ export function timeJointLeg(move: Move, q0: Float64Array, q1: Float64Array, lim
     if (wanted > fastest) slowed.push({ move: 0, joint: ruling + 1, wanted: wanted * way, limit, unit: "rad/s", s: 0 });
     rate = Math.min(fastest, wanted);
   }
-  let law = trapezoid(1, rate, acceleration);
+  let law = sCurve(1, rate, acceleration, jerk);
   const least_s = law.times_s.at(-1)!;
-  if (pace.time_s > 0 && pace.time_s < least_s * (1 - 1e-9)) {
-    const factor = least_s / pace.time_s, top = Math.max(...law.speed) * way * factor;
-    slowed.push(top > limit
-      ? { move: 0, joint: ruling + 1, wanted: top, limit, unit: "rad/s", s: 0 }
-      : hardest(q0, q1, acceleration * factor * factor, robot));
-  }
-  if (pace.time_s > least_s) law = trapezoid(1, rate, acceleration, pace.time_s / least_s);
+  if (pace.time_s > 0 && pace.time_s < least_s * (1 - 1e-9)) slowed.push(hardest(q0, q1, law, least_s / pace.time_s, robot));
+  if (pace.time_s > least_s) law = sCurve(1, rate, acceleration, jerk, pace.time_s / least_s);
   const knots = law.times_s.length, q = new Float64Array(knots * n), qd = new Float64Array(knots * n);
   for (let k = 0; k < knots; k++) {
     for (let j = 0; j < n; j++) {
@@ -55,12 +53,25 @@ export function timeJointLeg(move: Move, q0: Float64Array, q1: Float64Array, lim
 const segment = (move: Move, duration_s: number, times_s: Float64Array, q_rad: Float64Array, qd_rad_s: Float64Array): MotionSegment =>
   ({ kind: "motion", path: move.step.path, step: move.step.id, start_s: 0, duration_s, times_s, q_rad, qd_rad_s });
 
-/** The joint that a common acceleration of the whole leg asks most of. */
-function hardest(q0: Float64Array, q1: Float64Array, acceleration: number, robot: Robot): Slowed {
-  let found: Slowed = { move: 0, joint: 1, wanted: 0, limit: 1, unit: "rad/s2", s: 0 };
-  for (let j = 0; j < q0.length; j++) {
-    const wanted = Math.abs(q1[j]! - q0[j]!) * acceleration, limit = robot.arm.joints[j]!.limits.acceleration_rad_s2;
-    if (wanted / limit > found.wanted / found.limit) found = { move: 0, joint: j + 1, wanted, limit, unit: "rad/s2", s: 0 };
+/**
+ * The joint furthest over its limit when the same leg takes a shorter time, by `factor`: of speed where there is one, since
+ * that is the plainest reason, then of acceleration, then of jerk.
+ */
+function hardest(q0: Float64Array, q1: Float64Array, law: RestProfile, factor: number, robot: Robot): Slowed {
+  // The law begins with constant jerk up to its highest acceleration.
+  const first_s = law.times_s[1]!, jerk = (2 * law.speed[1]!) / (first_s * first_s);
+  const kinds = [
+    { unit: "rad/s", asked: Math.max(...law.speed) * factor, limitOf: (limits: JointLimits) => limits.speed_rad_s },
+    { unit: "rad/s2", asked: jerk * first_s * factor ** 2, limitOf: (limits: JointLimits) => limits.acceleration_rad_s2 },
+    { unit: "rad/s3", asked: jerk * factor ** 3, limitOf: jerkOf },
+  ] as const;
+  let found: Slowed = { move: 0, joint: 1, wanted: 0, limit: 1, unit: "rad/s3", s: 0 };
+  for (const { unit, asked, limitOf } of kinds) {
+    for (let j = 0; j < q0.length; j++) {
+      const wanted = Math.abs(q1[j]! - q0[j]!) * asked, limit = limitOf(robot.arm.joints[j]!.limits);
+      if (wanted / limit > found.wanted / found.limit) found = { move: 0, joint: j + 1, wanted, limit, unit, s: 0 };
+    }
+    if (found.wanted > found.limit) return found;
   }
   return found;
 }

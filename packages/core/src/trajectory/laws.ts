@@ -47,3 +47,41 @@ export const trapezoidTime_s = (distance: number, maxSpeed: number, maxAccelerat
   distance >= (maxSpeed * maxSpeed) / maxAcceleration
     ? distance / maxSpeed + maxSpeed / maxAcceleration
     : 2 * Math.sqrt(distance / maxAcceleration);
+
+/**
+ * Trapezoid of speed with its corners rounded: the fastest way over `distance` from rest to rest with limited jerk. Between
+ * its knots the jerk is constant, so a cubic through places and speeds is exact.
+ *
+ *   ramp to v:  t = v/a + a/j (or 2 √(v/j) where a is not reached),  way = v t / 2
+ *
+ * @param stretch  ≥ 1: everything takes that much longer along the same shape, so all limits are kept with room.
+ */
+export function sCurve(distance: number, maxSpeed: number, maxAcceleration: number, maxJerk: number, stretch = 1): RestProfile {
+  const bendable = (maxAcceleration * maxAcceleration) / maxJerk;
+  let v = maxSpeed;
+  if (distance < v * rampTime_s(v, maxAcceleration, maxJerk)) {
+    const k = maxAcceleration / maxJerk;
+    v = (maxAcceleration / 2) * (Math.sqrt(k * k + (4 * distance) / maxAcceleration) - k);
+    if (v < bendable) v = Math.cbrt((distance * distance * maxJerk) / 4);
+  }
+  const bend = v < bendable ? Math.sqrt(v / maxJerk) : maxAcceleration / maxJerk, hold = v < bendable ? 0 : v / maxAcceleration - bend;
+  const cruise = Math.max(0, distance / v - 2 * bend - hold), pieces = [bend, hold, bend, cruise, bend, hold, bend], jerks = [1, 0, -1, 0, -1, 0, 1];
+  const times: number[] = [0], place: number[] = [0], speed: number[] = [0];
+  let t = 0, p = 0, s = 0, a = 0;
+  for (let i = 0; i < pieces.length; i++) {
+    const h = pieces[i]!, j = jerks[i]! * maxJerk;
+    p += h * (s + h * (a / 2 + (h * j) / 6)); s += h * (a + (h * j) / 2); a += h * j; t += h;
+    if (h <= 1e-12 * t) continue;
+    times.push(t * stretch); place.push(p); speed.push(s / stretch);
+  }
+  place[place.length - 1] = distance; speed[speed.length - 1] = 0;
+  return { times_s: Float64Array.from(times), place: Float64Array.from(place), speed: Float64Array.from(speed) };
+}
+
+/** Seconds from standstill to a speed. */
+const rampTime_s = (speed: number, acceleration: number, jerk: number): number =>
+  speed >= (acceleration * acceleration) / jerk ? speed / acceleration + acceleration / jerk : 2 * Math.sqrt(speed / jerk);
+
+/** Seconds the rounded trapezoid takes. */
+export const sCurveTime_s = (distance: number, maxSpeed: number, maxAcceleration: number, maxJerk: number): number =>
+  sCurve(distance, maxSpeed, maxAcceleration, maxJerk).times_s.at(-1)!;

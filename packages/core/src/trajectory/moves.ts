@@ -54,6 +54,9 @@ export function resolveMove(step: MoveStep, robot: Robot, context: PlanContext):
   };
 }
 
+/** Whether the path may leave the target of a move. */
+export const blends = (step: MoveStep): boolean => step.blend_m > 0 || (step.blend_ratio ?? 0) > 0;
+
 /** Whether the robot goes from one move into the next without stopping. A search ends where it stops. */
 export const passes = (step: MoveStep, next: MoveStep): boolean =>
-  step.until === undefined && (step.blend_m > 0 || (step.blend_ratio ?? 0) > 0 || (step.path === "spline" && next.path === "spline"));
+  step.until === undefined && (blends(step) || (step.path === "spline" && next.path === "spline"));

@@ -1,6 +1,7 @@
 import { flow, type Happening } from "../program/flow.ts";
 import type { MoveStep, PrimitiveStep, Program, SetStep } from "../program/program.ts";
 import { SignalTable, holds } from "../program/signals.ts";
+import { motionAssumptions } from "../robots/jerk.ts";
 import type { Robot } from "../robots/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import { passes, resolveMove } from "./moves.ts";
@@ -28,9 +29,13 @@ export const GRIPPER_S = 0.2;
 /** What the planner noticed on the way, for the checks. */
 export interface PlanNote { readonly step: string; readonly at_s: number; readonly slowed: Slowed }
 
-export type PlanAnswer =
-  | { readonly kind: "planned"; readonly plan: Plan; readonly notes: readonly PlanNote[] }
-  | { readonly kind: "stuck"; readonly stuck: Stuck; readonly plan: Plan; readonly notes: readonly PlanNote[] };
+interface Planned {
+  readonly plan: Plan;
+  readonly notes: readonly PlanNote[];
+  /** What the plan's duration rests on, one sentence each (row N-64). */
+  readonly assumptions: readonly string[];
+}
+export type PlanAnswer = ({ readonly kind: "planned" } & Planned) | ({ readonly kind: "stuck"; readonly stuck: Stuck } & Planned);
 
 /** Loops beyond this many steps are laid out in part. */
 const MOST_PLANNED = 200_000;
@@ -47,6 +52,7 @@ export function planProgram(program: Program, robot: Robot, options: PlanOptions
   const writer = new PlanWriter(robot, options);
   const planner = new RunPlanner(robot, options.tolerance_m ?? PATH_TOLERANCE_M);
   const context = { tools: program.tools, frames: program.frames, ...(options.worldFromBase === undefined ? {} : { worldFromBase: options.worldFromBase }) };
+  const assumptions = durationAssumptions(program, robot);
   for (const part of inRuns(flow(program, { decide: when => holds(when, writer.signals), rounds: 1, mostSteps: MOST_PLANNED }))) {
     if (part.kind === "step") { if (part.step.type !== "move") writer.rest(part.step, part.stands); continue; }
     if (part.kind !== "run") continue;
@@ -61,11 +67,17 @@ export function planProgram(program: Program, robot: Robot, options: PlanOptions
         const before = planner.plan(moves, writer.q);
         if (before.kind === "timed") writer.run(before.run.parts, before.run.slowed);
       }
-      return { kind: "stuck", stuck, plan: writer.plan(program.robot), notes: writer.notes };
+      return { kind: "stuck", stuck, plan: writer.plan(program.robot), notes: writer.notes, assumptions };
     }
   }
-  return { kind: "planned", plan: writer.plan(program.robot), notes: writer.notes };
+  return { kind: "planned", plan: writer.plan(program.robot), notes: writer.notes, assumptions };
 }
+
+/** What the durations of a program's steps rest on, one sentence each. */
+export const durationAssumptions = (program: Program, robot: Robot, gripper_s = GRIPPER_S): string[] => [
+  ...robot.assumptions, ...motionAssumptions(robot),
+  ...(program.steps.some(step => step.type === "gripper") ? [`The gripper is given ${gripper_s} s to close or open.`] : []),
+];
 
 type StepHappening = Extract<Happening, { kind: "step" }>;
 /** A move that happens, with the step it comes from. */

@@ -3,6 +3,7 @@ import type { MoveStep, Speed } from "../program/program.ts";
 import { Emission } from "./emission.ts";
 import type { HermitePath, Piece } from "./hermite-path.ts";
 import type { MotionSegment } from "./plan.ts";
+import { Rounder } from "./rounder.ts";
 import { intervalAccelerations } from "./sample.ts";
 import { PathTimer, type TimingGrid, type TimingLimits } from "./timing.ts";
 
@@ -19,6 +20,8 @@ const MOST_DENSE = 4;
 const SLOWEST = 1e-10;
 /** Nodes closer than this share of a piece are one. */
 const NEAR = 1e-6;
+/** A run is tried with less acceleration when this share of it or less would do. */
+const WORTHWHILE = 0.9;
 /** Rounds in which the pace of moves of a given duration is tuned inside a run. */
 const ROUNDS = 12;
 
@@ -30,7 +33,7 @@ export interface Slowed {
   readonly joint: number;
   readonly wanted: number;
   readonly limit: number;
-  readonly unit: "rad/s" | "rad/s2";
+  readonly unit: "rad/s" | "rad/s2" | "rad/s3";
   /** Place along the path of the run. */
   readonly s: number;
 }
@@ -59,10 +62,13 @@ export class RunTimer {
   private readonly limits: TimingLimits;
   private readonly timer: PathTimer;
   private readonly joints: number;
+  private readonly rounder: Rounder;
+  private readonly emission: Emission;
   private nodes = 0;
   private s = new Float64Array(64);
   private cap = new Float64Array(64);
   private x = new Float64Array(64);
+  private share = new Float64Array(64);
   private owner = new Int32Array(64);
   private knot = new Int32Array(64);
   private q: Float64Array;
@@ -74,6 +80,8 @@ export class RunTimer {
     this.joints = robot.arm.joints.length;
     this.limits = planningLimits(robot);
     this.timer = new PathTimer(this.limits);
+    this.rounder = new Rounder(robot);
+    this.emission = new Emission(this.rounder.law, this.joints);
     this.q = new Float64Array(64 * this.joints); this.q1 = this.q.slice(); this.q2 = this.q.slice();
   }
 
@@ -86,19 +94,51 @@ export class RunTimer {
       slowed.length = 0;
       this.spread(path, density);
       this.capSpeeds(path, paces, tcpSlope, slowed);
-      const grid: TimingGrid = { nodes: this.nodes, joints: this.joints, s: this.s, q1: this.q1, q2: this.q2, cap: this.cap };
-      this.timer.fastest(grid, 0, 0, this.x);
-      // A node inside the run that rounding left at standstill would never be passed.
-      for (let i = 1; i + 1 < this.nodes; i++) if (this.x[i]! < SLOWEST) this.x[i] = SLOWEST;
+      const grid: TimingGrid = { nodes: this.nodes, joints: this.joints, s: this.s, q1: this.q1, q2: this.q2, cap: this.cap, share: this.share };
+      const softness = this.soften(grid, steps);
       let stretch = 1;
       if (steps.length === 1 && paces[0]!.time_s > 0) stretch = this.stretchOf(paces[0]!.time_s, slowed);
-      else if (paces.some(pace => pace.time_s > 0)) this.tune(grid, paces, slowed);
+      else if (paces.some(pace => pace.time_s > 0)) this.tune(grid, paces, softness, slowed);
       run = this.emit(path, steps, stretch, slowed);
       // The grid holds the limits at its nodes; what the cubics do between them is looked at here.
       over = this.worstShare(run.parts);
       if (over <= 1) return run;
     }
     return this.emit(path, steps, over, slowed);
+  }
+
+  private solve(grid: TimingGrid): void {
+    this.timer.fastest(grid, 0, 0, this.x);
+    // A node inside the run that rounding left at standstill would never be passed.
+    for (let i = 1; i + 1 < this.nodes; i++) if (this.x[i]! < SLOWEST) this.x[i] = SLOWEST;
+  }
+
+  /**
+   * Fastest run with its corners rounded. A slow run reaches its speed long before the corner is round: less acceleration
+   * with a corner rounded over as much less time has the same jerk, and the ramp as a whole is shortest when both take
+   * equally long.
+   *
+   * @returns  share of the accelerations that is used, 0 … 1.
+   */
+  private soften(grid: TimingGrid, steps: readonly MoveStep[]): number {
+    this.fillShare(steps, 1);
+    this.solve(grid);
+    this.rounder.round(grid, this.x, 1);
+    const softness = this.rounder.softness(grid, this.x);
+    if (softness > WORTHWHILE) return 1;
+    const hard_s = this.rounder.law.duration_s;
+    this.fillShare(steps, softness);
+    this.solve(grid);
+    this.rounder.round(grid, this.x, softness);
+    if (this.rounder.law.duration_s < hard_s) return softness;
+    this.fillShare(steps, 1);
+    this.solve(grid);
+    this.rounder.round(grid, this.x, 1);
+    return 1;
+  }
+
+  private fillShare(steps: readonly MoveStep[], softness: number): void {
+    for (let i = 0; i < this.nodes; i++) this.share[i] = softness * (steps[this.owner[i]!]!.acceleration?.ratio ?? 1);
   }
 
   /** How far, as a factor of time, the cubics of the parts are over the published limits; at most 1 when they are not. */
@@ -162,7 +202,7 @@ export class RunTimer {
   private grow(): void {
     const more = this.s.length * 2, n = this.joints, to = (from: Float64Array, size: number): Float64Array<ArrayBuffer> => { const big = new Float64Array(size); big.set(from); return big; };
     const ints = (from: Int32Array): Int32Array<ArrayBuffer> => { const big = new Int32Array(more); big.set(from); return big; };
-    this.s = to(this.s, more); this.cap = to(this.cap, more); this.x = to(this.x, more);
+    this.s = to(this.s, more); this.cap = to(this.cap, more); this.x = to(this.x, more); this.share = to(this.share, more);
     this.q = to(this.q, more * n); this.q1 = to(this.q1, more * n); this.q2 = to(this.q2, more * n);
     this.owner = ints(this.owner); this.knot = ints(this.knot);
   }
@@ -209,6 +249,9 @@ export class RunTimer {
   private moveTimes_s(moves: number): Float64Array {
     const times = new Float64Array(moves);
     for (let i = 0; i + 1 < this.nodes; i++) times[this.owner[i]!]! += this.intervalTime_s(i);
+    // Half of the window is spent before the run has its pace, half behind it.
+    times[this.owner[0]!]! += this.rounder.law.window_s / 2;
+    times[this.owner[this.nodes - 1]!]! += this.rounder.law.window_s / 2;
     return times;
   }
 
@@ -240,11 +283,13 @@ export class RunTimer {
         }
       }
     }
-    return found;
+    if (found.wanted > found.limit) return found;
+    const { joint, load, limit } = this.rounder.worst;
+    return { move, joint, wanted: load * limit * factor ** 3, limit, unit: "rad/s3", s: 0 };
   }
 
   /** Moves of given duration inside a run: their pace is lowered until each takes its time. */
-  private tune(grid: TimingGrid, paces: readonly Pace[], slowed: Slowed[]): void {
+  private tune(grid: TimingGrid, paces: readonly Pace[], softness: number, slowed: Slowed[]): void {
     const first = this.moveTimes_s(paces.length), lengths = new Float64Array(paces.length), pace = new Float64Array(paces.length);
     for (let i = 0; i + 1 < this.nodes; i++) lengths[this.owner[i]!]! += this.s[i + 1]! - this.s[i]!;
     for (let m = 0; m < paces.length; m++) {
@@ -258,7 +303,8 @@ export class RunTimer {
         const p = pace[this.owner[i]!]!;
         if (p > 0) this.cap[i] = p * p;
       }
-      this.timer.fastest(grid, 0, 0, this.x);
+      this.solve(grid);
+      this.rounder.round(grid, this.x, softness);
       const times = this.moveTimes_s(paces.length);
       let off = 0;
       for (let m = 0; m < paces.length; m++) {
@@ -272,9 +318,10 @@ export class RunTimer {
   }
 
   private emit(path: HermitePath, steps: readonly MoveStep[], stretch: number, slowed: readonly Slowed[]): TimedRun {
-    const parts: MotionSegment[] = [], out = new Emission(path, this.joints, stretch);
+    const parts: MotionSegment[] = [], out = this.emission;
+    out.start(path, stretch);
     let start_s = 0, move = 0;
-    const begin = (i: number): void => { out.begin(this.knot[i]!, this.s[i]!, this.x[i]!); };
+    const begin = (i: number): void => { out.begin(this.knot[i]!, this.s[i]!, i); };
     begin(0);
     const close = (): void => {
       const step = steps[move]!, part = out.part(step, start_s);
@@ -284,8 +331,7 @@ export class RunTimer {
     };
     for (let i = 0; i + 1 < this.nodes; i++) {
       while (this.owner[i]! > move) { close(); begin(i); }
-      const dt = this.intervalTime_s(i);
-      if (dt > 0) out.interval(this.s[i]!, this.s[i + 1]!, this.x[i]!, this.x[i + 1]!, dt, this.knot[i]!);
+      if (this.s[i + 1]! > this.s[i]!) out.interval(this.s[i + 1]!, i + 1, this.knot[i]!);
     }
     while (move < steps.length) { close(); begin(this.nodes - 1); }
     return { parts, slowed, duration_s: start_s };

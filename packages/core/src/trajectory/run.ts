@@ -7,7 +7,7 @@ import { Follower } from "./follow.ts";
 import { timeJointLeg } from "./joint-leg.ts";
 import type { Move } from "./moves.ts";
 import { RunPath, type RunStop } from "./run-path.ts";
-import { planningLimits, RunTimer, type TimedRun } from "./run-timing.ts";
+import { RunTimer, type TimedRun } from "./run-timing.ts";
 
 /** TCP distance [m] between the plan and the commanded straight, circular or spline path. */
 export const PATH_TOLERANCE_M = 5e-7;
@@ -26,14 +26,12 @@ export class RunPlanner {
   private readonly path: RunPath;
   private readonly timer: RunTimer;
   private readonly goals: GoalFinder;
-  private readonly limits;
 
   constructor(robot: Robot, tolerance_m = PATH_TOLERANCE_M) {
     this.robot = robot;
     this.path = new RunPath(robot, tolerance_m);
     this.timer = new RunTimer(robot);
     this.goals = new GoalFinder(robot, new Follower(robot.arm));
-    this.limits = planningLimits(robot);
   }
 
   /**
@@ -53,7 +51,7 @@ export class RunPlanner {
     if (moves.length === 1 && first !== undefined && first.step.path === "ptp") {
       const goal = this.goals.find(first, q0);
       if (goal.kind === "none") return { kind: "stopped", stop: { kind: "goal", move: 0, goal } };
-      return { kind: "timed", run: timeJointLeg(first, q0, goal.q_rad, this.limits, this.robot) };
+      return { kind: "timed", run: timeJointLeg(first, q0, goal.q_rad, this.robot) };
     }
     const stop = this.path.lay(moves, q0);
     if (stop !== undefined) return { kind: "stopped", stop };

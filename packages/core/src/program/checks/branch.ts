@@ -1,4 +1,5 @@
 import { branchOf, sameBranch, type Branch } from "../../kinematics/branch.ts";
+import { blends } from "../../trajectory/moves.ts";
 import { radians } from "../../spatial/units.ts";
 import type { Repair } from "../verdict.ts";
 import { jointMove, postureRepairs } from "./repairs.ts";
@@ -29,7 +30,7 @@ export function checkBranch(scene: CheckScene): void {
       continue;
     }
     // A straight or circular path keeps its posture; where it blends on, the end is not the taught point.
-    if (move.step.blend_m > 0 || (move.step.blend_ratio ?? 0) > 0) continue;
+    if (blends(move.step)) continue;
     const taught = move.q_rad, arrived = branchOf(scene.robot, last);
     if (taught !== undefined) {
       let off = 0;

@@ -115,7 +115,7 @@ function collisionRepairs(scene: CheckScene, move: Move, prover: Prover, segment
   const free = (steps: readonly MoveStep[]): boolean => {
     let q = start;
     for (const step of steps) {
-      const answer = planner.plan([resolveMove({ ...step, blend_m: 0 }, scene.robot, scene.context)], q);
+      const answer = planner.plan([resolveMove({ ...step, blend_m: 0, blend_ratio: 0 }, scene.robot, scene.context)], q);
       if (answer.kind === "stopped") return false;
       for (const part of answer.run.parts) {
         if (part.times_s.length > 1 && prover.prove(part).kind !== "clear") return false;

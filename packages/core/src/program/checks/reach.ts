@@ -2,8 +2,8 @@ import { explainReach } from "../../kinematics/explain.ts";
 import { solveAll } from "../../kinematics/inverse.ts";
 import { span } from "../../kinematics/span.ts";
 import type { Reach } from "../../kinematics/reach.ts";
+import { blends } from "../../trajectory/moves.ts";
 import { explainStop } from "../../trajectory/stop.ts";
-import type { MoveStep } from "../program.ts";
 import type { Finding } from "../verdict.ts";
 import { reachRepairs } from "./repairs.ts";
 import { startOf, type CheckScene } from "./scene.ts";
@@ -35,7 +35,6 @@ export function checkReach(scene: CheckScene): void {
 }
 
 const away = (reach: Reach): boolean => reach.kind === "too-far" || reach.kind === "too-near" || reach.kind === "beyond-workspace";
-const blends = ({ blend_m, blend_ratio = 0 }: MoveStep): boolean => blend_m > 0 || blend_ratio > 0;
 
 const percent = (share: number): string => `At ${Math.round(share * 100)} % of the way:`;
 

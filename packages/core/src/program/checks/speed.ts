@@ -10,7 +10,9 @@ export function checkSpeed(scene: CheckScene): void {
     const move = scene.layout.moves.get(step)?.step;
     const repairs = move === undefined ? [] : slower(scene, move, slowed.wanted / slowed.limit);
     const { joint, wanted, limit } = slowed;
-    scene.add(step, "bad", slowed.unit === "rad/s"
+    scene.add(step, "bad", slowed.unit === "rad/s3"
+      ? { code: "speed.jerk", joint, value: wanted, limit, unit: "rad/s3", at_s, sentence: `Joint ${joint} would need a jerk of ${rate(wanted)}³; its limit is ${rate(limit)}³.`, repairs }
+      : slowed.unit === "rad/s"
       ? { code: "speed.joint", joint, value: wanted, limit, unit: "rad/s", at_s, sentence: `Joint ${joint} would turn at ${rate(wanted)}; its limit is ${rate(limit)}.`, repairs }
       : { code: "speed.acceleration", joint, value: wanted, limit, unit: "rad/s2", at_s, sentence: `Joint ${joint} would accelerate at ${rate(wanted)}²; its limit is ${rate(limit)}².`, repairs });
   }
