@@ -455,6 +455,8 @@ export class Machine extends BlockMachine<Value> {
     return { frame: spelt, pose: toPose(times(inverted(shared), own)) };
   }
 
+  edge(): void { /* every move says everything */ }
+
   override remember(): () => void {
     const values = super.remember(), arm = this.arm.remember(), { acceleration, override, fastest_mmps, asksConfiguration, tool } = this, outputs = new Map(this.outputs);
     return () => {

@@ -15,6 +15,7 @@ export class TokenCursor {
     this.fold = fold;
   }
 
+  /** Where the next token stands. */
   get here(): TextPlace { return { line: this.current.line, column: this.current.column }; }
   get kind(): TokenKind { return this.current.kind; }
   /** The next token as the language compares it; "" at the end and for a text. */
