@@ -1,7 +1,7 @@
 import { Check, ChevronDown } from "lucide-react";
 import { Select, ToggleGroup } from "radix-ui";
 
-interface Option<Value extends string> { readonly value: Value; readonly words: string; readonly disabled?: boolean }
+interface Option<Value extends string> { readonly value: Value; readonly words: string; readonly disabled?: boolean; /** Why it cannot be chosen. */ readonly hint?: string }
 interface Props<Value extends string> { readonly label: string; readonly value: Value; readonly options: readonly Option<Value>[]; readonly onChange: (value: Value) => void }
 
 const pick = <Value extends string>(options: readonly Option<Value>[], raw: string): Value | undefined => options.find(option => option.value === raw)?.value;
@@ -27,7 +27,7 @@ export function Chooser<Value extends string>({ label, value, options, onChange 
           <Select.Viewport>
             {options.map(option => (
               <Select.Item key={option.value} className="menu-item" value={option.value} disabled={option.disabled ?? false}>
-                <Select.ItemText>{option.words}</Select.ItemText><Select.ItemIndicator style={{ marginLeft: "auto" }}><Check size={14} /></Select.ItemIndicator>
+                <span className="choice-words"><Select.ItemText>{option.words}</Select.ItemText>{option.hint && <span className="dim small">{option.hint}</span>}</span><Select.ItemIndicator style={{ marginLeft: "auto" }}><Check size={14} /></Select.ItemIndicator>
               </Select.Item>
             ))}
           </Select.Viewport>
