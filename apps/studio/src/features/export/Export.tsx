@@ -15,7 +15,7 @@ import { download } from "../../ui/download.ts";
 import { Frame } from "../../ui/Frame.tsx";
 import { words } from "../../words/index.ts";
 import { ImportDialog } from "./ImportDialog.tsx";
-import { LanguageChoice } from "./LanguageChoice.tsx";
+import { LanguageChoice } from "../../ui/LanguageChoice.tsx";
 import { manifestOf } from "./manifest.ts";
 import "./export.css";
 

@@ -6,11 +6,13 @@ import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { controlStore } from "../../stores/control.ts";
 import { programOf, robotOf } from "../../stores/document.ts";
+import { foreignStore } from "../../stores/foreign.ts";
 import { languageOf, languageStore } from "../../stores/languages.ts";
 import { playStore } from "../../stores/play.ts";
 import { CodeView } from "../../ui/CodeView.tsx";
 import { words } from "../../words/index.ts";
-import { LanguageChoice } from "../export/LanguageChoice.tsx";
+import { LanguageChoice } from "../../ui/LanguageChoice.tsx";
+import { Foreign } from "./Foreign.tsx";
 import { SignalList } from "./SignalList.tsx";
 import "./run.css";
 
@@ -25,8 +27,15 @@ export default function Run() {
     const emitted = dialect.emit(program, robot, document.robot.worldFromBase);
     return emitted.kind === "cannot" ? emitted : runnableFile(dialect, emitted.files) ?? null;
   }, [program, robot, document, dialect]);
+  const foreign = useStore(foreignStore, state => state.open);
   const cannot = file !== null && "kind" in file;
 
+  if (foreign) return (
+    <section aria-label={words.run.title}>
+      <h2 className="heading"><span className="grow">{words.run.title}</span></h2>
+      <div className="section run"><Foreign open={foreign} /><TwinError /></div>
+    </section>
+  );
   return (
     <section aria-label={words.run.title}>
       <h2 className="heading"><span className="grow">{words.run.title}</span></h2>
@@ -45,7 +54,7 @@ export default function Run() {
       <TwinError />
       {nothing && <p className="muted">{words.run.nothing}</p>}
       {cannot && <p role="alert" className="run-cannot">{words.run.notEmitted(dialect?.name ?? "")} {file.sentence}</p>}
-      {program && <SignalList program={program} />}
+      {program && <SignalList signals={program.signals} />}
       {file !== null && !("kind" in file) && dialect && <Listing text={file.text} dialect={dialect.id} name={dialect.name} />}
       </div>
     </section>

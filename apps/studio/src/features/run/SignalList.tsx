@@ -5,9 +5,9 @@ import { setInput } from "../../stores/inputs.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../words/index.ts";
 
-/** The lines of the program: inputs can be switched by hand, outputs show what the controller says. */
-export function SignalList({ program }: { readonly program: Program }) {
-  const now = useStore(controlStore, state => state.signals), lines = Object.entries(program.signals);
+/** The lines of a program: inputs can be switched by hand, outputs show what the controller says. */
+export function SignalList({ signals }: { readonly signals: Program["signals"] }) {
+  const now = useStore(controlStore, state => state.signals), lines = Object.entries(signals);
   if (lines.length === 0) return null;
   return (
     <fieldset className="signals">

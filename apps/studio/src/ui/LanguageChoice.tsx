@@ -1,8 +1,8 @@
 import type { Robot } from "@twincell/core";
 import { useStore } from "zustand";
-import { chooseLanguage, languageOf, languagesOf, languageStore } from "../../stores/languages.ts";
-import { Chooser } from "../../ui/Choice.tsx";
-import { words } from "../../words/index.ts";
+import { chooseLanguage, languageOf, languagesOf, languageStore } from "../stores/languages.ts";
+import { Chooser } from "./Choice.tsx";
+import { words } from "../words/index.ts";
 
 /** The languages that the robot's controller understands; the others are there, greyed, with the reason. */
 export function LanguageChoice({ robot, disabled = false }: { readonly robot: Robot; readonly disabled?: boolean }) {
