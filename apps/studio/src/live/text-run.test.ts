@@ -102,5 +102,6 @@ test("the language is found by the ending of the file, by how the text begins, a
   expect(readText(".PROGRAM a()\nMOVE #PPOINT(0,-90,90,0,0,0)\n.END\n", rx, at)?.dialect.id).toBe("v-plus");
   expect(readText("DEF a()\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 10,A6 0}\nEND\n", kr, at)?.dialect.id).toBe("krl");
   expect(readText(".PROGRAM a()\nFLY home\n.END\n", rx, at)).toMatchObject({ dialect: { id: "v-plus" }, parsed: { kind: "not-understood", faults: [{ line: 2 }] } });
+  expect(readText("def a():\n  movej([0,0,0,0,0,0]\nend\n", robot, at)).toMatchObject({ dialect: { id: "urscript" }, parsed: { kind: "not-understood" } });
   expect(readText(TEXT, robot, at, "x.script", "krl")?.dialect.id).toBe("krl");
 });

@@ -19,8 +19,8 @@ export function Segments<Value extends string>({ label, value, options, onChange
 export function Chooser<Value extends string>({ label, value, options, onChange }: Props<Value>) {
   return (
     <Select.Root value={value} onValueChange={raw => { const next = pick(options, raw); if (next !== undefined) onChange(next); }}>
-      <Select.Trigger className="btn tight" aria-label={label} style={{ width: "100%", justifyContent: "space-between" }}>
-        <Select.Value /><Select.Icon><ChevronDown /></Select.Icon>
+      <Select.Trigger className="btn tight choice" aria-label={label}>
+        <span className="choice-value"><Select.Value /></span><Select.Icon><ChevronDown /></Select.Icon>
       </Select.Trigger>
       <Select.Portal>
         <Select.Content className="menu" position="popper" sideOffset={4} style={{ maxHeight: "50vh", overflow: "auto" }}>

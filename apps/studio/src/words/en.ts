@@ -53,7 +53,7 @@ export const en = {
   undo: {
     recordPoint: "Record point", recordPath: "Record path", addWait: "Add wait", addGripper: "Add gripper step", addSet: "Add signal step", addWaitFor: "Add wait for a signal", addComment: "Add comment", addRepeat: "Add loop", signal: "Change signal", comment: "Change comment", times: "Change loop", touchUp: "Touch up point", rename: "Rename", deleteSteps: (n: number) => `Delete ${plural(n, "step")}`, duplicate: "Duplicate",
     reorder: "Reorder", clear: "Clear program", repair: "Apply repair", repairAll: "Repair all", moveObject: "Move object", size: "Change size", tool: "Choose tool", trace: "Trace edges", speed: "Change speed", blend: "Change blend",
-    path: "Change path", target: "Change target", wait: "Change wait", addObject: "Add object", deleteObject: "Delete object", import: "Import program", cellName: "Rename cell", moveRobot: "Move robot", robot: (name: string) => `Change the robot to ${name}`, gripper: "Change gripper",
+    path: "Change path", target: "Change target", wait: "Change wait", addObject: "Add object", deleteObject: "Delete object", import: "Import program", cellName: "Rename cell", moveRobot: "Move robot", robot: (name: string) => `Change the robot to ${name}`, selectProgram: (name: string) => `Work on ${name}`, addProgram: "New program", duplicateProgram: "Duplicate program", renameProgram: "Rename program", removeProgram: (name: string) => `Delete program ${name}`, gripper: "Change gripper",
     done: (label: string) => `Undone: ${label}.`, redone: (label: string) => `Done again: ${label}.`, nothing: "There is nothing to undo.", nothingAhead: "There is nothing to redo.",
   },
   field: {
@@ -140,6 +140,7 @@ export const en = {
     use: (name: string) => `Use the ${name}`, useNone: "Use this robot", already: "This robot is in the cell.", keeps: "The cell stays; the program is taught anew so that the tool goes where it went.", busy: "The robot is running a program; stop it first.",
     changed: (name: string, kept: number, points: number) => (points === 0 ? `The ${name} is in the cell.` : kept === points ? `The ${name} is in the cell; all ${plural(points, "point")} were kept.` : `The ${name} is in the cell; ${kept} of ${plural(points, "point")} were kept, ${points - kept} cannot be reached.`), changedHint: "Check says why, and what would fix it.",
   },
+  programs: { switch: "Stored programs", new: "New program", duplicate: "Duplicate this program", rename: "Rename this program", remove: "Delete this program", name: "Name of the program", plain: "Program", removed: (name: string) => `${name} was deleted. Undo brings it back.` },
   foreign: {
     guess: "Find out", nothing: "Nothing to read yet.", reads: (language: string, steps: number) => `Read as ${language}: ${plural(steps, "step")}.`, cannotRead: (language: string) => `Read as ${language}, it is not understood:`, steps: "Make steps", asText: "Run as text", pasted: "Pasted text",
     asTextSays: "Run as text executes it line by line on the virtual controller, with breakpoints. Your program stays as it is.", run: "Run the text", step: "One statement", paused: (line: number) => `It stands before line ${line}.`, idle: "Click a line number to stop there.",
