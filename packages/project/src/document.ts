@@ -28,7 +28,8 @@ export interface ObjectRecord {
   readonly color: string;
 }
 
-export interface FrameRecord { readonly name: string; readonly worldFromFrame: Pose<"world", "frame"> }
+/** A user frame; `saved`: a pose of the tool tip that a person saved, to go through it later (rows L-44 … L-49). */
+export interface FrameRecord { readonly name: string; readonly worldFromFrame: Pose<"world", "frame">; readonly saved?: true }
 
 /** Everything a person saves: one robot, its tools, what stands around it, and the programs taught there. */
 export interface CellDocument {

@@ -48,7 +48,7 @@ export const cellSchema = z.strictObject({
     shape,
     color: z.string().regex(/^#[0-9a-f]{6}$/i, "a colour is written #rrggbb"),
   })),
-  frames: z.array(z.strictObject({ name: text, worldFromFrame: poseOf<"world", "frame">() })),
+  frames: z.array(z.strictObject({ name: text, worldFromFrame: poseOf<"world", "frame">(), saved: z.exactOptional(z.literal(true)) })),
   allowedPairs: z.array(z.tuple([text, text])),
   programs: z.array(z.unknown()),
   program: z.string(),
