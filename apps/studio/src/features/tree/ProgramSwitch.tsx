@@ -17,7 +17,7 @@ export function ProgramSwitch() {
     <h2 className="heading">
       <DropdownMenu.Root modal={false}>
         <DropdownMenu.Trigger asChild>
-          <button className="program-switch" aria-label={`${words.programs.switch}: ${name}`}><span>{words.tree.program} · {name}</span><ChevronDown aria-hidden /></button>
+          <button className="program-switch" title={words.programs.switch}><span>{words.tree.program} · {name}</span><ChevronDown aria-hidden /></button>
         </DropdownMenu.Trigger>
         <DropdownMenu.Portal>
           <DropdownMenu.Content className="menu program-menu" align="start" onCloseAutoFocus={event => { if (renaming) event.preventDefault(); }}>
