@@ -38,7 +38,7 @@ const TELL_EVERY_S = 0.1;
 export function prepareRun(dialect: Dialect, program: Program, { robot, worldFromBase }: Pick<RunSetting, "robot" | "worldFromBase">, onLine: (step: string, line: number) => void, signals?: Signals): Prepared {
   const emitted = dialect.emit(program, robot, worldFromBase);
   if (emitted.kind === "cannot") return { kind: "not-emitted", sentence: emitted.sentence, hint: emitted.hint };
-  const file = runnable(emitted.files);
+  const file = dialect.runnable?.(emitted.files) ?? emitted.files[0]!;
   const interpreted = dialect.interpret(file.text, robot, worldFromBase);
   if (interpreted.kind === "not-understood") {
     const [first] = interpreted.faults;
@@ -67,8 +67,6 @@ function withSignals(step: Step, called: (signal: string) => string): Step {
   return step.type === "wait-for" ? { ...step, when: { ...step.when, signal: called(step.when.signal) } } : step;
 }
 
-/** The program proper comes with a list of its points; the program is the file that says what to do with most of its lines. */
-const runnable = (files: readonly EmittedFile[]): EmittedFile => files.find(file => /^\s*\.PROGRAM/im.test(file.text)) ?? files[0]!;
 
 /** The virtual controller of the page, its guard and its twin, for as long as the cell is open. */
 export interface CellControl {
