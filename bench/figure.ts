@@ -1,3 +1,5 @@
+import { PerformanceObserver } from "node:perf_hooks";
+
 /** One measured figure: the median of n repeats, with its spread. */
 export interface Figure {
   readonly name: string;
@@ -32,4 +34,22 @@ export function microseconds(calls: number, repeats: number, call: (i: number) =
 export function settled(calls: number, repeats: number, warmUp: number, call: (i: number) => void): number[] {
   microseconds(calls, warmUp, call);
   return microseconds(calls, repeats, call);
+}
+
+/** How many times garbage was collected in so many calls, after a warm-up that is not counted: the compiler works beside it and is waited for. */
+export async function collections(calls: number, call: (i: number) => void): Promise<number> {
+  for (let round = 0; round < 4; round++) {
+    for (let i = 0; i < calls / 4; i++) call(i);
+    await new Promise(resolve => { setTimeout(resolve, 100); });
+  }
+  let seen = 0;
+  const observer = new PerformanceObserver(list => { seen += list.getEntries().length; });
+  observer.observe({ entryTypes: ["gc"] });
+  // What was collected before is told late: it is heard out and not counted.
+  await new Promise(resolve => { setTimeout(resolve, 50); });
+  seen = 0;
+  for (let i = 0; i < calls; i++) call(i);
+  await new Promise(resolve => { setTimeout(resolve, 50); });
+  observer.disconnect();
+  return seen;
 }

@@ -18,6 +18,31 @@ test("robots names the RX90L with its numbers, their sources and what was assume
   expect(lines()).toContainEqual(expect.objectContaining({ id: "staubli_rx90l", family: "ortho-parallel", dof: 6, payload_kg: 3.5, reach_m: 1.185 }));
 });
 
+test("robots lists the whole library, with and without --json: id, name, family, dof, payload, reach, source and assumptions", () => {
+  const plain = twincell(["robots"]), json = twincell(["robots", "--json"]), robots = plain.lines() as Record<string, unknown>[];
+  expect(json.out).toBe(plain.out);
+  expect(robots.length).toBe(11);
+  for (const robot of robots) {
+    for (const key of ["id", "name", "family"]) expect(robot[key]).toEqual(expect.stringMatching(/./));
+    for (const key of ["dof", "payload_kg", "reach_m", "shape_error_m"]) expect(robot[key]).toEqual(expect.any(Number));
+    expect(Object.keys(robot.source as object).length).toBeGreaterThan(0);
+    expect(Array.isArray(robot.assumptions)).toBe(true);
+  }
+  expect(robots).toContainEqual(expect.objectContaining({ id: "ur10e", dof: 6, payload_kg: 10, mass_kg: 33.5, reach_m: 1.3, reach_measured_from: "axis-2" }));
+  expect(robots).toContainEqual(expect.objectContaining({ id: "kuka_lbr_iiwa_14_r820", dof: 7 }));
+  expect(robots.filter(robot => "made_up_geometry" in robot).map(robot => robot.id)).toEqual(["lola_rl15_placeholder"]);
+});
+
+test("T-16 a robot file is enough for fk and ik; a fault in it is named with its place", () => {
+  const pose = twincell(["fk", "--robot", "examples/robots/small-arm.json"], '{"q":[0.3,0.2,0.1,0.4,0.7,-0.2]}');
+  expect(pose.code).toBe(0);
+  const [answer] = twincell(["ik", "--robot", "examples/robots/small-arm.json", "--near", "0.3,0.2,0.1,0.4,0.7,-0.2"], pose.out).lines() as { solutions: number[][] }[];
+  answer!.solutions[0]!.forEach((angle, j) => { expect(angle).toBeCloseTo([0.3, 0.2, 0.1, 0.4, 0.7, -0.2][j]!, 9); });
+  const wrong = twincell(["fk", "--robot", "package.json"], "");
+  expect(wrong.code).toBe(2);
+  expect(wrong.err).toContain('package.json: format: The format of a robot file is "twincell.robot"; here it is nothing.');
+});
+
 test("fk answers the reference cases, in the root link and in the vendor's world", () => {
   const { samples } = fixture("staubli_rx90l.forward.json") as { samples: { q: number[]; T: number[][] }[] };
   const input = samples.map(({ q }) => JSON.stringify({ q })).join("\n");

@@ -1,5 +1,5 @@
 import { dirname, join } from "node:path";
-import { dhFromArm, LIBRARY, type Pose } from "@twincell/core";
+import { dhFromArm, LIBRARY, type Pose, type Robot } from "@twincell/core";
 import { dhTableText, writeDhTable, writeStl, writeUrdf } from "@twincell/formats";
 import { given, type Given } from "../io/arguments.ts";
 import { lineWriter } from "../io/json-lines.ts";
@@ -12,7 +12,9 @@ export const robotsCommand: Command = {
   summary: "the robots of the library",
   usage: `twincell robots [--urdf R [-o FILE]] [--dh R [--convention standard|modified]]
 
-One JSON line per robot: id, name, vendor, family, dof, payload_kg, reach_m, where each number comes from, what was assumed.
+One JSON line per robot: id, name, vendor, family, dof, payload_kg, mass_kg, reach_m and between which points, shape_error_m,
+limits, where each number comes from, what was assumed. made_up_geometry marks an arm whose lengths nobody publishes.
+--json is accepted; the output is JSON either way.
 
   --urdf R         writes that robot as a URDF instead; R may be a file, so a xacro or a D-H table becomes a URDF
   -o FILE          into this file, with a mesh per link in meshes/ beside it
@@ -30,19 +32,21 @@ One JSON line per robot: id, name, vendor, family, dof, payload_kg, reach_m, whe
     if (asUrdf !== undefined) { await printUrdf(await robotOf(options, asUrdf), options.text("output")); return 0; }
     if (asTable !== undefined) { await print(tableText(await robotOf(options, asTable), options), options.text("output")); return 0; }
     const writer = lineWriter();
-    for (const robot of LIBRARY) {
-      writer.write({
-        id: robot.id, name: robot.name, vendor: robot.vendor, family: robot.family.kind, dof: robot.arm.joints.length,
-        payload_kg: robot.payload_kg, reach_m: robot.reach_m, reach_measured_to: robot.reachMeasuredTo,
-        base: robot.frames.base, tip: robot.frames.tip,
-        limits: robot.arm.joints.map(({ name, limits }) => ({ joint: name, ...limits })),
-        source: robot.sources, assumptions: robot.assumptions,
-      });
-    }
+    for (const robot of LIBRARY) writer.write(lineOf(robot));
     await writer.end();
     return 0;
   },
 };
+
+const lineOf = (robot: Robot): object => ({
+  id: robot.id, name: robot.name, vendor: robot.vendor, family: robot.family.kind, dof: robot.arm.joints.length,
+  payload_kg: robot.payload_kg, ...(robot.mass_kg === undefined ? {} : { mass_kg: robot.mass_kg }),
+  reach_m: robot.reach_m, reach_measured_from: robot.reachMeasuredFrom, reach_measured_to: robot.reachMeasuredTo,
+  ...(robot.madeUpGeometry === true ? { made_up_geometry: true } : {}),
+  shape_error_m: robot.shapeError_m, base: robot.frames.base, tip: robot.frames.tip,
+  limits: robot.arm.joints.map(({ name, limits }) => ({ joint: name, ...limits })),
+  source: robot.sources, assumptions: robot.assumptions,
+});
 
 async function print(text: string, path: string | undefined): Promise<void> {
   if (path === undefined) process.stdout.write(text); else await writeOne(path, text);

@@ -1,7 +1,7 @@
 import { existsSync, statSync } from "node:fs";
 import { basename, resolve } from "node:path";
-import { compose, inverse, pose, robotFromArm, type LinkSolid, type Pose, type Robot } from "@twincell/core";
-import { armFromUrdf, endsOf, loadMeshes, readDhTable, readRobot, urdfSolids, type NotUnderstood, type UrdfChain, type UrdfRobot } from "@twincell/formats";
+import { compose, inverse, parseRobot, pose, ROBOT_FORMAT, robotFromArm, type LinkSolid, type Pose, type Robot } from "@twincell/core";
+import { armFromUrdf, endsOf, loadMeshes, readDhTable, readRobot, solidShapes, urdfSolids, type NotUnderstood, type UrdfChain, type UrdfRobot } from "@twincell/formats";
 import { disk } from "./disk.ts";
 import { readText } from "./files.ts";
 import { UseFault } from "./usage.ts";
@@ -31,11 +31,29 @@ export async function robotFromFile(path: string, base: string | undefined, tip:
 const idOf = (path: string): string => basename(path).replace(/(\.urdf)?\.(urdf|xacro|xml)$|(\.dh)?\.(json|csv|tsv|txt|dh)$/i, "");
 
 async function fromTable(path: string, base: string | undefined, tip: string | undefined): Promise<RobotFromFile> {
-  const answer = readDhTable(await readText(path), idOf(path));
+  const text = await readText(path), data = robotData(text);
+  if (data !== undefined) return fromData(path, data, base, tip);
+  const answer = readDhTable(text, idOf(path));
   if (answer.kind !== "read") throw refused(path, answer);
   if (base !== undefined && base !== "base") throw new UseFault(`${path} has no frame "${base}".`, "A D-H table has the frames base and flange.");
   if (tip !== undefined && tip !== "flange") throw new UseFault(`${path} has no frame "${tip}".`, "A D-H table has the frames base and flange.");
   const robot = robotFromArm(answer.arm, { id: idOf(path), frames: { base: "base", tip: "flange" }, assumptions: answer.assumptions });
+  return { robot, baseFromRoot: pose(), solids: () => undefined };
+}
+
+/** The content of a robot file, docs/add-a-robot.md; undefined for anything else. */
+function robotData(text: string): unknown {
+  let value: unknown;
+  try { value = JSON.parse(text); } catch { return undefined; }
+  return typeof value === "object" && value !== null && "format" in value && value.format === ROBOT_FORMAT ? value : undefined;
+}
+
+function fromData(path: string, data: unknown, base: string | undefined, tip: string | undefined): RobotFromFile {
+  const answer = parseRobot(data);
+  if (answer.kind === "not-a-robot") throw new UseFault(`${path}: ${answer.faults.map(fault => `${fault.path === "" ? "" : `${fault.path}: `}${fault.sentence}`).join(" ")}`);
+  const { robot } = answer, { frames } = robot;
+  if (base !== undefined && base !== frames.base) throw new UseFault(`${robot.name} has no frame "${base}".`, `Its base is ${frames.base}.`);
+  if (tip !== undefined && tip !== frames.tip && tip !== "flange") throw new UseFault(`${robot.name} has no frame "${tip}".`, `Tips: ${frames.tip}, flange.`);
   return { robot, baseFromRoot: pose(), solids: () => undefined };
 }
 
@@ -52,7 +70,7 @@ function fromDescription(path: string, base: string | undefined, tip: string | u
   });
   const solids = (): ReturnType<RobotFromFile["solids"]> => {
     if (chain.shapes.length === 0) return undefined;
-    const meshes = loadMeshes(chain, whole, disk), found = urdfSolids(chain, meshes.meshOf);
+    const meshes = loadMeshes(solidShapes(chain), whole, disk), found = urdfSolids(chain, meshes.meshOf);
     return { solids: found.solids, notes: meshes.notes };
   };
   if (base === undefined || base === chain.base) return { robot, baseFromRoot: pose(), solids };
@@ -64,7 +82,7 @@ function chainOf(path: string, file: UrdfRobot, base: string | undefined, tip: s
   const chain = armFromUrdf(file, base, tip);
   if (chain.kind === "chain") return chain;
   const ends = endsOf(file);
-  throw refused(path, chain, ends.length > 1 ? `The file ends in ${ends.slice(0, 12).join(", ")}${ends.length > 12 ? ", …" : ""}: choose with --tip.` : "");
+  throw refused(path, chain, ends.length > 0 ? `The file ends in ${ends.slice(0, 12).join(", ")}${ends.length > 12 ? ", …" : ""}: choose with --tip.` : "");
 }
 
 function refused(path: string, { sentence, line, file }: NotUnderstood, hint = ""): UseFault {

@@ -6,8 +6,8 @@ import { UseFault } from "./usage.ts";
 export const ROBOT_OPTIONS = { robot: { type: "string" }, base: { type: "string" }, tip: { type: "string" }, arg: { type: "string", multiple: true } } as const;
 
 /** How `--robot` is explained in the help of a command. */
-export const ROBOT_HELP = `R is an id of "twincell robots", a URDF, a xacro (its arguments: --arg name:=value, again for more) or a D-H table
-(.dh.json, .dh.csv, .dh.txt). LINK: the base is the root link when absent, the tip tool0, else flange, else the end of the longest chain.`;
+export const ROBOT_HELP = `R is an id of "twincell robots", a URDF, a xacro (its arguments: --arg name:=value, again for more), a D-H table
+(.dh.json, .dh.csv, .dh.txt) or a robot file (.json). LINK: the base is the root link when absent, the tip tool0, else flange, else the end of the longest chain.`;
 
 /** The robot that was asked for, and how the asked base and tip lie to its own. */
 export interface ChosenRobot {
@@ -18,9 +18,9 @@ export interface ChosenRobot {
   solids(): { readonly solids: readonly LinkSolid[]; readonly notes: readonly string[] };
 }
 
-/** `--robot R [--base LINK] [--tip LINK] [--arg name:=value]…`: R is a library id or the path of a URDF, xacro or D-H table. */
+/** `--robot R [--base LINK] [--tip LINK] [--arg name:=value]…`: R is a library id or the path of a URDF, xacro, D-H table or robot file. */
 export async function robotOf(options: Given, wanted = options.text("robot")): Promise<ChosenRobot> {
-  const base = options.text("base"), tip = options.text("tip"), args = xacroArguments(options.list("arg")), choices = `Library: ${LIBRARY.map(robot => robot.id).join(", ")}; or the path of a URDF, xacro or D-H table.`;
+  const base = options.text("base"), tip = options.text("tip"), args = xacroArguments(options.list("arg")), choices = `Library: ${LIBRARY.map(robot => robot.id).join(", ")}; or the path of a URDF, xacro, D-H table or robot file.`;
   if (wanted === undefined) throw new UseFault("--robot is missing.", choices);
   const known = robotById(wanted);
   if (known) return libraryRobot(known, base, tip);

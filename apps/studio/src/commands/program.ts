@@ -5,7 +5,7 @@ import { cellStore } from "../stores/cell.ts";
 import type { Command } from "../stores/commands.ts";
 import { theProgram, theRobot } from "../stores/document.ts";
 import { notify } from "../stores/notices.ts";
-import { addGripper, addWait, clearProgram, copySteps, deleteSteps, recordPoint, stepWords, touchUp } from "../stores/program.ts";
+import { addComment, addGripper, addRepeat, addSet, addWait, addWaitFor, clearProgram, copySteps, deleteSteps, findStep, recordPoint, stepWords, touchUp } from "../stores/program.ts";
 import { recordMoving, recordStore } from "../stores/record.ts";
 import { seekStep } from "../stores/seek.ts";
 import { selectionStore } from "../stores/selection.ts";
@@ -13,11 +13,12 @@ import { sound } from "../stores/sound.ts";
 import { words } from "../words/index.ts";
 
 const selectedStep = (): string | null => { const { selected } = selectionStore.getState(); return selected?.kind === "step" ? selected.id : null; };
-const isMove = (id: string | null): boolean => theProgram()?.steps.find(step => step.id === id)?.type === "move";
+const stepOf = (id: string | null): ReturnType<typeof findStep> => { const program = theProgram(); return program && id !== null ? findStep(program, id) : undefined; };
+const isMove = (id: string | null): boolean => stepOf(id)?.step.type === "move";
 const hasProgram = (): boolean => theProgram() !== null;
 const nameOf = (id: string): string => {
-  const steps = theProgram()?.steps ?? [], index = steps.findIndex(step => step.id === id), step = steps[index];
-  return step ? stepWords(step, index) : id;
+  const found = stepOf(id);
+  return found ? stepWords(found.step, found.index) : id;
 };
 
 function record(path: "ptp" | "lin"): void {
@@ -39,12 +40,16 @@ export const programCommands = (): readonly Command[] => [
     run: () => { const id = selectedStep(); if (id && touchUp(id, theLive().q_rad, cellStore.getState().document?.tool ?? "flange")) notify("done", words.jog.touched(nameOf(id))); },
   },
   { id: "program.wait", group: "program", words: words.commands.wait, can: hasProgram, run: () => { addWait(0.5); } },
+  { id: "program.wait-for", group: "program", words: words.commands.waitFor, can: hasProgram, run: () => { addWaitFor(); } },
+  { id: "program.set", group: "program", words: words.commands.set, can: hasProgram, run: () => { addSet(); } },
+  { id: "program.repeat", group: "program", words: words.commands.repeat, can: hasProgram, run: () => { addRepeat(); } },
+  { id: "program.comment", group: "program", words: words.commands.comment, can: hasProgram, run: () => { addComment(); } },
   { id: "program.gripper-close", group: "program", words: words.commands.gripperClose, can: hasProgram, run: () => gripper(true) },
   { id: "program.gripper-open", group: "program", words: words.commands.gripperOpen, can: hasProgram, run: () => gripper(false) },
   {
     id: "program.go-to", group: "program", words: words.tree.goTo, keys: ["G"], can: () => selectedStep() !== null,
     run: () => {
-      const id = selectedStep(), robot = theRobot(), step = theProgram()?.steps.find(each => each.id === id);
+      const id = selectedStep(), robot = theRobot(), step = stepOf(id)?.step;
       if (step?.type !== "move" || !robot) { if (id) seekStep(id); return; }
       const there = solveStep(step, theLive().q_rad);
       if (there.kind === "reached") glideTo(robot, there.q_rad); else notify("warn", there.sentence);

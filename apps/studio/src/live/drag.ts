@@ -33,10 +33,13 @@ let followed: Followed | null = null;
 
 /** Whose tool is dragged. Called whenever robot, place or tool change. */
 export function dragFollows(robot: Robot, worldFromBase: Pose<"world", "base">, flangeFromTcp: Pose<"flange", "tcp">): void {
+  const joints = robot.arm.joints.length;
+  if (q.length !== joints) { q = new Float64Array(joints); best = new Float64Array(joints); }
   followed = { robot, baseFromWorld: inverse(worldFromBase), flangeFromTcp };
 }
 
-const scratch = solverScratch(), q = new Float64Array(6), best = new Float64Array(6);
+const scratch = solverScratch();
+let q = new Float64Array(6), best = new Float64Array(6);
 const baseFromTcp: Pose<"base", "tcp"> = identity(), baseFromFlange: Pose<"base", "flange"> = identity();
 const tcpFromFlange: Pose<"tcp", "flange"> = identity();
 const from: Pose<"world", "tcp"> = identity(), step: Pose<"world", "tcp"> = identity(), trial: Pose<"world", "tcp"> = identity();
@@ -46,7 +49,7 @@ function reaches({ robot, baseFromWorld, flangeFromTcp }: Followed, worldFromTcp
   compose(baseFromWorld, worldFromTcp, baseFromTcp);
   compose(baseFromTcp, inverse(flangeFromTcp, tcpFromFlange), baseFromFlange);
   if (!nearestSolution(robot, baseFromFlange, near, q, scratch)) return false;
-  for (let i = 0; i < 6; i++) if (Math.abs(q[i]! - near[i]!) > LONGEST_JOINT_STEP_RAD) return false;
+  for (let i = 0; i < q.length; i++) if (Math.abs(q[i]! - near[i]!) > LONGEST_JOINT_STEP_RAD) return false;
   return true;
 }
 
@@ -65,7 +68,7 @@ function reason({ robot, baseFromWorld, flangeFromTcp }: Followed, worldFromTcp:
     return { kind: "blocked", joint: i + 1, sentence: explainReach({ kind: "outside-limits", joint: i + 1, wanted_rad, limit_rad, branch: branchOf(robot, near) ?? ANY_BRANCH }) };
   }
   let joint = 0;
-  for (let i = 1; i < 6; i++) if (Math.abs(nearest[i]! - near[i]!) > Math.abs(nearest[joint]! - near[joint]!)) joint = i;
+  for (let i = 1; i < near.length; i++) if (Math.abs(nearest[i]! - near[i]!) > Math.abs(nearest[joint]! - near[joint]!)) joint = i;
   return { kind: "blocked", joint: joint + 1, sentence: `Joint ${joint + 1} would have to turn by ${degrees(Math.abs(nearest[joint]! - near[joint]!)).toFixed(0)}° at once: axes 4 and 6 are almost in line.` };
 }
 const ANY_BRANCH: Branch = { shoulder: "front", elbow: "up", wrist: "positive" };

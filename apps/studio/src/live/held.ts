@@ -1,7 +1,9 @@
 /** Who may hold a jog command down. */
 export type JogSource = "pendant" | "keyboard" | "gamepad" | "headset";
 
-const AXES = 6;
+/** Six of the tool tip, or the joints of an arm with seven. */
+export const MOST_COORDINATES = 7;
+const AXES = MOST_COORDINATES;
 const held = new Map<JogSource, Float64Array>();
 const listeners = new Set<(any: boolean) => void>();
 let wasHeld = false;
@@ -18,7 +20,7 @@ function tell(): void {
 }
 
 /**
- * Holds one coordinate down until released. @param axis 0 … 5: joint, or x y z and the turns about them.
+ * Holds one coordinate down until released. @param axis 0 … 6: joint, or 0 … 5: x y z and the turns about them.
  * @param amount −1 … 1 of the chosen speed; anything that is not a number counts as released.
  */
 export function hold(source: JogSource, axis: number, amount: number): void {

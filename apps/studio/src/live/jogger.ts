@@ -6,7 +6,7 @@ import { jogStore, type JogState } from "../stores/jog.ts";
 import { sound } from "../stores/sound.ts";
 import { words } from "../words/index.ts";
 import { onFrame } from "./frames.ts";
-import { heldNow } from "./held.ts";
+import { heldNow, MOST_COORDINATES } from "./held.ts";
 import { showJoints, theLive } from "./live.ts";
 import { leaveRobot, moverNow, takeRobot } from "./owner.ts";
 
@@ -27,9 +27,10 @@ export interface Jogger {
 }
 
 export function createJogger(): Jogger {
-  const scratch = jogScratch(), held = new Float64Array(6), before = new Float64Array(6), pending = new Float64Array(6), q = new Float64Array(6), rates = new Float64Array(6);
+  const scratch = jogScratch(), held = new Float64Array(MOST_COORDINATES), before = new Float64Array(MOST_COORDINATES), pending = new Float64Array(MOST_COORDINATES), rates = new Float64Array(MOST_COORDINATES);
   const linear: Vector3 = [0, 0, 0], angular: Vector3 = [0, 0, 0];
   const told = new Set<Coordinate>();
+  let q = new Float64Array(6);
   let left_s = 0, known = "", cell: JogCell | null = null, document: unknown = null;
 
   const cellNow = (): JogCell | null => {
@@ -44,7 +45,7 @@ export function createJogger(): Jogger {
 
   const command = (on: JogCell, jog: JogState, want: Float64Array): JogCommand => {
     if (jog.frame === "joint") {
-      for (let i = 0; i < 6; i++) rates[i] = want[i]! * (jog.manner === "steps" ? jog.step_rad / STEP_S : jog.speed * JOINT_PART * on.robot.arm.joints[i]!.limits.speed_rad_s);
+      for (let i = 0; i < on.robot.arm.joints.length; i++) rates[i] = want[i]! * (jog.manner === "steps" ? jog.step_rad / STEP_S : jog.speed * JOINT_PART * on.robot.arm.joints[i]!.limits.speed_rad_s);
       return { kind: "joints", speed_rad_s: rates };
     }
     const metres = jog.manner === "steps" ? jog.step_m / STEP_S : jog.speed * MANUAL_SPEED_MPS, turn = jog.manner === "steps" ? jog.step_rad / STEP_S : jog.speed * TURN_RAD_S;
@@ -59,7 +60,7 @@ export function createJogger(): Jogger {
       if (jog.moving !== any) jogStore.setState({ moving: any });
       if (jog.aid !== null && any && (jog.frame === "joint" || held[3] !== 0 || held[4] !== 0 || held[5] !== 0)) jogStore.setState({ aid: null });
       if (jog.manner === "steps") {
-        for (let i = 0; i < 6; i++) if (held[i] !== 0 && before[i] === 0) { pending.fill(0); pending[i] = Math.sign(held[i]!); left_s = STEP_S; }
+        for (let i = 0; i < MOST_COORDINATES; i++) if (held[i] !== 0 && before[i] === 0) { pending.fill(0); pending[i] = Math.sign(held[i]!); left_s = STEP_S; }
       }
       for (const coordinate of told) if (!stillPushed(coordinate, held, before)) told.delete(coordinate);
       before.set(held);
@@ -78,6 +79,7 @@ export function createJogger(): Jogger {
       }
       takeRobot("jog");
       const part_s = stepping ? Math.min(dt_s, left_s) : dt_s;
+      if (q.length !== theLive().q_rad.length) q = new Float64Array(theLive().q_rad.length);
       q.set(theLive().q_rad);
       const done = jogStep(on, q, command(on, jog, stepping ? pending : held), part_s, q, scratch);
       if (stepping) left_s = done.kind === "blocked" ? 0 : left_s - part_s;

@@ -5,8 +5,8 @@ import { copyPose, identity, type Pose, type Robot } from "@twincell/core";
  * Whoever is in charge (jog, play, twin, history) writes through `showJoints`; the scene and the read-outs only read.
  */
 export interface Live {
-  /** Joint angles shown now [rad]. */
-  readonly q_rad: Float64Array;
+  /** Joint angles shown now, as many as the robot has joints [rad]. Written in place; another array after another robot came. */
+  q_rad: Float64Array;
   readonly baseFromFlange: Pose<"base", "flange">;
   readonly worldFromTcp: Pose<"world", "tcp">;
   /** Counts up with every change, so that readers can skip work. */
@@ -33,7 +33,11 @@ export function onTouching(listen: (touching: ReadonlySet<string>) => void): () 
 export interface LivePoses { flange(q_rad: ArrayLike<number>, out: Pose<"base", "flange">): void; tcp(baseFromFlange: Pose<"base", "flange">, out: Pose<"world", "tcp">): void }
 let poses: LivePoses | undefined;
 /** Called once per robot and tool by whoever owns the cell document. */
-export function followPoses(_robot: Robot, how: LivePoses): void { poses = how; showJoints(live.q_rad); }
+export function followPoses(robot: Robot, how: LivePoses): void {
+  poses = how;
+  if (live.q_rad.length !== robot.arm.joints.length) live.q_rad = Float64Array.from(robot.home_rad);
+  showJoints(live.q_rad);
+}
 
 /** Shows these joint angles from the next frame on. */
 export function showJoints(q_rad: ArrayLike<number>): void {

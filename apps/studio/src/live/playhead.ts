@@ -1,7 +1,7 @@
 import { playStore } from "../stores/play.ts";
 import { onSeek } from "../stores/seek.ts";
 import { onFrame } from "./frames.ts";
-import { showJoints } from "./live.ts";
+import { showJoints, theLive } from "./live.ts";
 import { leaveRobot, takeRobot } from "./owner.ts";
 
 /** Joint angles at a moment, written to `out`. */
@@ -11,7 +11,7 @@ interface Reel { readonly duration_s: number; readonly sampleAt: SampleAt }
 /** The exact time lives here; the store hears of it at most ten times a second. */
 const TELL_EVERY_MS = 100;
 let reel: Reel | null = null, t_s = 0, told_ms = 0;
-const q = new Float64Array(6);
+let q = new Float64Array(6);
 
 export const playheadNow = (): number => t_s;
 
@@ -23,6 +23,7 @@ export function loadReel(next: Reel | null): void {
 }
 function show(now_ms: number, always: boolean): void {
   if (!reel) return;
+  if (q.length !== theLive().q_rad.length) q = new Float64Array(theLive().q_rad.length);
   reel.sampleAt(t_s, q);
   showJoints(q);
   if (always || now_ms - told_ms >= TELL_EVERY_MS) { told_ms = now_ms; playStore.setState({ t_s }); }

@@ -1,5 +1,5 @@
 import { createGuard, createTwin, createVirtualController, textSteps, type Guard, type Twin, type VirtualController } from "@twincell/controllers";
-import type { CommandOutcome, Dialect, EmittedFile, Pose, Program, Robot, Scheduler, Step } from "@twincell/core";
+import type { CommandOutcome, Dialect, EmittedFile, Pose, Program, Robot, Scheduler, Signals, Step } from "@twincell/core";
 import { createRunRecorder, type RunRecorder } from "@twincell/recording";
 import { controlStore } from "../stores/control.ts";
 import { historyStore, type RunEnding } from "../stores/history.ts";
@@ -35,28 +35,38 @@ const TELL_EVERY_S = 0.1;
  * Emits the program, interprets that very text, and gives the steps it amounts to. A step of the text keeps the id of the
  * program step its line was written for, so that screen and recording speak of the same thing.
  */
-export function prepareRun(dialect: Dialect, program: Program, { robot, worldFromBase }: Pick<RunSetting, "robot" | "worldFromBase">, onLine: (step: string, line: number) => void): Prepared {
+export function prepareRun(dialect: Dialect, program: Program, { robot, worldFromBase }: Pick<RunSetting, "robot" | "worldFromBase">, onLine: (step: string, line: number) => void, signals?: Signals): Prepared {
   const emitted = dialect.emit(program, robot, worldFromBase);
   if (emitted.kind === "cannot") return { kind: "not-emitted", sentence: emitted.sentence, hint: emitted.hint };
-  const file = runnable(emitted.files);
+  const file = dialect.runnable?.(emitted.files) ?? emitted.files[0]!;
   const interpreted = dialect.interpret(file.text, robot, worldFromBase);
   if (interpreted.kind === "not-understood") {
     const [first] = interpreted.faults;
     return { kind: "not-understood", sentence: first ? `Line ${first.line}, column ${first.column}: ${first.sentence}` : "", hint: "Export the text and look at that line." };
   }
-  const text = textSteps(interpreted.run);
+  const called = programNames(program.signals, interpreted.context.signals ?? {});
+  const read: Signals | undefined = signals && { read: signal => signals.read(called(signal)), write: (signal, value) => { signals.write(called(signal), value); } };
+  const text = textSteps(() => interpreted.run(read));
   function* steps(): Generator<Step> {
     for (const step of text.steps) {
       const line = text.lineOf(step.id), id = file.lines[line - 1] || step.id;
       onLine(id, line);
-      yield { ...step, id };
+      yield { ...withSignals(step, called), id };
     }
   }
   return { kind: "ready", file, steps, context: interpreted.context };
 }
 
-/** The program proper comes with a list of its points; the program is the file that says what to do with most of its lines. */
-const runnable = (files: readonly EmittedFile[]): EmittedFile => files.find(file => /^\s*\.PROGRAM/im.test(file.text)) ?? files[0]!;
+/** What the program calls a line that the text has its own name for: both know its number. */
+function programNames(mine: Program["signals"], theirs: Program["signals"]): (signal: string) => string {
+  const byNumber = new Map(Object.entries(mine).map(([name, { address }]) => [address, name]));
+  return signal => { const address = theirs[signal]?.address; return (address === undefined ? undefined : byNumber.get(address)) ?? signal; };
+}
+function withSignals(step: Step, called: (signal: string) => string): Step {
+  if (step.type === "set") return { ...step, signal: called(step.signal) };
+  return step.type === "wait-for" ? { ...step, when: { ...step.when, signal: called(step.when.signal) } } : step;
+}
+
 
 /** The virtual controller of the page, its guard and its twin, for as long as the cell is open. */
 export interface CellControl {
@@ -114,7 +124,7 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
 
   async function run(program: Program, cellName: string): Promise<CommandOutcome | Exclude<Prepared, { kind: "ready" }>> {
     lines.clear();
-    const prepared = prepareRun(world.dialect, program, { robot, worldFromBase }, (step, line) => lines.set(step, line));
+    const prepared = prepareRun(world.dialect, program, { robot, worldFromBase }, (step, line) => lines.set(step, line), virtual.signals);
     if (prepared.kind !== "ready") return prepared;
     // A virtual robot may jump (row T-18): it starts from where the robot on screen stands.
     const jumped = virtual.jumpTo(theLive().q_rad);

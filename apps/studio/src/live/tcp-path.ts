@@ -1,4 +1,4 @@
-import { armScratch, compose, flangePose, identity, samplePlan, type Plan, type Pose, type Program, type Robot, type Vector3, type Verdict } from "@twincell/core";
+import { armScratch, compose, everyStep, flangePose, identity, samplePlan, type Plan, type Pose, type Program, type Robot, type Vector3, type Verdict } from "@twincell/core";
 import type { PathStretch } from "../stores/play.ts";
 
 /** Between two drawn points the TCP moves by less than a few millimetres at ordinary speeds. */
@@ -24,7 +24,7 @@ export function tcpPath(plan: Plan, verdict: Verdict, program: Program, robot: R
 
 function toolsByStep(program: Program): ReadonlyMap<string, Pose<"flange", "tcp">> {
   const tools = new Map<string, Pose<"flange", "tcp">>();
-  for (const step of program.steps) {
+  for (const step of everyStep(program)) {
     const tool = step.type === "move" && step.target.tool !== undefined ? program.tools[step.target.tool] : undefined;
     if (tool) tools.set(step.id, tool);
   }

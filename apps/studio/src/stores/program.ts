@@ -1,16 +1,26 @@
 import {
-  applyRepair, duplicateSteps, freshStepId, insertSteps, moveSteps, removeSteps, replaceStep,
-  type Condition, type MoveStep, type Program, type Repair, type Speed, type Step, type Verdict,
+  applyRepair, duplicateSteps, everyStep, freshStepId, insertAfter, insertInto, insertSteps, isBlock, moveBefore, moveInto, moveSteps, removeSteps, replaceStep, stepById, withSignal, wrapInRepeat,
+  type Condition, type ListPlace, type MoveStep, type Program, type Repair, type SignalLine, type Speed, type Step, type Verdict,
 } from "@twincell/core";
 import { words } from "../words/index.ts";
 import { commit, theProgram, withProgram } from "./document.ts";
 import { select, selectionStore } from "./selection.ts";
 
-/** Where new steps go: after the selected one, or at the end. */
-function insertionIndex(program: Program): number {
-  const { selected } = selectionStore.getState();
-  const at = selected?.kind === "step" ? program.steps.findIndex(step => step.id === selected.id) : -1;
-  return at < 0 ? program.steps.length : at + 1;
+/** A step wherever it is, with its number in the order in which the program is written, from 0. */
+export function findStep(program: Program, id: string): { readonly step: Step; readonly index: number } | undefined {
+  let index = 0;
+  for (const step of everyStep(program)) {
+    if (step.id === id) return { step, index };
+    index++;
+  }
+  return undefined;
+}
+
+/** Where new steps go: after the selected one, into the selected block, or at the end. */
+function insertSelected(program: Program, steps: readonly Step[]): Program {
+  const { selected } = selectionStore.getState(), found = selected?.kind === "step" ? findStep(program, selected.id)?.step : undefined;
+  if (found === undefined) return insertSteps(program, program.steps.length, steps);
+  return isBlock(found) ? insertInto(program, { block: found.id }, Number.POSITIVE_INFINITY, steps) : insertAfter(program, found.id, steps);
 }
 const edit = (label: string, change: (program: Program) => Program, gesture?: string): boolean =>
   commit(label, document => withProgram(document, change), gesture);
@@ -19,9 +29,8 @@ const edit = (label: string, change: (program: Program) => Program, gesture?: st
 export function addSteps(label: string, make: (program: Program) => readonly Step[], change: (program: Program) => Program = program => program, gesture?: string): boolean {
   const program = theProgram();
   if (!program) return false;
-  const steps = make(program), at = insertionIndex(program);
-  const last = steps.at(-1);
-  if (!last || !edit(label, before => change(insertSteps(before, at, steps)), gesture)) return false;
+  const steps = make(program), last = steps.at(-1);
+  if (!last || !edit(label, before => change(insertSelected(before, steps)), gesture)) return false;
   select({ kind: "step", id: last.id });
   return true;
 }
@@ -37,9 +46,33 @@ export function recordPoint(path: MoveStep["path"], q_rad: ArrayLike<number>, to
 export const addWait = (s: number): boolean => addSteps(words.undo.addWait, program => [{ id: freshStepId(program, "w"), type: "wait", s }]);
 export const addGripper = (closed: boolean): boolean => addSteps(words.undo.addGripper, program => [{ id: freshStepId(program, "g"), type: "gripper", closed }]);
 
+export const addComment = (): boolean => addSteps(words.undo.addComment, program => [{ id: freshStepId(program, "c"), type: "comment", text: "" }]);
+/** A signal the program has is taken; one that has none gets its first. */
+export const addSet = (): boolean => {
+  const name = lineOf("digital-out") ?? words.step.output;
+  return addSteps(words.undo.addSet, program => [{ id: freshStepId(program, "o"), type: "set", signal: name, to: true }], program => withLine(program, name, { kind: "digital-out", address: 1 }));
+};
+export const addWaitFor = (): boolean => {
+  const name = lineOf("digital-in") ?? words.step.input;
+  return addSteps(words.undo.addWaitFor, program => [{ id: freshStepId(program, "i"), type: "wait-for", when: { signal: name, is: true } }], program => withLine(program, name, { kind: "digital-in", address: 1001 }));
+};
+const lineOf = (kind: SignalLine["kind"]): string | undefined => Object.entries(theProgram()?.signals ?? {}).find(([, line]) => line.kind === kind)?.[0];
+const withLine = (program: Program, name: string, line: SignalLine): Program => (Object.hasOwn(program.signals, name) ? program : withSignal(program, name, line));
+/** A loop around the selected step, or an empty one. */
+export function addRepeat(): boolean {
+  const program = theProgram(), { selected } = selectionStore.getState();
+  if (!program) return false;
+  const id = freshStepId(program, "r"), around = selected?.kind === "step" && findStep(program, selected.id) ? selected.id : undefined;
+  const done = around === undefined
+    ? addSteps(words.undo.addRepeat, () => [{ id, type: "repeat", times: 2, steps: [] }])
+    : edit(words.undo.addRepeat, before => wrapInRepeat(before, [around], 2));
+  if (done) select({ kind: "step", id });
+  return done;
+}
+
 export function changeStep(id: string, label: string, change: (step: Step) => Step, gesture?: string): boolean {
   return edit(label, program => {
-    const before = program.steps.find(step => step.id === id);
+    const before = stepById(program, id);
     if (!before) return program;
     const after = change(before);
     return after === before ? program : replaceStep(program, id, after);
@@ -58,19 +91,19 @@ export const renameStep = (id: string, name: string): boolean => changeStep(id, 
 });
 
 export function deleteSteps(ids: readonly string[]): boolean {
-  const first = theProgram()?.steps.findIndex(step => ids.includes(step.id)) ?? -1;
+  const before = theProgram(), first = before ? Array.from(everyStep(before)).findIndex(step => ids.includes(step.id)) : -1;
   if (!edit(words.undo.deleteSteps(ids.length), program => removeSteps(program, ids))) return false;
-  const left = theProgram()?.steps ?? [];
+  const after = theProgram(), left = after ? [...everyStep(after)] : [];
   const next = left[Math.min(Math.max(0, first), left.length - 1)];
   select(next ? { kind: "step", id: next.id } : null);
   return true;
 }
 export const copySteps = (ids: readonly string[]): boolean => edit(words.undo.duplicate, program => duplicateSteps(program, ids));
-/** Puts the steps, in their order, before the step `before`, or at the end when it is null. */
-export const placeSteps = (ids: readonly string[], before: string | null): boolean => edit(words.undo.reorder, program => {
-  if (before !== null && ids.includes(before)) return program;
-  const rest = program.steps.filter(step => !ids.includes(step.id));
-  return moveSteps(program, ids, before === null ? rest.length : rest.findIndex(step => step.id === before));
+/** Puts the steps, in their order, before the step `before`, into a list, or at the end when it is null. */
+export const placeSteps = (ids: readonly string[], before: string | null | ListPlace): boolean => edit(words.undo.reorder, program => {
+  if (before === null) return moveSteps(program, ids, program.steps.length);
+  if (typeof before !== "string" || before === "main") return moveInto(program, ids, before, Number.POSITIVE_INFINITY);
+  return ids.includes(before) ? program : moveBefore(program, ids, before);
 });
 export function clearProgram(): boolean {
   const done = edit(words.undo.clear, program => (program.steps.length === 0 ? program : { ...program, steps: [], groups: {} }));

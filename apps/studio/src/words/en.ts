@@ -45,13 +45,13 @@ export const en = {
     set: (signal: string, to: string) => `Set ${signal} to ${to}`, pulse: (signal: string, to: string, s: number) => `Pulse ${signal} ${to} for ${s} s`, waitFor: (condition: string) => `Wait until ${condition}`,
     is: (signal: string, to: string) => `${signal} is ${to}`, above: (signal: string, level: number) => `${signal} is above ${level}`, below: (signal: string, level: number) => `${signal} is below ${level}`,
     payload: (kg: number) => `Payload ${kg} kg`, say: (text: string) => `Say “${text}”`, stop: "End the program", comment: "Comment", call: (routine: string) => `Do ${routine}`,
-    repeat: (times: number) => (times === 1 ? "Once" : `Repeat ${times} times`), forever: "Repeat for ever", if: (condition: string) => `If ${condition}`, else: "Otherwise", pallet: (pallet: string) => `At each place of ${pallet}`, path: { ptp: "PTP", lin: "LIN", circ: "CIRC", spline: "SPL" },
+    repeat: (times: number) => (times === 1 ? "Once" : `Repeat ${times} times`), forever: "Repeat for ever", if: (condition: string) => `If ${condition}`, else: "Otherwise", input: "Input 1", output: "Output 1", signal: "Signal", to: "To", until: "Until it is", text: "Text", times: "Times", endless: "For ever", counted: "Counted", routine: (name: string) => `Routine ${name}`, pallet: (pallet: string) => `At each place of ${pallet}`, path: { ptp: "PTP", lin: "LIN", circ: "CIRC", spline: "SPL" },
     pathLabel: "Path", speed: "Speed", ofJoint: "of joint speed", blend: "Blend", target: "Target", waitTime: "Waiting time", joints: "Joints", position: "Position", gripper: "Gripper", open2: "open", closed: "closed",
     name: "Name", unreachable: (sentence: string) => `The point stays where it was. ${sentence}`, duration: "Duration", kindOfSpeed: "Speed as",
     kinds: { ratio: "% of joints", mps: "TCP speed", time_s: "duration" },
   },
   undo: {
-    recordPoint: "Record point", recordPath: "Record path", addWait: "Add wait", addGripper: "Add gripper step", touchUp: "Touch up point", rename: "Rename", deleteSteps: (n: number) => `Delete ${plural(n, "step")}`, duplicate: "Duplicate",
+    recordPoint: "Record point", recordPath: "Record path", addWait: "Add wait", addGripper: "Add gripper step", addSet: "Add signal step", addWaitFor: "Add wait for a signal", addComment: "Add comment", addRepeat: "Add loop", signal: "Change signal", comment: "Change comment", times: "Change loop", touchUp: "Touch up point", rename: "Rename", deleteSteps: (n: number) => `Delete ${plural(n, "step")}`, duplicate: "Duplicate",
     reorder: "Reorder", clear: "Clear program", repair: "Apply repair", repairAll: "Repair all", moveObject: "Move object", size: "Change size", tool: "Choose tool", trace: "Trace edges", speed: "Change speed", blend: "Change blend",
     path: "Change path", target: "Change target", wait: "Change wait", addObject: "Add object", deleteObject: "Delete object", import: "Import program", cellName: "Rename cell", moveRobot: "Move robot", gripper: "Change gripper",
     done: (label: string) => `Undone: ${label}.`, redone: (label: string) => `Done again: ${label}.`, nothing: "There is nothing to undo.", nothingAhead: "There is nothing to redo.",
@@ -61,7 +61,7 @@ export const en = {
     atLeast: (name: string, limit: string, unit: string) => `${name} is at least ${limit} ${unit}.`, atMost: (name: string, limit: string, unit: string) => `${name} is at most ${limit} ${unit}.`,
   },
   inspector: {
-    nothing: "Nothing is selected. Click a part of the cell or a step to see and change its numbers.", robot: "Robot", base: "Stands at", joints: "Joint angles", reach: "Reach", payload: "Payload", repeatability: "Repeatability", tcpSpeed: "Fastest TCP",
+    nothing: "Nothing is selected. Click a part of the cell or a step to see and change its numbers.", robot: "Robot", base: "Stands at", joints: "Joint angles", reach: "Reach", payload: "Payload", repeatability: "Repeatability", tcpSpeed: "Fastest TCP", shapeError: "Drawn shape is off by up to", mass: "Mass",
     assumptions: "Assumed, not published", object: "Object", position: "Position", size: "Size", role: "Role", tool: "Tool", tcp: "TCP on the flange", frame: "Frame", width: "along x", depth: "along y", height: "along z", step: "Step",
     joint: (n: number) => `Joint ${n}`, margin: (deg: string) => `${deg}° to the limit`, rotation: "Turned", shape: "Shape", shapes: { box: "box", cylinder: "cylinder", revolved: "turned part", mesh: "mesh" }, group: "Group",
     manySteps: (n: number) => `${n} points of one trace`, speedAll: "Speed of all points",
@@ -149,7 +149,7 @@ export const en = {
   },
   commands: {
     stop: "Stop everything", undo: "Undo", redo: "Redo", save: "Save to file", load: "Open file …", example: "Open the edge-trace example", fresh: "New empty cell", palette: "All commands", shortcuts: "Keyboard shortcuts", controls: "Controls: keys and gamepad", export: "Export V+", import: "Import V+ text",
-    teach: "Teach", check: "Check", run: "Run", history: "History", theme: "Theme: light or dark", mute: "Sounds on or off", camera: "Main or close camera", headset: "Enter the headset", trace: "Trace edges", recordPtp: "Record point, PTP", recordLin: "Record point, LIN", recordMoving: "Record while moving: on or off", touchUp: "Touch up the selected point", wait: "Add a wait", gripperClose: "Add: close gripper", gripperOpen: "Add: open gripper",
+    teach: "Teach", check: "Check", run: "Run", history: "History", theme: "Theme: light or dark", mute: "Sounds on or off", camera: "Main or close camera", headset: "Enter the headset", trace: "Trace edges", recordPtp: "Record point, PTP", recordLin: "Record point, LIN", recordMoving: "Record while moving: on or off", touchUp: "Touch up the selected point", wait: "Add a wait", gripperClose: "Add: close gripper", gripperOpen: "Add: open gripper", set: "Add: set a signal", waitFor: "Add: wait for a signal", comment: "Add: comment", repeat: "Add: loop around the step",
     ready: "Do Ready: go home", zero: "All joints to zero", aidNext: "Next orientation aid", aidPrevious: "Previous orientation aid", remove: "Delete what is selected", duplicate: "Duplicate the selected step", clear: "Clear the program", play: "Play or pause", stepOn: "Next step", stepBack: "Previous step", start: "To the start", checkNow: "Check now", repairAll: "Repair all", plots: "Plots", up: "Move the step up", down: "Move the step down", rename: "Rename", startRun: "Run on the virtual controller", frame: (name: string) => `Jog in ${name}`, coach: "Show the coach again", box: "Add a box", deselect: "Leave",
   },
   sheet: { label: "Tools", jog: "Jog", program: "Program", why: "Why", run: "Run", dead: "Hold to move" },

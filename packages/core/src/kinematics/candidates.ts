@@ -15,7 +15,7 @@ export const VERIFIED = { position_m: 1e-9, angle_rad: 1e-9 } as const;
 /** A candidate worse than this is refined: the arm's file may round its right angles, and a searched root is only near. */
 const EXACT = 1e-12;
 /** Refinement of an answer that is verified already turns no joint that is not free by more than this [rad]. */
-const FREE_RAD = 1e-4;
+const FREE_RAD = 1e-2;
 
 /** Working memory of the solvers: one per caller, for arms of any family one after another. */
 export interface SolverScratch {

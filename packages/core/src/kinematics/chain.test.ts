@@ -1,5 +1,6 @@
 import { expect, test } from "vitest";
-import { angleBetween, armScratch, compose, distance, flangePose, fromAxisAngle, identity, inverse, linkPoses, pose, robotById, seededRandom, type Pose, type SerialArm } from "../index.ts";
+import { angleBetween, LIBRARY, armScratch, compose, distance, flangePose, fromAxisAngle, identity, inverse, linkPoses, pose, robotById, seededRandom, type Pose, type SerialArm } from "../index.ts";
+import { elbowChainOf } from "./elbow-chain.ts";
 
 const limits = { lower_rad: -100, upper_rad: 100, speed_rad_s: 1, acceleration_rad_s2: 1 };
 const turntable: SerialArm = { name: "turntable", joints: [{ name: "1", axis: [0, 0, 1], parentFromJoint: pose(), limits }], lastJointFromFlange: pose() };
@@ -38,5 +39,23 @@ test("N-05 the links are a hierarchy: each follows its parent, and a joint carri
       }
       expect(gap(after[i + 1]!, before[i + 1]!)).toBeGreaterThan(0.29);
     }
+  }
+});
+
+test("arms built at right angles take the straight line of arithmetic, and it is the walk's to 1e-15 m and its very quaternion; others walk", () => {
+  const random = seededRandom(77), links = Array.from({ length: 7 }, () => identity<"base", "link">());
+  const straight = LIBRARY.filter(({ arm }) => elbowChainOf(arm) !== null).map(({ id }) => id);
+  expect(straight).toEqual(expect.arrayContaining(["staubli_rx90l", "kuka_kr6r900sixx", "abb_irb120"]));
+  expect(straight).not.toContain("ur10e");
+  for (const id of straight) {
+    const { arm } = robotById(id)!, last = arm.lastJointFromFlange;
+    for (let k = 0; k < 300; k++) {
+      const q = arm.joints.map(() => (random() - 0.5) * 14), flange = flangePose(arm, q);
+      linkPoses(arm, q, links);
+      const walked = compose<"base", "joint", "flange">(pose(links[6]!.position, links[6]!.quaternion), last);
+      expect(distance(flange.position, walked.position)).toBeLessThan(3e-15);
+      flange.quaternion.forEach((value, i) => { expect(Math.abs(value - walked.quaternion[i]!)).toBeLessThan(3e-15); });
+    }
+    expect(flangePose(arm, [0, 0, NaN, 0, 0, 0]).quaternion[0]).toBeNaN();
   }
 });

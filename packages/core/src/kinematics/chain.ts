@@ -2,14 +2,18 @@ import { JointCountFault } from "../fault.ts";
 import type { SerialArm } from "../robots/arm.ts";
 import type { Pose } from "../spatial/pose.ts";
 import type { Vector3 } from "../spatial/vector.ts";
+import { elbowChainOf } from "./elbow-chain.ts";
 
 /** Working memory of `flangePose` and its kin: one per caller, never shared between workers. */
 export interface ArmScratch {
   /** The arm last asked for, laid out flat. */
   arm: SerialArm | null;
   chain: Float64Array;
+  /** The same as an elbow chain, where the arm is one. */
+  elbow: Float64Array | null;
+  readonly trig: Float64Array;
 }
-export const armScratch = (): ArmScratch => ({ arm: null, chain: new Float64Array(0) });
+export const armScratch = (): ArmScratch => ({ arm: null, chain: new Float64Array(0), elbow: null, trig: new Float64Array(12) });
 
 /** Numbers per joint of a flat chain: position, quaternion, axis, which axis, along which axis it is moved, whether turned. */
 const STRIDE = 13;
@@ -33,6 +37,7 @@ export function chainOf(arm: SerialArm, q: ArrayLike<number>, scratch: ArmScratc
   });
   scratch.arm = arm;
   scratch.chain = chain;
+  scratch.elbow = elbowChainOf(arm);
   return chain;
 }
 

@@ -1,6 +1,7 @@
 import type { SerialArm } from "../robots/arm.ts";
 import { identity, type Pose } from "../spatial/pose.ts";
 import { armScratch, chainOf, walk, type ArmScratch } from "./chain.ts";
+import { elbowFlange } from "./elbow-chain.ts";
 
 export { armScratch, type ArmScratch } from "./chain.ts";
 
@@ -19,7 +20,8 @@ export { armScratch, type ArmScratch } from "./chain.ts";
 export function flangePose(
   arm: SerialArm, q: ArrayLike<number>, out: Pose<"base", "flange"> = identity(), scratch: ArmScratch = armScratch(),
 ): Pose<"base", "flange"> {
-  walk(chainOf(arm, q, scratch), q, out, null, null);
+  const chain = chainOf(arm, q, scratch);
+  if (scratch.elbow === null) walk(chain, q, out, null, null); else elbowFlange(scratch.elbow, q, out, scratch.trig);
   return out;
 }
 

@@ -11,6 +11,7 @@ export { generalSixScratch, type GeneralSixScratch } from "./general-six.ts";
 export { refine, refineScratch, type RefineScratch } from "./refine.ts";
 export * from "./elbow.ts";
 export * from "./inverse.ts";
+export * from "./batch.ts";
 export * from "./span.ts";
 export * from "./singularity.ts";
 export * from "./workspace.ts";

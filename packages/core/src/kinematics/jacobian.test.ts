@@ -46,7 +46,8 @@ describe.each([["Stäubli RX90L", robot.arm], ["seven odd axes", odd]] as const)
   test("leaves the flange's pose in the scratch, and a tip at the flange is no tip", () => {
     const q = angles(arm.joints.length), scratch = jacobianScratch(arm.joints.length);
     const rows = jacobian(arm, q, null, undefined, scratch), flange = flangePose(arm, q);
-    expect(scratch.baseFromFlange).toEqual(flange);
+    // The pose alone is had by a shorter way of reckoning: equal but for the last digits.
+    [...flange.position, ...flange.quaternion].forEach((value, i) => { expect([...scratch.baseFromFlange.position, ...scratch.baseFromFlange.quaternion][i]).toBeCloseTo(value, 13); });
     expect([...jacobian(arm, q, [0, 0, 0])]).toEqual([...rows]);
   });
 });

@@ -7,6 +7,7 @@ export * from "./derive-spherical-seven.ts";
 export * from "./derive-general-six.ts";
 export * from "./family.ts";
 export * from "./foreign.ts";
+export * from "./parse-robot.ts";
 export * from "./dh.ts";
 export * from "./aligned.ts";
 export * from "./library/index.ts";

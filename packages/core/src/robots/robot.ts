@@ -2,6 +2,7 @@ import type { Pose } from "../spatial/pose.ts";
 import type { Quaternion } from "../spatial/quaternion.ts";
 import type { Vector3 } from "../spatial/vector.ts";
 import type { LinkMass, SerialArm } from "./arm.ts";
+import type { RobotForm, RobotPaint } from "./shapes/form.ts";
 
 /**
  * Ortho-parallel basis with spherical wrist, seven lengths (Brandstötter, Angerer, Hofbaur 2014).
@@ -114,6 +115,10 @@ export interface Robot {
   readonly masses?: readonly LinkMass[];
   /** True when nobody publishes the lengths of the arm and they were made up: results on geometry say nothing about the real robot. */
   readonly madeUpGeometry?: boolean;
+  /** How it looks; without it the arm is drawn from its dimensions alone. */
+  readonly form?: RobotForm;
+  /** Colours as the maker paints it. */
+  readonly paint?: RobotPaint;
   /** quantity → where the number comes from. */
   readonly sources: Readonly<Record<string, string>>;
   /** What is not published and was assumed, one sentence each; shown beside every result that rests on it. */

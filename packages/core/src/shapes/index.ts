@@ -3,3 +3,4 @@ export * from "./polygon.ts";
 export * from "./assemble.ts";
 export * from "./measure.ts";
 export * from "./weld.ts";
+export * from "./deviation.ts";

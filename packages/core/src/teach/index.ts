@@ -2,5 +2,5 @@ export * from "./jogged.ts";
 export * from "./jog.ts";
 export * from "./clutch.ts";
 export * from "./aids.ts";
-export * from "./glove.ts";
 export * from "./follow-target.ts";
+export * from "./glove.ts";

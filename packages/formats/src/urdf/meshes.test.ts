@@ -1,6 +1,6 @@
 import { describe, expect, test } from "vitest";
 import { boxMesh, flangePose, linkPoses, identity, robotById, seededRandom, sphereMesh } from "@twincell/core";
-import { armFromUrdf, filesInMemory, loadMeshes, readUrdf, urdfSolids, writeStl, writeUrdf } from "../index.ts";
+import { armFromUrdf, filesInMemory, loadMeshes, readUrdf, solidShapes, urdfSolids, writeStl, writeUrdf } from "../index.ts";
 
 const rx90l = robotById("staubli_rx90l")!.arm, text = writeUrdf(rx90l, { meshesOf: link => [`package://rx90l/meshes/Link_${link}.stl`] });
 function chain() {
@@ -12,7 +12,7 @@ const folder = (shape: (link: number) => Uint8Array | undefined) => filesInMemor
 
 test("T-52, N-05 pivots are the drawing's values, whatever meshes hang on them", () => {
   const files = [folder(() => writeStl(boxMesh([0.1, 0.1, 0.3]))), folder(link => writeStl(sphereMesh(0.05 + link / 50, 12, 6)))];
-  const [boxes, balls] = files.map(source => { const found = chain(); return { found, solids: urdfSolids(found, loadMeshes(found, "rx90l/urdf/rx90l.urdf", source).meshOf).solids }; });
+  const [boxes, balls] = files.map(source => { const found = chain(); return { found, solids: urdfSolids(found, loadMeshes(solidShapes(found), "rx90l/urdf/rx90l.urdf", source).meshOf).solids }; });
   expect(boxes!.solids.map(({ link }) => link)).toEqual([0, 1, 2, 3, 4, 5, 6]);
   expect(boxes!.solids.map(({ mesh }) => mesh.indices.length)).not.toEqual(balls!.solids.map(({ mesh }) => mesh.indices.length));
 
@@ -32,7 +32,7 @@ test("T-52, N-05 pivots are the drawing's values, whatever meshes hang on them",
 describe("L-08 a missing mesh is listed and the rest is loaded", () => {
   test("missing, of another kind, spelt otherwise", () => {
     const found = chain(), files = folder(link => (link === 2 ? undefined : link === 3 ? new TextEncoder().encode("no mesh") : writeStl(boxMesh([0.1, 0.1, 0.1]))));
-    const { meshOf, missing, notes } = loadMeshes(found, "rx90l/urdf/rx90l.urdf", files), { solids, missing: unseen } = urdfSolids(found, meshOf);
+    const { meshOf, missing, notes } = loadMeshes(solidShapes(found), "rx90l/urdf/rx90l.urdf", files), { solids, missing: unseen } = urdfSolids(found, meshOf);
     expect(solids.map(({ link }) => link)).toEqual([0, 1, 4, 5, 6]);
     expect(missing).toEqual([2, 3].map(link => `package://rx90l/meshes/Link_${link}.stl`));
     expect(unseen).toEqual(missing);

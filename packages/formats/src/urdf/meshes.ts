@@ -2,7 +2,7 @@ import type { TriangleMesh } from "@twincell/core";
 import { resolveFile } from "../files/resolve.ts";
 import { folderOf, joinPath, nameOf, type FileSource } from "../files/source.ts";
 import { readMesh } from "../mesh/read-mesh.ts";
-import type { UrdfChain } from "./chain.ts";
+import type { PlacedShape } from "./chain.ts";
 
 /** Meshes of a robot's shapes, each read once. */
 export interface LoadedMeshes {
@@ -14,13 +14,13 @@ export interface LoadedMeshes {
 }
 
 /**
- * Loads the meshes that a chain's shapes name. A missing one is listed, and the rest is loaded all the same.
+ * Loads the meshes that shapes of a chain name: `chain.shapes` to draw it, `solidShapes(chain)` to check it. A missing one is listed, and the rest is loaded all the same.
  *
  * @param path  of the robot file, where its references start from.
  */
-export function loadMeshes(chain: UrdfChain, path: string, files: FileSource): LoadedMeshes {
+export function loadMeshes(shapes: readonly PlacedShape[], path: string, files: FileSource): LoadedMeshes {
   const meshes = new Map<string, TriangleMesh>(), missing: string[] = [], notes: string[] = [], seen = new Set<string>();
-  for (const { shape: { geometry } } of chain.shapes) {
+  for (const { shape: { geometry } } of shapes) {
     if (geometry.kind !== "mesh" || seen.has(geometry.reference)) continue;
     const { reference } = geometry, found = resolveFile(reference, path, files);
     seen.add(reference);

@@ -1,5 +1,5 @@
 import { boxMesh, cylinderMesh, sphereMesh, transformMesh, type LinkSolid, type TriangleMesh } from "@twincell/core";
-import type { UrdfChain } from "./chain.ts";
+import type { PlacedShape, UrdfChain } from "./chain.ts";
 import type { UrdfGeometry } from "./model.ts";
 
 /** Where a mesh reference points: a package by name, or a path beside the robot file. */
@@ -44,6 +44,12 @@ function stretched(mesh: TriangleMesh, factors: readonly number[]): TriangleMesh
   return { positions, indices: mesh.indices.map((_, i, all) => all[i % 3 === 0 ? i : i % 3 === 1 ? i + 1 : i - 1]!) };
 }
 
+/** The shapes that count in collisions: a link without collision shapes is taken as it is drawn. */
+export function solidShapes(chain: UrdfChain): readonly PlacedShape[] {
+  const withCollision = new Set(chain.shapes.filter(({ use }) => use === "collision").map(({ name }) => name));
+  return chain.shapes.filter(({ use, name }) => use === "collision" || !withCollision.has(name));
+}
+
 /**
  * The robot's solids for collision checking. A link without collision shapes is taken as it is drawn.
  *
@@ -51,9 +57,7 @@ function stretched(mesh: TriangleMesh, factors: readonly number[]): TriangleMesh
  */
 export function urdfSolids(chain: UrdfChain, meshOf: (reference: string) => TriangleMesh | undefined): { readonly solids: readonly LinkSolid[]; readonly missing: readonly string[] } {
   const solids: LinkSolid[] = [], missing = new Set<string>();
-  const withCollision = new Set(chain.shapes.filter(({ use }) => use === "collision").map(({ name }) => name));
-  for (const { link, name, use, armLinkFromShape, shape } of chain.shapes) {
-    if (use === "visual" && withCollision.has(name)) continue;
+  for (const { link, name, armLinkFromShape, shape } of solidShapes(chain)) {
     const mesh = geometryMesh(shape.geometry, meshOf);
     if (mesh) solids.push({ link, name, mesh: transformMesh(mesh, armLinkFromShape) });
     else if (shape.geometry.kind === "mesh") missing.add(shape.geometry.reference);

@@ -4,7 +4,7 @@ import { useStore } from "zustand";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { programOf } from "../../stores/document.ts";
-import { firstRepairs, repairStep, stepWords } from "../../stores/program.ts";
+import { firstRepairs, repairStep, findStep, stepWords } from "../../stores/program.ts";
 import { select } from "../../stores/selection.ts";
 import { previewStep, seek } from "../../stores/seek.ts";
 import { words } from "../../words/index.ts";
@@ -29,8 +29,7 @@ export function WhyCards({ verdict }: { verdict: Verdict }) {
 
 /** The group it happens in, or the step itself. */
 function subjectOf(program: Program, card: Why): string {
-  const index = program.steps.findIndex(step => step.id === card.step), step = program.steps[index];
-  const point = step ? stepWords(step, index) : card.step, group = card.group === undefined ? undefined : program.groups[card.group]?.name;
+  const found = findStep(program, card.step), point = found ? stepWords(found.step, found.index) : card.step, group = card.group === undefined ? undefined : program.groups[card.group]?.name;
   return group === undefined || point.startsWith(group) ? point : `${group} · ${point}`;
 }
 

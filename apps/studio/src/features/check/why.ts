@@ -1,4 +1,4 @@
-import type { Finding, Program, Repair, StepVerdict, Verdict } from "@twincell/core";
+import { everyStep, type Finding, type Program, type Repair, type StepVerdict, type Verdict } from "@twincell/core";
 
 /** Findings that say the same of steps that follow one another: one card. */
 export interface Why {
@@ -13,7 +13,7 @@ export interface Why {
 
 /** One card for each cause: same code, same joint, same group, steps in a row. The worst value speaks for all. */
 export function whyCards(verdict: Verdict, program: Program): readonly Why[] {
-  const groups = new Map(program.steps.map(step => [step.id, step.group])), cards: Why[] = [];
+  const groups = new Map(Array.from(everyStep(program), step => [step.id, step.group])), cards: Why[] = [];
   for (const report of verdict.steps) {
     const group = groups.get(report.id);
     for (const finding of report.findings) {

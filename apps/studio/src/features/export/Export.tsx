@@ -6,7 +6,7 @@ import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
 import { programOf } from "../../stores/document.ts";
 import { notify } from "../../stores/notices.ts";
 import { postStore } from "../../stores/post.ts";
-import { stepWords } from "../../stores/program.ts";
+import { findStep, stepWords } from "../../stores/program.ts";
 import { select, selectionStore } from "../../stores/selection.ts";
 import { DIALECTS, dialectById } from "@twincell/languages";
 import { Chooser, Segments } from "../../ui/Choice.tsx";
@@ -75,6 +75,6 @@ function Body() {
 }
 
 function nameOfSelected(program: NonNullable<ReturnType<typeof programOf>>, id: string): string {
-  const index = program.steps.findIndex(step => step.id === id), step = program.steps[index];
-  return step ? words.export.step(stepWords(step, index)) : "";
+  const found = findStep(program, id);
+  return found ? words.export.step(stepWords(found.step, found.index)) : "";
 }

@@ -1,6 +1,7 @@
 import { useStore } from "zustand";
 import { cellStore } from "../../stores/cell.ts";
 import { objectOf, programOf } from "../../stores/document.ts";
+import { findStep } from "../../stores/program.ts";
 import { selectionStore } from "../../stores/selection.ts";
 import { words } from "../../words/index.ts";
 import { FrameInspector } from "./FrameInspector.tsx";
@@ -23,8 +24,8 @@ export function Inspector() {
       return object ? <ObjectInspector key={object.id} object={object} /> : <p className="empty">{words.inspector.nothing}</p>;
     }
     case "step": {
-      const program = programOf(document), index = program?.steps.findIndex(step => step.id === selected.id) ?? -1, step = program?.steps[index];
-      return step && program ? <StepInspector key={step.id} program={program} step={step} index={index} /> : <p className="empty">{words.inspector.nothing}</p>;
+      const program = programOf(document), found = program ? findStep(program, selected.id) : undefined;
+      return found && program ? <StepInspector key={found.step.id} program={program} step={found.step} index={found.index} /> : <p className="empty">{words.inspector.nothing}</p>;
     }
   }
 }

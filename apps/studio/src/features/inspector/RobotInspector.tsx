@@ -11,6 +11,7 @@ export function RobotInspector({ document }: { document: CellDocument }) {
   const facts = [
     [words.inspector.reach, `${showNumber(robot.reach_m, "length", 0)} mm`], [words.inspector.payload, `${robot.payload_kg} kg`],
     [words.inspector.repeatability, `±${showNumber(robot.repeatability_m, "length", 3)} mm`], [words.inspector.tcpSpeed, `${robot.maxTcpSpeed_mps} m/s`],
+    [words.inspector.shapeError, `${showNumber(robot.shapeError_m, "length", 0)} mm`], ...(robot.mass_kg === undefined ? [] : [[words.inspector.mass, `${robot.mass_kg} kg`] as const]),
   ] as const;
   return (
     <section aria-label={robot.name}>

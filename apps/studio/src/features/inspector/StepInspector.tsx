@@ -5,6 +5,7 @@ import { Segments } from "../../ui/Choice.tsx";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../words/index.ts";
 import { PoseFields } from "./PoseFields.tsx";
+import { CommentFields, RepeatFields, SetFields, WaitForFields } from "./SignalFields.tsx";
 
 export function StepInspector({ program, step, index }: { program: Program; step: Step; index: number }) {
   const group = step.group === undefined ? undefined : program.groups[step.group];
@@ -18,6 +19,10 @@ export function StepInspector({ program, step, index }: { program: Program; step
         {step.type === "move" && <MoveFields step={step} />}
         {step.type === "wait" && <div className="pair"><span className="label">{words.step.waitTime}</span><NumberField label={words.step.waitTime} quantity="time" value={step.s} min={0} max={3600} onChange={(s, done) => changeStep(step.id, words.undo.wait, before => (before.type === "wait" ? { ...before, s } : before), done ? undefined : `wait ${step.id}`)} /></div>}
         {step.type === "gripper" && <div className="pair"><span className="label">{words.step.gripper}</span><Segments label={words.step.gripper} value={step.closed ? "closed" : "open"} options={[{ value: "open", words: words.step.open2 }, { value: "closed", words: words.step.closed }]} onChange={value => changeStep(step.id, words.undo.gripper, before => (before.type === "gripper" ? { ...before, closed: value === "closed" } : before))} /></div>}
+        {step.type === "set" && <SetFields program={program} step={step} />}
+        {step.type === "wait-for" && <WaitForFields program={program} step={step} />}
+        {step.type === "comment" && <CommentFields step={step} />}
+        {step.type === "repeat" && <RepeatFields step={step} />}
         <div className="row-flex">
           <button className="btn grow" onClick={() => runCommand("program.go-to")}>{words.tree.goTo}</button>
           {step.type === "move" && <button className="btn grow" onClick={() => runCommand("program.touch-up")}>{words.jog.touchUp}</button>}

@@ -18,7 +18,7 @@ import { PointButtons } from "./PointButtons.tsx";
 import "./pendant.css";
 
 const FRAMES: readonly JogFrame[] = ["joint", "base", "tool", "user", "world"];
-const AXES = [0, 1, 2, 3, 4, 5] as const;
+const TIP_AXES = 6;
 
 /** What a robot programmer's hands know. */
 export function Pendant() {
@@ -44,11 +44,11 @@ function Axes() {
   const frame = useStore(jogStore, state => state.frame), userFrame = useStore(jogStore, state => state.userFrame), blockedJoint = useStore(jogStore, state => state.blocked?.joint);
   const cell = useStore(cellStore, state => state.document), robot = robotOf(cell);
   const numbers = useRef<(HTMLElement | null)[]>([]), gauges = useRef<(HTMLElement | null)[]>([]), rows = useRef<(HTMLElement | null)[]>([]);
-  const values = useRef(new Float64Array(6));
-  const joint = frame === "joint";
+  const values = useRef(new Float64Array(TIP_AXES));
+  const joint = frame === "joint", axes = Array.from({ length: joint ? robot?.arm.joints.length ?? 0 : TIP_AXES }, (_, i) => i);
   useLive(live => {
     if (!joint) readTcp(live.worldFromTcp, worldFromFrameOf(cell, readFrame(frame), userFrame), values.current);
-    for (const i of AXES) {
+    for (const i of axes) {
       const value = joint ? live.q_rad[i]! : values.current[i]!, number = numbers.current[i];
       const text = joint || i > 2 ? `${showNumber(value, "angle")}°` : showNumber(value, "length");
       if (number && number.textContent !== text) number.textContent = text;
@@ -62,7 +62,7 @@ function Axes() {
   });
   return (
     <div className="axes" key={joint ? "joint" : "cartesian"}>
-      {AXES.map(axis => {
+      {axes.map(axis => {
         const name = joint ? words.time.joint(axis + 1) : words.jog.axes[axis]!;
         return (
           <div className="axis" key={axis} ref={element => { rows.current[axis] = element; }} data-blocked={blockedJoint === axis + 1 && joint}>

@@ -1,4 +1,4 @@
-import type { Plan, Program, StepVerdict, Verdict } from "@twincell/core";
+import { everyStep, type Plan, type Program, type StepVerdict, type Verdict } from "@twincell/core";
 import { worse } from "../../stores/play.ts";
 import { stepWords } from "../../stores/program.ts";
 
@@ -20,7 +20,7 @@ const THIN = 0.004;
 
 export function timelineBlocks(program: Program, plan: Plan, verdict: Verdict | null): readonly Block[] {
   const reports = new Map(verdict?.steps.map(report => [report.id, report]));
-  const places = new Map(program.steps.map((step, index) => [step.id, { step, index }]));
+  const places = new Map(Array.from(everyStep(program), (step, index) => [step.id, { step, index }]));
   const blocks: Block[] = [];
   let group: string | undefined, lastStep = "";
   for (const segment of plan.segments) {

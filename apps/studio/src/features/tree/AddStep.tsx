@@ -5,7 +5,7 @@ import { commandStore, runCommand } from "../../stores/commands.ts";
 import { showKeys } from "../../ui/keys.ts";
 import { words } from "../../words/index.ts";
 
-const IDS = ["program.record-ptp", "program.record-lin", "program.wait", "program.gripper-close", "program.gripper-open", "", "trace.toggle", "export.import", "", "program.clear"];
+const IDS = ["program.record-ptp", "program.record-lin", "program.wait", "program.wait-for", "program.set", "program.gripper-close", "program.gripper-open", "program.repeat", "program.comment", "", "trace.toggle", "export.import", "", "program.clear"];
 
 /** What can be added to the program. */
 export function AddStep() {

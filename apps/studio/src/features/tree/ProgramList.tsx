@@ -12,9 +12,9 @@ import { seekStep } from "../../stores/seek.ts";
 import { words } from "../../words/index.ts";
 import { AddStep } from "./AddStep.tsx";
 import { ProgramRowView } from "./ProgramRowView.tsx";
-import { idsOf, programRows, type ProgramRow } from "./rows.ts";
+import { anchorOf, behind, idsOf, programRows, type ProgramRow } from "./rows.ts";
 
-const rowName = (row: ProgramRow): string => (row.kind === "group" ? row.name : stepWords(row.step, row.index));
+const rowName = (row: ProgramRow): string => (row.kind === "step" ? stepWords(row.step, row.index) : row.name);
 
 /** The steps in order: grouped, virtual, reordered by drag or Alt + ↑ ↓. */
 export function ProgramList() {
@@ -30,7 +30,7 @@ export function ProgramList() {
   const size = useRowHeight(scroller);
   const virtual = useVirtualizer({ count: rows.length, getScrollElement: () => scroller.current, estimateSize: () => size, overscan: 12, getItemKey: i => rows[i]?.key ?? i });
   useEffect(() => { virtual.measure(); }, [size, virtual]);
-  const isOn = (row: ProgramRow): boolean => selected !== null && (row.kind === "step" ? row.step.id === selected : !row.open && row.steps.some(step => step.id === selected));
+  const isOn = (row: ProgramRow): boolean => selected !== null && (row.kind === "step" ? row.step.id === selected : row.kind === "group" && !row.open && row.steps.some(step => step.id === selected));
   const current = rows.findIndex(isOn);
   useEffect(() => { if (current >= 0) virtual.scrollToIndex(current, { align: "auto" }); }, [current, virtual]);
 
@@ -57,11 +57,10 @@ export function ProgramList() {
     const row = rows[index];
     if (!row || !program) return;
     const ids = idsOf(row);
-    // One line up or down; a closed group is one line, and what stands beside it is stepped over whole.
-    const neighbour = rows[index + by];
-    if (!neighbour) return;
-    const beside = by < 0 ? neighbour : rows[index + 2];
-    if (placeSteps(ids, beside ? idsOf(beside)[0] ?? null : null)) {
+    // One line up or down; a closed group is one line, a block goes with what is inside it, and lines lead into blocks and out of them.
+    const next = by < 0 ? index - 1 : behind(rows, index);
+    if (!rows[next]) return;
+    if (placeSteps(ids, anchorOf(rows[by < 0 ? next : next + 1]))) {
       setSaid(words.tree.moved(rowName(row), index + 1 + by, rows.length));
       requestAnimationFrame(() => scroller.current?.querySelector<HTMLElement>(`[data-index="${index + by}"] .row`)?.focus());
     }
@@ -86,8 +85,7 @@ export function ProgramList() {
     if (!over || active.id === over.id) return;
     const from = rows.findIndex(row => row.key === active.id), to = rows.findIndex(row => row.key === over.id), row = rows[from];
     if (!row || to < 0) return;
-    const before = to > from ? rows[to + 1] : rows[to];
-    placeSteps(idsOf(row), before ? idsOf(before)[0] ?? null : null);
+    placeSteps(idsOf(row), anchorOf(to > from ? rows[to + 1] : rows[to]));
   };
 
   return (

@@ -1,5 +1,6 @@
 import { useSortable } from "@dnd-kit/sortable";
-import { ChevronRight, Clock3, Grip, MoreVertical } from "lucide-react";
+import type { Step } from "@twincell/core";
+import { ChevronRight, Clock3, CornerDownRight, GitBranch, Grid3x3, Grip, Hourglass, MessageSquare, MoreVertical, Octagon, Repeat, Weight, Zap, type LucideIcon } from "lucide-react";
 import { ContextMenu, DropdownMenu } from "radix-ui";
 import { useState, type CSSProperties, type KeyboardEvent } from "react";
 import { commit, withProgram } from "../../stores/document.ts";
@@ -16,7 +17,7 @@ interface Props {
 export function ProgramRowView(props: Props) {
   const { row, index, top, on, renaming } = props;
   const { attributes, listeners, setNodeRef, transform, transition, isDragging } = useSortable({ id: row.key });
-  const name = row.kind === "group" ? row.name : stepWords(row.step, row.index), path = pathOf(row);
+  const name = row.kind === "step" ? stepWords(row.step, row.index) : row.name, path = pathOf(row);
   const style: CSSProperties = { position: "absolute", insetInline: 0, top, transform: transform ? `translate3d(0, ${transform.y}px, 0)` : undefined, transition, zIndex: isDragging ? 3 : undefined };
   const actions = <Actions {...props} />;
   return (
@@ -26,7 +27,8 @@ export function ProgramRowView(props: Props) {
           {renaming ? <Rename row={row} name={name} onDone={() => props.onRename(false)} /> : (
             <button {...listeners} className="row" data-on={on} data-step={row.kind === "step" ? row.step.id : undefined} aria-pressed={on} aria-roledescription={attributes["aria-roledescription"]} aria-describedby="reorder-hint"
               {...(row.kind === "group" ? { "aria-expanded": row.open } : {})}
-              style={row.kind === "step" && row.inside ? { paddingLeft: 30 } : undefined} onClick={props.onChoose} onKeyDown={props.onKey} onDoubleClick={() => props.onRename(true)}
+              data-comment={row.kind === "head" || (row.kind === "step" && row.step.type === "comment") || undefined}
+              style={row.depth > 0 || (row.kind === "step" && row.inside) ? { paddingLeft: INDENT * row.depth + (row.kind === "step" && row.inside ? 30 : 16) } : undefined} onClick={props.onChoose} onKeyDown={props.onKey} onDoubleClick={() => { if (row.kind !== "head") props.onRename(true); }}
             >
               <Glyph row={row} />
               <span className="name">{name}</span>
@@ -35,20 +37,28 @@ export function ProgramRowView(props: Props) {
             </button>
           )}
           {row.kind === "group" && <button className="btn quiet icon tight row-toggle" data-open={row.open} tabIndex={-1} aria-label={row.open ? words.tree.collapse : words.tree.expand} onClick={props.onToggle}><ChevronRight /></button>}
-          <DropdownMenu.Root modal={false}>
+          {row.kind !== "head" && <DropdownMenu.Root modal={false}>
             <DropdownMenu.Trigger asChild><button className="btn quiet icon tight row-more" tabIndex={-1} aria-label={`${words.tree.stepActions}: ${name}`}><MoreVertical /></button></DropdownMenu.Trigger>
             <DropdownMenu.Portal><DropdownMenu.Content className="menu" align="end">{actions}</DropdownMenu.Content></DropdownMenu.Portal>
-          </DropdownMenu.Root>
+          </DropdownMenu.Root>}
         </li>
       </ContextMenu.Trigger>
-      <ContextMenu.Portal><ContextMenu.Content className="menu"><ContextActions {...props} /></ContextMenu.Content></ContextMenu.Portal>
+      {row.kind !== "head" && <ContextMenu.Portal><ContextMenu.Content className="menu"><ContextActions {...props} /></ContextMenu.Content></ContextMenu.Portal>}
     </ContextMenu.Root>
   );
 }
 
+/** From one block to the steps inside it [px]. */
+const INDENT = 14;
+const GLYPHS: Readonly<Partial<Record<Step["type"], LucideIcon>>> = {
+  wait: Clock3, gripper: Grip, set: Zap, "wait-for": Hourglass, payload: Weight, message: MessageSquare, stop: Octagon, call: CornerDownRight, repeat: Repeat, if: GitBranch, pallet: Grid3x3,
+};
+
 function Glyph({ row }: { row: ProgramRow }) {
-  if (row.kind === "step" && row.step.type === "wait") return <span className="glyph" aria-hidden><Clock3 /></span>;
-  if (row.kind === "step" && row.step.type === "gripper") return <span className="glyph" aria-hidden><Grip /></span>;
+  if (row.kind === "head" || (row.kind === "step" && row.step.type === "comment")) return <span className="glyph" aria-hidden />;
+  const Icon = row.kind === "step" ? GLYPHS[row.step.type] : undefined;
+  // What is wrong with a step says more than what sort it is.
+  if (Icon && row.verdict !== "bad" && row.verdict !== "warn") return <span className="glyph" aria-hidden><Icon /></span>;
   return <span className="glyph" aria-hidden><i className="mark" data-verdict={row.verdict} /></span>;
 }
 
@@ -68,7 +78,7 @@ function Rename({ row, name, onDone }: { row: ProgramRow; name: string; onDone: 
   const take = (): void => {
     if (typed.trim() !== name) {
       if (row.kind === "step") renameStep(row.step.id, typed);
-      else if (typed.trim()) commit(words.undo.rename, document => withProgram(document, program => ({ ...program, groups: { ...program.groups, [row.group]: { ...program.groups[row.group], name: typed.trim() } } })));
+      else if (row.kind === "group" && typed.trim()) commit(words.undo.rename, document => withProgram(document, program => ({ ...program, groups: { ...program.groups, [row.group]: { ...program.groups[row.group], name: typed.trim() } } })));
     }
     onDone();
   };

@@ -1,4 +1,4 @@
-import { compose, flangePose, identity, type Pose, type Program, type Robot, robotById } from "@twincell/core";
+import { compose, flangePose, flow, identity, type Pose, type Program, type Robot, robotById } from "@twincell/core";
 import type { CellDocument } from "@twincell/project";
 import { useLayoutEffect, useMemo, useRef } from "react";
 import { type InstancedMesh, Matrix4 } from "three";
@@ -8,11 +8,16 @@ import { triadGeometry } from "../triad-geometry.ts";
 /** More frames than this would hide each other: then only the points are drawn. */
 const MOST_FRAMES = 600;
 
+/** Points drawn at most. */
+const MOST_POINTS = 20_000;
+
 /** Where the taught points of the program are, in the world. */
 export function waypointPoses(document: CellDocument, program: Program, robot: Robot): Pose<"world", "tcp">[] {
   const tools = new Map(document.tools.map(tool => [tool.name, tool.flangeFromTcp]));
   const flangeFromTcp = (name: string): Pose<"flange", "tcp"> => program.tools[name] ?? tools.get(name) ?? identity();
-  return program.steps.flatMap(step => {
+  // Every place of a pallet is a point; rounds of a loop are not told apart.
+  const points = Array.from(flow(program, { rounds: 1, mostSteps: 0 })).flatMap(happening => (happening.kind === "step" ? [happening.step] : []));
+  return points.slice(0, MOST_POINTS).flatMap(step => {
     if (step.type !== "move") return [];
     const { target } = step;
     if ("q" in target) {

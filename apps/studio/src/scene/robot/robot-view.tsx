@@ -12,7 +12,7 @@ import { partMaterials } from "./materials.ts";
 /** The robot as its joint angles say, link by link. Draws, decides nothing. */
 export function RobotView({ robot, worldFromBase }: { readonly robot: Robot; readonly worldFromBase: Pose<"world", "base"> }) {
   const drawings = useMemo(() => linkDrawings(robot), [robot]);
-  const materials = useMemo(partMaterials, []);
+  const materials = useMemo(() => partMaterials(robot.paint), [robot.paint]);
   const links = useRef<(Group | null)[]>([]);
   const seen = useRef(-1);
   const scratch = useMemo(() => ({

@@ -2,7 +2,8 @@ import { pose } from "../../spatial/pose.ts";
 import type { SerialArm } from "../arm.ts";
 import { familyOf } from "../family.ts";
 import type { Robot } from "../robot.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_DRAWN, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, inDegrees, joint, turned } from "./write.ts";
+import { CASTINGS } from "./forms/abb_crb15000_5_95.ts";
+import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_FITTED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, castings, inDegrees, joint, turned } from "./write.ts";
 
 const arm: SerialArm = {
   name: "ABB GoFa CRB 15000-5/0.95",
@@ -35,13 +36,15 @@ export const abbCrb15000: Robot = {
   repeatability_m: 50e-6,
   maxTcpSpeed_mps: TCP_SPEED_MPS,
   mass_kg: 27,
+  form: castings(CASTINGS, ["cover", "casting", "casting", "casting", "casting", "casting", "metal"]),
+  paint: { casting: "#e9ebea", dark: "#4a5054", cover: "#7b8286" },
   sources: {
     "lengths, limits, speeds": "ros-industrial/abb_experimental, crb15000_5_95 (Apache-2.0).",
     "payload, reach, mass, repeatability": FROM_MEMORY,
   },
   assumptions: [
-    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_DRAWN,
+    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_FITTED,
     "To which point the vendor measures the reach of 950 mm is not published; the arm itself is the limit.",
   ],
-  shapeError_m: 0.1,
+  shapeError_m: 0.013,
 };

@@ -1,6 +1,7 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_DRAWN, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, inRadians, joint, orthoParallel, solid, turned } from "./write.ts";
+import { CASTINGS } from "./forms/abb_irb120.ts";
+import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_FITTED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, castings, inRadians, joint, orthoParallel, solid, turned } from "./write.ts";
 
 export const abbIrb120: Robot = {
   id: "abb_irb120",
@@ -38,6 +39,8 @@ export const abbIrb120: Robot = {
     solid(0.546, [-0.00109, 3.68e-5, 6.22e-5], [0.000404891, 0.000892825, 0.000815468, 1.61943e-6, 8.46805e-7, -1.51792e-8]),
     solid(0.137, [-0.00706, -0.00017, -1.32e-6], [0.001, 0.001, 0.001, 0, 0, 0]),
   ],
+  form: castings(CASTINGS, ["casting", "casting", "casting", "casting", "casting", "casting", "metal"]),
+  paint: { casting: "#d9612a", dark: "#2b2f31", cover: "#40474a" },
   sources: {
     "lengths, limits, speeds, masses": "ros-industrial/abb_experimental, irb120_3_58_macro.xacro (Apache-2.0), which quotes ABB ROB0149EN_D, May 2012; masses from the vendor's CAD.",
     "reach": "580 mm = 270 + √(302² + 70²).",
@@ -45,8 +48,8 @@ export const abbIrb120: Robot = {
     "mass, repeatability": FROM_MEMORY,
   },
   assumptions: [
-    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_DRAWN,
+    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_FITTED,
     "The inertia of link 6 in the source is a round number, not a measured one.",
   ],
-  shapeError_m: 0.1,
+  shapeError_m: 0.014,
 };

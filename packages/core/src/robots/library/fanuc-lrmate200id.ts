@@ -1,6 +1,7 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_DRAWN, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, inDegrees, joint, orthoParallel, turned } from "./write.ts";
+import { CASTINGS } from "./forms/fanuc_lrmate200id.ts";
+import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_FITTED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, castings, inDegrees, joint, orthoParallel, turned } from "./write.ts";
 
 /**
  * Joint 3 is counted against the upper arm. The pendant counts it against the horizon: J3 of the pendant = joint 3 − joint 2.
@@ -34,6 +35,8 @@ export const fanucLrmate200id: Robot = {
   repeatability_m: 20e-6,
   maxTcpSpeed_mps: TCP_SPEED_MPS,
   mass_kg: 25,
+  form: castings(CASTINGS, ["cover", "casting", "casting", "casting", "casting", "casting", "metal"]),
+  paint: { casting: "#f2c21a", dark: "#24282a", cover: "#474c4e" },
   sources: {
     "lengths, limits, speeds": "ros-industrial/fanuc, lrmate200id_macro.xacro (BSD-3-Clause), which quotes FANUC B-83494EN/03.",
     "joint 3 against joint 2": "ros-industrial/fanuc, fanuc_driver robot_state.launch: J23_factor 1 for this model.",
@@ -41,8 +44,8 @@ export const fanucLrmate200id: Robot = {
     "mass, repeatability": FROM_MEMORY,
   },
   assumptions: [
-    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_DRAWN,
+    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_FITTED,
     "The limits of joint 3 hold for the angle against the upper arm; the limit against the horizon is not published.",
   ],
-  shapeError_m: 0.1,
+  shapeError_m: 0.017,
 };

@@ -1,6 +1,7 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_DRAWN, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, inDegrees, joint, orthoParallel, turned } from "./write.ts";
+import { CASTINGS } from "./forms/kuka_kr6r900sixx.ts";
+import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_FITTED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, castings, inDegrees, joint, orthoParallel, turned } from "./write.ts";
 
 /** A1, A4 and A6 turn by the left hand, as KUKA counts them. */
 export const kukaKr6R900: Robot = {
@@ -31,12 +32,14 @@ export const kukaKr6R900: Robot = {
   repeatability_m: 30e-6,
   maxTcpSpeed_mps: TCP_SPEED_MPS,
   mass_kg: 52,
+  form: castings(CASTINGS, ["cover", "casting", "casting", "casting", "casting", "casting", "metal"]),
+  paint: { casting: "#f0701a", dark: "#2a2d2f", cover: "#8d8478" },
   sources: {
     "lengths, limits, speeds": "ros-industrial/kuka_experimental, kr6r900sixx_macro.xacro (Apache-2.0), which quotes KUKA Spez KR AGILUS sixx V12, 26.03.2015.",
     "reach": "901.5 mm = 25 + 455 + √(420² + 35²).",
     "payload": "The name of the model: 6 kg.",
     "mass, repeatability": FROM_MEMORY,
   },
-  assumptions: [ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_DRAWN],
-  shapeError_m: 0.1,
+  assumptions: [ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_FITTED],
+  shapeError_m: 0.02,
 };

@@ -2,7 +2,8 @@ import { pose } from "../../spatial/pose.ts";
 import type { SerialArm } from "../arm.ts";
 import { familyOf } from "../family.ts";
 import type { Robot } from "../robot.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_DRAWN, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, inRadians, joint } from "./write.ts";
+import { CASTINGS } from "./forms/kuka_lbr_iiwa_14_r820.ts";
+import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_FITTED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, castings, inRadians, joint } from "./write.ts";
 
 const arm: SerialArm = {
   name: "KUKA LBR iiwa 14 R820",
@@ -36,11 +37,13 @@ export const kukaLbrIiwa14: Robot = {
   repeatability_m: 150e-6,
   maxTcpSpeed_mps: TCP_SPEED_MPS,
   mass_kg: 29.9,
+  form: castings(CASTINGS, ["casting", "casting", "casting", "casting", "casting", "casting", "casting", "metal"]),
+  paint: { casting: "#d4d6d5", dark: "#53585b", cover: "#e8731c" },
   sources: {
     "lengths, limits, speeds": "ros-industrial/kuka_experimental, lbr_iiwa_14_r820_macro.xacro (Apache-2.0); its sideways steps of 0.436 mm are kept.",
     "payload, reach": "14 kg, 820 mm = 420 + 400 from the shoulder to the wrist.",
     "mass, repeatability": FROM_MEMORY,
   },
-  assumptions: [ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_DRAWN, "Joint torques are not in the source and not checked."],
-  shapeError_m: 0.1,
+  assumptions: [ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_FITTED, "Joint torques are not in the source and not checked."],
+  shapeError_m: 0.016,
 };

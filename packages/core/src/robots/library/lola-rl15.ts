@@ -36,6 +36,7 @@ export const lolaRl15: Robot = {
   maxTcpSpeed_mps: TCP_SPEED_MPS,
   masses: [{ mass_kg: 347.95 }, { mass_kg: 75.17 }, { mass_kg: 82.34 }, { mass_kg: 46.3 }, { mass_kg: 2.37 }, { mass_kg: 0.9 }],
   madeUpGeometry: true,
+  paint: { casting: "#9aa3a8", dark: "#4a5257", cover: "#6b747a" },
   sources: {
     "joint limits, motor speeds": "Machines 2024, 12(7) 480, Table A3.",
     "masses, motor torques, gears, inertias": "The same, Table A2; motor torque times gear is the printed joint torque.",

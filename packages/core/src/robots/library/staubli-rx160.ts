@@ -1,6 +1,7 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_DRAWN, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, inDegrees, joint, orthoParallel, solid } from "./write.ts";
+import { CASTINGS } from "./forms/staubli_rx160.ts";
+import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_FITTED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, castings, inDegrees, joint, orthoParallel, solid } from "./write.ts";
 
 /** All joints 0 stands straight up; the controller counts from the shoulder. */
 export const staubliRx160: Robot = {
@@ -39,14 +40,16 @@ export const staubliRx160: Robot = {
     solid(0.548088, [0, -0.000347, 0.023671], [0.000876, 0.000889, 0.000412, 0, 0, 5e-6]),
     solid(0.038484, [-0.000245, 0, -0.007626], [1.1e-5, 1.1e-5, 2.1e-5, 0, 0, 0]),
   ],
+  form: castings(CASTINGS, ["casting", "casting", "casting", "casting", "casting", "cover", "metal"]),
+  paint: { casting: "#eaa50c", dark: "#272c30", cover: "#87847f" },
   sources: {
     "lengths, limits, speeds, torques, masses": "ros-industrial/staubli, rx160_macro.xacro (Apache-2.0), which quotes Stäubli manual D28086504A, 19/06/2012; masses from CAD. Lengths again in rs-opw-kinematics, staubli_rx160.",
     "reach": "1710 mm to the flange = 150 + 825 + 625 + 110.",
     "payload, mass, repeatability": FROM_MEMORY,
   },
   assumptions: [
-    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_DRAWN,
+    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_FITTED,
     "The published masses of the links are those of CAD solids and add up to 155 kg of the robot's 248 kg.",
   ],
-  shapeError_m: 0.1,
+  shapeError_m: 0.037,
 };

@@ -1,6 +1,6 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
-import { ACCELERATIONS_ASSUMED, SHAPES_DRAWN, inDegrees, joint } from "./write.ts";
+import { ACCELERATIONS_ASSUMED, SHAPES_ESTIMATED, inDegrees, joint } from "./write.ts";
 
 /** Joint zero is V+'s own: home 0, −90, +90, 0, 0, 0 stands straight up. */
 export const staubliRx90l: Robot = {
@@ -44,7 +44,7 @@ export const staubliRx90l: Robot = {
   },
   assumptions: [
     ACCELERATIONS_ASSUMED,
-    SHAPES_DRAWN,
+    SHAPES_ESTIMATED,
   ],
   shapeError_m: 0.02,
 };

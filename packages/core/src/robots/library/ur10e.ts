@@ -2,7 +2,8 @@ import { pose } from "../../spatial/pose.ts";
 import type { SerialArm } from "../arm.ts";
 import { familyOf } from "../family.ts";
 import type { Robot } from "../robot.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_DRAWN, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, inDegrees, joint, solid, turned } from "./write.ts";
+import { CASTINGS } from "./forms/ur10e.ts";
+import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_FITTED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, castings, inDegrees, joint, solid, turned } from "./write.ts";
 
 /** The angles of the data file, rounded as it rounds them, so that its poses are met to the last digit. */
 const QUARTER = 1.570796327;
@@ -47,6 +48,8 @@ export const ur10e: Robot = {
     solid(1.98, [0, 0.018, -0.007], [0.00296, 0.00222, 0.00258, -1e-5, 0, -0.00024], [-Math.PI / 2, 0, 0]),
     solid(0.615, [0, 0, -0.026], [0.0004, 0.00041, 0.00034, 0, 0, 0]),
   ],
+  form: castings(CASTINGS, ["casting", "casting", "casting", "casting", "casting", "casting", "metal"]),
+  paint: { casting: "#c9ced2", dark: "#33393d", cover: "#5d8fb8" },
   sources: {
     "lengths": "UniversalRobots/Universal_Robots_ROS2_Description (BSD-3-Clause), config/ur10e/default_kinematics.yaml.",
     "limits, speeds, torques": "The same, config/ur10e/joint_limits.yaml: UR10e User Manual 5.8 and UR's article on joint torques.",
@@ -55,10 +58,10 @@ export const ur10e: Robot = {
     "repeatability": FROM_MEMORY,
   },
   assumptions: [
-    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_DRAWN,
+    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_FITTED,
     "The elbow is kept within ±180°, as the vendor's own robot file does; the controller allows ±360°.",
     "Each UR10e is calibrated in the factory; these are the lengths of the drawing.",
     "Reach is counted from axis 2 to the wrist centre, where axes 5 and 6 meet; the links would reach 1304 mm.",
   ],
-  shapeError_m: 0.1,
+  shapeError_m: 0.021,
 };

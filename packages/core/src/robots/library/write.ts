@@ -4,6 +4,8 @@ import { radians } from "../../spatial/units.ts";
 import type { Vector3 } from "../../spatial/vector.ts";
 import type { Joint, JointDrive, JointLimits, LinkMass } from "../arm.ts";
 import type { OrthoParallelGeometry } from "../robot.ts";
+import type { FormLoft, RobotForm } from "../shapes/form.ts";
+import type { PartMaterial } from "../shapes/link-shape.ts";
 
 // What the data files of the library are written with, so that a file reads like its data sheet.
 
@@ -15,7 +17,8 @@ export const TCP_SPEED_MPS = 2;
 
 export const ACCELERATIONS_ASSUMED = "Joint accelerations are not published: full joint speed is assumed to be reached in 0.25 s.";
 export const TCP_SPEED_ASSUMED = `The largest speed of the tool tip is not published: ${TCP_SPEED_MPS} m/s is assumed.`;
-export const SHAPES_DRAWN = "Link shapes are drawn from the published dimensions, not from the vendor's CAD.";
+export const SHAPES_FITTED = "Link shapes are drawn from castings fitted to published meshes; how far they are off was measured and comes on top of every clearance margin.";
+export const SHAPES_ESTIMATED = "Link shapes are drawn from the published dimensions, not from the vendor's CAD; how far they are off is an estimate.";
 /** Source of numbers that everybody quotes and nobody here could look up in a document. */
 export const FROM_MEMORY = "Commonly quoted from the vendor's data sheet; not checked against the document.";
 
@@ -47,6 +50,10 @@ export function orthoParallel(lengths_m: readonly [number, number, number, numbe
     offsets_rad: [quarter(o1), quarter(o2), quarter(o3), quarter(o4), quarter(o5), quarter(o6)], signs, formulaFromFlange,
   };
 }
+
+/** Castings link by link, and what each link is mostly made of. */
+export const castings = (lofts: readonly (readonly FormLoft[])[], materials: readonly PartMaterial[]): RobotForm =>
+  ({ links: lofts.map((each, link) => ({ material: materials[link] ?? "casting", lofts: each })) });
 
 /** Mass, centre of mass, and Ixx, Iyy, Izz, Ixy, Ixz, Iyz about it, in directions turned by roll, pitch, yaw. */
 export const solid = (mass_kg: number, centre_m: Vector3, inertia_kgm2: Six, rollPitchYaw_rad: Vector3 = [0, 0, 0]): LinkMass =>

@@ -1,6 +1,7 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_DRAWN, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, inRadians, joint, orthoParallel, turned } from "./write.ts";
+import { CASTINGS } from "./forms/yaskawa_gp8.ts";
+import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_FITTED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, castings, inRadians, joint, orthoParallel, turned } from "./write.ts";
 
 /** Axes S, L, U, R, B, T. The controller counts from the height of axis 2. */
 export const yaskawaGp8: Robot = {
@@ -33,14 +34,16 @@ export const yaskawaGp8: Robot = {
   repeatability_m: 10e-6,
   maxTcpSpeed_mps: TCP_SPEED_MPS,
   mass_kg: 32,
+  form: castings(CASTINGS, ["cover", "casting", "casting", "casting", "casting", "casting", "metal"]),
+  paint: { casting: "#2a4fb0", dark: "#20262c", cover: "#39424a" },
   sources: {
     "lengths, limits, speeds, flange": "ros-industrial/motoman, gp8_macro.xacro (BSD), which quotes the vendor's data sheet; lengths again in robotkinematicscatalogue 1.1.2, Yaskawa_GP8.",
     "payload, reach": "8 kg, 727 mm; 40 + 345 + √(340² + 40²) = 727.3 mm.",
     "mass, repeatability": FROM_MEMORY,
   },
   assumptions: [
-    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_DRAWN,
+    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_FITTED,
     "The upper limit of axis U is counted from another zero in some tables; here it is 190° from the level forearm.",
   ],
-  shapeError_m: 0.1,
+  shapeError_m: 0.014,
 };

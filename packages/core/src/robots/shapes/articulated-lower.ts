@@ -34,12 +34,16 @@ export function base(at: Standing): LinkDesign {
   };
 }
 
-/** The turret: a round foot that grows into the drum of axis 2, with that axis's motor on the far side. */
+/** The turret: a round foot on axis 1 that grows, and leans out where axis 2 stands ahead, into the drum of axis 2, with that axis's motor on the far side. */
 export function shoulder(at: Standing): LinkDesign {
   const s = at.size, { x, z } = at.axis1, origin: Vector3 = [x, 0, z];
-  const neck = loft(upright(origin), sized(s, [[0.108, -0.152], [0.114, -0.148], [0.118, -0.14], [0.119, -0.115]]).map(([r, w]) => ({ points: roundedRectangle(r, r, r - 1e-6)(0), w_m: w }))
-    .concat(([[0.12, 0.118, 0.112, -0.09], [0.121, 0.115, 0.098, -0.06], [0.121, 0.113, 0.086, -0.03], [0.119, 0.11, 0.08, 0]] as const)
-      .map(([u, v, r, w]) => ({ points: roundedRectangle(u * s, v * s, r * s)(0), w_m: w * s }))));
+  // The foot stands on axis 1; higher up the turret spans from there to the drum.
+  const spanning = (u: number, v: number, r: number, w: number, share: number): { points: Point2[]; w_m: number } =>
+    ({ points: roundedRectangle(u * s + (x / 2) * share, v * s, r * s, [-x + (x / 2) * share, 0])(0), w_m: w * s });
+  const neck = loft(upright(origin), [
+    ...([[0.108, -0.152], [0.114, -0.148], [0.118, -0.14], [0.119, -0.115]] as const).map(([r, w]) => spanning(r, r, r - 1e-6, w, 0)),
+    spanning(0.12, 0.118, 0.112, -0.09, 0.7), spanning(0.121, 0.115, 0.098, -0.06, 0.95), spanning(0.121, 0.113, 0.086, -0.03, 1), spanning(0.119, 0.11, 0.08, 0, 1),
+  ]);
   const drum = prism(sideways(origin), circle(0.122 * s, 56), filleted(sized(s, [[0.05, -0.116], [0, -0.116], [0, 0.112], [0.012, 0.112]]), 0.014 * s, 4));
   const motor = prism(farSide(origin), circle(0.082 * s), filleted(sized(s, [[0, 0.11], [0, 0.17], [0.05, 0.17]]), 0.022 * s, 5));
   const joint = prism(sideways(origin), circle(0.11 * s), sized(s, [[0, 0.1], [0, INNER_FACE_M + 0.004]]));
@@ -47,8 +51,8 @@ export function shoulder(at: Standing): LinkDesign {
   return {
     parts: [part("turret", "casting", neck, drum), part("motor of axis 2", "cover", motor), part("bearing of axis 2", "dark", joint), part("bolts", "metal", rim)],
     shells: [
-      shell(upright(origin), circle(0.1215 * s, 16, "around"), -0.153 * s, -0.08 * s),
-      shell(upright(origin), roundedRectangle(0.122 * s, 0.119 * s, 0.05 * s, [0, 0], 2, "around"), -0.091 * s, 0.001 * s),
+      shell(upright([0, 0, z]), circle(0.1215 * s, 16, "around"), -0.153 * s, -0.08 * s),
+      shell(upright([x / 2, 0, z]), roundedRectangle(0.122 * s + x / 2, 0.12 * s, 0.05 * s, [0, 0], 2, "around"), x > 0 ? -0.116 * s : -0.091 * s, 0.001 * s),
       shell(sideways(origin), circle(0.1225 * s, 20, "around"), -0.1235 * s, INNER_FACE_M * s + 0.005 * s),
       shell(farSide(origin), circle(0.083 * s, 14, "around"), 0.1 * s, 0.171 * s),
     ],

@@ -3,6 +3,8 @@ import type { TriangleMesh } from "../../collision/mesh.ts";
 import { linkPoses } from "../../kinematics/forward.ts";
 import { identity, transformPoint } from "../../spatial/pose.ts";
 import type { Vector3 } from "../../spatial/vector.ts";
+import { buildSolid, pairScratch, pointInside, rigid, surfaceDistance } from "../../collision/index.ts";
+import { LIBRARY, robotById } from "../library/index.ts";
 import { staubliRx90l } from "../library/staubli-rx90l.ts";
 import { linkDesigns, linkShapes, linkSolids } from "./shapes.ts";
 
@@ -47,7 +49,7 @@ function outside(shell: TriangleMesh, p: Vector3): number {
 
 const general = { ...staubliRx90l, family: { kind: "general" } as const };
 
-describe.each([["upright six-axis arm", staubliRx90l], ["arm of unknown form", general]])("%s", (_, robot) => {
+describe.each([["upright six-axis arm", staubliRx90l], ["arm of unknown form", general], ["upright arm with a shoulder ahead of axis 1", robotById("kuka_kr6_2")!], ["made-up geometry", robotById("lola_rl15_placeholder")!]])("%s", (_, robot) => {
   test("every part is closed and faces outwards", () => {
     for (const shape of linkShapes(robot)) {
       for (const part of shape.parts) {
@@ -88,12 +90,44 @@ test("the RX90L stands 1.605 m high at home and its flange face is the flange fr
   expect(top).toBeLessThanOrEqual(0.42 + 0.45 + 0.65 + 0.085 + 1e-9);
 });
 
-test("L-62 links 4 and 6 carry a mark that is off their axis", () => {
-  for (const link of [4, 6]) {
-    const mark = linkShapes(staubliRx90l)[link]!.parts.find(part => part.material === "mark")!;
-    const n = mark.mesh.positions.length / 3;
-    let x = 0, y = 0;
-    for (let i = 0; i < n; i++) { x += mark.mesh.positions[3 * i]! / n; y += mark.mesh.positions[3 * i + 1]! / n; }
-    expect(Math.hypot(x, y)).toBeGreaterThan(0.02);
+describe.each(LIBRARY.filter(({ form }) => form !== undefined).map(robot => [robot.id, robot] as const))("%s, drawn from castings", (_, robot) => {
+  const n = robot.arm.joints.length;
+
+  test("every part and every solid is closed and faces outwards", () => {
+    expect(linkDesigns(robot).length).toBe(n + 1);
+    for (const { parts, shells } of linkDesigns(robot)) for (const mesh of [...parts.map(part => part.mesh), ...shells]) {
+      expect(openEdges(mesh)).toBe(0);
+      expect(volume(mesh)).toBeGreaterThan(0);
+    }
+  });
+
+  test("every drawn point lies inside the solids that collisions are checked with", () => {
+    const scratch = pairScratch(), points = new Float64Array(6), at = rigid(), tiny = 1e-7;
+    const speck = buildSolid({ positions: Float64Array.of(tiny, tiny, tiny, -tiny, -tiny, tiny, -tiny, tiny, -tiny, tiny, -tiny, -tiny), indices: Uint32Array.of(0, 1, 3, 0, 2, 1, 0, 3, 2, 1, 2, 3) });
+    for (const { parts, shells } of linkDesigns(robot)) {
+      const solids = shells.map(buildSolid);
+      for (const { mesh } of parts) for (let i = 0; i < mesh.positions.length / 3; i += 61) {
+        const [x, y, z] = point(mesh, i);
+        if (solids.some(({ bvh, closed }) => pointInside(bvh, closed, x, y, z, scratch))) continue;
+        at.set([x, y, z], 9);
+        scratch.witness.fill(-1);
+        expect(Math.min(...solids.map(({ bvh }) => { scratch.witness.fill(-1); return surfaceDistance(bvh, speck.bvh, at, 1, scratch, points); }))).toBeLessThan(2e-5);
+      }
+    }
+  });
+
+  test("few triangles a link", () => { for (const { mesh } of linkSolids(robot)) expect(mesh.indices.length / 3).toBeLessThan(8000); });
+
+  test("painted, with nothing but its own colours", () => { for (const colour of Object.values(robot.paint!)) expect(colour).toMatch(/^#[0-9a-f]{6}$/); });
+});
+
+test("L-62 on every robot the last link and the one that turns the wrist carry a mark that is off their axis", () => {
+  for (const robot of LIBRARY) for (const link of [robot.arm.joints.length - 2, robot.arm.joints.length]) {
+    const marks = linkShapes(robot)[link]!.parts.filter(part => part.material === "mark");
+    expect(marks.length, `${robot.id}, link ${link}`).toBe(1);
+    const [{ mesh }] = marks as [(typeof marks)[0]], n = mesh.positions.length / 3, axis = robot.arm.joints[link - 1]!.axis, middle: Vector3 = [0, 0, 0];
+    for (let i = 0; i < n; i++) point(mesh, i).forEach((value, k) => { middle[k] = middle[k]! + value / n; });
+    const along = middle.reduce((sum, value, k) => sum + value * axis[k]!, 0);
+    expect(Math.hypot(...middle.map((value, k) => value - along * axis[k]!)), `${robot.id}, link ${link}`).toBeGreaterThan(0.012);
   }
 });

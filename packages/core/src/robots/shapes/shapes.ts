@@ -5,6 +5,7 @@ import type { Robot } from "../robot.ts";
 import { articulatedArm } from "./articulated-arm.ts";
 import { intoLink, merge } from "./loft.ts";
 import type { LinkDesign, LinkShape } from "./link-shape.ts";
+import { loftedLink } from "./lofted.ts";
 import { plainArm } from "./plain-arm.ts";
 
 /** "link 0" (the base), "link 1", … "link 6": how contacts, labels and allowed pairs call the links. */
@@ -12,6 +13,7 @@ export const linkName = (link: number): string => `link ${link}`;
 
 /** Links as designed, each already in its own frame. */
 export function linkDesigns(robot: Robot): LinkDesign[] {
+  if (robot.form !== undefined) return robot.form.links.map(({ material, lofts }) => loftedLink(material, lofts));
   const { arm, family } = robot, n = arm.joints.length;
   const parallel = family.kind === "ortho-parallel" && n === 6;
   const q_rad = parallel ? family.offsets_rad.map((offset, i) => offset * family.signs[i]!) : new Float64Array(n);

@@ -3,6 +3,8 @@ import {
 } from "../../index.ts";
 
 const DT = 1 / 60;
+/** A jog counts from this share of its way on; farther out another singularity or a limit may end it, which is not this one's doing. */
+const LEFT = 0.1;
 /** The joint whose turning makes the arm singular: 2 brings the wrist over axis 1, 3 stretches or folds the arm, 5 straightens the wrist. */
 export type SingularJoint = 2 | 3 | 5;
 export interface SingularJogs { readonly jogs: number; readonly left: number; readonly arrived: number; readonly notNumbers: number; readonly tooFast: number; readonly outside: number; readonly stuck: readonly string[] }
@@ -29,7 +31,7 @@ export function singularJogs(robot: Robot, joint: SingularJoint, jogs: number, r
       if (jogged.kind === "blocked") break;
       done_s += jogged.fraction * DT;
     }
-    if (done_s / takes_s < 0.3) stuck.push(`${[...q].map(angle => angle.toFixed(4)).join(", ")}: ${why}`);
+    if (done_s / takes_s < LEFT) stuck.push(`${(done_s / takes_s).toFixed(3)} of the way, ${[...q].map(angle => angle.toFixed(4)).join(", ")}: ${why}`);
     return done_s / takes_s;
   };
   for (let count = 0; count < jogs;) {
@@ -38,8 +40,8 @@ export function singularJogs(robot: Robot, joint: SingularJoint, jogs: number, r
     count++;
     const beside = (): Float64Array => on.map(angle => angle + 0.3 * (random() - 0.5)), into = beside();
     const reached = stuck.length;
-    if (run(into, on) > 0.3) arrived++; else stuck.length = reached; // a way in may be cut off by a limit; the way out may not
-    if (run(on.slice(), beside()) > 0.3) left++;
+    if (run(into, on) >= LEFT) arrived++; else stuck.length = reached; // a way in may be cut off by a limit; the way out may not
+    if (run(on.slice(), beside()) >= LEFT) left++;
   }
   return { jogs, left, arrived, notNumbers, tooFast, outside, stuck };
 }
