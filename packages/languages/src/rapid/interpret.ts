@@ -44,7 +44,7 @@ export function interpretRapid(text: string, robot: Robot, worldFromBase: Pose<"
     if (!(cause instanceof TextError)) throw cause;
     return { kind: "not-understood", faults: [cause.fault] };
   }
-  return { kind: "ready", run, context: { tools: surroundings.tools, frames: surroundings.frames } };
+  return { kind: "ready", run, context: surroundings };
 }
 
 /** Names of data that are given a value by a statement. */

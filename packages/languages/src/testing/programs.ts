@@ -1,6 +1,6 @@
 import {
-  PALLET_ORDERS, branchOf, compose, emptyProgram, flangePose, identity, inverse, seededRandom, span,
-  type Capability, type Condition, type MoveStep, type Pallet, type PalletStep, type Pose, type Program, type Quaternion, type Random, type Robot, type Speed, type Step,
+  PALLET_ORDERS, branchOf, compose, emptyProgram, flangePose, identity, inverse, seededRandom, solveAll,
+  type Capability, type Condition, type MoveStep, type Pallet, type PalletStep, type Pose, type Program, type Quaternion, type Random, type Robot, type SignalLine, type Speed, type Step, type Target,
 } from "@twincell/core";
 
 export interface ProgramChoices {
@@ -12,6 +12,10 @@ export interface ProgramChoices {
   readonly cannot?: readonly Capability[];
   /** What else the programs may ask for; plain points, waits and gripper actions when left out. */
   readonly can?: ReadonlySet<Capability>;
+  /** Lines by the names and numbers that the language has. */
+  readonly signals?: Program["signals"];
+  /** Whether targets ask for a posture by its name. */
+  readonly branches?: boolean;
 }
 
 /** Lines with numbers that a language may use; outputs and inputs of most controllers are apart. */
@@ -27,7 +31,7 @@ export const SIGNALS: Program["signals"] = {
 export function randomProgram(robot: Robot, choices: ProgramChoices): Program {
   const random = seededRandom(choices.seed), made = new Maker(robot, random, choices);
   const steps = made.list(choices.steps, 0), { tools, frames, pallets, routines } = made;
-  const used = choices.can === undefined ? {} : { signals: SIGNALS, pallets, routines };
+  const used = choices.can === undefined ? {} : { signals: choices.signals ?? SIGNALS, pallets, routines };
   return { ...emptyProgram(robot.id, `Prüfung No. ${choices.seed}`), tools, frames, groups: { g1: { name: "Edge 1" }, g2: { name: "Edge 2" } }, ...used, steps };
 }
 
@@ -67,16 +71,18 @@ class Maker {
     const q = easyPosture(robot, random, EASE_M);
     const tool = pick(random, ["flange", ...Object.keys(tools)]), frame = pick(random, ["world", ...Object.keys(frames)]);
     const worldFromTcp = compose(worldFromBase, compose(flangePose(robot.arm, q), tools[tool] ?? identity<"flange", "tcp">()));
-    const branch = random() < 0.5 ? branchOf(robot, q) : undefined;
+    const branch = random() < 0.5 && this.choices.branches !== false ? branchOf(robot, q) : undefined;
     const path = pick(random, paths), drawn = randomSpeed(random);
     const speed = "time_s" in drawn && (path === "circ" || cannot.includes("duration")) ? { mps: 0.1 } : drawn;
+    const target: Target = random() < 0.4
+      ? { q, ...(random() < 0.5 ? { tool } : {}) }
+      : { pose: compose(inverse(frames[frame] ?? identity()), worldFromTcp), frame, tool, ...(branch === undefined ? {} : { branch }) };
+    const passing = (by: string): Target =>
+      ({ pose: compose(inverse(frames[frame] ?? identity()), compose(worldFromBase, compose(flangePose(robot.arm, beside(robot, q, random)), tools[by] ?? identity<"flange", "tcp">()))), frame, tool: by });
     return {
-      ...base, type: "move", path,
-      target: random() < 0.4
-        ? { q, ...(random() < 0.5 ? { tool } : {}) }
-        : { pose: compose(inverse(frames[frame] ?? identity()), worldFromTcp), frame, tool, ...(branch === undefined ? {} : { branch }) },
-      ...(path === "circ" ? { via: { pose: compose(inverse(frames[frame] ?? identity()), compose(worldFromTcp, randomPose<"tcp", "tcp">(random, 0.2))), frame, tool } } : {}),
-      speed, ...(can?.has("acceleration") === true && random() < 0.3 ? { acceleration: { ratio: Math.ceil(random() * 100) / 100 } } : {}), blend_m: random() < 0.5 ? 0 : 0.01,
+      ...base, type: "move", path, target,
+      ...(path === "circ" ? { via: passing(target.tool ?? "flange") } : {}),
+      speed, ...(can?.has("acceleration") === true && random() < 0.3 ? { acceleration: { ratio: Math.ceil(20 + random() * 80) / 100 } } : {}), blend_m: random() < 0.5 ? 0 : 0.01,
     };
   }
 
@@ -85,8 +91,12 @@ class Maker {
     const { random } = this, { can } = this.choices, kind = pick(random, OTHERS);
     if (can?.has(kind) !== true) return undefined;
     switch (kind) {
-      case "set-digital": return { ...base, type: "set", signal: pick(random, ["lamp", "Blow off"]), to: random() < 0.5, ...(can.has("pulse") && random() < 0.3 ? { pulse_s: 0.5 } : {}) };
-      case "set-analogue": return { ...base, type: "set", signal: "valve", to: Math.round(random() * 100) / 10 };
+      case "set-digital": {
+        const signal = this.line("digital-out"), to = random() < 0.5;
+        // Some controllers pulse an output on and never off.
+        return { ...base, type: "set", signal, to, ...(to && can.has("pulse") && random() < 0.5 ? { pulse_s: 0.5 } : {}) };
+      }
+      case "set-analogue": return { ...base, type: "set", signal: this.line("analogue-out"), to: Math.round(random() * 100) / 100 };
       case "wait-for": return { ...base, type: "wait-for", when: this.condition(), ...(can.has("timeout") && random() < 0.3 ? { timeout_s: 2.5 } : {}) };
       case "payload": return { ...base, type: "payload", mass_kg: Math.round(random() * 30) / 10, center_m: [0, 0, Math.round(random() * 100) / 1000] };
       case "message": return { ...base, type: "message", text: `Part ${this.count} is done.` };
@@ -98,10 +108,14 @@ class Maker {
     }
   }
 
+  private line(kind: SignalLine["kind"]): string {
+    return pick(this.random, Object.entries(this.choices.signals ?? SIGNALS).flatMap(([name, line]) => line.kind === kind ? [name] : []));
+  }
+
   private condition(): Condition {
     const { random } = this;
-    if (this.choices.can?.has("read-analogue") === true && random() < 0.3) return random() < 0.5 ? { signal: "level", above: 2.5 } : { signal: "level", below: 7 };
-    return { signal: pick(random, ["part", "tray_full"]), is: random() < 0.5 };
+    if (this.choices.can?.has("read-analogue") === true && random() < 0.3) return random() < 0.5 ? { signal: this.line("analogue-in"), above: 2.5 } : { signal: this.line("analogue-in"), below: 7 };
+    return { signal: this.line("digital-in"), is: random() < 0.5 };
   }
 
   /** A routine that is there already, or a new one. */
@@ -125,7 +139,7 @@ class Maker {
       frame, origin: frameFromPlace, rowEnd: [x + 0.004, y + 0.001, z], columnEnd: [x - 0.001, y + 0.003, z + 0.001],
       rows: pick(random, [1, 2, 3]), columns: pick(random, [2, 3]), layers: pick(random, [1, 2]), layer_m: 0.002, order, ...(shifted ? { interleave: "odd-rows-shifted" } : {}),
     };
-    const at = (z_m: number): MoveStep["target"] => ({ pose: { position: [0, 0, z_m], quaternion: [0, 0, 0, 1] }, frame: name, tool: "flange", branch: branchOf(robot, q)! });
+    const at = (z_m: number): MoveStep["target"] => ({ pose: { position: [0, 0, z_m], quaternion: [0, 0, 0, 1] }, frame: name, tool: "flange", ...(this.choices.branches === false ? {} : { branch: branchOf(robot, q)! }) });
     const move = (path: MoveStep["path"], z_m: number): MoveStep => ({ id: `k${this.count++}`, type: "move", path, target: at(z_m), speed: randomSpeed(random), blend_m: 0 });
     const paths = this.choices.paths.filter(path => path === "ptp" || path === "lin");
     return { ...base, type: "pallet", pallet: name, steps: [move(pick(random, paths), -0.003), move(pick(random, paths), 0), { id: `k${this.count++}`, type: "gripper", closed: false }] };
@@ -139,13 +153,28 @@ const DEEPEST = 2;
 function easyPosture(robot: Robot, random: Random, ease_m: number, inside = 0.01): number[] {
   for (;;) {
     const q = robot.arm.joints.map(({ limits: { lower_rad, upper_rad } }) => lower_rad + (upper_rad - lower_rad) * (inside + (1 - 2 * inside) * random()));
-    // Other arms than these are not asked how far they are stretched.
-    if (robot.family.kind !== "ortho-parallel") return q;
-    const { distance_m, nearest_m, farthest_m } = span(robot, flangePose(robot.arm, q));
-    if (farthest_m - distance_m > ease_m && distance_m - nearest_m > ease_m && (inside < 0.05 || Math.abs(Math.sin(q.at(-2)!)) > 0.3)) return q;
+    // Other arms than these are not asked how far they are stretched, but whether there is room on every side.
+    if (robot.family.kind !== "ortho-parallel") { if (hasRoom(robot, q, ease_m)) return q; continue; }
+    // From the elbow itself: a wrist behind the shoulder is as far as one in front, seen from the elbow alone.
+    const { c2_m, c3_m, a2_m, signs, offsets_rad } = robot.family, k = Math.hypot(a2_m, c3_m), bend = signs[2] * q[2]! - offsets_rad[2] + Math.atan2(a2_m, c3_m);
+    const length_m = Math.sqrt(c2_m * c2_m + k * k + 2 * c2_m * k * Math.cos(bend));
+    if (c2_m + k - length_m > ease_m && length_m - Math.abs(c2_m - k) > ease_m && (inside < 0.05 || Math.abs(Math.sin(q.at(-2)!)) > 0.3)) return q;
   }
 }
+function hasRoom(robot: Robot, q: readonly number[], ease_m: number): boolean {
+  if (robot.family.kind === "general") return true;
+  const { position, quaternion } = flangePose(robot.arm, q), wanted = branchOf(robot, q)!;
+  return [-1, 1].every(side => [0, 1, 2].every(axis => {
+    const moved: Pose<"base", "flange"> = { position: [...position], quaternion };
+    moved.position[axis]! += side * ease_m;
+    return solveAll(robot, moved, { near: q, branch: wanted }).kind === "reached";
+  }));
+}
 const EASE_M = 0.001, ROOM_M = 0.05;
+
+/** A posture near by, inside the limits. */
+const beside = (robot: Robot, q: readonly number[], random: Random): number[] =>
+  robot.arm.joints.map(({ limits: { lower_rad, upper_rad } }, i) => Math.min(upper_rad, Math.max(lower_rad, q[i]! + 0.3 * (random() - 0.5))));
 
 function randomSpeed(random: Random): Speed {
   const sort = random();

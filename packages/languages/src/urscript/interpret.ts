@@ -41,5 +41,5 @@ export function interpretUrScript(text: string, robot: Robot, worldFromBase: Pos
     if (!(cause instanceof TextError)) throw cause;
     return { kind: "not-understood", faults: [cause.fault] };
   }
-  return { kind: "ready", run, context: { tools: surroundings.tools, frames: surroundings.frames } };
+  return { kind: "ready", run, context: surroundings };
 }

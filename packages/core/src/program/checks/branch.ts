@@ -1,6 +1,7 @@
 import { branchOf, sameBranch, type Branch } from "../../kinematics/branch.ts";
 import type { Lost } from "../../trajectory/continuity/index.ts";
 import { blends } from "../../trajectory/moves.ts";
+import { isSlide, jointText } from "../../robots/slide.ts";
 import { LIMIT_SLACK_RAD } from "../../trajectory/run.ts";
 import { radians } from "../../spatial/units.ts";
 import type { Repair } from "../verdict.ts";
@@ -38,7 +39,7 @@ export function checkBranch(scene: CheckScene): void {
       let off = 0;
       for (let j = 1; j < n; j++) if (Math.abs(last[j]! - taught[j]!) > Math.abs(last[off]! - taught[off]!)) off = j;
       if (Math.abs(last[off]! - taught[off]!) > SAME_RAD) {
-        scene.add(segment.step, "bad", { code: "branch.other", joint: off + 1, value: last[off]!, limit: taught[off]!, unit: "rad", at_s, sentence: `Joint ${off + 1} would be at ${deg(last[off]!)} at the end of the path; it was taught at ${deg(taught[off]!)}.`, repairs: asJointMove(scene, segment.step) });
+        scene.add(segment.step, "bad", { code: "branch.other", joint: off + 1, value: last[off]!, limit: taught[off]!, unit: isSlide(scene.robot.arm.joints[off]!) ? "m" : "rad", at_s, sentence: `Joint ${off + 1} would be at ${jointText(scene.robot.arm.joints[off]!, last[off]!)} at the end of the path; it was taught at ${jointText(scene.robot.arm.joints[off]!, taught[off]!)}.`, repairs: asJointMove(scene, segment.step) });
       }
     } else if (move.branch !== undefined && arrived !== undefined && !sameBranch(arrived, move.branch)) {
       scene.add(segment.step, "bad", { code: "branch.other", value: 1, limit: 0, unit: "1", at_s, sentence: `The path ends with ${words(arrived)}; it was taught with ${words(move.branch)}.`, repairs: asJointMove(scene, segment.step) });

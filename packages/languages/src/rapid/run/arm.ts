@@ -6,7 +6,8 @@ import { NOTHING, fromPose, times, toPose, type Frame } from "./frame.ts";
 export class ControllerArm {
   readonly robot: Robot;
   private readonly worldFromBase: Frame;
-  flange: Frame;
+  /** Worked out when it is asked for. */
+  private known: Frame | undefined;
   tool: Frame = NOTHING;
   /** Unknown after a pose whose joint angles are not solved here. */
   joints_deg: readonly number[] | undefined;
@@ -15,21 +16,22 @@ export class ControllerArm {
     this.robot = robot;
     this.worldFromBase = fromPose(worldFromBase);
     this.joints_deg = robot.home_rad.map(angle => angle / Math.PI * 180);
-    this.flange = this.flangeAt(this.joints_deg);
   }
+
+  get flange(): Frame { return this.known ??= this.flangeAt(this.joints_deg!); }
 
   world<Into extends string, From extends string>(base: Frame): Pose<Into, From> { return toPose(times(this.worldFromBase, base)); }
   flangeAt(joints_deg: readonly number[]): Frame { return fromPose(flangePose(this.robot.arm, joints_deg.map(angle => angle / 180 * Math.PI))); }
 
   atJoints(joints_deg: readonly number[]): void {
     this.joints_deg = joints_deg;
-    this.flange = this.flangeAt(joints_deg);
+    this.known = undefined;
   }
 
   /** The flange is there, in the configuration that is asked for or else in the nearest posture. Answers with the branch, where it has a name. */
   atFlange(flange: Frame, conf: Confdata | undefined): Branch | undefined {
     const near = this.joints_deg?.map(angle => angle / 180 * Math.PI), q = solved(this.robot, toPose(flange), near, conf);
-    this.flange = flange;
+    this.known = flange;
     this.joints_deg = q?.map(angle => angle / Math.PI * 180);
     return q === undefined ? undefined : branchOf(this.robot, q);
   }
@@ -43,7 +45,7 @@ export class ControllerArm {
 
   /** Remembers where the arm is; the answer brings it back. */
   remember(): () => void {
-    const { flange, tool, joints_deg } = this;
-    return () => { this.flange = flange; this.tool = tool; this.joints_deg = joints_deg; };
+    const { known, tool, joints_deg } = this;
+    return () => { this.known = known; this.tool = tool; this.joints_deg = joints_deg; };
   }
 }

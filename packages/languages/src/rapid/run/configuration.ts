@@ -21,6 +21,9 @@ export function octant(robot: Robot, q_rad: readonly number[]): number {
   return (isBehind ? 4 : 0) + (leans ? 2 : 0) + (q_rad[4]! < 0 ? 1 : 0);
 }
 
+/** Arms whose wrist is a ball, of which cfx speaks. Of others the manual's words say nothing here. */
+const HAS_OCTANTS: ReadonlySet<string> = new Set(["abb_irb120"]);
+
 /** How far an angle is from a quarter turn [rad]; 0 inside. */
 function outside(angle_rad: number, quarter: number): number {
   const from = quarter * Math.PI / 2, to = from + Math.PI / 2;
@@ -43,7 +46,7 @@ export function solved(robot: Robot, baseFromFlange: Pose<"base", "flange">, nea
     const beside = conf === undefined ? 0 : [[0, 0], [3, 1], [5, 2]].reduce((sum, [joint, k]) => {
       const gap = outside(q[joint!]!, conf[k!]!);
       return sum + (gap > BORDER_RAD ? gap : 0);
-    }, 0) + (octant(robot, q) === conf[3] ? 0 : 2 * Math.PI);
+    }, 0) + (!HAS_OCTANTS.has(robot.id) || octant(robot, q) === conf[3] ? 0 : 2 * Math.PI);
     const cost = 1000 * beside + way;
     if (cost < least) { least = cost; best = q; }
   }

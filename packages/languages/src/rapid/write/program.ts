@@ -1,5 +1,5 @@
 import {
-  branchOf, compose, flangePose, inverse, palletPitch, pose, rotate, solveAll, type Condition, type EmittedFile, type MoveStep, type Pallet, type PayloadStep, type Pose, type Robot, type SignalLine, type Speed, type Step, type Target, type Vector3,
+  branchOf, compose, inverse, palletPitch, pose, rotate, type Condition, type EmittedFile, type MoveStep, type Pallet, type PayloadStep, type Pose, type Robot, type SignalLine, type Speed, type Step, type Target, type Vector3,
 } from "@twincell/core";
 import { asciiText } from "../../text/index.ts";
 import { BlockWriter, CannotSay, Place, called, fixed, remark } from "../../writing/index.ts";
@@ -9,20 +9,21 @@ import { Declarations } from "./declarations.ts";
 import { WORDS } from "./words.ts";
 
 const LONGEST_TEXT = 80;
+const LEAST_ACCELERATION = 0.2;
 
 /** The module: data first, then the routines; says only what changes from one step to the next. */
 export class ProgramWriter {
   readonly warnings = new Set<string>();
   private readonly place: Place;
   private readonly robot: Robot;
-  private readonly configuration: Configuration;
   private readonly data = new Declarations();
   private readonly code = new BlockWriter();
   private readonly local = new Set<string>();
   /** Whether postures are known: without one there is no configuration to ask for. */
   private readonly solves: boolean;
   private points = 0;
-  private tool = "flange";
+  /** The tool of the last move; undefined where another routine or another round may have used another. */
+  private tool: string | undefined;
   private acceleration = 1;
   private group = "";
   private near: readonly number[] | undefined;
@@ -31,9 +32,8 @@ export class ProgramWriter {
   constructor(place: Place, configuration: Configuration) {
     this.place = place;
     this.robot = place.robot;
-    this.configuration = configuration;
     this.near = place.robot.home_rad;
-    this.solves = solveAll(place.robot, flangePose(place.robot.arm, place.robot.home_rad), { near: place.robot.home_rad }).kind !== "no-solver";
+    this.solves = configuration.hasCfx;
   }
 
   write(): readonly EmittedFile[] {
@@ -57,6 +57,7 @@ export class ProgramWriter {
   private routine(name: string, steps: readonly Step[], isMain: boolean): void {
     const { code } = this, body = new BlockWriter();
     this.begin();
+    if (isMain) this.tool = "flange";
     this.local.clear();
     const forgives = this.searches(steps);
     code.add(`PROC ${name}()`);
@@ -101,6 +102,7 @@ export class ProgramWriter {
   /** What is said at one place holds nowhere else: routines and blocks say it anew. */
   private begin(): void {
     this.acceleration = Number.NaN;
+    this.tool = undefined;
     this.before = undefined;
   }
 
@@ -171,7 +173,7 @@ export class ProgramWriter {
   private pallet(step: Extract<Step, { type: "pallet" }>): void {
     const { program } = this.place, { names } = this.data, pallet = Object.hasOwn(program.pallets, step.pallet) ? program.pallets[step.pallet] : undefined;
     if (pallet === undefined) throw new CannotSay(step.id, `${called(step)} works on the pallet ${step.pallet}, which the program does not have.`, "Choose another pallet.");
-    const order = pallet.order ?? "rows", byRows = order.startsWith("rows"), isShifted = pallet.interleave === "odd-rows-shifted";
+    const order = pallet.order ?? "rows", byRows = order.startsWith("rows"), isShifted = pallet.interleave === "odd-rows-shifted" && pallet.rows > 1;
     if (isShifted && !byRows) throw new CannotSay(step.id, `${called(step)} visits the interleaved pallet ${step.pallet} by columns, which no plain loop does.`, "Visit it by rows.");
     const object = names.of("frame", step.pallet), { out } = this, add = (line: string): void => { out.add(line, step.id); };
     if (pallet.frame !== "world") this.frame(pallet.frame, step.id);
@@ -185,8 +187,8 @@ export class ProgramWriter {
       loop(line, `${lines - 1}`, () => {
         loop(along, last, () => {
           add(`${at}:=${along};`);
-          if (order.endsWith("zigzag")) out.block(`IF ${line} MOD 2=1 THEN`, "ENDIF", step.id, () => { add(`${at}:=${isShifted ? inLine - 2 : inLine - 1}-${along};`); });
-          add(`${object}.oframe:=${this.placeText(pallet, layer, byRows ? line : at, byRows ? at : line, isShifted ? line : "")};`);
+          if (order.endsWith("zigzag") && lines > 1 && inLine > 1) out.block(`IF ${line} MOD 2=1 THEN`, "ENDIF", step.id, () => { add(`${at}:=${isShifted ? inLine - 2 : inLine - 1}-${along};`); });
+          add(`${object}.oframe:=${this.placeText(pallet, layer, line, at)};`);
           this.begin();
           this.steps(step.steps);
         });
@@ -195,14 +197,15 @@ export class ProgramWriter {
     this.begin();
   }
 
-  private placeText(pallet: Pallet, layer: string, row: string, column: string, shifted: string): string {
-    const isFree = pallet.frame === "world", toBase = (v: Vector3): Vector3 => isFree ? rotate(this.place.baseFromWorld.quaternion, v) : v;
-    const origin = isFree ? compose(this.place.baseFromWorld, compose(pose<"world", "frame">(), pallet.origin)) : pallet.origin, pitch = palletPitch(pallet);
-    const columns = toBase(pitch.column), rows = toBase(pitch.row), layers = toBase(pitch.layer);
-    const fine = (value_m: number): string => fixed(value_m * 1000, 5);
+  /** Where a place is: so far along its line, so many lines and layers away, and every second line half a step further where they are packed. */
+  private placeText(pallet: Pallet, layer: string, line: string, at: string): string {
+    const isFree = pallet.frame === "world", { baseFromWorld } = this.place, seen = (v: Vector3): Vector3 => isFree ? rotate(baseFromWorld.quaternion, v) : v;
+    const origin = isFree ? compose(baseFromWorld, compose(pose<"world", "frame">(), pallet.origin)) : pallet.origin, pitch = palletPitch(pallet);
+    const byRows = (pallet.order ?? "rows").startsWith("rows"), along = seen(byRows ? pitch.column : pitch.row), away = seen(byRows ? pitch.row : pitch.column);
+    const up = seen(pallet.layers > 1 ? pitch.layer : [0, 0, 0]), isShifted = pallet.interleave === "odd-rows-shifted" && pallet.rows > 1, fine = (value_m: number): string => fixed(value_m * 1000, 5);
     const term = (pitch_m: number, factor: string): string => fine(pitch_m) === "0" ? "" : `${pitch_m < 0 ? "-" : "+"}${fine(Math.abs(pitch_m))}*${factor}`;
     const parts = ([0, 1, 2] as const).map(i =>
-      `${fine(origin.position[i])}${term(columns[i], column)}${shifted === "" ? "" : term(columns[i] / 2, `(${shifted} MOD 2)`)}${term(rows[i], row)}${term(layers[i], layer)}`);
+      `${fine(origin.position[i])}${term(along[i], isShifted ? `(${at}+0.5*(${line} MOD 2))` : at)}${term(away[i], line)}${term(up[i], layer)}`);
     return `[[${parts.join(",")}],${orientText(origin.quaternion)}]`;
   }
 
@@ -230,7 +233,7 @@ export class ProgramWriter {
     if (typeof to === "number") return add(`SetAO ${name},${part(to)};`);
     if (step.pulse_s === undefined) return add(`SetDO ${name},${to ? 1 : 0};`);
     if (!to) throw new CannotSay(step.id, `${called(step)} is a pulse that goes off; PulseDO goes on.`, "Turn the sense of the line in the controller's configuration.");
-    add(`PulseDO\\PLength:=${part(step.pulse_s)},${name};`);
+    add(`PulseDO\\High\\PLength:=${part(step.pulse_s)},${name};`);
   }
 
   private waitFor(step: Extract<Step, { type: "wait-for" }>, add: (line: string) => void): void {
@@ -255,8 +258,10 @@ export class ProgramWriter {
 
   /** What the flange carries, as the controller wants it: seen from the tool in use. */
   private load(step: PayloadStep): string {
-    const { mass_kg, center_m, inertia_kgm2 = [0, 0, 0, 0, 0, 0] } = step, tool = this.place.tool(this.tool), tcpFromFlange = inverse(tool);
+    const { mass_kg, center_m, inertia_kgm2 = [0, 0, 0, 0, 0, 0] } = step;
     if (!(mass_kg > 0)) return "load0";
+    if (this.tool === undefined) throw new CannotSay(step.id, `${called(step)} says what is carried where the tool in use is not known; RAPID counts a load from it.`, "Put a move with the tool before it.");
+    const tcpFromFlange = inverse(this.place.tool(this.tool));
     if (inertia_kgm2.slice(3).some(each => each !== 0)) throw new CannotSay(step.id, `${called(step)} has moments of deviation; RAPID takes moments about three axes of the load.`, "Give the inertia about the load's own axes.");
     const center = compose(tcpFromFlange, pose<"flange", "load">(center_m)), [ix, iy, iz] = inertia_kgm2;
     const text = `[${part(mass_kg)},${posText(center.position)},${orientText(center.quaternion)},${part(ix)},${part(iy)},${part(iz)}]`;
@@ -268,13 +273,17 @@ export class ProgramWriter {
   // --- moves ------------------------------------------------------------------------------------------------------
 
   private move(step: MoveStep, next: Step | undefined, add: (line: string) => void): void {
-    const { target, path } = step, tool = target.tool ?? (path === "ptp" && "q" in target ? this.tool : "flange");
+    const { target, path } = step, tool = target.tool ?? (path === "ptp" && "q" in target ? this.tool ?? "flange" : "flange");
     this.tool = tool;
     const ratio = step.acceleration?.ratio ?? 1;
+    if (ratio < LEAST_ACCELERATION) throw new CannotSay(step.id, `${called(step)} accelerates by ${part(100 * ratio)} %; RAPID goes down to ${100 * LEAST_ACCELERATION} %.`, "Let it accelerate more, or move more slowly.");
     if (ratio !== this.acceleration) add(`AccSet ${part(100 * ratio)},100;`);
     this.acceleration = ratio;
     const posture = this.place.posture(step, path === "ptp" ? target : this.reached(target), this.near), at = `${this.speed(step)},${this.data.zone(this.zone_mm(step, next))},${this.toolName(tool, step.id)}`;
     this.near = posture ?? this.near;
+    if (path === "ptp" && !this.solves && "pose" in target && target.branch !== undefined) {
+      throw new CannotSay(step.id, `${called(step)} asks for a posture; what the configuration numbers of the ${this.robot.name} mean is not known here.`, "Teach the point as joint angles, or leave the posture to the robot.");
+    }
     if (path === "ptp" && "q" in target) return add(`MoveAbsJ ${this.joints(step, target.q)},${at};`);
     const frame = "q" in target ? "world" : target.frame, object = frame === "world" ? "" : `\\WObj:=${this.frame(frame, step.id)}`;
     const goal = this.point(step, this.inFrame(target, frame), posture, "");
@@ -324,8 +333,8 @@ export class ProgramWriter {
   }
 
   private point(step: MoveStep, inFrame: Pose<"frame", "tcp">, posture: readonly number[] | undefined, ending: string): string {
-    if (!this.solves) this.warnings.add("The postures of this arm are not solved here: configurations are written as 0 and not asked for. Try the first motion slowly.");
-    const text = targetText(inFrame, confText(this.robot, this.solves ? posture : undefined, this.configuration.hasCfx)), name = this.pointName(step, ending);
+    if (!this.solves) this.warnings.add("What the configuration numbers mean for this arm is not known here: they are written as 0 and not asked for. Try the first motion slowly.");
+    const text = targetText(inFrame, confText(this.robot, this.solves ? posture : undefined, this.solves)), name = this.pointName(step, ending);
     this.data.add(`point ${name}`, `CONST robtarget ${name}:=${text};`, step.id);
     return name;
   }

@@ -28,7 +28,9 @@ export function readExpression(cursor: TokenCursor, rules: ExpressionRules, dept
   if (depth > DEPTH) throw new TextError(cursor.here, "a simpler expression", `The expression is nested more than ${DEPTH} deep.`);
   let left = readPrefix(cursor, rules, depth);
   for (;;) {
-    const sign = cursor.next, strength = cursor.kind === "text" || !Object.hasOwn(rules.binary, sign) ? undefined : rules.binary[sign];
+    const sign = cursor.next;
+    if (sign === "," || sign === ")" || sign === "]") return left;
+    const strength = cursor.kind === "text" || !Object.hasOwn(rules.binary, sign) ? undefined : rules.binary[sign];
     if (strength === undefined || strength <= least) return left;
     const { line, column } = cursor.here;
     cursor.advance();
@@ -37,9 +39,9 @@ export function readExpression(cursor: TokenCursor, rules: ExpressionRules, dept
 }
 
 function readPrefix(cursor: TokenCursor, rules: ExpressionRules, depth: number): Expression {
-  const { line, column } = cursor.here, sign = cursor.next;
-  if (cursor.kind !== "text" && Object.hasOwn(rules.prefix, sign)) {
-    const strength = rules.prefix[sign]!;
+  const sign = cursor.next;
+  if (cursor.kind !== "text" && cursor.kind !== "number" && Object.hasOwn(rules.prefix, sign)) {
+    const { line, column } = cursor.here, strength = rules.prefix[sign]!;
     cursor.advance();
     const of = readExpression(cursor, rules, depth + 1, strength);
     // A number with its minus is a number.
@@ -80,7 +82,7 @@ function readWord(cursor: TokenCursor, rules: ExpressionRules, depth: number): E
   const { line, column } = cursor.here, name = cursor.next;
   if (rules.tags.includes(name) && cursor.second === "[") {
     cursor.advance();
-    return readList(cursor, rules, depth, name);
+    return { ...readList(cursor, rules, depth, name), line, column };
   }
   if (Object.hasOwn(rules.constants, name)) {
     const value = rules.constants[name]!;
@@ -108,14 +110,17 @@ function readList(cursor: TokenCursor, rules: ExpressionRules, depth: number, ta
 function readSuffix(cursor: TokenCursor, rules: ExpressionRules, depth: number, value: Expression): Expression {
   let of = value;
   for (;;) {
-    const { line, column } = cursor.here;
-    if (cursor.next === rules.index && cursor.kind === "sign") {
+    if (cursor.kind !== "sign") return of;
+    if (cursor.next === rules.index) {
+      const { line, column } = cursor.here;
       cursor.advance();
       const indices = [readExpression(cursor, rules, depth + 1)];
       while (cursor.accept(",")) indices.push(readExpression(cursor, rules, depth + 1));
       cursor.expect(rules.index === "[" ? "]" : "}");
       of = { kind: "index", of, indices, line, column };
-    } else if (rules.components && cursor.accept(".")) {
+    } else if (rules.components && cursor.next === ".") {
+      const { line, column } = cursor.here;
+      cursor.advance();
       of = { kind: "component", of, name: cursor.name("the name of a component"), line, column };
     } else return of;
   }

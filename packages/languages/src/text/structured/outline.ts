@@ -2,7 +2,7 @@ import type { Condition, Executed, Group, Pallet, Pose, Step, TextFault, TextPla
 import { TextError, textFault } from "../faults.ts";
 import type { BlockMachine, Flow } from "./machine.ts";
 import { fitPallet } from "./pallet.ts";
-import type { Block, Statement } from "./tree.ts";
+import type { Block, Expression, Statement } from "./tree.ts";
 
 /** A machine whose program can be written down as steps instead of being carried out. */
 export interface OutlineMachine<V> extends BlockMachine<V> {
@@ -12,6 +12,8 @@ export interface OutlineMachine<V> extends BlockMachine<V> {
   readonly places: Set<string>;
   /** The pose in a variable, with the frame it is given in; undefined when it holds none. */
   placeIn(variable: string): { readonly frame: string; readonly pose: Pose<"frame", "place"> } | undefined;
+  /** What was said before holds here, but is said anew: a block begins or has ended. */
+  edge(): void;
   /** Remembers how things stand; the answer brings that back. */
   remember(): () => void;
 }
@@ -75,6 +77,7 @@ export class Outline<V> {
           if (this.fresh(() => machine.inside(routine, () => this.block(routine.body, inside))) === "halt") this.endsAll.add(name);
           this.routines[name] = inside;
         }
+        machine.edge();
         this.add(out, { ...step, type: "call", routine: name }, statement);
         return this.endsAll.has(name) ? "halt" : "next";
       }
@@ -117,7 +120,9 @@ export class Outline<V> {
   private fresh<T>(read: () => T): T {
     const { group } = this;
     this.name = undefined;
+    this.machine.edge();
     const answer = read();
+    this.machine.edge();
     this.group = group;
     this.name = undefined;
     return answer;
@@ -182,10 +187,11 @@ export class Outline<V> {
 
   /** The steps of a body as one text to compare; undefined when it leaves the loop. */
   private trial(body: Block): string | undefined {
-    const steps: Step[] = [], { warnings, count } = this, kept = warnings.length;
+    const steps: Step[] = [], { warnings, count, groupCount } = this, kept = warnings.length;
     const flow = this.fresh(() => this.block(body, steps));
     warnings.length = kept;
     this.count = count;
+    this.groupCount = groupCount;
     return flow === "next" ? JSON.stringify(steps) : undefined;
   }
 
@@ -268,8 +274,9 @@ export class Outline<V> {
           if (each.kind === "comment") continue;
           if (each.kind !== "assign" && each.kind !== "if") return undefined;
           this.silently(each);
-          if (each.kind === "assign" && each.to.kind === "variable" && machine.placeIn(each.to.name) !== undefined) {
-            return { variable: each.to.name, place: each, before: counter.body.slice(0, i + 1), body: counter.body.slice(i + 1), counts, counters };
+          const variable = each.kind === "assign" ? holder(each.to) : undefined;
+          if (variable !== undefined && machine.placeIn(variable) !== undefined) {
+            return { variable, place: each, before: counter.body.slice(0, i + 1), body: counter.body.slice(i + 1), counts, counters };
           }
         }
         return undefined;
@@ -279,12 +286,19 @@ export class Outline<V> {
   }
 }
 
+/** The variable that an assignment changes, as a whole or in part. */
+function holder(to: Expression): string | undefined {
+  let of = to;
+  while (of.kind === "component" || of.kind === "index") of = of.of;
+  return of.kind === "variable" ? of.name : undefined;
+}
+
 const isForever = ({ when }: Extract<Statement, { kind: "while" }>): boolean => when.kind === "truth" && when.value;
 
 function assigns(block: Block, name: string): boolean {
   return block.some(statement => {
     switch (statement.kind) {
-      case "assign": return statement.to.kind === "variable" && statement.to.name === name;
+      case "assign": return holder(statement.to) === name;
       case "if": return statement.branches.some(({ body }) => assigns(body, name)) || (statement.otherwise !== undefined && assigns(statement.otherwise, name));
       case "while": case "for": return assigns(statement.body, name);
       default: return false;

@@ -5,7 +5,6 @@ import { plainText } from "../lines.ts";
 export type TokenKind = "word" | "number" | "text" | "sign" | "line-end" | "end";
 /** What a comment says, without its sign. */
 export interface Comment extends TextPlace { readonly text: string }
-export interface TextToken extends TextPlace { readonly kind: TokenKind; readonly text: string }
 
 /** What tells one language from another before its grammar begins. */
 export interface Lexicon {
@@ -23,10 +22,21 @@ export interface Lexicon {
 /** A line longer than this is nobody's program; it also bounds how much a statement can hold. */
 const LINE_LENGTH = 4096;
 const NUMBER = /(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[Ee][+-]?[0-9]+)?/y;
-const WORD = /[A-Za-z_][A-Za-z0-9_]*/y;
+const BLANK = 32, DOT = 46, LETTER = 1, DIGIT = 2, LINE_END = 3;
+/** The sort of each ASCII character: a large text is looked at by numbers, not by patterns. */
+const SORTS = Uint8Array.from({ length: 128 }, (_, code) => {
+  const letter = String.fromCharCode(code);
+  return /[A-Za-z_]/.test(letter) ? LETTER : /[0-9]/.test(letter) ? DIGIT : /[\r\n]/.test(letter) ? LINE_END : 0;
+});
+const isDigitCode = (code: number): boolean => code < 128 && SORTS[code] === DIGIT;
+const isWordCode = (code: number): boolean => code < 128 && (SORTS[code] === LETTER || SORTS[code] === DIGIT);
 
-/** The tokens of a text one after the other. Lines may end in CR LF, LF or CR. */
+/** The tokens of a text one after the other: `next` puts the token into these fields. Lines may end in CR LF, LF or CR. */
 export class Scanner {
+  kind: TokenKind = "line-end";
+  raw = "";
+  tokenLine = 1;
+  tokenColumn = 1;
   private readonly text: string;
   private readonly lexicon: Lexicon;
   private readonly signs = new Map<string, readonly string[]>();
@@ -53,44 +63,59 @@ export class Scanner {
   }
 
   /** @throws {TextError} at a character that has no meaning in the language; the character is then behind. */
-  next(): TextToken {
-    const { text, lexicon } = this;
-    while (this.at < text.length) {
-      const letter = text[this.at]!, place = { line: this.line, column: this.at - this.lineStart + 1 };
-      if (letter === " ") { this.at++; continue; }
-      if (letter === "\n" || letter === "\r") {
-        this.newLine(letter);
-        if (lexicon.lineEnds && this.depth === 0) return { kind: "line-end", text: "", ...place };
+  next(): void {
+    const { text, lexicon } = this, { length } = text;
+    for (;;) {
+      while (this.at < length && text.charCodeAt(this.at) === BLANK) this.at++;
+      const from = this.at, column = from - this.lineStart + 1, { line } = this;
+      this.tokenLine = line;
+      this.tokenColumn = column;
+      if (from >= length) return this.found("end", "");
+      const code = text.charCodeAt(from), sort = code < 128 ? SORTS[code]! : 0;
+      if (column > LINE_LENGTH && sort !== LINE_END) { this.skipLine(); throw new TextError({ line, column }, `a line of at most ${LINE_LENGTH} characters`, `Line ${line} has more than ${LINE_LENGTH} characters.`); }
+      if (sort === LETTER) {
+        while (this.at < length && isWordCode(text.charCodeAt(this.at))) this.at++;
+        return this.found("word", text.slice(from, this.at));
+      }
+      if (sort === DIGIT || (code === DOT && isDigitCode(text.charCodeAt(from + 1)))) {
+        NUMBER.lastIndex = from;
+        const number = NUMBER.exec(text)![0];
+        this.at += number.length;
+        return this.found("number", number);
+      }
+      if (sort === LINE_END) {
+        this.newLine(text[from]!);
+        if (lexicon.lineEnds && this.depth === 0) return this.found("line-end", "");
         continue;
       }
-      if (place.column > LINE_LENGTH) { this.skipLine(); throw new TextError(place, `a line of at most ${LINE_LENGTH} characters`, `Line ${place.line} has more than ${LINE_LENGTH} characters.`); }
+      const letter = text[from]!;
       if (letter === lexicon.comment) {
-        const from = this.at + 1;
         this.skipLine();
-        this.comments.push({ text: text.slice(from, this.at).trim(), ...place });
+        this.comments.push({ text: text.slice(from + 1, this.at).trim(), line, column });
         continue;
       }
-      if (lexicon.quotes.includes(letter)) return { kind: "text", text: this.quoted(letter, place), ...place };
-      const word = this.match(WORD);
-      if (word !== undefined) return { kind: "word", text: word, ...place };
-      const number = this.match(NUMBER);
-      if (number !== undefined) return { kind: "number", text: number, ...place };
-      const sign = this.signs.get(letter)?.find(each => text.startsWith(each, this.at));
-      const whole = String.fromCodePoint(text.codePointAt(this.at)!);
-      this.at += sign?.length ?? whole.length;
-      if (sign === undefined) throw new TextError(place, "a name, a number or a sign of the language", `The character "${whole}" has no meaning here.`);
-      if (sign === "(" || sign === "[" || sign === "{") this.depth++;
-      if ((sign === ")" || sign === "]" || sign === "}") && this.depth > 0) this.depth--;
-      return { kind: "sign", text: sign, ...place };
+      if (lexicon.quotes.includes(letter)) return this.found("text", this.quoted(letter, { line, column }));
+      return this.sign(letter, line, column);
     }
-    return { kind: "end", text: "", line: this.line, column: this.at - this.lineStart + 1 };
   }
 
-  private match(pattern: RegExp): string | undefined {
-    pattern.lastIndex = this.at;
-    const found = pattern.exec(this.text)?.[0];
-    if (found !== undefined) this.at += found.length;
-    return found;
+  private found(kind: TokenKind, raw: string): void {
+    this.kind = kind;
+    this.raw = raw;
+  }
+
+  private sign(letter: string, line: number, column: number): void {
+    const { text } = this, choice = this.signs.get(letter);
+    const sign = choice === undefined || choice.length === 1 && choice[0]!.length === 1 ? choice?.[0] : choice.find(each => text.startsWith(each, this.at));
+    if (sign === undefined) {
+      const whole = String.fromCodePoint(text.codePointAt(this.at)!);
+      this.at += whole.length;
+      throw new TextError({ line, column }, "a name, a number or a sign of the language", `The character "${whole}" has no meaning here.`);
+    }
+    this.at += sign.length;
+    if (sign === "(" || sign === "[" || sign === "{") this.depth++;
+    if ((sign === ")" || sign === "]" || sign === "}") && this.depth > 0) this.depth--;
+    this.found("sign", sign);
   }
 
   private newLine(letter: string): void {

@@ -1,4 +1,4 @@
-import { branchOf, compose, flangePose, inverse, solveAll, travel, type Branch, type Pose, type Robot } from "@twincell/core";
+import { branchOf, compose, flangePose, nearestSolution, solverScratch, type Branch, type Pose, type Robot } from "@twincell/core";
 import { BASE_FROM_CONTROLLER, fromPose, inverted, matrixOf, sixOf, times, toPose, type Matrix } from "./frame.ts";
 import type { PoseValue } from "./values.ts";
 
@@ -6,33 +6,42 @@ import type { PoseValue } from "./values.ts";
 export class ControllerArm {
   readonly robot: Robot;
   private readonly worldFromController: Matrix;
+  private readonly baseFromController = toPose<"base", "controller">(BASE_FROM_CONTROLLER);
+  private readonly scratch = solverScratch();
   tcp: Matrix = matrixOf([0, 0, 0, 0, 0, 0]);
-  /** Unknown after a pose whose joint angles are not solved here. */
-  joints: readonly number[] | undefined;
-  private flange: Matrix;
+  /** The last joint angles that are known, undefined where they cannot be worked out, and the poses of the flange since then. */
+  private settled: readonly number[] | undefined;
+  private since: Matrix[] = [];
 
   constructor(robot: Robot, worldFromBase: Pose<"world", "base">) {
     this.robot = robot;
     this.worldFromController = times(fromPose(worldFromBase), BASE_FROM_CONTROLLER);
-    this.joints = robot.home_rad;
-    this.flange = this.flangeAt(robot.home_rad);
+    this.settled = robot.home_rad;
   }
 
   flangeAt(joints: readonly number[]): Matrix { return times(inverted(BASE_FROM_CONTROLLER), fromPose(flangePose(this.robot.arm, joints))); }
   /** The tool tip where the arm is sent. */
-  tip(): Matrix { return times(this.flange, this.tcp); }
+  tip(): Matrix { return times(this.since.at(-1) ?? this.flangeAt(this.settled!), this.tcp); }
   tipAt(joints: readonly number[]): Matrix { return times(this.flangeAt(joints), this.tcp); }
   world<Into extends string, From extends string>(pose: Matrix): Pose<Into, From> { return toPose(times(this.worldFromController, pose)); }
 
-  atJoints(joints: readonly number[]): void {
-    this.joints = joints;
-    this.flange = this.flangeAt(joints);
+  /** The posture that each pose was reached in, one after the other, is worked out when somebody asks. Undefined where it cannot be. */
+  get joints(): readonly number[] | undefined {
+    for (const flange of this.since) this.settled = this.settled === undefined ? undefined : this.solvedFor(flange, this.settled);
+    if (this.settled !== undefined) this.since = [];
+    return this.settled;
   }
 
-  /** The tip is at that pose; the posture is the one nearest to where the arm was. */
-  atPose(pose: PoseValue, near: readonly number[] | undefined = this.joints): void {
-    this.flange = times(matrixOf(pose.six), inverted(this.tcp));
-    this.joints = near === undefined ? undefined : this.solved(near);
+  atJoints(joints: readonly number[]): void {
+    this.settled = joints;
+    this.since = [];
+  }
+
+  /** The tip is at that pose; the posture is the one nearest to where the arm was, or to `near`. */
+  atPose(pose: PoseValue, near?: readonly number[]): void {
+    const flange = times(matrixOf(pose.six), inverted(this.tcp));
+    if (near !== undefined) { this.settled = near; this.since = [flange]; return; }
+    this.since.push(flange);
   }
 
   /** Joint angles for a pose of the tip, nearest to a posture. Undefined where they cannot be worked out. */
@@ -42,23 +51,15 @@ export class ControllerArm {
 
   /** Remembers where the arm is; the answer brings it back. */
   remember(): () => void {
-    const { tcp, joints, flange } = this;
-    return () => { this.tcp = tcp; this.joints = joints; this.flange = flange; };
+    const { tcp, settled } = this, since = [...this.since];
+    return () => { this.tcp = tcp; this.settled = settled; this.since = [...since]; };
   }
 
   branch(joints: readonly number[]): Branch | undefined { return branchOf(this.robot, joints); }
 
-  private solved(near: readonly number[]): readonly number[] | undefined { return this.solvedFor(this.flange, near); }
-
   private solvedFor(flange: Matrix, near: readonly number[]): readonly number[] | undefined {
-    const reach = solveAll(this.robot, compose(inverse(toPose<"controller", "base">(inverted(BASE_FROM_CONTROLLER))), toPose<"controller", "flange">(flange)), { near });
-    if (reach.kind !== "reached") return undefined;
-    let best: readonly number[] | undefined, least = Infinity;
-    for (const { q_rad } of reach.solutions) {
-      const way = travel(q_rad, near);
-      if (way < least) { least = way; best = [...q_rad]; }
-    }
-    return best;
+    const q = new Float64Array(near.length), baseFromFlange = compose(this.baseFromController, toPose<"controller", "flange">(flange));
+    return nearestSolution(this.robot, baseFromFlange, near, q, this.scratch) ? [...q] : undefined;
   }
 
   /** Six numbers of a matrix. */

@@ -39,6 +39,8 @@ export class Machine extends BlockMachine<Value> {
   private readonly outputs = new Map<string, boolean | number>();
   private readonly signals: Signals | undefined;
   private tool = "flange";
+  /** Whether the tool was set where the program is now; joint angles alone do not ask for one. */
+  private hasTool = false;
   /** Variables whose pose is a frame although it changes: the places of a pallet that is being read. */
   readonly places = new Set<string>();
 
@@ -179,12 +181,15 @@ export class Machine extends BlockMachine<Value> {
     return this.poseTarget<"place">(value);
   }
 
+  edge(): void { this.hasTool = false; }
+
   override remember(): () => void {
-    const values = super.remember(), arm = this.arm.remember(), { tool } = this, outputs = new Map(this.outputs);
+    const values = super.remember(), arm = this.arm.remember(), { tool, hasTool } = this, outputs = new Map(this.outputs);
     return () => {
       values();
       arm();
       this.tool = tool;
+      this.hasTool = hasTool;
       this.outputs.clear();
       for (const [line, value] of outputs) this.outputs.set(line, value);
     };
@@ -234,6 +239,7 @@ export class Machine extends BlockMachine<Value> {
   private setTcp(args: Arguments, at: TextPlace): void {
     const pose = asPose(args.required(0, "pose"), at), given = args.given(0, "pose");
     this.arm.tcp = matrixOf(pose.six);
+    this.hasTool = true;
     this.tool = pose.six.every(x => x === 0) ? "flange" : named(this.surroundings.tools, toPose(this.arm.tcp), given.kind === "variable" && given.name !== "flange" ? given.name : "tool");
   }
 
@@ -256,7 +262,7 @@ export class Machine extends BlockMachine<Value> {
     const via = isArc ? { via: this.target(args.required(0, "pose_via"), args.at, false) } : {};
     const speed = time > 0 ? { time_s: time } : this.speed(name === "movej", v === undefined ? undefined : asNumber(v, args.at), args.at);
     const target = this.target(goal, args.at, name === "movej");
-    this.arrive(goal, args.at);
+    this.arrive(goal, name === "movej", args.at);
     return { id, type: "move", path: name === "movej" ? "ptp" : isArc ? "circ" : "lin", target, ...via, speed, blend_m: blend };
   }
 
@@ -269,7 +275,7 @@ export class Machine extends BlockMachine<Value> {
   private target(goal: Value, at: TextPlace, choosesPosture: boolean): Target {
     const { tool } = this;
     if (typeof goal === "object" && goal.kind === "list") {
-      if (goal.solves === undefined) return { q: asNumbers(goal, 6, at), tool };
+      if (goal.solves === undefined) return { q: asNumbers(goal, 6, at), ...(choosesPosture && !this.hasTool ? {} : { tool }) };
       const joints = goal.items.length === 6 ? asNumbers(goal, 6, at) : undefined, branch = joints === undefined || !choosesPosture ? undefined : this.arm.branch(joints);
       return { ...this.poseTarget(goal.solves.pose), tool, ...(branch === undefined ? {} : { branch }) };
     }
@@ -287,10 +293,12 @@ export class Machine extends BlockMachine<Value> {
     return { pose: this.arm.world(matrixOf(value.six)), frame: "world" };
   }
 
-  private arrive(goal: Value, at: TextPlace): void {
+  /** A joint move ends in the angles it is given; the others lead the tool to where those angles would put it. */
+  private arrive(goal: Value, isJoint: boolean, at: TextPlace): void {
     if (typeof goal === "object" && goal.kind === "list") {
-      if (goal.solves === undefined) return this.arm.atJoints(asNumbers(goal, 6, at));
-      return this.arm.atPose(goal.solves.pose, goal.solves.near);
+      if (goal.solves !== undefined) return this.arm.atPose(goal.solves.pose, isJoint ? goal.solves.near : undefined);
+      const joints = asNumbers(goal, 6, at);
+      return isJoint ? this.arm.atJoints(joints) : this.arm.atPose(this.arm.six(this.arm.tipAt(joints)));
     }
     if (typeof goal !== "object") throw new TextError(at, "a pose or joint angles", `${kindOf(goal)} is no place to move to.`);
     this.arm.atPose(asPose(goal, at));

@@ -1,4 +1,4 @@
-import { branchOf, compose, identity, palletPitch, pose, type Condition, type EmittedFile, type MoveStep, type Pallet, type Pose, type Robot, type SignalLine, type Step, type Target } from "@twincell/core";
+import { branchOf, compose, flangeOfTcp, nearestSolution, palletPitch, pose, rotate, type Condition, type EmittedFile, type MoveStep, type Pallet, type Pose, type Robot, type SignalLine, type Step, type Target, type Vector3 } from "@twincell/core";
 import { asciiText } from "../../text/index.ts";
 import { BlockWriter, CannotSay, Names, Place, called, remark } from "../../writing/index.ts";
 import { DIGITAL_LINES, fullJointSpeed } from "../robots.ts";
@@ -141,7 +141,7 @@ export class ProgramWriter {
   private pallet(step: Extract<Step, { type: "pallet" }>): void {
     const { program } = this.place, pallet = Object.hasOwn(program.pallets, step.pallet) ? program.pallets[step.pallet] : undefined;
     if (pallet === undefined) throw new CannotSay(step.id, `${called(step)} works on the pallet ${step.pallet}, which the program does not have.`, "Choose another pallet.");
-    const order = pallet.order ?? "rows", byRows = order.startsWith("rows"), isShifted = pallet.interleave === "odd-rows-shifted";
+    const order = pallet.order ?? "rows", byRows = order.startsWith("rows"), isShifted = pallet.interleave === "odd-rows-shifted" && pallet.rows > 1;
     if (isShifted && !byRows) throw new CannotSay(step.id, `${called(step)} visits the interleaved pallet ${step.pallet} by columns, which no plain loop does.`, "Visit it by rows.");
     const variable = this.names.of("frame", step.pallet), { out } = this;
     const line = this.names.fresh(`${variable}_line`), along = this.names.fresh(`${variable}_along`), layer = this.names.fresh(`${variable}_layer`), at = this.names.fresh(`${variable}_at`);
@@ -153,10 +153,10 @@ export class ProgramWriter {
     const count = isShifted ? `${inLine} - ${line} % 2` : `${inLine}`;
     const visit = (): void => {
       out.add(`${at} = ${along}`, step.id);
-      if (order.endsWith("zigzag")) {
+      if (order.endsWith("zigzag") && lines > 1 && inLine > 1) {
         out.block(`if ${line} % 2 == 1:`, "end", step.id, () => { out.add(`${at} = ${isShifted ? inLine - 2 : inLine - 1} - ${along}`, step.id); });
       }
-      out.add(`global ${variable} = ${this.placeText(pallet, layer, byRows ? line : at, byRows ? at : line, isShifted ? line : "")}`, step.id);
+      out.add(`global ${variable} = ${this.placeText(pallet, layer, line, at)}`, step.id);
       this.begin();
       this.steps(step.steps);
     };
@@ -164,14 +164,17 @@ export class ProgramWriter {
     this.begin();
   }
 
-  private placeText(pallet: Pallet, layer: string, row: string, column: string, shifted: string): string {
-    const pitch = palletPitch(pallet), turn = poseText(pose([0, 0, 0], pallet.origin.quaternion)).replace(/^p\[0, 0, 0, /, "").replace(/\]$/, "");
-    const term = (step_m: number, factor: string): string => num(step_m) === "0" ? "" : step_m < 0 ? ` - ${fine(-step_m)} * ${factor}` : ` + ${fine(step_m)} * ${factor}`;
+  /** Where a place is: so far along its line, so many lines and layers away, and every second line half a step further where they are packed. */
+  private placeText(pallet: Pallet, layer: string, line: string, at: string): string {
+    const isFree = pallet.frame === "world", toController = compose(controllerFromBase(this.robot), this.place.baseFromWorld);
+    const seen = (v: Vector3): Vector3 => isFree ? rotate(toController.quaternion, v) : v, origin = isFree ? compose(toController, compose(pose<"world", "frame">(), pallet.origin)) : pallet.origin;
+    const pitch = palletPitch(pallet), byRows = (pallet.order ?? "rows").startsWith("rows"), along = seen(byRows ? pitch.column : pitch.row), away = seen(byRows ? pitch.row : pitch.column);
+    const up = seen(pallet.layers > 1 ? pitch.layer : [0, 0, 0]), isShifted = pallet.interleave === "odd-rows-shifted" && pallet.rows > 1;
+    const term = (step_m: number, factor: string): string => fine(step_m) === "0" ? "" : ` ${step_m < 0 ? "-" : "+"} ${fine(Math.abs(step_m))} * ${factor}`;
     const place = ([0, 1, 2] as const).map(i =>
-      `${fine(pallet.origin.position[i])}${term(pitch.column[i], column)}${shifted === "" ? "" : term(pitch.column[i] / 2, `(${shifted} % 2)`)}${term(pitch.row[i], row)}${term(pitch.layer[i], layer)}`);
-    const text = `p[${place.join(", ")}, ${turn}]`;
-    if (pallet.frame !== "world") return `pose_trans(${this.names.of("frame", pallet.frame)}, ${text})`;
-    return `pose_trans(${this.inController(identity())}, ${text})`;
+      `${fine(origin.position[i])}${term(along[i], isShifted ? `(${at} + 0.5 * (${line} % 2))` : at)}${term(away[i], line)}${term(up[i], layer)}`);
+    const turn = poseText(pose([0, 0, 0], origin.quaternion)).slice("p[0, 0, 0, ".length, -1), text = `p[${place.join(", ")}, ${turn}]`;
+    return isFree ? text : `pose_trans(${this.names.of("frame", pallet.frame)}, ${text})`;
   }
 
   private set(step: Extract<Step, { type: "set" }>, add: (line: string) => void): void {
@@ -200,20 +203,36 @@ export class ProgramWriter {
   }
 
   private move(step: MoveStep, next: Step | undefined, add: (line: string) => void): void {
-    const { target } = step, tool = target.tool ?? (step.path === "ptp" && "q" in target ? undefined : "flange");
+    const { target, path } = step, tool = target.tool ?? (path === "ptp" && "q" in target ? undefined : "flange");
     if (tool !== undefined && tool !== this.tool) {
       add(tool === "flange" ? "set_tcp(p[0, 0, 0, 0, 0, 0])" : `set_tcp(${this.names.of("tool", tool)})`);
       this.tool = tool;
     }
-    const posture = this.place.posture(step, target, this.near), blend = this.place.blend_m(step, this.before, next);
+    const posture = this.place.posture(step, path === "ptp" ? target : this.reached(target), this.near), blend = this.place.blend_m(step, this.before, next);
     const pace = this.pace(step), radius = num(blend) === "0" ? "" : `, r=${num(blend)}`;
-    if (step.path === "ptp") add(`movej(${this.jointGoal(target, posture)}, ${pace}${radius})`);
-    else if (step.path === "lin") add(`movel(${this.goal(target)}, ${pace}${radius})`);
+    if (path === "ptp") add(`movej(${this.jointGoal(target, posture)}, ${pace}${radius})`);
+    else if (path === "lin") add(`movel(${this.goal(target)}, ${pace}${radius})`);
     else {
       if (step.via === undefined) throw new CannotSay(step.id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
       add(`movec(${this.goal(step.via)}, ${this.goal(target)}, ${pace}${radius})`);
     }
     this.near = posture ?? this.near;
+  }
+
+  /** Off a joint move the tool is led, and the arm arrives in the posture nearest to the one before. */
+  private reached(target: Target): Target {
+    const { place } = this;
+    return { pose: compose(compose(pose<"frame", "world">(), place.worldFromBase), place.tip(target)), frame: "world", tool: target.tool ?? "flange" };
+  }
+
+  /** The posture in as few decimals as still lead to it. */
+  private nearest(target: Target, posture: readonly number[]): string {
+    const { place, robot } = this, baseFromFlange = flangeOfTcp(place.worldFromBase, compose(place.worldFromBase, place.tip(target)), place.tool(target.tool)), found = new Float64Array(posture.length);
+    for (const decimals of [1, 2, 3, 4, 5]) {
+      const near = posture.map(angle => Number(angle.toFixed(decimals)));
+      if (nearestSolution(robot, baseFromFlange, near, found) && found.every((angle, i) => Math.abs(angle - posture[i]!) < 1e-3)) return listText(near);
+    }
+    return listText(posture);
   }
 
   private goal(target: Target): string {
@@ -225,7 +244,7 @@ export class ProgramWriter {
   /** A pose alone is reached in the posture nearest to where the arm is; a branch that was taught is asked for by its angles. */
   private jointGoal(target: Target, posture: readonly number[] | undefined): string {
     if ("q" in target || target.branch === undefined || posture === undefined || branchOf(this.robot, posture) === undefined) return this.goal(target);
-    return `get_inverse_kin(${this.goal(target)}, ${listText(posture)})`;
+    return `get_inverse_kin(${this.goal(target)}, ${this.nearest(target, posture)})`;
   }
 
   private pace({ id, name, path, speed }: MoveStep): string {
