@@ -26,6 +26,8 @@ export interface ObjectRecord {
   readonly shape: Shape;
   /** #rrggbb */
   readonly color: string;
+  /** What may stand on it, as its maker says: the robot with its load is held against it. */
+  readonly carries_kg?: number;
 }
 
 export interface FrameRecord { readonly name: string; readonly worldFromFrame: Pose<"world", "frame"> }

@@ -53,7 +53,7 @@ export const en = {
   undo: {
     recordPoint: "Record point", recordPath: "Record path", addWait: "Add wait", addGripper: "Add gripper step", addSet: "Add signal step", addWaitFor: "Add wait for a signal", addComment: "Add comment", addRepeat: "Add loop", signal: "Change signal", comment: "Change comment", times: "Change loop", touchUp: "Touch up point", rename: "Rename", deleteSteps: (n: number) => `Delete ${plural(n, "step")}`, duplicate: "Duplicate",
     reorder: "Reorder", clear: "Clear program", repair: "Apply repair", repairAll: "Repair all", moveObject: "Move object", size: "Change size", tool: "Choose tool", trace: "Trace edges", speed: "Change speed", blend: "Change blend",
-    path: "Change path", target: "Change target", wait: "Change wait", addObject: "Add object", deleteObject: "Delete object", import: "Import program", cellName: "Rename cell", moveRobot: "Move robot", gripper: "Change gripper",
+    path: "Change path", target: "Change target", wait: "Change wait", addObject: "Add object", deleteObject: "Delete object", import: "Import program", cellName: "Rename cell", moveRobot: "Move robot", robot: (name: string) => `Change the robot to ${name}`, gripper: "Change gripper",
     done: (label: string) => `Undone: ${label}.`, redone: (label: string) => `Done again: ${label}.`, nothing: "There is nothing to undo.", nothingAhead: "There is nothing to redo.",
   },
   field: {
@@ -61,7 +61,7 @@ export const en = {
     atLeast: (name: string, limit: string, unit: string) => `${name} is at least ${limit} ${unit}.`, atMost: (name: string, limit: string, unit: string) => `${name} is at most ${limit} ${unit}.`,
   },
   inspector: {
-    nothing: "Nothing is selected. Click a part of the cell or a step to see and change its numbers.", robot: "Robot", base: "Stands at", joints: "Joint angles", reach: "Reach", payload: "Payload", repeatability: "Repeatability", tcpSpeed: "Fastest TCP", shapeError: "Drawn shape is off by up to", mass: "Mass",
+    nothing: "Nothing is selected. Click a part of the cell or a step to see and change its numbers.", robot: "Robot", base: "Stands at", joints: "Joint angles", reach: "Reach", payload: "Payload", repeatability: "Repeatability", tcpSpeed: "Fastest TCP", shapeError: "Drawn shape is off by up to", mass: "Mass", massLoaded: (robot: number, total: number) => `${robot} kg, ${total} kg with payload`,
     assumptions: "Assumed, not published", object: "Object", position: "Position", size: "Size", role: "Role", tool: "Tool", tcp: "TCP on the flange", frame: "Frame", width: "along x", depth: "along y", height: "along z", step: "Step",
     joint: (n: number) => `Joint ${n}`, margin: (deg: string) => `${deg}° to the limit`, rotation: "Turned", shape: "Shape", shapes: { box: "box", cylinder: "cylinder", revolved: "turned part", mesh: "mesh" }, group: "Group",
     manySteps: (n: number) => `${n} points of one trace`, speedAll: "Speed of all points",
@@ -127,12 +127,18 @@ export const en = {
     damaged: "The cell kept in this browser could not be read; an earlier copy was opened.", lost: "The cell kept in this browser could not be read; the example was opened instead.", unreadable: (name: string) => `${name} could not be read from the disk.`, mesh: (name: string, faces: number) => `${name} was added with ${faces.toLocaleString("en")} triangles.`, unknownKind: (name: string) => `${name} is neither a cell, nor a V+ program, nor an STL or OBJ mesh.`, unknownHint: "Drop a .json cell saved by Twincell, a V+ text (.v2, .pg, .txt), or an STL or OBJ mesh.",
   },
   welcome: {
-    title: "Start with a cell", example: "Open an example", exampleSays: "A Stäubli RX90L, a carton on a table, four edges to trace.", drop: "Drop a CAD file", dropSays: "STL, OBJ and PLY meshes become objects; cells and V+ texts open.", connect: "Connect a controller", connectSays: "The virtual RX90L is connected. Real controllers come later.", connected: "connected", empty: "Empty cell", choose: "Choose a file",
+    title: "Start with a cell", example: "Open an example", exampleSays: "A Stäubli RX90L, a carton on a table, four edges to trace.", drop: "Drop a CAD file", dropSays: "STL, OBJ and PLY meshes become objects; cells and V+ texts open.", connect: "Connect a controller", connectSays: (robot: string) => `The virtual ${robot} is connected. Real controllers come later.`, robot: "Choose a robot", robotSays: (robots: number) => `Or take one of the ${robots} robots of the library.`, connected: "connected", empty: "Empty cell", choose: "Choose a file",
   },
   export: {
     title: "Export", dialect: "Language", files: "Files", text: "Text", warnings: "Notes", none: "No notes.", download: "Download all", copy: "Copy text", step: (name: string) => `from ${name}`, cannot: "This program cannot be written in this language:", manifest: "Manifest", lines: (n: number) => plural(n, "line"), copied: "The text is in the clipboard.", notCopied: "The browser did not allow copying.", notCopiedHint: "Select the text and copy it by hand.",
     proof: (mm: string, deg: string) => `Read back by an independent interpreter: every point within ${mm} mm and ${deg}°.`, import: "Import V+ text", importSays: "Paste or drop a V+ program. Its points become steps.", importGo: "Import", paste: "V+ text", line: (line: number, column: number, sentence: string) => `Line ${line}, column ${column}: ${sentence}`, imported: (n: number) => `${plural(n, "step")} imported.`, proven: "proven by interpreting the text", experimental: "experimental",
     cannotDo: "What this language cannot say",
+  },
+  robots: {
+    title: "Another robot", another: "Another robot …", search: "Search by name, maker or number of axes", none: (text: string) => `No robot of the library is called “${text}”.`, vendor: "Maker", axes: "Axes", here: "in the cell", madeUp: "made-up geometry",
+    madeUpSays: "Nobody publishes the lengths of this arm; they were made up. What is found here says nothing about the real robot.", facts: (axes: number, kg: number, mm: string) => `${axes} axes · ${kg} kg · ${mm} mm`,
+    use: (name: string) => `Use the ${name}`, useNone: "Use this robot", already: "This robot is in the cell.", keeps: "The cell stays; the program is taught anew so that the tool goes where it went.", busy: "The robot is running a program; stop it first.",
+    changed: (name: string, kept: number, points: number) => (points === 0 ? `The ${name} is in the cell.` : kept === points ? `The ${name} is in the cell; all ${plural(points, "point")} were kept.` : `The ${name} is in the cell; ${kept} of ${plural(points, "point")} were kept, ${points - kept} cannot be reached.`), changedHint: "Check says why, and what would fix it.",
   },
   palette: { title: "Commands", search: "Type a command", none: "No command is called that.", groups: { file: "Cell", edit: "Edit", program: "Program", jog: "Robot", view: "View", play: "Timeline", help: "Help" } },
   shortcuts: { title: "Keyboard", open: "Keyboard shortcuts" },
@@ -150,7 +156,7 @@ export const en = {
   commands: {
     stop: "Stop everything", undo: "Undo", redo: "Redo", save: "Save to file", load: "Open file …", example: "Open the edge-trace example", fresh: "New empty cell", palette: "All commands", shortcuts: "Keyboard shortcuts", controls: "Controls: keys and gamepad", export: "Export V+", import: "Import V+ text",
     teach: "Teach", check: "Check", run: "Run", history: "History", theme: "Theme: light or dark", mute: "Sounds on or off", camera: "Main or close camera", headset: "Enter the headset", trace: "Trace edges", recordPtp: "Record point, PTP", recordLin: "Record point, LIN", recordMoving: "Record while moving: on or off", touchUp: "Touch up the selected point", wait: "Add a wait", gripperClose: "Add: close gripper", gripperOpen: "Add: open gripper", set: "Add: set a signal", waitFor: "Add: wait for a signal", comment: "Add: comment", repeat: "Add: loop around the step",
-    ready: "Do Ready: go home", zero: "All joints to zero", aidNext: "Next orientation aid", aidPrevious: "Previous orientation aid", remove: "Delete what is selected", duplicate: "Duplicate the selected step", clear: "Clear the program", play: "Play or pause", stepOn: "Next step", stepBack: "Previous step", start: "To the start", checkNow: "Check now", repairAll: "Repair all", plots: "Plots", up: "Move the step up", down: "Move the step down", rename: "Rename", startRun: "Run on the virtual controller", frame: (name: string) => `Jog in ${name}`, coach: "Show the coach again", box: "Add a box", deselect: "Leave",
+    ready: "Do Ready: go home", zero: "All joints to zero", aidNext: "Next orientation aid", aidPrevious: "Previous orientation aid", remove: "Delete what is selected", duplicate: "Duplicate the selected step", clear: "Clear the program", anotherRobot: "Another robot …", play: "Play or pause", stepOn: "Next step", stepBack: "Previous step", start: "To the start", checkNow: "Check now", repairAll: "Repair all", plots: "Plots", up: "Move the step up", down: "Move the step down", rename: "Rename", startRun: "Run on the virtual controller", frame: (name: string) => `Jog in ${name}`, coach: "Show the coach again", box: "Add a box", deselect: "Leave",
   },
   sheet: { label: "Tools", jog: "Jog", program: "Program", why: "Why", run: "Run", dead: "Hold to move" },
 };

@@ -1,4 +1,6 @@
+import { standLoad } from "@twincell/core";
 import type { CellDocument } from "@twincell/project";
+import { runCommand } from "../../stores/commands.ts";
 import { commit, robotOf } from "../../stores/document.ts";
 import { showNumber } from "../../ui/expression.ts";
 import { words } from "../../words/index.ts";
@@ -8,15 +10,18 @@ import { PoseFields } from "./PoseFields.tsx";
 export function RobotInspector({ document }: { document: CellDocument }) {
   const robot = robotOf(document);
   if (!robot) return null;
+  const load = standLoad(robot), mass = load.kind === "known" && load.payload_kg > 0 ? words.inspector.massLoaded(load.robot_kg, load.total_kg) : `${robot.mass_kg ?? 0} kg`;
   const facts = [
     [words.inspector.reach, `${showNumber(robot.reach_m, "length", 0)} mm`], [words.inspector.payload, `${robot.payload_kg} kg`],
     [words.inspector.repeatability, `±${showNumber(robot.repeatability_m, "length", 3)} mm`], [words.inspector.tcpSpeed, `${robot.maxTcpSpeed_mps} m/s`],
-    [words.inspector.shapeError, `${showNumber(robot.shapeError_m, "length", 0)} mm`], ...(robot.mass_kg === undefined ? [] : [[words.inspector.mass, `${robot.mass_kg} kg`] as const]),
+    [words.inspector.shapeError, `${showNumber(robot.shapeError_m, "length", 0)} mm`], ...(robot.mass_kg === undefined ? [] : [[words.inspector.mass, mass] as const]),
   ] as const;
   return (
     <section aria-label={robot.name}>
       <h2 className="heading"><span className="grow">{robot.name}</span><span className="tag">{words.tree.axes(robot.arm.joints.length)}</span></h2>
       <div className="section stack">
+        <button className="btn" onClick={() => runCommand("cell.robot")}>{words.robots.another}</button>
+        {robot.madeUpGeometry && <p className="export-proof small"><i className="mark" data-verdict="warn" aria-hidden />{words.robots.madeUpSays}</p>}
         <h3 className="label">{words.inspector.joints}</h3>
         <JointFields robot={robot} />
         <h3 className="label">{words.inspector.base}</h3>
