@@ -109,7 +109,7 @@ export const en = {
     shown: "This is how it would stand. Esc goes back.", at: (s: string) => `at ${s} s`, trouble: "The program could not be checked:", joint: "Joints at this moment",
   },
   time: {
-    play: "Play", pause: "Pause", step: "Step", back: "Step back", of: "/", plots: "Plots", scrubber: "Time", empty: "The program appears here as blocks on a time line.", speed: "Playback speed", angles: "Joint angles", speeds: "Joint speeds", over: (name: string, n: number) => `${name}, ${plural(n, "finding")}`,
+    play: "Play", pause: "Pause", step: "Step", back: "Step back", of: "/", plots: "Plots", scrubber: "Time", empty: "The program appears here as blocks on a time line.", speed: "Playback speed", angles: "Joint angles", speeds: "Joint speeds", torques: "Torques", limit: "limit", percent: " %", over: (name: string, n: number) => `${name}, ${plural(n, "finding")}`,
     s: (s: number) => s.toFixed(2), seconds: "s", joint: (n: number) => `J${n}`, deg: "°", degS: "°/s", start: "To the start",
   },
   run: {
