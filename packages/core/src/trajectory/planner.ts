@@ -63,7 +63,7 @@ export function planProgram(program: Program, robot: Robot, options: PlanOptions
   const writer = new PlanWriter(robot, options);
   const planner = new RunPlanner(robot, options.tolerance_m ?? PATH_TOLERANCE_M);
   const context = { tools: program.tools, frames: program.frames, ...(options.worldFromBase === undefined ? {} : { worldFromBase: options.worldFromBase }) };
-  const assumptions = durationAssumptions(program, robot), gentler = new Gentler(robot, options), { gentled } = gentler, parts = ahead(program, options.inputs ?? {});
+  const assumptions = durationAssumptions(program, robot), parts = ahead(program, options.inputs ?? {}), gentler = new Gentler(robot, options), { gentled } = gentler;
   const runs = parts.flatMap(part => (part.kind === "run" ? [part.moves.map(({ step }) => resolveMove(step, robot, context))] : []));
   const choice = chooseBranches(runs, robot, writer.q);
   let run = 0, first = 0;
