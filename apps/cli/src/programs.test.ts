@@ -134,6 +134,9 @@ test("X-10 torques of a UR10e with 10 kg: check names joint and torque, simulate
   expect(held.err).toMatch(/^Step out runs at \d\d % of its speed: joint 2 would need [\d.]+ N m; its limit is 330\.0 N m\.$/m);
   expect(moments(held.out).at(-1)!.t).toBeGreaterThan(moments(lines.out).at(-1)!.t);
   for (const line of held.out.trim().split("\n")) expect(Math.abs((JSON.parse(line) as { torque: number[] }).torque[1]!)).toBeLessThan(330);
+  const off = twincell("simulate", path, "--accuracy", "0.2,0.4").out.trim().split("\n").map(line => JSON.parse(line) as { override: number; worst_m: number });
+  expect(off.map(({ override }) => override)).toEqual([0.2, 0.4]);
+  expect(off[1]!.worst_m).toBeGreaterThan(off[0]!.worst_m);
   const unknown = twincell("simulate", PROGRAM, "--torque");
   expect(unknown.code).toBe(1);
   expect(unknown.err).toMatch(/The torques of Stäubli RX90L are unknown/);

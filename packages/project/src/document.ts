@@ -26,6 +26,8 @@ export interface ObjectRecord {
   readonly shape: Shape;
   /** #rrggbb */
   readonly color: string;
+  /** What may stand on it, as its maker says: the robot with its load is held against it. */
+  readonly carries_kg?: number;
 }
 
 /** A user frame; `saved`: a pose of the tool tip that a person saved, to go through it later (rows L-44 … L-49). */

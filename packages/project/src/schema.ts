@@ -47,6 +47,7 @@ export const cellSchema = z.strictObject({
     worldFromObject: poseOf<"world", "object">(),
     shape,
     color: z.string().regex(/^#[0-9a-f]{6}$/i, "a colour is written #rrggbb"),
+    carries_kg: z.exactOptional(z.number().positive()),
   })),
   frames: z.array(z.strictObject({ name: text, worldFromFrame: poseOf<"world", "frame">(), saved: z.exactOptional(z.literal(true)) })),
   allowedPairs: z.array(z.tuple([text, text])),

@@ -61,7 +61,7 @@ export const en = {
     atLeast: (name: string, limit: string, unit: string) => `${name} is at least ${limit} ${unit}.`, atMost: (name: string, limit: string, unit: string) => `${name} is at most ${limit} ${unit}.`,
   },
   inspector: {
-    nothing: "Nothing is selected. Click a part of the cell or a step to see and change its numbers.", robot: "Robot", base: "Stands at", joints: "Joint angles", reach: "Reach", payload: "Payload", repeatability: "Repeatability", tcpSpeed: "Fastest TCP", shapeError: "Drawn shape is off by up to", mass: "Mass",
+    nothing: "Nothing is selected. Click a part of the cell or a step to see and change its numbers.", robot: "Robot", base: "Stands at", joints: "Joint angles", reach: "Reach", payload: "Payload", repeatability: "Repeatability", tcpSpeed: "Fastest TCP", shapeError: "Drawn shape is off by up to", mass: "Mass", massLoaded: (robot: number, total: number) => `${robot} kg, ${total} kg with payload`,
     assumptions: "Assumed, not published", object: "Object", position: "Position", size: "Size", role: "Role", tool: "Tool", tcp: "TCP on the flange", frame: "Frame", width: "along x", depth: "along y", height: "along z", step: "Step",
     joint: (n: number) => `Joint ${n}`, margin: (deg: string) => `${deg}° to the limit`, rotation: "Turned", shape: "Shape", shapes: { box: "box", cylinder: "cylinder", revolved: "turned part", mesh: "mesh" }, group: "Group",
     manySteps: (n: number) => `${n} points of one trace`, speedAll: "Speed of all points",
@@ -109,7 +109,7 @@ export const en = {
     shown: "This is how it would stand. Esc goes back.", at: (s: string) => `at ${s} s`, trouble: "The program could not be checked:", joint: "Joints at this moment",
   },
   time: {
-    play: "Play", pause: "Pause", step: "Step", back: "Step back", of: "/", plots: "Plots", scrubber: "Time", empty: "The program appears here as blocks on a time line.", speed: "Playback speed", angles: "Joint angles", speeds: "Joint speeds", over: (name: string, n: number) => `${name}, ${plural(n, "finding")}`,
+    play: "Play", pause: "Pause", step: "Step", back: "Step back", of: "/", plots: "Plots", scrubber: "Time", empty: "The program appears here as blocks on a time line.", speed: "Playback speed", angles: "Joint angles", speeds: "Joint speeds", torques: "Torques", limit: "limit", percent: " %", over: (name: string, n: number) => `${name}, ${plural(n, "finding")}`,
     s: (s: number) => s.toFixed(2), seconds: "s", joint: (n: number) => `J${n}`, deg: "°", degS: "°/s", start: "To the start",
   },
   run: {

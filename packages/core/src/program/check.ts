@@ -17,6 +17,7 @@ import { Book } from "./checks/book.ts";
 import { checkFlow } from "./checks/flow.ts";
 import { checkPayload } from "./checks/payload.ts";
 import { checkSignals } from "./checks/signals.ts";
+import { checkStand } from "./checks/stand.ts";
 import { checkTorque } from "./checks/torque.ts";
 import { checkWorkspace } from "./checks/workspace.ts";
 import type { Program, Step } from "./program.ts";
@@ -76,6 +77,7 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
   checkPayload(scene);
   checkFlow(scene);
   const torque = checkTorque(scene, options.payload);
+  const unjudged = cell === undefined ? [] : checkStand(scene, cell, options.payload?.mass_kg);
   const collision = cell === undefined ? undefined : checkCollision(scene, {
     cell, margin_m: options.margin_m ?? 0,
     ...(onProgress === undefined ? {} : { onProgress: (share: number) => { onProgress(layoutShare + share * (1 - layoutShare)); } }),
@@ -92,7 +94,7 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
     ok, steps, duration_s: layout.plan.duration_s, clearance_m: collision?.clearance_m ?? null, torque,
     assumptions: [
       ...robot.assumptions, ...motionAssumptions(robot),
-      ...assumed(written, layout),
+      ...assumed(written, layout), ...unjudged,
       ...(torque.kind === "known" ? ["Torques are those of masses and accelerations; friction is not counted."] : []),
       cell === undefined ? "Collisions were not looked at: no cell was given." : "Objects stand where the cell draws them; gripped objects are not carried along.",
     ],
