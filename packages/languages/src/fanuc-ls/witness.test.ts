@@ -78,6 +78,7 @@ describe("executing TP", () => {
     const there = (config: string): MoveStep => moves(["J P[1] 10% FINE"], [at(1, [...position.map(v => v * 1000), ...wpr].map(v => Number(v.toFixed(9))), config)])[0]!;
     expect(there("N U T, 0, 0, 0").target).toMatchObject({ branch: { shoulder: "front", elbow: "up", wrist: "positive" } });
     expect(there("F U T, 0, 0, 0").target).toMatchObject({ branch: { shoulder: "front", elbow: "up", wrist: "negative" } });
+    expect(faultOf(listing("A", ["J P[1] 10% FINE"], [at(1, [640, 0, 0, 180, 0, 0], "N U B, 0, 0, 0")]))).toMatchObject({ sentence: "The position is not reached in its configuration." });
     const turned = there("N U T, 0, 0, -1").target;
     expect("q" in turned && turned.q.map(angle => Math.round(deg(angle)))).toEqual([10, 20, 30, 20, -60, 30 - 360]);
   });

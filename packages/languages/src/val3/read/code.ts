@@ -15,6 +15,7 @@ const RULES: ExpressionRules = {
   constants: { true: true, false: false },
   tags: [], index: "[", components: true, reserved: RESERVED, args: cursor => readArguments(cursor),
 };
+const CLOSES: ReadonlySet<string> = new Set(["end", "endif", "endwhile", "endfor", "endswitch", "until", "else", "elseif"]);
 const DEPTH = 50, MOST_FAULTS = 50;
 
 /** `{…}` is a list as `[…]` is elsewhere: `trsf` literals are told by their braces. */
@@ -86,6 +87,7 @@ class CodeReader {
       if (cursor.done || this.faults.length >= MOST_FAULTS) throw new TextError(cursor.here, ends[0]!, `The block of line ${opened.line} is not closed.`);
       if (cursor.isAt("word") && ends.includes(cursor.next)) break;
       if (cursor.isAt("line-end")) continue;
+      if (cursor.isAt("word") && CLOSES.has(cursor.next)) throw new TextError(cursor.here, ends[0]!, `The block of line ${opened.line} is not closed.`);
       const statement = this.guard(() => {
         const read = this.statement();
         if (!cursor.isAt("line-end") && !cursor.done) throw cursor.unexpected("the end of the line");

@@ -26,13 +26,13 @@ export class ControllerArm {
   /** A pose of the controller's world in the cell. */
   cell<Into extends string, From extends string>(trsf: Trsf): Pose<Into, From> { return toPose(times(this.cellFromWorld, trsf)); }
 
-  /** The flange is there, as the words ask for it; where none fits, in the nearest posture. */
-  atFlange(flange: Trsf, config: Config): Branch | undefined {
+  /** The flange is there, as the words ask for it; where no posture does, in the nearest, and `fits` says so. */
+  atFlange(flange: Trsf, config: Config): { readonly branch: Branch | undefined; readonly fits: boolean } {
     const { robot, joints_rad: near } = this, reach = solveAll(robot, toPose(times(this.baseFromWorld, flange)), near === undefined ? {} : { near });
-    if (reach.kind !== "reached") { this.joints_rad = undefined; return undefined; }
-    const all = reach.solutions.map(({ q_rad }) => [...q_rad]), q = all.find(each => this.fits(each, config)) ?? all[0]!;
+    if (reach.kind !== "reached") { this.joints_rad = undefined; return { branch: undefined, fits: true }; }
+    const all = reach.solutions.map(({ q_rad }) => [...q_rad]), fitting = all.find(each => this.fits(each, config)), q = fitting ?? all[0]!;
     this.joints_rad = q;
-    return branchOf(robot, q);
+    return { branch: branchOf(robot, q), fits: fitting !== undefined };
   }
 
   private fits(q: readonly number[], { shoulder, elbow, wrist }: Config): boolean {

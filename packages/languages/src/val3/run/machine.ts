@@ -275,14 +275,14 @@ export class Machine extends BlockMachine<Value> {
     if (!(ratio > 0)) throw new TextError(goal, "an acceleration above 0", `The acceleration is ${how.accel} %.`);
     const common = { id, type: "move", speed: this.speed(how, word === "movej", goal), ...(ratio < 1 ? { acceleration: { ratio } } : {}), blend_m } as const;
     this.moving = true;
-    const via = word === "movec" ? { via: this.target(this.of("point", this.given(args, 0, word, at)), name, tool.trsf, false, at) } : {};
+    const via = word === "movec" ? { via: this.target(this.of("point", this.given(args, 0, word, at)), name, tool.trsf, "on-the-way", at) } : {};
     if (typeof value === "object" && !isList(value) && value.kind === "joint") {
       if (word !== "movej") throw new TextError(goal, "a point", `${word} goes to a point.`);
       const q = value.deg.map(angle => angle / 180 * Math.PI);
       this.arm.joints_rad = q;
       return { ...common, path: "ptp", target: { q, tool: name } };
     }
-    return { ...common, path: word === "movej" ? "ptp" : word === "movel" ? "lin" : "circ", target: this.target(this.of("point", goal), name, tool.trsf, true, at), ...via };
+    return { ...common, path: word === "movej" ? "ptp" : word === "movel" ? "lin" : "circ", target: this.target(this.of("point", goal), name, tool.trsf, word === "movej" ? "by-joints" : "by-path", at), ...via };
   }
 
   private speed({ vel, tmax }: Description, isJoint: boolean, at: TextPlace): Speed {
@@ -290,11 +290,12 @@ export class Machine extends BlockMachine<Value> {
     return isJoint || tmax >= NO_LIMIT ? { ratio: Math.min(1, vel / 100) } : { mps: tmax / 1000 };
   }
 
-  private target(point: Point, tool: string, toolTrsf: Trsf, isEnd: boolean, at: TextPlace): Target {
+  private target(point: Point, tool: string, toolTrsf: Trsf, how: "by-joints" | "by-path" | "on-the-way", at: TextPlace): Target {
     const father = this.father(point.father, at), tip = times(father, point.trsf), frame = this.frameName(point.father, at);
     const pose: Pose<"frame", "tcp"> = frame === "world" ? this.arm.cell(tip) : toPose(point.trsf);
-    if (!isEnd) return { pose, frame, tool };
-    const branch = this.arm.atFlange(times(tip, inverted(toolTrsf)), point.config);
+    if (how === "on-the-way") return { pose, frame, tool };
+    const { branch, fits } = this.arm.atFlange(times(tip, inverted(toolTrsf)), point.config);
+    if (how === "by-joints" && !fits) throw new TextError(at, "a configuration that reaches the point", `The point is not reached ${Object.values(point.config).join(", ")}.`);
     return { pose, frame, tool, ...(branch === undefined ? {} : { branch }) };
   }
 
