@@ -3,6 +3,7 @@ import type { CommandOutcome, Dialect, EmittedFile, Pose, Program, Robot, Schedu
 import { createRunRecorder, type RunRecorder } from "@twincell/recording";
 import { controlStore } from "../stores/control.ts";
 import { historyStore, type RunEnding } from "../stores/history.ts";
+import { shortName } from "../stores/robot.ts";
 import { listRuns, openRunFile, type RunFile, type Shelf } from "./archive.ts";
 import { linkMeter } from "./link-meter.ts";
 import { showJoints, theLive } from "./live.ts";
@@ -88,7 +89,7 @@ const PAGE_SILENCE_S = Infinity;
 
 export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromTcp, isSafe }: RunSetting): CellControl {
   const { scheduler } = world, begun_s = scheduler.now_s();
-  const virtual: VirtualController = createVirtualController({ robot, scheduler, name: `Virtual ${robot.name.split(" ").at(-1)!}`, worldFromBase, start_rad: theLive().q_rad });
+  const virtual: VirtualController = createVirtualController({ robot, scheduler, name: `Virtual ${shortName(robot)}`, worldFromBase, start_rad: theLive().q_rad });
   const guard = createGuard({ controller: virtual, scheduler, flangeFromTcp, brakingTime_s: virtual.brakingTime_s, silence_s: PAGE_SILENCE_S, ...(isSafe ? { isSafe } : {}) });
   const seat = guard.seat("you");
   seat.take();

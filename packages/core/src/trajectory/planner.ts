@@ -2,12 +2,15 @@ import { flow, type Happening } from "../program/flow.ts";
 import type { MoveStep, PrimitiveStep, Program, SetStep } from "../program/program.ts";
 import { SignalTable, holds } from "../program/signals.ts";
 import { motionAssumptions } from "../robots/jerk.ts";
+import type { Payload } from "../dynamics/model.ts";
 import type { Robot } from "../robots/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
-import { passes, resolveMove } from "./moves.ts";
+import { chooseBranches, withChoice } from "./continuity/index.ts";
+import { passes, resolveMove, type Move } from "./moves.ts";
 import type { MotionSegment, Plan, Segment, SignalWrite } from "./plan.ts";
 import type { Slowed } from "./run-timing.ts";
 import { PATH_TOLERANCE_M, RunPlanner } from "./run.ts";
+import { Gentler, type Gentled } from "../torque/gentle.ts";
 import { explainStop, type Stuck } from "./stop.ts";
 
 export interface PlanOptions {
@@ -19,6 +22,11 @@ export interface PlanOptions {
   readonly tolerance_m?: number;
   /** Time a gripper is given to close or open [s]. */
   readonly gripper_s?: number;
+  /**
+   * Slows every run of motions until no joint is asked for more torque than it can give (rows X-10, X-46), where masses and torque limits
+   * are published. `payload` is what the flange carries before the first payload step.
+   */
+  readonly withinTorque?: { readonly payload?: Payload };
   /** What inputs are, for decisions; false and 0 otherwise. */
   readonly inputs?: Readonly<Record<string, boolean | number>>;
 }
@@ -32,6 +40,8 @@ export interface PlanNote { readonly step: string; readonly at_s: number; readon
 interface Planned {
   readonly plan: Plan;
   readonly notes: readonly PlanNote[];
+  /** Runs that were slowed for their torques. */
+  readonly gentled: readonly Gentled[];
   /** What the plan's duration rests on, one sentence each (row N-64). */
   readonly assumptions: readonly string[];
 }
@@ -43,7 +53,8 @@ const MOST_PLANNED = 200_000;
 /**
  * Lays a program out in time: joints together on joint moves, straight and circular TCP paths within `tolerance_m`,
  * corners blended, and every joint within its speed and acceleration at every instant. Loops, calls and pallets are
- * carried out, a loop "forever" once; waits for signals take no time. A program that cannot be carried out gives the plan
+ * carried out, a loop "forever" once; waits for signals take no time. Where the nearest posture at every target would lead to a
+ * flip or into a limit, postures are chosen over the whole path (`chooseBranches`); `withBranches` writes them into the program. A program that cannot be carried out gives the plan
  * up to the step that stands in the way.
  *
  * The program is trusted to come from `parseProgram`.
@@ -52,25 +63,52 @@ export function planProgram(program: Program, robot: Robot, options: PlanOptions
   const writer = new PlanWriter(robot, options);
   const planner = new RunPlanner(robot, options.tolerance_m ?? PATH_TOLERANCE_M);
   const context = { tools: program.tools, frames: program.frames, ...(options.worldFromBase === undefined ? {} : { worldFromBase: options.worldFromBase }) };
-  const assumptions = durationAssumptions(program, robot);
-  for (const part of inRuns(flow(program, { decide: when => holds(when, writer.signals), rounds: 1, mostSteps: MOST_PLANNED }))) {
-    if (part.kind === "step") { if (part.step.type !== "move") writer.rest(part.step, part.stands); continue; }
+  const assumptions = durationAssumptions(program, robot), parts = ahead(program, options.inputs ?? {}), gentler = new Gentler(robot, options), { gentled } = gentler;
+  const runs = parts.flatMap(part => (part.kind === "run" ? [part.moves.map(({ step }) => resolveMove(step, robot, context))] : []));
+  const choice = chooseBranches(runs, robot, writer.q);
+  let run = 0, first = 0;
+  for (const part of parts) {
+    if (part.kind === "step") { gentler.carry(part.step); if (part.step.type !== "move") writer.rest(part.step, part.stands); continue; }
     if (part.kind !== "run") continue;
-    let moves = part.moves.map(({ step }) => resolveMove(step, robot, context));
+    let moves: readonly Move[] = runs[run++]!;
+    const count = moves.length;
+    if (choice !== undefined) moves = withChoice(moves, choice, first);
+    first += count;
     for (;;) {
       const answer = planner.plan(moves, writer.q);
-      if (answer.kind === "timed") { writer.run(answer.run.parts, answer.run.slowed); break; }
+      if (answer.kind === "timed") {
+        const held = gentler.hold(answer.run.parts, writer.now_s);
+        if (held.kind === "too-heavy") return { kind: "stuck", stuck: held.stuck, plan: writer.plan(program.robot), notes: writer.notes, gentled, assumptions };
+        writer.run(held.parts, answer.run.slowed);
+        break;
+      }
       const at = answer.stop.move, stuck = explainStop(answer.stop, moves[at]!, robot);
       if (at > 0) {
         // What comes before the move in the way can still be done, with a stop at its end.
         moves = moves.slice(0, at);
         const before = planner.plan(moves, writer.q);
-        if (before.kind === "timed") writer.run(before.run.parts, before.run.slowed);
+        const held = before.kind === "timed" ? gentler.hold(before.run.parts, writer.now_s) : undefined;
+        if (before.kind === "timed" && held?.kind === "held") writer.run(held.parts, before.run.slowed);
       }
-      return { kind: "stuck", stuck, plan: writer.plan(program.robot), notes: writer.notes, assumptions };
+      return { kind: "stuck", stuck, plan: writer.plan(program.robot), notes: writer.notes, gentled, assumptions };
     }
   }
-  return { kind: "planned", plan: writer.plan(program.robot), notes: writer.notes, assumptions };
+  return { kind: "planned", plan: writer.plan(program.robot), notes: writer.notes, gentled, assumptions };
+}
+
+/** The whole program in order, before anything moves: signals change only where steps write them, and waits end. */
+function ahead(program: Program, inputs: NonNullable<PlanOptions["inputs"]>): FlowPart[] {
+  const signals = new SignalTable(Object.entries(inputs)), parts: FlowPart[] = [];
+  for (const part of inRuns(flow(program, { decide: when => holds(when, signals), rounds: 1, mostSteps: MOST_PLANNED }))) {
+    parts.push(part);
+    if (part.kind === "step" && part.step.type === "set") remember(part.step, signals);
+  }
+  return parts;
+}
+
+/** A plan decides by what is written: a pulse is over before the next decision. */
+function remember({ signal, to, pulse_s }: SetStep, signals: SignalTable): void {
+  signals.write(signal, pulse_s !== undefined && typeof to === "boolean" ? !to : to);
 }
 
 /** What the durations of a program's steps rest on, one sentence each. */
@@ -83,8 +121,11 @@ type StepHappening = Extract<Happening, { kind: "step" }>;
 /** A move that happens, with the step it comes from. */
 export type MoveHappening = StepHappening & { readonly step: MoveStep };
 
+/** What is laid out at once: a happening, or moves that are passed without a stop in between. */
+export type FlowPart = Happening | { readonly kind: "run"; readonly moves: readonly MoveHappening[] };
+
 /** The same happenings with moves that are passed without a stop in between as one. */
-export function* inRuns(happenings: Iterable<Happening>): Generator<Happening | { readonly kind: "run"; readonly moves: readonly MoveHappening[] }, void> {
+export function* inRuns(happenings: Iterable<Happening>): Generator<FlowPart, void> {
   let moves: MoveHappening[] = [];
   for (const happening of happenings) {
     const last = moves.at(-1);
@@ -102,8 +143,6 @@ const isMove = (happening: Happening): happening is MoveHappening => happening.k
 export class PlanWriter {
   readonly q: Float64Array;
   readonly notes: PlanNote[] = [];
-  /** What the outputs are by now. */
-  readonly signals: SignalTable;
   private readonly segments: Segment[] = [];
   private readonly writes: SignalWrite[] = [];
   private readonly gripper_s: number;
@@ -113,7 +152,6 @@ export class PlanWriter {
   constructor(robot: Robot, options: PlanOptions) {
     this.q = Float64Array.from(options.start_rad ?? robot.home_rad);
     this.gripper_s = options.gripper_s ?? GRIPPER_S;
-    this.signals = new SignalTable(Object.entries(options.inputs ?? {}));
   }
 
   get now_s(): number { return this.t_s; }
@@ -129,12 +167,8 @@ export class PlanWriter {
   }
 
   private write({ signal, to, pulse_s }: SetStep): void {
-    this.signals.write(signal, to);
     this.writes.push({ at_s: this.t_s, signal, to });
-    // A plan decides by what is written: a pulse is over before the next decision.
-    if (pulse_s === undefined || typeof to !== "boolean") return;
-    this.signals.write(signal, !to);
-    this.writes.push({ at_s: this.t_s + pulse_s, signal, to: !to });
+    if (pulse_s !== undefined && typeof to === "boolean") this.writes.push({ at_s: this.t_s + pulse_s, signal, to: !to });
   }
 
   run(parts: readonly MotionSegment[], slowed: readonly Slowed[]): void {
