@@ -4,6 +4,7 @@ import { inform } from "./inform/index.ts";
 import { krl } from "./krl/index.ts";
 import { rapid } from "./rapid/index.ts";
 import { urScript } from "./urscript/index.ts";
+import { val3 } from "./val3/index.ts";
 import { vPlus } from "./v-plus/index.ts";
 
 export { EXAMPLE_PULSES, inform, informDialect, informExamplePulses, type InformOptions, type PulseData } from "./inform/index.ts";
@@ -11,11 +12,12 @@ export { fanucLs } from "./fanuc-ls/index.ts";
 export { rapid } from "./rapid/index.ts";
 export { urScript } from "./urscript/index.ts";
 export { emitPtpAxis, krl } from "./krl/index.ts";
+export { val3 } from "./val3/index.ts";
 export { vPlus } from "./v-plus/index.ts";
 export * from "./prove.ts";
 
 /** Every dialect. A new one is a folder and one line here. */
-export const DIALECTS: readonly Dialect[] = [vPlus, krl, inform, urScript, rapid, fanucLs];
+export const DIALECTS: readonly Dialect[] = [vPlus, krl, inform, urScript, rapid, fanucLs, val3];
 
 /** The dialect of that id, or undefined. */
 export const dialectById = (id: string): Dialect | undefined => DIALECTS.find(dialect => dialect.id === id);

@@ -52,16 +52,16 @@ export class ControllerArm {
 
   /**
    * The flange is there, in the posture that the configuration asks for, or in the nearest where it asks for none that exists.
-   * `turned` says that the posture is another turn of an axis than the nearest.
+   * `turned` says that the posture is another turn of an axis than the nearest, `fits` that its letters are those asked for.
    */
-  atFlange(flange: Matrix, config: Config | undefined): { readonly branch: Branch | undefined; readonly q: readonly number[] | undefined; readonly turned: boolean } {
+  atFlange(flange: Matrix, config: Config | undefined): { readonly branch: Branch | undefined; readonly q: readonly number[] | undefined; readonly turned: boolean; readonly fits: boolean } {
     const { robot, joints_rad: near } = this, reach = solveAll(robot, toPose(times(this.baseFromWorld, flange)), near === undefined ? {} : { near });
     this.known = flange;
-    if (reach.kind !== "reached") { this.joints_rad = undefined; return { branch: undefined, q: undefined, turned: false }; }
+    if (reach.kind !== "reached") { this.joints_rad = undefined; return { branch: undefined, q: undefined, turned: false, fits: true }; }
     const all = reach.solutions.map(({ q_rad }) => [...q_rad]), fitting = config === undefined ? all : all.filter(q => this.hasFlags(q, config));
     const nearest = fitting[0] ?? all[0]!, exact = config === undefined ? nearest : fitting.find(q => hasTurns(q, config)) ?? nearest;
     this.joints_rad = exact;
-    return { branch: branchOf(robot, exact), q: exact, turned: exact !== nearest };
+    return { branch: branchOf(robot, exact), q: exact, turned: exact !== nearest, fits: fitting.length > 0 };
   }
 
   /** Flags read off the links: wrist in front of axis 1, elbow above the line from axis 2 to the wrist, axis 5 not below zero. */

@@ -368,6 +368,7 @@ export class Machine extends BlockMachine<Value> {
     const plain = { pose: named === "world" ? this.arm.cell<"frame", "tcp">(times(frame.matrix, seen)) : toPose<"frame", "tcp">(seen), frame: named, tool: name }, target = inPlace === undefined ? plain : { ...plain, ...inPlace };
     if (how === "on-the-way") return target;
     const reached = this.arm.atFlange(times(times(frame.matrix, seen), inverted(tool.matrix)), config);
+    if (how === "by-joints" && !reached.fits) throw new TextError(at, "a configuration that reaches the position", "The position is not reached in its configuration.");
     if (how === "by-joints" && reached.turned && !this.writesDown) return { q: reached.q!, tool: name };
     return { ...target, ...(reached.branch === undefined ? {} : { branch: reached.branch }) };
   }
