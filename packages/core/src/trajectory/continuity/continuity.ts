@@ -1,9 +1,9 @@
 import { branchOf, sameBranch, type Branch } from "../../kinematics/branch.ts";
-import { flangePose } from "../../kinematics/forward.ts";
+import { armScratch, flangePose } from "../../kinematics/forward.ts";
 import type { Reach } from "../../kinematics/reach.ts";
 import { turns } from "../../kinematics/turns.ts";
 import type { Robot } from "../../robots/robot.ts";
-import type { Pose } from "../../spatial/pose.ts";
+import { identity, type Pose } from "../../spatial/pose.ts";
 import { radians, wrapAngle } from "../../spatial/units.ts";
 import { Follower } from "../follow.ts";
 import type { PosePath } from "../geometry.ts";
@@ -87,6 +87,7 @@ export class ContinuitySolver {
   private readonly goals: GoalFinder;
   private readonly postures: PostureFinder;
   private readonly q: Float64Array;
+  private readonly arm = armScratch();
   private stages: Stage[] = [];
   /** Stage in which each move ends. */
   private endOf: number[] = [];
@@ -112,7 +113,7 @@ export class ContinuitySolver {
     pool.add(start_rad, 0, 0, -1, 0, this.code(start_rad), PLAIN);
     let stage = this.close(0, false);
     for (const run of runs) {
-      const begin = flangePose(this.robot.arm, pool.posture(stage.first));
+      const begin = flangePose(this.robot.arm, pool.posture(stage.first), identity(), this.arm);
       for (let i = 0; i < run.length; i++) {
         const move = run[i]!;
         if (move.step.path === "ptp" || stage.nowhere) stage = this.arrive(stage, move, options.nearest === true);
