@@ -1,4 +1,5 @@
 import { emptyProgram, type Dialect, type Robot } from "@twincell/core";
+import { fanucLs } from "./fanuc-ls/index.ts";
 import { inform } from "./inform/index.ts";
 import { krl } from "./krl/index.ts";
 import { rapid } from "./rapid/index.ts";
@@ -6,6 +7,7 @@ import { urScript } from "./urscript/index.ts";
 import { vPlus } from "./v-plus/index.ts";
 
 export { EXAMPLE_PULSES, inform, informDialect, informExamplePulses, type InformOptions, type PulseData } from "./inform/index.ts";
+export { fanucLs } from "./fanuc-ls/index.ts";
 export { rapid } from "./rapid/index.ts";
 export { urScript } from "./urscript/index.ts";
 export { emitPtpAxis, krl } from "./krl/index.ts";
@@ -13,7 +15,7 @@ export { vPlus } from "./v-plus/index.ts";
 export * from "./prove.ts";
 
 /** Every dialect. A new one is a folder and one line here. */
-export const DIALECTS: readonly Dialect[] = [vPlus, krl, inform, urScript, rapid];
+export const DIALECTS: readonly Dialect[] = [vPlus, krl, inform, urScript, rapid, fanucLs];
 
 /** The dialect of that id, or undefined. */
 export const dialectById = (id: string): Dialect | undefined => DIALECTS.find(dialect => dialect.id === id);

@@ -57,7 +57,7 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
       expectProven(runnable(random(seed)), random(seed));
     });
 
-    test.each(SEEDS)("emit, parse, emit gives the same runnable text (seed %d)", seed => {
+    test.each(SEEDS)("L-57 emit, parse, emit gives the same runnable text (seed %d)", seed => {
       const whole = bench.unrolls === true ? randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths, cannot }) : random(seed);
       const first = runnable(whole), program = parse(first.text);
       expect(runnable(program).text).toBe(first.text);
