@@ -1,9 +1,11 @@
 import { emptyProgram, type Dialect, type Robot } from "@twincell/core";
+import { kawasakiAs } from "./kawasaki-as/index.ts";
 import { krl } from "./krl/index.ts";
 import { rapid } from "./rapid/index.ts";
 import { urScript } from "./urscript/index.ts";
 import { vPlus } from "./v-plus/index.ts";
 
+export { kawasakiAs } from "./kawasaki-as/index.ts";
 export { rapid } from "./rapid/index.ts";
 export { urScript } from "./urscript/index.ts";
 export { emitPtpAxis, krl } from "./krl/index.ts";
@@ -11,7 +13,7 @@ export { vPlus } from "./v-plus/index.ts";
 export * from "./prove.ts";
 
 /** Every dialect. A new one is a folder and one line here. */
-export const DIALECTS: readonly Dialect[] = [vPlus, krl, urScript, rapid];
+export const DIALECTS: readonly Dialect[] = [vPlus, krl, urScript, rapid, kawasakiAs];
 
 /** The dialect of that id, or undefined. */
 export const dialectById = (id: string): Dialect | undefined => DIALECTS.find(dialect => dialect.id === id);
