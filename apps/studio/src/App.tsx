@@ -27,6 +27,7 @@ import "./app.css";
 
 const Viewport = lazy(() => import("./scene/Viewport.tsx").then(scene => ({ default: scene.Viewport })));
 const Export = lazy(() => import("./features/export/Export.tsx"));
+const Robots = lazy(() => import("./features/robots/Robots.tsx"));
 const Run = lazy(() => import("./features/run/Run.tsx"));
 const History = lazy(() => import("./features/history/History.tsx"));
 const Rewind = lazy(() => import("./features/history/Rewind.tsx"));
@@ -56,6 +57,7 @@ export function App() {
         <Palette />
         <ControlsDialog />
         <Suspense><Export /></Suspense>
+        <Suspense><Robots /></Suspense>
         <Files />
         <Shortcuts />
         <GamepadWatch />

@@ -132,14 +132,22 @@ export type Interpreted =
 export interface Resolution {
   /** Of a share of the joint speed. */
   readonly ratio?: number;
+  /** Smaller shares become this. */
+  readonly leastRatio?: number;
   readonly mps?: number;
   /** Speeds of a path above this are cut. */
   readonly mostMps?: number;
+  /** Softer accelerations become this share. */
+  readonly leastAcceleration?: number;
   /** Of a waiting time [s]. */
   readonly wait_s?: number;
   /** What rounding of joint values can do to where the tool is. */
   readonly position_m?: number;
   readonly angle_rad?: number;
+  /** Joint angles are written as the pose they reach, with the posture. */
+  readonly anglesAsPoses?: boolean;
+  /** Poses are written as joint angles that reach them. */
+  readonly posesAsAngles?: boolean;
 }
 
 /**

@@ -1,10 +1,12 @@
 import { emptyProgram, type Dialect, type Robot } from "@twincell/core";
+import { inform } from "./inform/index.ts";
 import { kawasakiAs } from "./kawasaki-as/index.ts";
 import { krl } from "./krl/index.ts";
 import { rapid } from "./rapid/index.ts";
 import { urScript } from "./urscript/index.ts";
 import { vPlus } from "./v-plus/index.ts";
 
+export { EXAMPLE_PULSES, inform, informDialect, informExamplePulses, type InformOptions, type PulseData } from "./inform/index.ts";
 export { kawasakiAs } from "./kawasaki-as/index.ts";
 export { rapid } from "./rapid/index.ts";
 export { urScript } from "./urscript/index.ts";
@@ -13,7 +15,7 @@ export { vPlus } from "./v-plus/index.ts";
 export * from "./prove.ts";
 
 /** Every dialect. A new one is a folder and one line here. */
-export const DIALECTS: readonly Dialect[] = [vPlus, krl, urScript, rapid, kawasakiAs];
+export const DIALECTS: readonly Dialect[] = [vPlus, krl, inform, urScript, rapid, kawasakiAs];
 
 /** The dialect of that id, or undefined. */
 export const dialectById = (id: string): Dialect | undefined => DIALECTS.find(dialect => dialect.id === id);

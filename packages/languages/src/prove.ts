@@ -1,5 +1,5 @@
 import {
-  Fault, angleBetween, capabilitiesUsed, compose, degrees, distance, everyStep, flangePose, flow, holds, identity, millimetres, type Condition, type Dialect, type EmittedFile, type Executed, type Happening, type Interpreted,
+  Fault, angleBetween, branchOf, capabilitiesUsed, compose, degrees, distance, everyStep, flangePose, flow, holds, identity, inverse, millimetres, sameBranch, wrapAngle, type Branch, type Condition, type Dialect, type EmittedFile, type Executed, type Happening, type Interpreted,
   type MoveStep, type PayloadStep, type Pose, type PrimitiveStep, type Program, type Resolution, type Robot, type Signals, type Step, type Target, type TextFault,
 } from "@twincell/core";
 import { asciiText } from "./text/index.ts";
@@ -78,7 +78,7 @@ function compare(
     if (found === undefined) return differs("the text ends before it.");
     const odd = otherwise(step, found.step, next, { mine: wanted, theirs: done, robot, resolution });
     if (odd !== undefined) return differs(`line ${found.line} ${odd}`);
-    const [deviation_m, deviation_rad] = step.type === "move" && found.step.type === "move" ? deviation(step, found.step, tips) : [0, 0];
+    const [deviation_m, deviation_rad] = step.type === "move" && found.step.type === "move" ? deviation(step, found.step, tips, resolution) : [0, 0];
     if (!(deviation_m <= position_m)) return differs(`line ${found.line} ends ${millimetres(deviation_m).toFixed(3)} mm away; ${millimetres(position_m)} mm are allowed.`);
     if (!(deviation_rad <= angle_rad)) return differs(`line ${found.line} ends turned by ${degrees(deviation_rad).toFixed(4)}°; ${degrees(angle_rad).toFixed(3)}° are allowed.`);
     proven.push({ id: step.id, line: found.line, deviation_m, deviation_rad });
@@ -169,10 +169,11 @@ function otherwise(wanted: Step, done: Step, next: Step | undefined, { mine, the
   if (wanted.type !== "move" || done.type !== "move") return undefined;
   if (wanted.path !== done.path) return `moves by ${done.path}, not by ${wanted.path}.`;
   // On a joint move angles are angles; on the other paths only the tool counts.
-  if (wanted.path === "ptp" && "q" in wanted.target !== "q" in done.target) return "ends in another sort of target.";
+  const isAngles = "q" in wanted.target, isWritten = "q" in done.target;
+  if (wanted.path === "ptp" && isAngles !== isWritten && !(isAngles ? resolution.anglesAsPoses === true : resolution.posesAsAngles === true)) return "ends in another sort of target.";
   if ((wanted.via === undefined) !== (done.via === undefined)) return done.via === undefined ? "passes through no other point." : "passes through another point.";
   if (!sameSpeed(wanted.speed, done.speed, robot, resolution)) return `moves at ${JSON.stringify(done.speed)}, not at ${JSON.stringify(wanted.speed)}.`;
-  if (!near(wanted.acceleration?.ratio ?? 1, done.acceleration?.ratio ?? 1)) return `accelerates by ${done.acceleration?.ratio ?? 1}, not by ${wanted.acceleration?.ratio ?? 1}.`;
+  if (!near(Math.max(resolution.leastAcceleration ?? 0, wanted.acceleration?.ratio ?? 1), done.acceleration?.ratio ?? 1)) return `accelerates by ${done.acceleration?.ratio ?? 1}, not by ${wanted.acceleration?.ratio ?? 1}.`;
   // A robot that is about to wait or to grip has stopped, whatever was said about passing.
   if (!blends(wanted) && blends(done)) return "passes its target without a stop.";
   // Points of one spline are passed as they are.
@@ -181,13 +182,13 @@ function otherwise(wanted: Step, done: Step, next: Step | undefined, { mine, the
   if (wanted.until !== undefined || done.until !== undefined) {
     if (wanted.until === undefined || done.until === undefined || wanted.until.missing !== done.until.missing || !sameCondition(wanted.until.when, done.until.when, mine, theirs)) return "searches otherwise.";
   }
-  if ("pose" in wanted.target && wanted.target.branch !== undefined && "pose" in done.target) {
-    const { shoulder, elbow, wrist } = wanted.target.branch, other = done.target.branch;
-    // Off a joint move the posture is that of the start: a language may leave it unsaid.
-    if ((other !== undefined || wanted.path === "ptp") && (other?.shoulder !== shoulder || other.elbow !== elbow || other.wrist !== wrist)) return "reaches its target in another posture.";
-  }
+  const posture = postureOf(wanted.target, robot), other = postureOf(done.target, robot);
+  // Off a joint move the posture is that of the start: a language may leave it unsaid.
+  if (posture !== undefined && (other === undefined ? wanted.path === "ptp" : !sameBranch(posture, other))) return "reaches its target in another posture.";
   return undefined;
 }
+
+const postureOf = (target: Target, robot: Robot): Branch | undefined => "q" in target ? branchOf(robot, target.q) : target.branch;
 
 const blends = ({ blend_m, blend_ratio = 0 }: MoveStep): boolean => blend_m > 0 || blend_ratio > 0;
 
@@ -221,28 +222,37 @@ const sameTool = (a: MoveStep, b: MoveStep): boolean => a.target.tool !== undefi
 const near = (a: number, b: number, step = 0): boolean => Math.abs(a - b) <= Math.max(1e-6 * Math.max(1, Math.abs(a)), step);
 
 /** A controller that knows speeds of one sort only is given the same share of its full speed. */
-function sameSpeed(a: MoveStep["speed"], b: MoveStep["speed"], { maxTcpSpeed_mps }: Robot, { ratio, mps, mostMps = Number.POSITIVE_INFINITY }: Resolution): boolean {
+function sameSpeed(a: MoveStep["speed"], b: MoveStep["speed"], { maxTcpSpeed_mps }: Robot, { ratio, leastRatio = 0, mps, mostMps = Number.POSITIVE_INFINITY }: Resolution): boolean {
   if ("time_s" in a || "time_s" in b) return "time_s" in a && "time_s" in b && near(a.time_s, b.time_s);
-  if ("ratio" in a && "ratio" in b) return near(a.ratio, b.ratio, ratio);
   if ("mps" in b) return near(Math.min(mostMps, "mps" in a ? a.mps : a.ratio * maxTcpSpeed_mps), b.mps, mps);
-  return near(Math.min(1, "mps" in a ? a.mps / maxTcpSpeed_mps : a.ratio), b.ratio, ratio);
+  return near(Math.min(1, Math.max(leastRatio, "mps" in a ? a.mps / maxTcpSpeed_mps : a.ratio)), b.ratio, ratio);
 }
 
-function deviation(wanted: MoveStep, done: MoveStep, tips: { readonly wanted: Tips; readonly done: Tips }): [deviation_m: number, deviation_rad: number] {
-  const [end_m, end_rad] = deviationAtEnd(wanted, done, tips);
+function deviation(wanted: MoveStep, done: MoveStep, tips: { readonly wanted: Tips; readonly done: Tips }, resolution: Resolution): [deviation_m: number, deviation_rad: number] {
+  const [end_m, end_rad] = deviationAtEnd(wanted, done, tips, resolution);
   if (wanted.via === undefined || done.via === undefined) return [end_m, end_rad];
   // The orientation at the point on the way is no part of an arc.
   return [Math.max(end_m, distance(tips.wanted.of(wanted.via).position, tips.done.of(done.via).position)), end_rad];
 }
 
-function deviationAtEnd(wanted: MoveStep, done: MoveStep, tips: { readonly wanted: Tips; readonly done: Tips }): [deviation_m: number, deviation_rad: number] {
+/** Angles further apart than by a singular posture are those of another turn. */
+const OTHER_TURN_RAD = 1;
+
+function deviationAtEnd(wanted: MoveStep, done: MoveStep, tips: { readonly wanted: Tips; readonly done: Tips }, { anglesAsPoses = false }: Resolution): [deviation_m: number, deviation_rad: number] {
   const a = wanted.target, b = done.target;
   if ("q" in a && "q" in b) {
     // Joint angles one by one, since two postures may hold the tip in the same place; and the tip, of the tool that counts.
-    const turned = Math.max(...a.q.map((angle, i) => Math.abs(angle - b.q[i]!)));
+    // Along a path the axes arrive in the turn that is nearest, whatever turn was taught.
+    const apart = Math.max(...a.q.map((angle, i) => Math.abs(wanted.path === "ptp" ? angle - b.q[i]! : wrapAngle(angle - b.q[i]!))));
+    const turned = anglesAsPoses && apart < OTHER_TURN_RAD ? 0 : apart;
     const tool = a.tool === undefined && wanted.path === "ptp" ? undefined : a;
     const tipA = tips.wanted.of(tool ?? { q: a.q }), tipB = tips.done.of(tool === undefined ? { q: b.q } : b);
     return [distance(tipA.position, tipB.position), Math.max(turned, angleBetween(tipA.quaternion, tipB.quaternion))];
+  }
+  if ("q" in a && a.tool === undefined && wanted.path === "ptp") {
+    // Joint angles taught with any tool: where the flange is counts.
+    const flangeA = tips.wanted.of({ q: a.q }), flangeB = compose(tips.done.of(b), inverse(tips.done.tool(b.tool)));
+    return [distance(flangeA.position, flangeB.position), angleBetween(flangeA.quaternion, flangeB.quaternion)];
   }
   const tipA = tips.wanted.of(a), tipB = tips.done.of(b);
   const toolA = tips.wanted.tool(a.tool), toolB = tips.done.tool(b.tool);

@@ -1,5 +1,5 @@
 import { pose } from "@twincell/core";
-import { proveText } from "@twincell/languages";
+import { proveText, runnableFile } from "@twincell/languages";
 import { given } from "../io/arguments.ts";
 import { dialectOf } from "../io/dialect.ts";
 import { writeWhole } from "../io/output.ts";
@@ -28,7 +28,7 @@ dialect's own interpreter and compared with the plan first; text that does not s
       process.stderr.write(`twincell: ${emitted.step ? `Step ${emitted.step}: ` : ""}${emitted.sentence} ${emitted.hint}\n`);
       return 1;
     }
-    const proofs = emitted.files.filter(file => /^\s*\.PROGRAM/im.test(file.text)).map(file => proveText(dialect, file, program, robot, worldFromBase));
+    const runnable = runnableFile(dialect, emitted.files), proofs = runnable === undefined ? [] : [proveText(dialect, runnable, program, robot, worldFromBase)];
     const wrong = proofs.find(proof => proof.kind !== "proven");
     if (wrong) {
       process.stderr.write(`twincell: ${wrong.sentence} Nothing was written.\n`);

@@ -1,6 +1,6 @@
 import { existsSync, statSync } from "node:fs";
 import { basename, resolve } from "node:path";
-import { compose, inverse, parseRobot, pose, ROBOT_FORMAT, robotFromArm, type LinkSolid, type Pose, type Robot } from "@twincell/core";
+import { compose, inverse, parseRobot, pose, robotFromArm, type LinkSolid, type Pose, type Robot } from "@twincell/core";
 import { armFromUrdf, endsOf, loadMeshes, readDhTable, readRobot, solidShapes, urdfSolids, type NotUnderstood, type UrdfChain, type UrdfRobot } from "@twincell/formats";
 import { disk } from "./disk.ts";
 import { readText } from "./files.ts";
@@ -31,7 +31,7 @@ export async function robotFromFile(path: string, base: string | undefined, tip:
 const idOf = (path: string): string => basename(path).replace(/(\.urdf)?\.(urdf|xacro|xml)$|(\.dh)?\.(json|csv|tsv|txt|dh)$/i, "");
 
 async function fromTable(path: string, base: string | undefined, tip: string | undefined): Promise<RobotFromFile> {
-  const text = await readText(path), data = robotData(text);
+  const text = await readText(path), data = robotData(path, text);
   if (data !== undefined) return fromData(path, data, base, tip);
   const answer = readDhTable(text, idOf(path));
   if (answer.kind !== "read") throw refused(path, answer);
@@ -41,11 +41,12 @@ async function fromTable(path: string, base: string | undefined, tip: string | u
   return { robot, baseFromRoot: pose(), solids: () => undefined };
 }
 
-/** The content of a robot file, docs/add-a-robot.md; undefined for anything else. */
-function robotData(text: string): unknown {
+/** The content of a robot file, docs/add-a-robot.md; undefined for a table, which states its convention. */
+function robotData(path: string, text: string): unknown {
+  if (!/\.json$/i.test(path) || /\.dh\.json$/i.test(path)) return undefined;
   let value: unknown;
-  try { value = JSON.parse(text); } catch { return undefined; }
-  return typeof value === "object" && value !== null && "format" in value && value.format === ROBOT_FORMAT ? value : undefined;
+  try { value = JSON.parse(text); } catch (cause) { throw new UseFault(`${path} is not JSON: ${cause instanceof Error ? cause.message : String(cause)}.`); }
+  return typeof value === "object" && value !== null && "convention" in value ? undefined : value;
 }
 
 function fromData(path: string, data: unknown, base: string | undefined, tip: string | undefined): RobotFromFile {

@@ -65,6 +65,8 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
   let judged = cellStore.getState().document;
   const stop = cellStore.subscribe(({ document }) => {
     if (document === judged) return;
+    // A plan of another robot has other joints.
+    if (document?.robot.id !== judged?.robot.id) { loadReel(null); playStore.setState({ plan: null, verdict: null, path: [] }); }
     const matters = !document || !judged || programOf(document) !== programOf(judged) || solidsDiffer(document, judged);
     judged = document;
     if (matters) later();

@@ -69,7 +69,7 @@ function reason({ robot, baseFromWorld, flangeFromTcp }: Followed, worldFromTcp:
   }
   let joint = 0;
   for (let i = 1; i < near.length; i++) if (Math.abs(nearest[i]! - near[i]!) > Math.abs(nearest[joint]! - near[joint]!)) joint = i;
-  return { kind: "blocked", joint: joint + 1, sentence: `Joint ${joint + 1} would have to turn by ${degrees(Math.abs(nearest[joint]! - near[joint]!)).toFixed(0)}° at once: axes 4 and 6 are almost in line.` };
+  return { kind: "blocked", joint: joint + 1, sentence: `Joint ${joint + 1} would have to turn by ${degrees(Math.abs(nearest[joint]! - near[joint]!)).toFixed(0)}° at once: ${robot.family.kind === "ortho-parallel" ? "axes 4 and 6 are almost in line" : "the arm is almost singular here"}.` };
 }
 const ANY_BRANCH: Branch = { shoulder: "front", elbow: "up", wrist: "positive" };
 

@@ -1,7 +1,7 @@
 import { armScratch, compose, flangePose, identity, type Pose } from "@twincell/core";
 import { cellStore } from "../stores/cell.ts";
 import { flangeFromTcpOf, robotOf } from "../stores/document.ts";
-import { followPoses, showJoints } from "./live.ts";
+import { followPoses } from "./live.ts";
 
 /** Keeps the poses of `live` in step with the document: another robot, another place, another tool. */
 export function startFollowing(): () => void {
@@ -14,12 +14,11 @@ export function startFollowing(): () => void {
     if (robot.id === robotId && flangeFromTcp === toolPose && worldFromBase === basePose) return;
     const another = robot.id !== robotId;
     robotId = robot.id; toolPose = flangeFromTcp; basePose = worldFromBase;
-    // Row N-69: the program starts at Do Ready.
-    if (another) showJoints(robot.home_rad);
     followPoses(robot, {
       flange: (q_rad, out) => { flangePose(robot.arm, q_rad, out, scratch); },
       tcp: (baseFromFlange, out) => { compose(compose(worldFromBase, baseFromFlange, worldFromFlange), flangeFromTcp, out); },
-    });
+      // Row N-69: the program starts at Do Ready.
+    }, another);
   };
   follow();
   return cellStore.subscribe(follow);

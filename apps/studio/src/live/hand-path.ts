@@ -6,6 +6,7 @@ import { addSteps } from "../stores/program.ts";
 import { RECORD_EVERY_M, RECORD_EVERY_RAD, recordMoving, recordStore } from "../stores/record.ts";
 import { words } from "../words/index.ts";
 import { onFrame } from "./frames.ts";
+import { MOST_COORDINATES } from "./held.ts";
 import { theLive } from "./live.ts";
 import { moverNow } from "./owner.ts";
 
@@ -21,7 +22,6 @@ const SAME_RAD = 1e-7;
 const SLOWEST_MPS = 0.01, FASTEST_MPS = 0.25;
 /** Where the tool only turns, one radian counts as this much path [m/rad], as in the planner. */
 const TURN_M = 0.1;
-const JOINTS = 6;
 
 /**
  * Records the way of the hand while it jogs or drags (row N-57): the posture it began at, a point for every
@@ -29,18 +29,19 @@ const JOINTS = 6;
  * go; all strokes until recording is switched off are one group and one undo step. Allocates nothing while the hand moves.
  */
 export function startHandPath(): () => void {
-  const stroke = new Float64Array(JOINTS * MOST_POINTS), standing = new Float64Array(JOINTS), last = identity<"world", "tcp">(), before = identity<"world", "tcp">();
+  const stroke = new Float64Array(MOST_COORDINATES * MOST_POINTS), standing = new Float64Array(MOST_COORDINATES), last = identity<"world", "tcp">(), before = identity<"world", "tcp">();
   /** `ended`: points of the stroke before, whose last still stands in `stroke`; 0 before the first of this recording. */
-  let count = 0, ended = 0, way_m = 0, began_ms = 0, at_ms = 0, revision = -1, group = "", session = 0, goesOn = false;
+  let count = 0, ended = 0, way_m = 0, began_ms = 0, at_ms = 0, revision = -1, group = "", session = 0, goesOn = false, joints = theLive().q_rad.length;
 
   const keep = (q: Float64Array, now_ms: number): void => {
-    stroke.set(q, JOINTS * count++);
+    for (let i = 0; i < joints; i++) stroke[joints * count + i] = q[i]!;
+    count++;
     copyPose(theLive().worldFromTcp, last);
     at_ms = now_ms;
   };
   /** Whether a joint is further than this from the last point. */
   const turned = (q: Float64Array, by_rad: number): boolean => {
-    for (let i = 0; i < JOINTS; i++) if (Math.abs(q[i]! - stroke[JOINTS * (count - 1) + i]!) >= by_rad) return true;
+    for (let i = 0; i < joints; i++) if (Math.abs(q[i]! - stroke[joints * (count - 1) + i]!) >= by_rad) return true;
     return false;
   };
   /** The stroke ends at q and goes to the program; one that goes on where the last ended leaves out the point they share. */
@@ -49,7 +50,7 @@ export function startHandPath(): () => void {
     const took_s = (now_ms - began_ms) / 1000, mps = Math.min(FASTEST_MPS, Math.max(SLOWEST_MPS, took_s > 0 ? way_m / took_s : SLOWEST_MPS));
     group ||= freshGroup(theProgram());
     const first = goesOn ? 1 : 0;
-    if (count > 1 && addStroke(stroke.subarray(JOINTS * first, JOINTS * count), group, { mps: Math.round(mps * 1000) / 1000 }, `record path ${session}`)) {
+    if (count > 1 && addStroke(stroke.subarray(joints * first, joints * count), joints, group, { mps: Math.round(mps * 1000) / 1000 }, `record path ${session}`)) {
       notify("done", words.jog.pathRecorded(count - first));
     }
     ended = count;
@@ -57,6 +58,8 @@ export function startHandPath(): () => void {
   };
 
   const leave = onFrame(now_ms => {
+    // Another robot begins anew.
+    if (theLive().q_rad.length !== joints) { joints = theLive().q_rad.length; count = ended = 0; revision = -1; }
     const live = theLive(), mover = moverNow(), byHand = recordStore.getState().moving && (mover === "jog" || mover === "drag");
     if (!byHand) {
       if (count > 0) finish(now_ms, standing);
@@ -91,10 +94,10 @@ export function startHandPath(): () => void {
 }
 
 /** Adds a stroke to the program: PTP between its points, passing all but the last. */
-function addStroke(stroke: Float64Array, group: string, speed: Speed, gesture: string): boolean {
-  const tool = cellStore.getState().document?.tool ?? "flange", count = stroke.length / JOINTS;
+function addStroke(stroke: Float64Array, joints: number, group: string, speed: Speed, gesture: string): boolean {
+  const tool = cellStore.getState().document?.tool ?? "flange", count = stroke.length / joints;
   return addSteps(words.undo.recordPath, program => freshStepIds(program, count, "p").map((id, i): MoveStep => {
-    const q = Array.from(stroke.subarray(JOINTS * i, JOINTS * (i + 1)));
+    const q = Array.from(stroke.subarray(joints * i, joints * (i + 1)));
     return { id, type: "move", group, path: "ptp", target: tool === "flange" ? { q } : { q, tool }, speed, blend_m: i === count - 1 ? 0 : PASS_M };
   }), program => (Object.hasOwn(program.groups, group) ? program : { ...program, groups: { ...program.groups, [group]: { name: words.jog.pathGroup } } }), gesture);
 }

@@ -32,11 +32,11 @@ export function onTouching(listen: (touching: ReadonlySet<string>) => void): () 
 
 export interface LivePoses { flange(q_rad: ArrayLike<number>, out: Pose<"base", "flange">): void; tcp(baseFromFlange: Pose<"base", "flange">, out: Pose<"world", "tcp">): void }
 let poses: LivePoses | undefined;
-/** Called once per robot and tool by whoever owns the cell document. */
-export function followPoses(robot: Robot, how: LivePoses): void {
+/** Called once per robot and tool by whoever owns the cell document. `atHome`: the robot begins at its home position. */
+export function followPoses(robot: Robot, how: LivePoses, atHome = false): void {
   poses = how;
   if (live.q_rad.length !== robot.arm.joints.length) live.q_rad = Float64Array.from(robot.home_rad);
-  showJoints(live.q_rad);
+  showJoints(atHome ? robot.home_rad : live.q_rad);
 }
 
 /** Shows these joint angles from the next frame on. */

@@ -3,6 +3,7 @@ import type { CommandOutcome, Dialect, EmittedFile, Pose, Program, Robot, Schedu
 import { createRunRecorder, type RunRecorder } from "@twincell/recording";
 import { controlStore } from "../stores/control.ts";
 import { historyStore, type RunEnding } from "../stores/history.ts";
+import { shortName } from "../stores/robot.ts";
 import { listRuns, openRunFile, type RunFile, type Shelf } from "./archive.ts";
 import { linkMeter } from "./link-meter.ts";
 import { showJoints, theLive } from "./live.ts";
@@ -38,7 +39,7 @@ const TELL_EVERY_S = 0.1;
 export function prepareRun(dialect: Dialect, program: Program, { robot, worldFromBase }: Pick<RunSetting, "robot" | "worldFromBase">, onLine: (step: string, line: number) => void, signals?: Signals): Prepared {
   const emitted = dialect.emit(program, robot, worldFromBase);
   if (emitted.kind === "cannot") return { kind: "not-emitted", sentence: emitted.sentence, hint: emitted.hint };
-  const file = runnable(emitted.files);
+  const file = dialect.runnable?.(emitted.files) ?? emitted.files[0]!;
   const interpreted = dialect.interpret(file.text, robot, worldFromBase);
   if (interpreted.kind === "not-understood") {
     const [first] = interpreted.faults;
@@ -67,8 +68,6 @@ function withSignals(step: Step, called: (signal: string) => string): Step {
   return step.type === "wait-for" ? { ...step, when: { ...step.when, signal: called(step.when.signal) } } : step;
 }
 
-/** The program proper comes with a list of its points; the program is the file that says what to do with most of its lines. */
-const runnable = (files: readonly EmittedFile[]): EmittedFile => files.find(file => /^\s*\.PROGRAM/im.test(file.text)) ?? files[0]!;
 
 /** The virtual controller of the page, its guard and its twin, for as long as the cell is open. */
 export interface CellControl {
@@ -90,7 +89,7 @@ const PAGE_SILENCE_S = Infinity;
 
 export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromTcp, isSafe }: RunSetting): CellControl {
   const { scheduler } = world, begun_s = scheduler.now_s();
-  const virtual: VirtualController = createVirtualController({ robot, scheduler, name: `Virtual ${robot.name.split(" ").at(-1)!}`, worldFromBase, start_rad: theLive().q_rad });
+  const virtual: VirtualController = createVirtualController({ robot, scheduler, name: `Virtual ${shortName(robot)}`, worldFromBase, start_rad: theLive().q_rad });
   const guard = createGuard({ controller: virtual, scheduler, flangeFromTcp, brakingTime_s: virtual.brakingTime_s, silence_s: PAGE_SILENCE_S, ...(isSafe ? { isSafe } : {}) });
   const seat = guard.seat("you");
   seat.take();

@@ -67,3 +67,23 @@ test("all of it is one undo step, with home before and after, and one group an e
   expect(new Set(program.steps.map(step => step.group)).size).toBe(5);
   expect(program.steps.filter((step): step is MoveStep => step.type === "move" && step.blend_m > 0).length).toBeGreaterThan(0);
 });
+
+test.each(["staubli_rx160", "kuka_kr6_2", "ur10e"])("N-66 the same four edges are traced by another robot in the place of the first: %s", id => {
+  const other = robotById(id)!, there = { ...cell, robot: { ...cell.robot, id } };
+  const traced = traceProgram({ chosen, options, objects: cell.objects, robot: id, cell: cellGeometry(there, linkSolids(other)), flangeFromTcp, start_rad: other.home_rad });
+  if (traced.kind !== "traced") throw new Error(traced.sentence);
+  expect(traced.edges).toHaveLength(4);
+  expect(traced.deviation_m).toBeLessThanOrEqual(options.pathTolerance_m);
+  for (const [i, edge] of traced.edges.entries()) {
+    expect(edge.filter(({ role }) => role === "edge").length).toBeGreaterThanOrEqual(2);
+    for (const { role, q } of edge) {
+      const tcp = compose(compose(cell.robot.worldFromBase, flangePose(other.arm, q)), flangeFromTcp);
+      if (role === "edge") expect(distanceToPolyline(curves[i]!.points, tcp.position)).toBeLessThan(1e-5);
+      expect(degrees(Math.acos(-rotate(tcp.quaternion, [0, 0, 1])[2]))).toBeCloseTo(45, 1);
+      for (const [j, { limits }] of other.arm.joints.entries()) {
+        expect(q[j]).toBeGreaterThanOrEqual(limits.lower_rad);
+        expect(q[j]).toBeLessThanOrEqual(limits.upper_rad);
+      }
+    }
+  }
+}, 60_000);

@@ -24,6 +24,8 @@ export type TraceAnswer =
 const SPINS = Array.from({ length: 12 }, (_, i) => (i * Math.PI) / 6);
 /** Nearer to a joint limit than this costs as much as a detour. */
 const ROOM_RAD = (15 * Math.PI) / 180;
+/** An arm whose joints turn twice round has hundreds of postures for a point, most of them others by whole turns: the nearest are tried. */
+const MOST_WAYS = 16;
 const TURN_TOLERANCE_RAD = (0.1 * Math.PI) / 180;
 /** The rest of the tolerance is for passing the points without a stop. */
 const SHARE = 0.8;
@@ -60,7 +62,7 @@ function bestWay(task: TraceTask, robot: Robot, collider: CellCollider, curve: E
     if (!edge) continue;
     const first = flangeOfTcp(task.cell.worldFromBase, inWorld(edge.points[0]!.pose), task.flangeFromTcp), reach = solveAll(robot, first, { near });
     if (reach.kind !== "reached") { why ||= explainReach(reach); continue; }
-    for (const { q_rad } of reach.solutions) {
+    for (const { q_rad } of reach.solutions.slice(0, MOST_WAYS)) {
       const way = follow(task, robot, collider, edge, q_rad, near);
       if (typeof way === "string") why ||= way;
       else if (!best || way.cost < best.cost) best = way;

@@ -17,6 +17,6 @@ export interface ControlState {
   readonly message: string;
 }
 export const controlStore = createStore<ControlState>(() => ({
-  controller: "Virtual RX90L", mode: "automatic", safety: "normal", commander: "you", latency_ms: null,
+  controller: "Virtual robot", mode: "automatic", safety: "normal", commander: "you", latency_ms: null,
   running: false, step: "", line: 0, twinError_rad: 0, message: "",
 }));

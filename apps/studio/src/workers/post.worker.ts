@@ -1,5 +1,5 @@
 import { robotById } from "@twincell/core";
-import { dialectById, proveText } from "@twincell/languages";
+import { dialectById, proveText, runnableFile } from "@twincell/languages";
 import type { FromPoster, ToPoster } from "./post-messages.ts";
 
 const answer = (message: FromPoster): void => { postMessage(message); };
@@ -9,7 +9,7 @@ addEventListener("message", ({ data: { id, dialect: name, program, robot: robotI
     const dialect = dialectById(name), robot = robotById(robotId);
     if (!dialect || !robot) { answer({ kind: "trouble", id, sentence: `There is no language “${name}” for the robot “${robotId}”.` }); return; }
     const emitted = dialect.emit(program, robot, worldFromBase);
-    const [runnable] = emitted.kind === "emitted" ? emitted.files : [];
+    const runnable = emitted.kind === "emitted" ? runnableFile(dialect, emitted.files) : undefined;
     answer({ kind: "posted", id, emitted, proof: runnable ? proveText(dialect, runnable, program, robot, worldFromBase) : null });
   } catch (trouble) {
     answer({ kind: "trouble", id, sentence: trouble instanceof Error ? trouble.message : String(trouble) });

@@ -1,4 +1,5 @@
 import type { SerialArm } from "../robots/arm.ts";
+import { isSlide, slideOf } from "../robots/slide.ts";
 import { mergeMeshes } from "../shapes/assemble.ts";
 import { compose, identity, type Pose } from "../spatial/pose.ts";
 import { norm, type Vector3 } from "../spatial/vector.ts";
@@ -80,8 +81,8 @@ export function farApart(a: Float64Array, b: Float64Array, gap_m: number): boole
 }
 
 /**
- * Bounds on the distance from joint axes, base first:  ρ_k = |p⊥_{k+1}| + R_{k+1},  R_m = |p_{m+1}| + R_{m+1},
- * where p_{m+1} is joint m + 1 seen from joint m, p⊥ its part across the axis, and R of the carrier the body's own radius.
+ * Bounds on the distance from joint axes, base first:  ρ_k = |p⊥_{k+1}| + R_{k+1},  R_m = |p_{m+1}| + R_{m+1} + slide_m,
+ * and 1 for a joint that slides, which moves every point by what it moves itself; where p_{m+1} is joint m + 1 seen from joint m, p⊥ its part across the axis, and R of the carrier the body's own radius.
  */
 export function reachesOf({ carrier, carrierFromBody, solid }: Body, arm: SerialArm): number[] {
   const reaches = new Array<number>(Math.max(0, carrier)).fill(0);
@@ -89,8 +90,9 @@ export function reachesOf({ carrier, carrierFromBody, solid }: Body, arm: Serial
   for (let k = carrier; k >= 1; k--) {
     const joint = arm.joints[k - 1]!, next = k === carrier ? carrierFromBody.position : arm.joints[k]!.parentFromJoint.position;
     const rest = k === carrier ? solid.radius_m : ball_m;
-    reaches[k - 1] = across(next, joint.axis) + rest;
+    reaches[k - 1] = isSlide(joint) ? 1 : across(next, joint.axis) + rest;
     if (k < carrier) ball_m += norm(next);
+    ball_m += slideOf([joint]);
   }
   return reaches;
 }

@@ -1,4 +1,5 @@
 import type { LinkMass } from "../robots/arm.ts";
+import { isSlide } from "../robots/slide.ts";
 import type { Robot } from "../robots/robot.ts";
 import { compose, type Pose } from "../spatial/pose.ts";
 import { rotate } from "../spatial/quaternion.ts";
@@ -20,6 +21,8 @@ export interface DynamicsModel {
   readonly bodies: Float64Array;
   /** Inertia that a motor adds at its joint, rotor inertia · gear² [kg m²]; 0 where nobody publishes it. */
   readonly rotors_kgm2: Float64Array;
+  /** 1 where the joint slides: its torque is a force [N], its inertia a mass [kg]. */
+  readonly slides: Uint8Array;
   /** Acceleration of free fall in the base frame [m/s²]. */
   readonly gravity_mps2: Vector3;
 }
@@ -64,7 +67,7 @@ export function dynamicsModel(robot: Robot, options: DynamicsOptions = {}): Dyna
     const [x, y, z, w] = worldFromBase.quaternion;
     rotate([-x, -y, -z, w], [0, 0, -GRAVITY_MPS2], gravity_mps2);
   }
-  return { kind: "known", model: { robot, bodies, rotors_kgm2, gravity_mps2 } };
+  return { kind: "known", model: { robot, bodies, rotors_kgm2, slides: Uint8Array.from(joints, joint => (isSlide(joint) ? 1 : 0)), gravity_mps2 } };
 }
 
 const unknown = (robot: Robot, because: string): DynamicsAnswer =>

@@ -37,7 +37,7 @@ export function dynamicsScratch(model: DynamicsModel): DynamicsScratch {
 /**
  * Places axes and bodies in the base, where they simply add up: no transform between links is left in the recursions.
  *
- *   S_i = ( z_i ; o_i × z_i ),   h = m p + R h_l,   I_o = R I_l Rᵀ + m-terms of the shift p
+ *   S_i = ( z_i ; o_i × z_i ),  ( 0 ; z_i ) of a slide,   h = m p + R h_l,   I_o = R I_l Rᵀ + m-terms of the shift p
  */
 export function placeBodies(model: DynamicsModel, q: ArrayLike<number>, { arm, links, axes, placed }: DynamicsScratch): void {
   const n = model.robot.arm.joints.length, { bodies } = model;
@@ -45,6 +45,7 @@ export function placeBodies(model: DynamicsModel, q: ArrayLike<number>, { arm, l
   for (let i = 0; i < n; i++) {
     const a = 6 * i, zx = axes[a]!, zy = axes[a + 1]!, zz = axes[a + 2]!, ox = axes[a + 3]!, oy = axes[a + 4]!, oz = axes[a + 5]!;
     axes[a + 3] = oy * zz - oz * zy; axes[a + 4] = oz * zx - ox * zz; axes[a + 5] = ox * zy - oy * zx;
+    if (model.slides[i] === 1) { axes[a] = 0; axes[a + 1] = 0; axes[a + 2] = 0; axes[a + 3] = zx; axes[a + 4] = zy; axes[a + 5] = zz; }
 
     const b = BODY * i, { position, quaternion } = links[i + 1]!, px = position[0], py = position[1], pz = position[2];
     const x = quaternion[0], y = quaternion[1], z = quaternion[2], w = quaternion[3];

@@ -1,5 +1,6 @@
 import { JointCountFault } from "../fault.ts";
 import type { SerialArm } from "../robots/arm.ts";
+import { isSlide } from "../robots/slide.ts";
 import type { Pose } from "../spatial/pose.ts";
 import type { Vector3 } from "../spatial/vector.ts";
 import { elbowChainOf } from "./elbow-chain.ts";
@@ -11,33 +12,36 @@ export interface ArmScratch {
   chain: Float64Array;
   /** The same as an elbow chain, where the arm is one. */
   elbow: Float64Array | null;
+  /** Joints of the arm that slide, from 0. */
+  slides: readonly number[];
   readonly trig: Float64Array;
 }
-export const armScratch = (): ArmScratch => ({ arm: null, chain: new Float64Array(0), elbow: null, trig: new Float64Array(12) });
+export const armScratch = (): ArmScratch => ({ arm: null, chain: new Float64Array(0), elbow: null, slides: [], trig: new Float64Array(12) });
 
 /** Numbers per joint of a flat chain: position, quaternion, axis, which axis, along which axis it is moved, whether turned. */
 const STRIDE = 13;
-const X = 0, Y = 1, Z = 2, ANY = 3, NONE = 4;
+const X = 0, Y = 1, Z = 2, ANY = 3, NONE = 4, SLIDE = 5;
 
 /**
  * The arm as one row of numbers, laid out when the scratch first sees it: a joint is then one line of memory.
  *
- * @throws {JointCountFault} when q does not hold one angle per joint.
+ * @throws {JointCountFault} when q does not hold one value per joint.
  */
 export function chainOf(arm: SerialArm, q: ArrayLike<number>, scratch: ArmScratch): Float64Array {
   if (q.length !== arm.joints.length) throw new JointCountFault(arm.name, arm.joints.length, q.length);
   if (scratch.arm === arm) return scratch.chain;
-  const rows = [...arm.joints.map(({ parentFromJoint, axis }) => ({ fixed: parentFromJoint as Pose, axis })),
-    { fixed: arm.lastJointFromFlange as Pose, axis: null }];
+  const rows = [...arm.joints.map(joint => ({ fixed: joint.parentFromJoint as Pose, axis: joint.axis, kind: isSlide(joint) ? SLIDE : directionOf(joint.axis) })),
+    { fixed: arm.lastJointFromFlange as Pose, axis: null, kind: NONE }];
   const chain = new Float64Array(rows.length * STRIDE);
-  rows.forEach(({ fixed, axis }, i) => {
+  rows.forEach(({ fixed, axis, kind }, i) => {
     const { position, quaternion } = fixed;
     const turned = quaternion[0] !== 0 || quaternion[1] !== 0 || quaternion[2] !== 0 || quaternion[3] !== 1;
-    chain.set([...position, ...quaternion, ...(axis ?? [0, 0, 0]), axis === null ? NONE : directionOf(axis), directionOf(position), turned ? 1 : 0], i * STRIDE);
+    chain.set([...position, ...quaternion, ...(axis ?? [0, 0, 0]), kind, directionOf(position), turned ? 1 : 0], i * STRIDE);
   });
   scratch.arm = arm;
   scratch.chain = chain;
   scratch.elbow = elbowChainOf(arm);
+  scratch.slides = arm.joints.flatMap((joint, i) => (isSlide(joint) ? [i] : []));
   return chain;
 }
 
@@ -55,12 +59,12 @@ const S1 = -1.66666666666666324348e-1, S2 = 8.33333333332248946124e-3, S3 = -1.9
 const C1 = 4.16666666666666019037e-2, C2 = -1.38888888888741095749e-3, C3 = 2.48015872894767294178e-5, C4 = -2.75573143513906633035e-7, C5 = 2.08757232129817482790e-9, C6 = -1.13596475577881948265e-11;
 
 /**
- * running ← running · fixed · Rot(axis, angle), row after row of `chain`, in local numbers: what is stored and loaded
+ * running ← running · fixed · Rot(axis, q), of a slide running · fixed · Trans(axis q), row after row of `chain`, in local numbers: what is stored and loaded
  * again between two joints costs as much as the sines.
  *
  * @param flange  receives the end of the chain, or null.
- * @param links   receive the base and every joint's frame after its turn, or null.
- * @param axes    receives six numbers per joint: its axis and its origin in the base; or null.
+ * @param links   receive the base and every joint's frame after its motion, or null.
+ * @param axes    receives six numbers per joint: its axis and its origin in the base, of a slide where q = 0; or null.
  */
 export function walk(
   chain: Float64Array, q: ArrayLike<number>, flange: Pose | null, links: readonly Pose[] | null, axes: Float64Array | null,
@@ -112,6 +116,12 @@ export function walk(
     } else if (kind === X) {
       const b = chain[at + 7]! * s, nx = x * c + w * b, ny = y * c + z * b;
       z = z * c - y * b; w = w * c - x * b; x = nx; y = ny;
+    } else if (kind === SLIDE) {
+      const px = chain[at + 7]! * angle, py = chain[at + 8]! * angle, pz = chain[at + 9]! * angle;
+      const tx = 2 * (y * pz - z * py), ty = 2 * (z * px - x * pz), tz = 2 * (x * py - y * px);
+      ox += px + w * tx + y * tz - z * ty;
+      oy += py + w * ty + z * tx - x * tz;
+      oz += pz + w * tz + x * ty - y * tx;
     } else {
       const bx = chain[at + 7]! * s, by = chain[at + 8]! * s, bz = chain[at + 9]! * s;
       const nx = w * bx + x * c + y * bz - z * by, ny = w * by - x * bz + y * c + z * bx, nz = w * bz + x * by - y * bx + z * c;

@@ -1,4 +1,5 @@
 import type { SerialArm } from "../robots/arm.ts";
+import { isSlide } from "../robots/slide.ts";
 import { compose, identity, inverse, type Pose } from "../spatial/pose.ts";
 import { fromAxisAngle, multiply, rotate } from "../spatial/quaternion.ts";
 import type { Vector3 } from "../spatial/vector.ts";
@@ -19,7 +20,7 @@ const SENSE = 0, BEND = 6, PLACE = 7, TURNED = 28;
  * @returns null for an arm that is built otherwise.
  */
 export function elbowChainOf(arm: SerialArm): Float64Array | null {
-  if (arm.joints.length !== 6) return null;
+  if (arm.joints.length !== 6 || arm.joints.some(isSlide)) return null;
   const row = new Float64Array(32), axes: Vector3[] = [], places: Vector3[] = [];
   let running: Pose = identity();
   for (const { parentFromJoint, axis } of arm.joints) {

@@ -8,13 +8,13 @@ export { armScratch, type ArmScratch } from "./chain.ts";
 /**
  * Pose of the flange in the robot base.
  *
- *   baseFromFlange = Π_i ( parentFromJoint_i · Rot(axis_i, q_i) ) · lastJointFromFlange
+ *   baseFromFlange = Π_i ( parentFromJoint_i · Rot(axis_i, q_i) ) · lastJointFromFlange,   Trans(axis_i q_i) where joint i slides
  *
- * @param arm      n revolute joints, base first. Read only.
- * @param q        n joint angles [rad]. Range is not checked here: see the joints' limits.
+ * @param arm      n joints, base first. Read only.
+ * @param q        n joint values [rad; m of a slide]. Range is not checked here: see the joints' limits.
  * @param out      receives the answer and is returned. Must not be a pose of `arm`.
  * @param scratch  working memory; with it and `out` the call allocates nothing.
- * @throws {JointCountFault} when q does not hold n angles.
+ * @throws {JointCountFault} when q does not hold n values.
  * @see Lynch & Park, Modern Robotics, Cambridge 2017, ch. 4.
  */
 export function flangePose(
@@ -26,7 +26,7 @@ export function flangePose(
 }
 
 /**
- * Poses of all links in the robot base: out[0] is the base itself, out[i] the frame of joint i after its turn.
+ * Poses of all links in the robot base: out[0] is the base itself, out[i] the frame of joint i after its motion.
  *
  * @param out  n + 1 poses, written in place.
  */

@@ -12,6 +12,7 @@ export { refine, refineScratch, type RefineScratch } from "./refine.ts";
 export * from "./elbow.ts";
 export * from "./inverse.ts";
 export * from "./batch.ts";
+export { turns } from "./turns.ts";
 export * from "./span.ts";
 export * from "./singularity.ts";
 export * from "./workspace.ts";

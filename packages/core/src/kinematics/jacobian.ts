@@ -18,14 +18,14 @@ export const jacobianScratch = (joints = 6): JacobianScratch =>
 /**
  * Geometric Jacobian of the tool tip in the robot base: joint speeds to speed of the tip [m/s] and turning rate [rad/s].
  *
- *   column i = ( z_i × (tip − o_i) ; z_i ),   z_i axis and o_i origin of joint i in the base
+ *   column i = ( z_i × (tip − o_i) ; z_i ),   z_i axis and o_i origin of joint i in the base;   ( z_i ; 0 ) of a slide
  *
- * @param arm            n revolute joints. Read only.
- * @param q              n joint angles [rad].
+ * @param arm            n joints. Read only.
+ * @param q              n joint values [rad; m of a slide].
  * @param flangeFromTip  the tip seen in the flange [m]; the flange itself when null.
  * @param out            6 n numbers, row major: three rows of speed, three of turning rate. Returned.
  * @param scratch        made for n joints; afterwards it also holds `baseFromFlange`. With it and `out` the call allocates nothing.
- * @throws {JointCountFault} when q does not hold n angles.
+ * @throws {JointCountFault} when q does not hold n values.
  * @see Lynch & Park, Modern Robotics, Cambridge 2017, ch. 5.1.
  */
 export function jacobian(
@@ -43,6 +43,10 @@ export function jacobian(
     out[n + i] = zz * rx - zx * rz;
     out[2 * n + i] = zx * ry - zy * rx;
     out[3 * n + i] = zx; out[4 * n + i] = zy; out[5 * n + i] = zz;
+  }
+  const slides = scratch.arm.slides;
+  for (let k = 0; k < slides.length; k++) {
+    for (let row = 0, i = slides[k]!; row < 3; row++) { out[row * n + i] = axes[6 * i + row]!; out[(3 + row) * n + i] = 0; }
   }
   return out;
 }

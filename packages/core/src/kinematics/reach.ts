@@ -20,6 +20,6 @@ export type Reach =
   /** The wrist can be brought there, but not so turned: at best it is this far from the wanted orientation. */
   | { readonly kind: "not-so-turned"; readonly short_rad: number }
   /** The branch that comes closest to the limits; joint counts from 1. */
-  | { readonly kind: "outside-limits"; readonly joint: number; readonly wanted_rad: number; readonly limit_rad: number; readonly branch: Branch | undefined }
+  | { readonly kind: "outside-limits"; readonly joint: number; readonly wanted_rad: number; readonly limit_rad: number; readonly slides?: boolean; readonly branch: Branch | undefined }
   | { readonly kind: "no-solver"; readonly because: string }
   | { readonly kind: "not-a-pose"; readonly because: string };

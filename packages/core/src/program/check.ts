@@ -4,7 +4,7 @@ import type { Pose } from "../spatial/pose.ts";
 import type { Plan } from "../trajectory/plan.ts";
 import { GRIPPER_S } from "../trajectory/planner.ts";
 import { motionAssumptions } from "../robots/jerk.ts";
-import { checkBranch } from "./checks/branch.ts";
+import { checkBranch, checkImpasses } from "./checks/branch.ts";
 import { checkCollision } from "./checks/collision.ts";
 import { layOut, type Layout } from "./checks/layout.ts";
 import { checkLimits } from "./checks/limits.ts";
@@ -66,6 +66,7 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
   checkLimits(scene);
   checkSpeed(scene);
   checkBranch(scene);
+  checkImpasses(scene);
   checkSingular(scene);
   checkSignals(scene);
   checkPayload(scene);

@@ -7,6 +7,7 @@ export * from "./verdict.ts";
 export * from "./parse.ts";
 export * from "./serialize.ts";
 export * from "./edit.ts";
+export * from "./retarget.ts";
 export * from "./stepper.ts";
 export * from "./check.ts";
 export { NEAR_LIMIT_RAD } from "./checks/limits.ts";

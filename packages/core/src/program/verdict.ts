@@ -15,7 +15,7 @@ export interface Finding {
   readonly joint?: number;
   readonly value: number;
   readonly limit: number;
-  readonly unit: "rad" | "m" | "rad/s" | "rad/s2" | "rad/s3" | "m/s" | "s" | "kg" | "1";
+  readonly unit: "rad" | "m" | "rad/s" | "rad/s2" | "rad/s3" | "m/s" | "m/s2" | "m/s3" | "s" | "kg" | "Nm" | "N" | "1";
   /** Seconds after the start of the program. */
   readonly at_s: number;
   readonly sentence: string;

@@ -1,6 +1,10 @@
 import type { Pose } from "../spatial/pose.ts";
 import type { Vector3 } from "../spatial/vector.ts";
 
+/**
+ * Limits of a joint. The names are those of a joint that turns; of a joint that slides the same fields hold m, m/s, m/s², m/s³
+ * and N (docs/decisions/0012): `slideLimits` writes them by their own names, `jointText` says them in their own unit.
+ */
 export interface JointLimits {
   readonly lower_rad: number;
   readonly upper_rad: number;
@@ -32,9 +36,16 @@ export interface LinkMass {
   readonly inertia_kgm2?: readonly [number, number, number, number, number, number];
 }
 
-/** A revolute joint. childFromParent at angle q: parentFromJoint · Rot(axis, q). */
+/**
+ * One joint of a chain. Its child at value q:
+ *
+ *   revolute    parentFromJoint · Rot(axis, q)          q [rad]
+ *   prismatic   parentFromJoint · Trans(axis · q)       q [m]
+ */
 export interface Joint {
   readonly name: string;
+  /** Revolute when left out. */
+  readonly kind?: "revolute" | "prismatic";
   readonly parentFromJoint: Pose<"parent", "joint">;
   /** Unit vector in the joint's own frame. */
   readonly axis: Vector3;
@@ -42,7 +53,7 @@ export interface Joint {
   readonly drive?: JointDrive;
 }
 
-/** A chain of revolute joints, base first. Read-only for every algorithm; JSON-able. */
+/** A chain of joints, base first. Read-only for every algorithm; JSON-able. */
 export interface SerialArm {
   readonly name: string;
   readonly joints: readonly Joint[];

@@ -4,6 +4,7 @@ import { fromAxisAngle, fromMatrix, rotate } from "../spatial/quaternion.ts";
 import { wrapAngle } from "../spatial/units.ts";
 import { addScaled, cross, dot, norm, scale, subtract, type Vector3 } from "../spatial/vector.ts";
 import type { Joint, JointLimits, SerialArm } from "./arm.ts";
+import { isSlide } from "./slide.ts";
 
 /**
  * Whose Denavit–Hartenberg parameters:
@@ -11,7 +12,7 @@ import type { Joint, JointLimits, SerialArm } from "./arm.ts";
  *   standard (1955, Paul)    T_i = Rz(θ_i) · Tz(d_i) · Tx(a_i) · Rx(α_i)
  *   modified (Craig)         T_i = Rx(α_i) · Tx(a_i) · Rz(θ_i) · Tz(d_i)        row i holds Craig's a_{i−1} and α_{i−1}
  *
- * with θ_i = sense_i · q_i + thetaOffset_i.
+ * with θ_i = sense_i · q_i + thetaOffset_i; of a row that slides θ_i = thetaOffset_i, and d_i grows by sense_i · q_i.
  */
 export type DhConvention = "standard" | "modified";
 
@@ -20,8 +21,10 @@ export interface DhRow {
   readonly alpha_rad: number;
   readonly d_m: number;
   readonly thetaOffset_rad: number;
-  /** −1 where a positive joint angle turns the left way about z. */
+  /** −1 where a positive joint angle turns the left way about z, or a positive slide goes down it. */
   readonly sense: 1 | -1;
+  /** The joint moves along z and not about it. */
+  readonly slides?: true;
 }
 
 /** baseFromFlange = baseFromFirst · Π T_i · lastFromFlange. The two outer poses take what no row can say. */
@@ -37,7 +40,7 @@ const turnX = (angle_rad: number): Pose => pose([0, 0, 0], fromAxisAngle(X, angl
 const turnZ = (angle_rad: number): Pose => pose([0, 0, 0], fromAxisAngle(Z, angle_rad));
 
 /**
- * The arm of a D-H table. Its joints turn about z, or −z where the sense is −1, of frames laid as the convention lays them.
+ * The arm of a D-H table. Its joints turn about z or slide along it, −z where the sense is −1, of frames laid as the convention lays them.
  *
  * @param joints  name and limits of every row, in order.
  */
@@ -48,7 +51,7 @@ export function armFromDh(name: string, table: DhTable, joints: readonly { reado
     const before = table.convention === "modified" ? compose(turnX(row.alpha_rad), along) : identity();
     const parentFromJoint = compose(compose(waiting, before), turnZ(row.thetaOffset_rad)) as Pose<"parent", "joint">;
     waiting = table.convention === "modified" ? identity() : compose(along, turnX(row.alpha_rad));
-    return { name: given.name, limits: given.limits, axis: [0, 0, row.sense], parentFromJoint };
+    return { name: given.name, ...(row.slides === true ? { kind: "prismatic" as const } : {}), limits: given.limits, axis: [0, 0, row.sense], parentFromJoint };
   });
   return { name, joints: built, lastJointFromFlange: compose(waiting, table.lastFromFlange as Pose) as Pose<"joint", "flange"> };
 }
@@ -87,6 +90,7 @@ export function dhFromArm(arm: SerialArm, convention: DhConvention): DhTable {
     return {
       a_m: clean(dot(subtract(own.to, own.from), own.x)), alpha_rad: clean(turnAbout(own.x, here.along, other.along)),
       d_m: clean(dot(subtract(after.from, before.to), axis.along)), thetaOffset_rad: clean(turnAbout(axis.along, before.x, after.x)), sense: 1,
+      ...(isSlide(arm.joints[i]!) ? { slides: true as const } : {}),
     };
   });
   const baseFromFirst = frame<"base", "first">(foot, x0, first.along), end = normals.at(-1)!;

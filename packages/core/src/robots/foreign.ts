@@ -2,6 +2,7 @@ import { pose } from "../spatial/pose.ts";
 import { norm } from "../spatial/vector.ts";
 import type { SerialArm } from "./arm.ts";
 import { familyOf } from "./family.ts";
+import { slideOf } from "./slide.ts";
 import type { KinematicFamily, Robot } from "./robot.ts";
 
 /** Speed of the tool tip at full speed where nobody says it [m/s]. */
@@ -33,17 +34,26 @@ export function robotFromArm(arm: SerialArm, known: KnownOfRobot = {}): Robot {
     maxTcpSpeed_mps: assume(known.maxTcpSpeed_mps, ASSUMED_TCP_SPEED_MPS, `The largest speed of the tool tip is not known: ${ASSUMED_TCP_SPEED_MPS} m/s is assumed.`),
     sources: known.sources ?? { "arm": "The axes, limits and speeds of the robot file that was opened." },
     shapeError_m: known.shapeError_m ?? 0,
+    ...optional(known),
     assumptions,
   };
 }
 
-/** From axis 1 to the wrist of the stretched arm, as makers count; for an arm of no family the sum of its links, which no reach exceeds. */
+/** What may be missing from a robot, where it is known. */
+function optional({ mass_kg, masses, workspace, madeUpGeometry, form, paint }: KnownOfRobot): Partial<Robot> {
+  return {
+    ...(mass_kg === undefined ? {} : { mass_kg }), ...(masses === undefined ? {} : { masses }), ...(workspace === undefined ? {} : { workspace }),
+    ...(madeUpGeometry === undefined ? {} : { madeUpGeometry }), ...(form === undefined ? {} : { form }), ...(paint === undefined ? {} : { paint }),
+  };
+}
+
+/** From axis 1 to the wrist of the stretched arm, as makers count; for an arm of no family the sum of its links and slides, which no reach exceeds. */
 function reachOf(arm: SerialArm, family: KinematicFamily): number {
   switch (family.kind) {
     case "ortho-parallel": return Math.abs(family.a1_m) + family.c2_m + Math.hypot(family.a2_m, family.c3_m);
     case "three-parallel": return Math.abs(family.a1_m) + family.c2_m + family.c3_m + family.c5_m;
     case "spherical-seven": return family.c3_m + family.c5_m;
     case "general-6r": return Math.abs(family.a1_m) + family.c2_m + Math.hypot(...family.centre_m);
-    case "general": return arm.joints.slice(1).reduce((sum, joint) => sum + norm(joint.parentFromJoint.position), norm(arm.lastJointFromFlange.position));
+    case "general": return arm.joints.slice(1).reduce((sum, joint) => sum + norm(joint.parentFromJoint.position), norm(arm.lastJointFromFlange.position) + slideOf(arm.joints));
   }
 }

@@ -1,4 +1,5 @@
 export * from "./arm.ts";
+export * from "./slide.ts";
 export * from "./jerk.ts";
 export * from "./robot.ts";
 export * from "./derive.ts";

@@ -17,7 +17,7 @@ const MOST_JOINTS = 32, MOST_FAULTS = 20;
 /** Seconds from standstill to full speed of a joint whose acceleration the file does not give. */
 const RAMP_S = 0.25;
 const TOP = ["format", "version", "id", "name", "vendor", "joints", "flange", "vendor_world", "home_rad", "payload_kg", "reach_m", "repeatability_m", "max_tcp_speed_mps", "mass_kg", "shape_error_m", "sources", "assumptions"];
-const JOINT = ["name", "xyz_m", "rpy_rad", "axis", "lower_rad", "upper_rad", "speed_rad_s", "acceleration_rad_s2", "torque_Nm"];
+const JOINT = ["name", "kind", "xyz_m", "rpy_rad", "axis", "lower_rad", "upper_rad", "speed_rad_s", "acceleration_rad_s2", "torque_Nm"];
 
 /**
  * A robot from one data file (rows T-16, M-60), format `twincell.robot`, version 1: metres and radians, joints base first, each
@@ -73,9 +73,10 @@ function jointOf(reader: Reader, value: unknown, index: number): Joint | undefin
   if (lower_rad !== undefined && upper_rad !== undefined && !(lower_rad < upper_rad)) reader.fault(path, `the lower limit of ${what} is below its upper one; here they are ${lower_rad} and ${upper_rad}.`);
   if (speed_rad_s !== undefined && !(speed_rad_s > 0)) reader.fault(`${path}.speed_rad_s`, `the speed of ${what} is above 0; here it is ${speed_rad_s}.`);
   else if (acceleration !== undefined && !(acceleration > 0)) reader.fault(`${path}.acceleration_rad_s2`, `the acceleration of ${what} is above 0; here it is ${acceleration}.`);
+  if (file.kind !== undefined && file.kind !== "revolute" && file.kind !== "prismatic") reader.fault(`${path}.kind`, `the kind of ${what} is "revolute" or "prismatic"; here it is ${reader.shown(file.kind)}.`);
   if (name === undefined || at === undefined || axis === undefined || lower_rad === undefined || upper_rad === undefined || speed_rad_s === undefined || acceleration === undefined) return undefined;
   return {
-    name, parentFromJoint: at, axis: scale(axis as Vector3, 1 / (norm(axis as Vector3) || 1)),
+    name, ...(file.kind === "prismatic" ? { kind: file.kind } : {}), parentFromJoint: at, axis: scale(axis as Vector3, 1 / (norm(axis as Vector3) || 1)),
     limits: { lower_rad, upper_rad, speed_rad_s, acceleration_rad_s2: acceleration, ...(torque_Nm === undefined ? {} : { torque_Nm }) },
   };
 }

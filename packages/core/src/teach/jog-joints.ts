@@ -1,6 +1,7 @@
 import { explainReach } from "../kinematics/explain.ts";
 import { branchOf } from "../kinematics/branch.ts";
 import type { Reach } from "../kinematics/reach.ts";
+import { isSlide } from "../robots/slide.ts";
 import type { Robot } from "../robots/robot.ts";
 import type { Jogged, JogBlock } from "./jogged.ts";
 
@@ -34,6 +35,6 @@ export function jogJoints(robot: Robot, q: ArrayLike<number>, speed_rad_s: Array
 
 function stopAt(robot: Robot, q: ArrayLike<number>, j: number, wanted_rad: number, limit_rad: number): JogBlock {
   const branch = branchOf(robot, q) ?? { shoulder: "front", elbow: "up", wrist: "positive" };
-  const reach: Reach = { kind: "outside-limits", joint: j + 1, wanted_rad, limit_rad, branch };
+  const reach: Reach = { kind: "outside-limits", joint: j + 1, wanted_rad, limit_rad, branch, ...(isSlide(robot.arm.joints[j]!) ? { slides: true } : {}) };
   return { coordinate: j + 1, reach, sentence: explainReach(reach) };
 }

@@ -1,5 +1,6 @@
 import { linkPoses, armScratch, type ArmScratch } from "../kinematics/forward.ts";
 import type { SerialArm } from "../robots/arm.ts";
+import { isSlide } from "../robots/slide.ts";
 import { compose, identity, type Pose } from "../spatial/pose.ts";
 import { rotate } from "../spatial/quaternion.ts";
 import type { Vector3 } from "../spatial/vector.ts";
@@ -28,6 +29,7 @@ export class Follower {
   private readonly flange: Pose<"base", "flange"> = identity();
   private readonly scratch: ArmScratch = armScratch();
   private readonly axis: Vector3 = [0, 0, 0];
+  private readonly slides: readonly boolean[];
   /** 6 × n, row by row: linear rows first. */
   private readonly jacobian: Float64Array;
   private readonly normal: Float64Array;
@@ -37,6 +39,7 @@ export class Follower {
   constructor(arm: SerialArm) {
     const n = arm.joints.length;
     this.arm = arm;
+    this.slides = arm.joints.map(isSlide);
     this.links = Array.from({ length: n + 1 }, () => identity<"base", "link">());
     this.jacobian = new Float64Array(6 * n);
     this.normal = new Float64Array(n * n);
@@ -96,6 +99,10 @@ export class Follower {
     for (let j = 0; j < n; j++) {
       const link = links[j + 1]!, o = link.position;
       rotate(link.quaternion, this.arm.joints[j]!.axis, axis);
+      if (this.slides[j] === true) {
+        for (let row = 0; row < 3; row++) { J[row * n + j] = axis[row]!; J[(3 + row) * n + j] = 0; }
+        continue;
+      }
       const rx = p[0] - o[0], ry = p[1] - o[1], rz = p[2] - o[2];
       J[j] = axis[1] * rz - axis[2] * ry; J[n + j] = axis[2] * rx - axis[0] * rz; J[2 * n + j] = axis[0] * ry - axis[1] * rx;
       J[3 * n + j] = axis[0]; J[4 * n + j] = axis[1]; J[5 * n + j] = axis[2];

@@ -29,9 +29,10 @@ export class GoalFinder {
     this.follower = follower;
   }
 
-  /** The posture of a move's target with the least total travel from `near` (row N-16), inside the limits. */
+  /** The posture of a move's target that was taught or chosen, else that with the least total travel from `near` (row N-16), inside the limits. */
   find(move: Move, near: Float64Array): Goal {
-    if (move.q_rad !== undefined) return { kind: "posture", q_rad: move.q_rad };
+    const told = move.q_rad ?? move.chosen_rad;
+    if (told !== undefined) return { kind: "posture", q_rad: told };
     if (this.robot.family.kind === "general") return this.follow(move.baseFromFlange, near);
     const q = new Float64Array(near.length);
     if (nearestSolution(this.robot, move.baseFromFlange, near, q, this.scratch)) {

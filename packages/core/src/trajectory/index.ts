@@ -14,3 +14,4 @@ export * from "./plan-path.ts";
 export * from "./judge.ts";
 export * from "./deviation.ts";
 export * from "./jerk/index.ts";
+export * from "./continuity/index.ts";

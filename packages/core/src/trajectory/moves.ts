@@ -20,6 +20,8 @@ export interface Move {
   /** The posture itself, when the target was taught as joint angles. */
   readonly q_rad?: Float64Array;
   readonly branch?: Branch;
+  /** The posture that was chosen for a pose because the nearest one does not lead on. */
+  readonly chosen_rad?: Float64Array;
   readonly via?: Pose<"base", "tcp">;
 }
 

@@ -1,5 +1,6 @@
 import { armScratch, flangePose } from "../kinematics/forward.ts";
 import type { Robot } from "../robots/robot.ts";
+import { isSlide } from "../robots/slide.ts";
 import { compose, identity, type Pose } from "../spatial/pose.ts";
 import { radians } from "../spatial/units.ts";
 import type { Plan } from "./plan.ts";
@@ -40,6 +41,8 @@ export function planPath(plan: Plan, robot: Robot, options: PlanPathOptions = {}
   const points_m = new Float32Array(3 * total), times_s = new Float64Array(total), speed_mps = new Float32Array(total), states = new Uint8Array(total);
   const stretches: { step: string; first: number; count: number }[] = [];
   const q = new Float64Array(n), scratch = armScratch(), flange = identity<"base", "flange">(), worldFromFlange = identity<"world", "flange">(), tcp = identity<"world", "tcp">();
+  // 10 mm of a slide are as near as 10° of a turn.
+  const scales = joints.map(joint => (isSlide(joint) ? radians(10) / 0.01 : 1));
   let at = 0;
   for (let s = 0; s < plan.segments.length; s++) {
     const segment = plan.segments[s]!, count = counts[s]!;
@@ -53,7 +56,7 @@ export function planPath(plan: Plan, robot: Robot, options: PlanPathOptions = {}
       points_m.set(tcp.position, 3 * at);
       times_s[at] = segment.start_s + t;
       let room = Number.POSITIVE_INFINITY;
-      for (let j = 0; j < n; j++) room = Math.min(room, q[j]! - joints[j]!.limits.lower_rad, joints[j]!.limits.upper_rad - q[j]!);
+      for (let j = 0; j < n; j++) room = Math.min(room, (q[j]! - joints[j]!.limits.lower_rad) * scales[j]!, (joints[j]!.limits.upper_rad - q[j]!) * scales[j]!);
       states[at] = room < -1e-9 ? POINT_BEYOND_LIMIT : room < near_rad ? POINT_NEAR_LIMIT : POINT_OK;
     }
     speeds(points_m, times_s, speed_mps, first, count);

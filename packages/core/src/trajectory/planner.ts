@@ -4,7 +4,8 @@ import { SignalTable, holds } from "../program/signals.ts";
 import { motionAssumptions } from "../robots/jerk.ts";
 import type { Robot } from "../robots/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
-import { passes, resolveMove } from "./moves.ts";
+import { chooseBranches, withChoice } from "./continuity/index.ts";
+import { passes, resolveMove, type Move } from "./moves.ts";
 import type { MotionSegment, Plan, Segment, SignalWrite } from "./plan.ts";
 import type { Slowed } from "./run-timing.ts";
 import { PATH_TOLERANCE_M, RunPlanner } from "./run.ts";
@@ -43,7 +44,8 @@ const MOST_PLANNED = 200_000;
 /**
  * Lays a program out in time: joints together on joint moves, straight and circular TCP paths within `tolerance_m`,
  * corners blended, and every joint within its speed and acceleration at every instant. Loops, calls and pallets are
- * carried out, a loop "forever" once; waits for signals take no time. A program that cannot be carried out gives the plan
+ * carried out, a loop "forever" once; waits for signals take no time. Where the nearest posture at every target would lead to a
+ * flip or into a limit, postures are chosen over the whole path (`chooseBranches`); `withBranches` writes them into the program. A program that cannot be carried out gives the plan
  * up to the step that stands in the way.
  *
  * The program is trusted to come from `parseProgram`.
@@ -52,11 +54,17 @@ export function planProgram(program: Program, robot: Robot, options: PlanOptions
   const writer = new PlanWriter(robot, options);
   const planner = new RunPlanner(robot, options.tolerance_m ?? PATH_TOLERANCE_M);
   const context = { tools: program.tools, frames: program.frames, ...(options.worldFromBase === undefined ? {} : { worldFromBase: options.worldFromBase }) };
-  const assumptions = durationAssumptions(program, robot);
-  for (const part of inRuns(flow(program, { decide: when => holds(when, writer.signals), rounds: 1, mostSteps: MOST_PLANNED }))) {
+  const assumptions = durationAssumptions(program, robot), parts = ahead(program, options.inputs ?? {});
+  const runs = parts.flatMap(part => (part.kind === "run" ? [part.moves.map(({ step }) => resolveMove(step, robot, context))] : []));
+  const choice = chooseBranches(runs, robot, writer.q);
+  let run = 0, first = 0;
+  for (const part of parts) {
     if (part.kind === "step") { if (part.step.type !== "move") writer.rest(part.step, part.stands); continue; }
     if (part.kind !== "run") continue;
-    let moves = part.moves.map(({ step }) => resolveMove(step, robot, context));
+    let moves: readonly Move[] = runs[run++]!;
+    const count = moves.length;
+    if (choice !== undefined) moves = withChoice(moves, choice, first);
+    first += count;
     for (;;) {
       const answer = planner.plan(moves, writer.q);
       if (answer.kind === "timed") { writer.run(answer.run.parts, answer.run.slowed); break; }
@@ -73,6 +81,21 @@ export function planProgram(program: Program, robot: Robot, options: PlanOptions
   return { kind: "planned", plan: writer.plan(program.robot), notes: writer.notes, assumptions };
 }
 
+/** The whole program in order, before anything moves: signals change only where steps write them, and waits end. */
+function ahead(program: Program, inputs: NonNullable<PlanOptions["inputs"]>): FlowPart[] {
+  const signals = new SignalTable(Object.entries(inputs)), parts: FlowPart[] = [];
+  for (const part of inRuns(flow(program, { decide: when => holds(when, signals), rounds: 1, mostSteps: MOST_PLANNED }))) {
+    parts.push(part);
+    if (part.kind === "step" && part.step.type === "set") remember(part.step, signals);
+  }
+  return parts;
+}
+
+/** A plan decides by what is written: a pulse is over before the next decision. */
+function remember({ signal, to, pulse_s }: SetStep, signals: SignalTable): void {
+  signals.write(signal, pulse_s !== undefined && typeof to === "boolean" ? !to : to);
+}
+
 /** What the durations of a program's steps rest on, one sentence each. */
 export const durationAssumptions = (program: Program, robot: Robot, gripper_s = GRIPPER_S): string[] => [
   ...robot.assumptions, ...motionAssumptions(robot),
@@ -83,8 +106,11 @@ type StepHappening = Extract<Happening, { kind: "step" }>;
 /** A move that happens, with the step it comes from. */
 export type MoveHappening = StepHappening & { readonly step: MoveStep };
 
+/** What is laid out at once: a happening, or moves that are passed without a stop in between. */
+export type FlowPart = Happening | { readonly kind: "run"; readonly moves: readonly MoveHappening[] };
+
 /** The same happenings with moves that are passed without a stop in between as one. */
-export function* inRuns(happenings: Iterable<Happening>): Generator<Happening | { readonly kind: "run"; readonly moves: readonly MoveHappening[] }, void> {
+export function* inRuns(happenings: Iterable<Happening>): Generator<FlowPart, void> {
   let moves: MoveHappening[] = [];
   for (const happening of happenings) {
     const last = moves.at(-1);
@@ -102,8 +128,6 @@ const isMove = (happening: Happening): happening is MoveHappening => happening.k
 export class PlanWriter {
   readonly q: Float64Array;
   readonly notes: PlanNote[] = [];
-  /** What the outputs are by now. */
-  readonly signals: SignalTable;
   private readonly segments: Segment[] = [];
   private readonly writes: SignalWrite[] = [];
   private readonly gripper_s: number;
@@ -113,7 +137,6 @@ export class PlanWriter {
   constructor(robot: Robot, options: PlanOptions) {
     this.q = Float64Array.from(options.start_rad ?? robot.home_rad);
     this.gripper_s = options.gripper_s ?? GRIPPER_S;
-    this.signals = new SignalTable(Object.entries(options.inputs ?? {}));
   }
 
   get now_s(): number { return this.t_s; }
@@ -129,12 +152,8 @@ export class PlanWriter {
   }
 
   private write({ signal, to, pulse_s }: SetStep): void {
-    this.signals.write(signal, to);
     this.writes.push({ at_s: this.t_s, signal, to });
-    // A plan decides by what is written: a pulse is over before the next decision.
-    if (pulse_s === undefined || typeof to !== "boolean") return;
-    this.signals.write(signal, !to);
-    this.writes.push({ at_s: this.t_s + pulse_s, signal, to: !to });
+    if (pulse_s !== undefined && typeof to === "boolean") this.writes.push({ at_s: this.t_s + pulse_s, signal, to: !to });
   }
 
   run(parts: readonly MotionSegment[], slowed: readonly Slowed[]): void {

@@ -1,12 +1,13 @@
 import { flangePose } from "../kinematics/forward.ts";
 import type { Robot } from "../robots/robot.ts";
 import { compose, identity, type Pose } from "../spatial/pose.ts";
-import { distance, norm, scale, subtract, type Vector3 } from "../spatial/vector.ts";
+import { distance, type Vector3 } from "../spatial/vector.ts";
 import { Follower } from "./follow.ts";
-import { arcPath, curvePath, geometryScratch, linePath, posePoint, poseTwist, turnBetween, TURN_M_PER_RAD, type PosePath } from "./geometry.ts";
+import { curvePath, geometryScratch, posePoint, poseTwist, TURN_M_PER_RAD, type PosePath } from "./geometry.ts";
 import { GoalFinder, type Goal } from "./goal.ts";
 import { HermitePath, type Stop } from "./hermite-path.ts";
 import type { Move } from "./moves.ts";
+import { posePathOf, SHORTEST_M } from "./pose-paths.ts";
 
 /** Why a run of moves cannot be laid out: the move (counted from 0 within the run) and what stands in the way. */
 export type RunStop =
@@ -15,9 +16,6 @@ export type RunStop =
   /** Joint counts from 1. */
   | { readonly kind: "limit"; readonly move: number; readonly share: number; readonly joint: number; readonly wanted_rad: number; readonly limit_rad: number }
   | { readonly kind: "straight-circle"; readonly move: number };
-
-/** A blend shorter than this [m] is a stop without the wait: it would only add nodes. */
-const SHORTEST_M = 1e-7;
 
 /** Geometry of one move of a run. */
 interface Leg {
@@ -83,7 +81,7 @@ export class RunPath {
     let q: Float64Array | undefined = q0;
     this.startFlange = flangePose(this.robot.arm, q0);
     for (let i = 0; i < moves.length; i++) {
-      const move = moves[i]!, from = this.startOf(moves, i);
+      const move = moves[i]!;
       if (move.step.path === "ptp") {
         const start: Float64Array = q ?? q0, goal = this.goals.find(move, start);
         if (goal.kind === "none") return { kind: "goal", move: i, goal };
@@ -91,7 +89,7 @@ export class RunPath {
         q = goal.q_rad;
         continue;
       }
-      const path = this.posePath(moves, i, from);
+      const path = posePathOf(moves, i, this.startFlange);
       if (path === undefined) return { kind: "straight-circle", move: i };
       const leg: Leg = { move, path, length: path.length };
       if (q !== undefined) leg.q0 = q;
@@ -120,33 +118,6 @@ export class RunPath {
       if (stop !== undefined) return { kind: "stop", move: k, share: stop.s / passed.length, stop };
     }
     return { kind: "end", q_rad: q };
-  }
-
-  private posePath(moves: readonly Move[], i: number, from: Pose<"base", "tcp">): PosePath | undefined {
-    const move = moves[i]!;
-    switch (move.step.path) {
-      case "circ": return move.via === undefined ? linePath(from, move.baseFromTcp) : arcPath(from, move.via.position, move.baseFromTcp);
-      case "spline": return this.splinePath(moves, i, from);
-      default: return linePath(from, move.baseFromTcp);
-    }
-  }
-
-  /** Catmull-Rom through the points of consecutive splines, non-uniform: the tangent leans to the shorter side. */
-  private splinePath(moves: readonly Move[], i: number, from: Pose<"base", "tcp">): PosePath {
-    const move = moves[i]!, to = move.baseFromTcp;
-    const spline = (k: number): boolean => moves[k]?.step.path === "spline" && moves[k].step.target.tool === move.step.target.tool;
-    const before = spline(i - 1) ? this.startOf(moves, i - 1) : undefined, after = spline(i + 1) ? moves[i + 1]!.baseFromTcp : undefined;
-    const length = span(from, to);
-    if (length < SHORTEST_M) return linePath(from, to);
-    const chord = twistOver(from, to, length);
-    const t0 = before === undefined ? chord : meanTwist(before, from, to);
-    const t1 = after === undefined ? chord : meanTwist(from, to, after);
-    return curvePath(from, t0, to, t1, length);
-  }
-
-  /** Where the TCP of move k is when it begins. */
-  private startOf(moves: readonly Move[], k: number): Pose<"base", "tcp"> {
-    return compose(moves[k - 1]?.baseFromFlange ?? this.startFlange, moves[k]!.flangeFromTcp);
   }
 
   /** TCP distance along a joint move, so that its blends can be measured in metres. */
@@ -252,20 +223,4 @@ export class RunPath {
     const q0 = leg.q0!, q1 = leg.q1!;
     return q0.map((a, j) => (q1[j]! - a) / leg.length);
   }
-}
-
-const span = (a: Pose, b: Pose): number => Math.max(distance(a.position, b.position), TURN_M_PER_RAD * norm(turnBetween(a.quaternion, b.quaternion)));
-
-function twistOver(a: Pose, b: Pose, length: number): Float64Array {
-  const v = scale(subtract(b.position, a.position), 1 / length), w = scale(turnBetween(a.quaternion, b.quaternion), 1 / length);
-  return Float64Array.of(...v, ...w);
-}
-
-/** Tangent at b of the parabola through a, b and c: the chords' slopes, each weighed by the other's length. */
-function meanTwist(a: Pose, b: Pose, c: Pose): Float64Array {
-  const before = span(a, b), after = span(b, c);
-  if (before < SHORTEST_M) return twistOver(b, c, after);
-  if (after < SHORTEST_M) return twistOver(a, b, before);
-  const t0 = twistOver(a, b, before), t1 = twistOver(b, c, after);
-  return t0.map((x, i) => (x * after + t1[i]! * before) / (before + after));
 }

@@ -1,7 +1,8 @@
 import { explainReach } from "../kinematics/explain.ts";
 import type { Reach } from "../kinematics/reach.ts";
 import type { Robot } from "../robots/robot.ts";
-import { degrees, millimetres } from "../spatial/units.ts";
+import { jointText, movesTo } from "../robots/slide.ts";
+import { millimetres } from "../spatial/units.ts";
 import type { Move } from "./moves.ts";
 import type { RunStop } from "./run-path.ts";
 
@@ -14,11 +15,13 @@ export function explainStop(stop: RunStop, move: Move, robot: Robot): Stuck {
   switch (stop.kind) {
     case "straight-circle":
       return { step, code: "path.circle", sentence: `Start, via point and target of step “${step}” lie on one line, so no circle passes through them.`, hint: "Move the via point off the line, or make it a straight move." };
-    case "limit":
+    case "limit": {
+      const joint = robot.arm.joints[stop.joint - 1]!;
       return {
-        step, code: "limits.joint", sentence: `At ${Math.round(stop.share * 100)} % of step “${step}” joint ${stop.joint} would turn to ${degrees(stop.wanted_rad).toFixed(1)}°; its limit is ${degrees(stop.limit_rad).toFixed(1)}°.`,
+        step, code: "limits.joint", sentence: `At ${Math.round(stop.share * 100)} % of step “${step}” joint ${stop.joint} would ${movesTo(joint)} ${jointText(joint, stop.wanted_rad)}; its limit is ${jointText(joint, stop.limit_rad)}.`,
         hint: "Tilt or turn the tool, or choose another posture of the arm.",
       };
+    }
     case "goal":
       return { step, code: `reach.${stop.goal.reach.kind}`, sentence: `Step “${step}”: ${explainReach(stop.goal.reach)}`, hint: "Bring the target nearer, or tilt the tool.", reach: stop.goal.reach };
     case "path": {

@@ -77,7 +77,7 @@ test.each<[string, string, number?]>([
   [json(`{"a":0,"alpha":0}`), "The row of joint_1 has no d."],
   [json(`{"a":0,"alpha":null,"d":0}`), "The alpha of row 1 is not a finite number."],
   [json(`{"a":1e999,"alpha":0,"d":0}`), "The a of row 1 is not a finite number."],
-  [json(`{"a":0,"alpha":0,"d":0,"tetha":1}`), "Row 1 has an entry “tetha”; a, alpha, d, theta, sense, lower, upper, speed, acceleration and name are known."],
+  [json(`{"a":0,"alpha":0,"d":0,"tetha":1}`), "Row 1 has an entry “tetha”; a, alpha, d, theta, sense, sigma, lower, upper, speed, acceleration and name are known."],
   [json(`{"a":450,"alpha":0,"d":0}`), "The a of joint_1 would be 450 m; the table is read in m."],
   [json(`{"a":0,"alpha":0,"d":0,"sense":2}`), "The sense of joint_1 is 2; it is 1 or -1."],
   [json(`{"a":0,"alpha":0,"d":0,"lower":1,"upper":0}`), "The lower limit of joint_1, 1, is above its upper limit, 0."],
@@ -90,7 +90,7 @@ test.each<[string, string, number?]>([
   [text("1 2\n"), "A row has 2 entries; there are 3 columns.", 4],
   [text("1 x 3\n"), "The alpha holds “x”, which is not a usable number.", 4],
   [text("1 NaN 3\n"), "The alpha holds “NaN”, which is not a usable number.", 4],
-  ["# convention: standard\n# units: mm deg\na beta d\n", "“beta” is no column of a D-H table; a, alpha, d, theta, sense, lower, upper, speed, acceleration and name are.", 3],
+  ["# convention: standard\n# units: mm deg\na beta d\n", "“beta” is no column of a D-H table; a, alpha, d, theta, sense, sigma, lower, upper, speed, acceleration and name are.", 3],
   [text("0 0 0\n".repeat(101)), "The table has 101 rows; at most 100 are read."],
   ["x".repeat(1_000_001), "The file has 1000001 characters; a D-H table has at most 1000000."],
 ])("refused in one sentence: %#", (content, sentence, line) => {

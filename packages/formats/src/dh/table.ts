@@ -22,7 +22,8 @@ const LARGEST_M = 100;
  * JSON: `{"convention":"modified","units":{"length":"mm","angle":"deg"},"rows":[{"a":0,"alpha":0,"d":420,"theta":0,"lower":-160,…}]}`
  * Text: `# convention: modified`, `# units: mm deg`, a line of column names, a line per joint; commas, semicolons, tabs or spaces between.
  *
- * Columns: a, alpha, d; theta (offset, 0), sense (1 or −1, 1), lower, upper, speed, acceleration, name. A modified row holds
+ * Columns: a, alpha, d; theta (offset, 0), sense (1 or −1, 1), sigma (0 turns, 1 slides; 0), lower, upper, speed, acceleration, name.
+ * Limits of a row that slides are in the unit of lengths. A modified row holds
  * Craig's a and α of the link before.
  */
 export function readDhTable(text: string, name = "arm"): DhRead | NotUnderstood {
@@ -53,21 +54,24 @@ function rowOf({ numbers, line }: WrittenRow, name: string, table: WrittenTable)
   };
   const sense = numbers.sense ?? 1;
   if (sense !== 1 && sense !== -1) throw new Refusal(`The sense of ${name} is ${sense}; it is 1 or -1.`, line);
-  return { a_m: metres("a"), alpha_rad: inRadians(numbers.alpha ?? 0, table), d_m: metres("d"), thetaOffset_rad: inRadians(numbers.theta ?? 0, table), sense };
+  const sigma = numbers.sigma ?? 0;
+  if (sigma !== 0 && sigma !== 1) throw new Refusal(`The sigma of ${name} is ${sigma}; it is 0 for a joint that turns or 1 for one that slides.`, line);
+  return { ...(sigma === 1 ? { slides: true as const } : {}), a_m: metres("a"), alpha_rad: inRadians(numbers.alpha ?? 0, table), d_m: metres("d"), thetaOffset_rad: inRadians(numbers.theta ?? 0, table), sense };
 }
 
 function limitsOf({ numbers, line }: WrittenRow, name: string, table: WrittenTable, assumptions: string[]): Joint["limits"] {
-  const { lower, upper, speed, acceleration } = numbers, angle = (value: number | undefined): number | undefined => (value === undefined ? undefined : inRadians(value, table));
+  const { lower, upper, speed, acceleration } = numbers, slides = numbers.sigma === 1;
+  const inside = (value: number | undefined): number | undefined => (value === undefined ? undefined : slides ? value * (table.length === "mm" ? 0.001 : 1) : inRadians(value, table));
   if (lower !== undefined && upper !== undefined && lower > upper) throw new Refusal(`The lower limit of ${name}, ${lower}, is above its upper limit, ${upper}.`, line);
   for (const [what, value] of [["speed", speed], ["acceleration", acceleration]] as const) if (value !== undefined && value < 0) throw new Refusal(`The ${what} of ${name} is ${value}, below 0.`, line);
-  return limitsWith(name, { lower_rad: angle(lower), upper_rad: angle(upper), speed_rad_s: angle(speed), acceleration_rad_s2: acceleration === 0 ? undefined : angle(acceleration) }, assumptions);
+  return limitsWith(name, { lower_rad: inside(lower), upper_rad: inside(upper), speed_rad_s: inside(speed), acceleration_rad_s2: acceleration === 0 ? undefined : inside(acceleration) }, assumptions, slides ? "prismatic" : undefined);
 }
 
 /** The D-H table of an arm as a JSON file, in metres and radians with every digit. */
 export function writeDhTable(arm: SerialArm, convention: DhConvention): string {
   const table = dhFromArm(arm, convention), lines = table.rows.map((row, i) => {
     const { name, limits } = arm.joints[i]!;
-    const numbers = { a: row.a_m, alpha: row.alpha_rad, d: row.d_m, theta: row.thetaOffset_rad, lower: limits.lower_rad, upper: limits.upper_rad, speed: limits.speed_rad_s, acceleration: limits.acceleration_rad_s2 };
+    const numbers = { a: row.a_m, alpha: row.alpha_rad, d: row.d_m, theta: row.thetaOffset_rad, ...(row.slides === true ? { sigma: 1 } : {}), lower: limits.lower_rad, upper: limits.upper_rad, speed: limits.speed_rad_s, acceleration: limits.acceleration_rad_s2 };
     return `    ${JSON.stringify({ name, ...numbers })}`;
   });
   return `{\n  "name": ${JSON.stringify(arm.name)},\n  "convention": "${convention}",\n  "units": {"length": "m", "angle": "rad"},\n  "rows": [\n${lines.join(",\n")}\n  ],\n  "base": ${JSON.stringify(table.baseFromFirst)},\n  "flange": ${JSON.stringify(table.lastFromFlange)}\n}\n`;

@@ -18,7 +18,7 @@ export interface WrittenRow {
   readonly line: number | undefined;
   readonly numbers: Readonly<Partial<Record<DhColumn, number>>>;
 }
-export const DH_COLUMNS = ["a", "alpha", "d", "theta", "sense", "lower", "upper", "speed", "acceleration"] as const;
+export const DH_COLUMNS = ["a", "alpha", "d", "theta", "sense", "sigma", "lower", "upper", "speed", "acceleration"] as const;
 export type DhColumn = (typeof DH_COLUMNS)[number];
 
 export function conventionOf(written: string | undefined): DhConvention {

@@ -37,6 +37,19 @@ export class GltfBuffers {
     return numbers;
   }
 
+  /** The bytes of a buffer view, or of a file: an image. */
+  image(image: GltfEntry): Uint8Array {
+    const address = image.text("uri");
+    if (address !== undefined) {
+      const bytes = address.startsWith("data:") ? fromBase64(address) : this.other(address);
+      if (!bytes) throw new Refusal(`${shorten(address)} is missing.`);
+      return bytes;
+    }
+    const view = this.root.entry("bufferViews", image.whole("bufferView")), buffer = this.buffer(view.whole("buffer")), start = view.whole("byteOffset", 0), length = view.whole("byteLength");
+    if (start + length > buffer.length) throw new Refusal(`${image.place} of the glTF reaches beyond its buffer.`);
+    return buffer.subarray(start, start + length);
+  }
+
   private elements(from: GltfEntry, componentType: number, count: number, width: number, isNormalized = from.isTrue("normalized")): Float64Array {
     const component = COMPONENTS.get(componentType), bufferView = this.root.entry("bufferViews", from.whole("bufferView"));
     if (!component) throw new Refusal(`${from.place} of the glTF has the component type ${componentType}.`);

@@ -5,7 +5,7 @@ import { shorten } from "../xml.ts";
 import { massesOf } from "./masses.ts";
 import type { UrdfJoint, UrdfRobot, UrdfShape } from "./model.ts";
 
-/** A shape of the robot, seen from the moving link it is bolted to. Link 0 is the base, link i turns with joint i. */
+/** A shape of the robot, seen from the moving link it is bolted to. Link 0 is the base, link i moves with joint i. */
 export interface PlacedShape {
   readonly link: number;
   /** Name of the URDF link it came from. */
@@ -60,7 +60,7 @@ export function armFromUrdf(robot: UrdfRobot, base = robot.root, tip = defaultTi
       }
       linkOf.set(joint.child, { link: joints.length, armLinkFromLink: copyPose(running) });
     }
-    if (joints.length === 0) throw new Refusal(`No joint turns between ${shorten(base)} and ${shorten(tip)}.`);
+    if (joints.length === 0) throw new Refusal(`No joint moves between ${shorten(base)} and ${shorten(tip)}.`);
     placeSideLinks(robot, upTo, linkOf, assumptions);
     const masses = massesOf(robot, linkOf, joints.length);
     return {
@@ -97,15 +97,16 @@ function pathTo(upTo: ReadonlyMap<string, UrdfJoint>, link: string): UrdfJoint[]
 
 function armJoint(joint: UrdfJoint, parentFromJoint: Pose, assumptions: string[]): Joint {
   const { name, type, axis, limit } = joint;
-  if (type !== "revolute" && type !== "continuous") throw new Refusal(`Joint ${shorten(name)} is ${type}; an arm here has joints that turn.`, joint.line);
+  if (type !== "revolute" && type !== "continuous" && type !== "prismatic") throw new Refusal(`Joint ${shorten(name)} is ${type}; an arm here has joints that turn or slide.`, joint.line);
   if (joint.mimic) throw new Refusal(`Joint ${shorten(name)} follows joint ${shorten(joint.mimic.joint)}; it has no motion of its own.`, joint.line);
-  const isBounded = type === "revolute" && limit !== undefined;
+  const isBounded = type !== "continuous" && limit !== undefined;
+  const kind = type === "prismatic" ? type : undefined;
   return {
-    name, axis, parentFromJoint: parentFromJoint as Pose<"parent", "joint">,
+    name, axis, ...(kind === undefined ? {} : { kind }), parentFromJoint: parentFromJoint as Pose<"parent", "joint">,
     limits: limitsWith(name, {
       ...(isBounded ? { lower_rad: limit.lower, upper_rad: limit.upper } : {}), speed_rad_s: limit?.velocity,
       torque_Nm: limit && limit.effort > 0 ? limit.effort : undefined,
-    }, assumptions),
+    }, assumptions, kind),
   };
 }
 

@@ -1,7 +1,7 @@
 import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { describe, expect, test } from "vitest";
 import { flangePose, pose, seededRandom, toMatrix, transformPoint } from "@twincell/core";
-import { armFromUrdf, meshPlace, readStl, readUrdf, urdfSolids } from "../index.ts";
+import { armFromUrdf, meshPlace, readStl, readUrdf, urdfSolids, writeUrdf } from "../index.ts";
 
 const LIMIT = `<limit lower="-1" upper="2" velocity="3" effort="4"/>`;
 const joint = (name: string, parent: string, child: string, inside = LIMIT, type = "revolute"): string =>
@@ -47,6 +47,20 @@ describe("a chain becomes an arm", () => {
     ]);
   });
 
+  test("a joint that slides keeps its metres, and what is assumed of it is said in millimetres", () => {
+    const { arm, assumptions } = chain(text, "base_link", "finger");
+    expect(arm.joints[2]).toMatchObject({ name: "grip", kind: "prismatic", axis: [1, 0, 0], limits: { lower_rad: -1, upper_rad: 2, speed_rad_s: 3, torque_Nm: 4 } });
+    const near = flangePose(arm, [0, 0, 0]).position, far = flangePose(arm, [0, 0, 0.25]).position;
+    [0, 0.25, 0].forEach((v, k) => { expect(far[k]! - near[k]!).toBeCloseTo(v, 12); });
+    expect(assumptions).not.toContain("Joint grip is beside the chain and drawn at 0.");
+    expect(chain(robot(links("a", "b") + joint("j", "a", "b", `<axis xyz="0 0 1"/>`, "prismatic"))).assumptions.slice(0, 2)).toEqual([
+      "Joint j has no limits in the file: ±1000 mm are assumed.", "Joint j has no speed in the file: 250 mm/s is assumed.",
+    ]);
+    const again = chain(writeUrdf(arm));
+    for (let j = 0; j < 3; j++) expect(again.arm.joints[j]!.kind).toBe(arm.joints[j]!.kind);
+    flangePose(again.arm, [0.3, -0.2, 0.1]).position.forEach((v, k) => { expect(v).toBeCloseTo(flangePose(arm, [0.3, -0.2, 0.1]).position[k]!, 12); });
+  });
+
   test("a side link may be the base", () => {
     expect(flangePose(chain(text, "base", "tip").arm, [0, 0]).position[2]).toBeCloseTo(2, 12);
   });
@@ -60,8 +74,9 @@ describe("a chain becomes an arm", () => {
 
   test.each([
     [text, "base_link", "nowhere", "r has no link nowhere."],
-    [text, "base_link", "base", "No joint turns between base_link and base."],
-    [text, "base_link", "finger", "Joint grip is prismatic; an arm here has joints that turn."],
+    [text, "base_link", "base", "No joint moves between base_link and base."],
+    [robot(links("a", "b") + joint("j", "a", "b", `<axis xyz="0 0 1"/>`, "planar")), "a", "b", "Joint j is planar; an arm here has joints that turn or slide."],
+    [robot(links("a", "b", "c") + joint("j", "a", "b") + joint("k", "b", "c", `<mimic joint="j"/>`, "prismatic")), "a", "c", "Joint k follows joint j; it has no motion of its own."],
     [text, "one", "base", "Joint j1 moves between one and the chain to base."],
   ])("refused: another base or tip", (file, base, tip, sentence) => {
     expect(armFromUrdf(readRobot(file).robot, base, tip)).toMatchObject({ kind: "not-understood", sentence });

@@ -24,8 +24,8 @@ export function writeUrdf(arm: SerialArm, options: UrdfOptions = {}): string {
   const linkName = (link: number): string => { let name = link === 0 ? base : `link_${link}`; while (link > 0 && used.has(name)) name += "_"; return name; };
   const children: Written[] = [];
   for (let link = 0; link <= n; link++) children.push({ name: "link", attributes: { name: linkName(link) }, children: [...massIn(link, options), ...shapesIn(link, options)] });
-  arm.joints.forEach(({ name, parentFromJoint, axis, limits }, i) => {
-    children.push(element("joint", { name, type: "revolute" }, [
+  arm.joints.forEach(({ name, kind = "revolute", parentFromJoint, axis, limits }, i) => {
+    children.push(element("joint", { name, type: kind }, [
       origin(parentFromJoint as Pose), element("parent", { link: linkName(i) }), element("child", { link: linkName(i + 1) }), element("axis", { xyz: axis.map(digits).join(" ") }),
       element("limit", { lower: digits(limits.lower_rad), upper: digits(limits.upper_rad), velocity: digits(limits.speed_rad_s), effort: digits(limits.torque_Nm ?? 0) }),
     ]));

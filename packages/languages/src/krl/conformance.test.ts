@@ -6,6 +6,8 @@ const bench = (robot: string): DialectBench => ({
   robot: robotById(robot)!,
   worldFromBase: pose([0.3, -0.2, 0.75], [0, 0, Math.sin(0.4), Math.cos(0.4)]),
   paths: ["ptp", "lin", "circ", "spline"],
+  structured: true,
+  unrolls: true,
 });
 
 describeDialect(krl, bench("kuka_kr6_2"));

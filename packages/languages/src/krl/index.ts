@@ -21,7 +21,7 @@ export const krl: Dialect = {
   maturity: "proven",
   cannot: CANNOT,
   // $VEL_AXIS is a whole number of percent.
-  resolution: { ratio: 0.005 },
+  resolution: { ratio: 0.005, leastRatio: 0.01 },
   runnable: files => asOne(files),
   emit: (program, robot, worldFromBase = identity()) => emitKrl(program, robot, worldFromBase),
   parse: (text, robot, worldFromBase = identity()) => parseKrl(text, robot, worldFromBase),

@@ -3,8 +3,8 @@ import { TextError, textFault } from "../text/index.ts";
 import { readSource } from "./read/source.ts";
 import type { Source } from "./read/syntax.ts";
 import { Axes } from "./run/axes.ts";
-import { Machine, WaitsOutside } from "./run/machine.ts";
-import type { Line } from "./run/signals.ts";
+import { WaitsOutside } from "./run/frame.ts";
+import { Machine } from "./run/machine.ts";
 import { ControllerState, type Context } from "./run/state.ts";
 
 /**
@@ -21,7 +21,6 @@ export interface Run {
   readonly steps: Generator<Executed, void>;
   readonly assumed: ReadonlyMap<string, TextPlace>;
   readonly warned: readonly { readonly at: TextPlace; readonly sentence: string }[];
-  readonly lines: ReadonlyMap<string, Line>;
 }
 
 export function openKrl(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Opened {
@@ -31,10 +30,10 @@ export function openKrl(text: string, robot: Robot, worldFromBase: Pose<"world",
   }
   const read = readSource(text);
   if (read.kind === "not-understood") return read;
-  const context: Context = { tools: {}, frames: {} };
+  const context: Context = { tools: {}, frames: {}, signals: {} };
   const start = (signals?: Signals): Run => {
-    const state = new ControllerState(robot, axes, worldFromBase, context), machine = new Machine(read.source, state, signals);
-    return { steps: machine.run(), assumed: state.system.assumed, warned: state.system.warned, lines: machine.lines.met };
+    const state = new ControllerState(robot, axes, worldFromBase, context), machine = new Machine(read.source, state, signals, context.signals);
+    return { steps: machine.run(), assumed: state.system.assumed, warned: state.system.warned };
   };
   return { kind: "opened", source: read.source, context, start };
 }

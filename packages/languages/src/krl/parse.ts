@@ -1,12 +1,10 @@
-import { emptyProgram, type Group, type Parsed, type Pose, type Program, type Robot, type SignalLine, type Step, type TextFault } from "@twincell/core";
+import { emptyProgram, type Group, type Parsed, type Pose, type Program, type Robot, type Step, type TextFault } from "@twincell/core";
 import { TextError, plainText, textFault, textLines } from "../text/index.ts";
 import { openKrl } from "./interpret.ts";
-import { WaitsOutside } from "./run/machine.ts";
-import { GRIPPER, type Line } from "./run/signals.ts";
+import { WaitsOutside } from "./run/frame.ts";
 
 /** A program with more steps than this is taken to repeat itself for ever. */
 const MOST_STEPS = 200_000;
-const KINDS: Readonly<Record<Line["wire"], SignalLine["kind"]>> = { in: "digital-in", out: "digital-out", "analogue-in": "analogue-in", "analogue-out": "analogue-out" };
 
 /**
  * The neutral program that a KRL text amounts to: a .src, with its .dat behind it. It is executed with every input off and
@@ -35,8 +33,7 @@ export function parseKrl(text: string, robot: Robot, worldFromBase: Pose<"world"
   for (const [name, at] of run.assumed) warnings.push(textFault(at, "a value in the text", `${name} is kept on the controller: it is taken as it is on delivery.`));
   for (const { at, sentence } of run.warned) warnings.push(textFault(at, "an axis from 1 to 6", sentence));
   for (const line of repeated) warnings.push(textFault({ line, column: 1 }, "a statement that is executed once", `Line ${line} is executed more than once: every time became a step of its own.`));
-  const signals = Object.fromEntries([...run.lines.values()].filter(({ name }) => name.toUpperCase() !== GRIPPER).map(({ name, wire, address }) => [name, { kind: KINDS[wire], address }]));
-  const { tools, frames } = opened.context;
+  const { tools, frames, signals } = opened.context;
   return { kind: "parsed", warnings, program: { ...emptyProgram(robot.id, nameOf(lines)), ...withComments(lines, steps, from), tools, frames, signals } };
 }
 

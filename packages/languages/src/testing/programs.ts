@@ -1,6 +1,6 @@
 import {
-  PALLET_ORDERS, branchOf, compose, emptyProgram, flangePose, identity, inverse, seededRandom, solveAll, span,
-  type Capability, type Condition, type MoveStep, type Pallet, type PalletStep, type Pose, type Program, type Quaternion, type Random, type Robot, type SignalLine, type Speed, type Step,
+  PALLET_ORDERS, branchOf, compose, emptyProgram, flangePose, identity, inverse, seededRandom, solveAll,
+  type Capability, type Condition, type MoveStep, type Pallet, type PalletStep, type Pose, type Program, type Quaternion, type Random, type Robot, type SignalLine, type Speed, type Step, type Target,
 } from "@twincell/core";
 
 export interface ProgramChoices {
@@ -74,12 +74,14 @@ class Maker {
     const branch = random() < 0.5 && this.choices.branches !== false ? branchOf(robot, q) : undefined;
     const path = pick(random, paths), drawn = randomSpeed(random);
     const speed = "time_s" in drawn && (path === "circ" || cannot.includes("duration")) ? { mps: 0.1 } : drawn;
+    const target: Target = random() < 0.4
+      ? { q, ...(random() < 0.5 ? { tool } : {}) }
+      : { pose: compose(inverse(frames[frame] ?? identity()), worldFromTcp), frame, tool, ...(branch === undefined ? {} : { branch }) };
+    const passing = (by: string): Target =>
+      ({ pose: compose(inverse(frames[frame] ?? identity()), compose(worldFromBase, compose(flangePose(robot.arm, beside(robot, q, random)), tools[by] ?? identity<"flange", "tcp">()))), frame, tool: by });
     return {
-      ...base, type: "move", path,
-      target: random() < 0.4
-        ? { q, ...(random() < 0.5 ? { tool } : {}) }
-        : { pose: compose(inverse(frames[frame] ?? identity()), worldFromTcp), frame, tool, ...(branch === undefined ? {} : { branch }) },
-      ...(path === "circ" ? { via: { pose: compose(inverse(frames[frame] ?? identity()), compose(worldFromTcp, randomPose<"tcp", "tcp">(random, 0.2))), frame, tool } } : {}),
+      ...base, type: "move", path, target,
+      ...(path === "circ" ? { via: passing(target.tool ?? "flange") } : {}),
       speed, ...(can?.has("acceleration") === true && random() < 0.3 ? { acceleration: { ratio: Math.ceil(20 + random() * 80) / 100 } } : {}), blend_m: random() < 0.5 ? 0 : 0.01,
     };
   }
@@ -91,7 +93,8 @@ class Maker {
     switch (kind) {
       case "set-digital": {
         const signal = this.line("digital-out"), to = random() < 0.5;
-        return can.has("pulse") && random() < 0.3 ? { ...base, type: "set", signal, to: true, pulse_s: 0.5 } : { ...base, type: "set", signal, to };
+        // Some controllers pulse an output on and never off.
+        return { ...base, type: "set", signal, to, ...(to && can.has("pulse") && random() < 0.5 ? { pulse_s: 0.5 } : {}) };
       }
       case "set-analogue": return { ...base, type: "set", signal: this.line("analogue-out"), to: Math.round(random() * 100) / 100 };
       case "wait-for": return { ...base, type: "wait-for", when: this.condition(), ...(can.has("timeout") && random() < 0.3 ? { timeout_s: 2.5 } : {}) };
@@ -152,8 +155,10 @@ function easyPosture(robot: Robot, random: Random, ease_m: number, inside = 0.01
     const q = robot.arm.joints.map(({ limits: { lower_rad, upper_rad } }) => lower_rad + (upper_rad - lower_rad) * (inside + (1 - 2 * inside) * random()));
     // Other arms than these are not asked how far they are stretched, but whether there is room on every side.
     if (robot.family.kind !== "ortho-parallel") { if (hasRoom(robot, q, ease_m)) return q; continue; }
-    const { distance_m, nearest_m, farthest_m } = span(robot, flangePose(robot.arm, q));
-    if (farthest_m - distance_m > ease_m && distance_m - nearest_m > ease_m && (inside < 0.05 || Math.abs(Math.sin(q.at(-2)!)) > 0.3)) return q;
+    // From the elbow itself: a wrist behind the shoulder is as far as one in front, seen from the elbow alone.
+    const { c2_m, c3_m, a2_m, signs, offsets_rad } = robot.family, k = Math.hypot(a2_m, c3_m), bend = signs[2] * q[2]! - offsets_rad[2] + Math.atan2(a2_m, c3_m);
+    const length_m = Math.sqrt(c2_m * c2_m + k * k + 2 * c2_m * k * Math.cos(bend));
+    if (c2_m + k - length_m > ease_m && length_m - Math.abs(c2_m - k) > ease_m && (inside < 0.05 || Math.abs(Math.sin(q.at(-2)!)) > 0.3)) return q;
   }
 }
 function hasRoom(robot: Robot, q: readonly number[], ease_m: number): boolean {
@@ -166,6 +171,10 @@ function hasRoom(robot: Robot, q: readonly number[], ease_m: number): boolean {
   }));
 }
 const EASE_M = 0.001, ROOM_M = 0.05;
+
+/** A posture near by, inside the limits. */
+const beside = (robot: Robot, q: readonly number[], random: Random): number[] =>
+  robot.arm.joints.map(({ limits: { lower_rad, upper_rad } }, i) => Math.min(upper_rad, Math.max(lower_rad, q[i]! + 0.3 * (random() - 0.5))));
 
 function randomSpeed(random: Random): Speed {
   const sort = random();

@@ -98,6 +98,30 @@ describe("executing URScript", () => {
   });
 });
 
+describe("reading what others wrote", () => {
+  const parsed = (...lines: string[]): { program: Program; warnings: number } => {
+    const answer = urScript.parse(body(...lines), robot);
+    if (answer.kind === "not-understood") throw new Error(JSON.stringify(answer.faults));
+    return { program: answer.program, warnings: answer.warnings.length };
+  };
+
+  test("a loop stays a loop only when every round does the same", () => {
+    expect(parsed("i = 0", "while i < 500:", "  sleep(1)", "  i = i + 1", "end").program.steps).toMatchObject([{ type: "repeat", times: 500, steps: [{ type: "wait" }] }]);
+    // The first and the last round are alike, the one between is not.
+    const odd = parsed("i = 0", "while i < 3:", "  if i % 2 == 1:", "    sleep(2)", "  else:", "    sleep(1)", "  end", "  i = i + 1", "end");
+    expect([odd.program.steps.map(step => step.type === "wait" ? step.s : 0), odd.warnings]).toEqual([[1, 2, 1], 1]);
+    const growing = parsed("x = 0.1", "i = 0", "while i < 3:", "  x = x + 0.1", "  sleep(x)", "  i = i + 1", "end");
+    expect(growing.program.steps).toHaveLength(3);
+  });
+
+  test("comments name steps and groups, and routines stay routines", () => {
+    const { program } = parsed("def pick():", "  set_tool_digital_out(0, True)", "end", "#== Station 1", "# First", "sleep(1)", "pick()", "#==", "#- mind the hose", "pick()");
+    expect(program.steps).toMatchObject([{ type: "wait", name: "First", group: "g1" }, { type: "call", routine: "pick" }, { type: "comment", text: "mind the hose" }, { type: "call" }]);
+    expect(program.routines).toMatchObject({ pick: [{ type: "gripper", closed: true }] });
+    expect(program.groups).toEqual({ g1: { name: "Station 1" } });
+  });
+});
+
 describe("golden poses", () => {
   const orientations = JSON.parse(readFileSync(new URL("../../../../fixtures/conventions/orientations.json", import.meta.url), "utf8")) as { readonly cases: readonly { readonly matrix: readonly (readonly number[])[]; readonly ur_rotvec_rad: readonly number[] }[] };
   /** The controller's base as the matrix diag(−1, −1, 1), worked out here and nowhere else. */
@@ -180,8 +204,8 @@ describe("faults have a place and say what is expected", () => {
   });
 
   test("a program of 100,000 lines is read in less than 2 s", () => {
-    const lines = Array.from({ length: 100_000 }, (_, i) => `  movel(p[0.5, ${(i % 100) / 1000}, 0.4, 0, 3.141593, 0], a=1.2, v=0.25, r=0.001)`), text = body(lines.join("\n")), before = process.cpuUsage();
-    const parsed = urScript.parse(text, robot), used = process.cpuUsage(before);
+    const lines = Array.from({ length: 100_000 }, (_, i) => `  movel(p[0.5, ${(i % 100) / 1000}, 0.4, 0, 3.141593, 0], a=1.2, v=0.25, r=0.001)`), text = body(lines.join("\n")), before = process.threadCpuUsage();
+    const parsed = urScript.parse(text, robot), used = process.threadCpuUsage(before);
     expect((used.user + used.system) / 1000).toBeLessThan(2000);
     expect(parsed.kind === "parsed" && parsed.program.steps.length).toBe(100_000);
   });

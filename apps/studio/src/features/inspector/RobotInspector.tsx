@@ -1,4 +1,5 @@
 import type { CellDocument } from "@twincell/project";
+import { runCommand } from "../../stores/commands.ts";
 import { commit, robotOf } from "../../stores/document.ts";
 import { showNumber } from "../../ui/expression.ts";
 import { words } from "../../words/index.ts";
@@ -17,6 +18,8 @@ export function RobotInspector({ document }: { document: CellDocument }) {
     <section aria-label={robot.name}>
       <h2 className="heading"><span className="grow">{robot.name}</span><span className="tag">{words.tree.axes(robot.arm.joints.length)}</span></h2>
       <div className="section stack">
+        <button className="btn" onClick={() => runCommand("cell.robot")}>{words.robots.another}</button>
+        {robot.madeUpGeometry && <p className="export-proof small"><i className="mark" data-verdict="warn" aria-hidden />{words.robots.madeUpSays}</p>}
         <h3 className="label">{words.inspector.joints}</h3>
         <JointFields robot={robot} />
         <h3 className="label">{words.inspector.base}</h3>

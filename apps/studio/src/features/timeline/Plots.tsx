@@ -5,6 +5,8 @@ import "uplot/dist/uPlot.min.css";
 import { useStore } from "zustand";
 import { onFrame } from "../../live/frames.ts";
 import { playheadNow } from "../../live/playhead.ts";
+import { cellStore } from "../../stores/cell.ts";
+import { robotOf } from "../../stores/document.ts";
 import { seek } from "../../stores/seek.ts";
 import { viewStore } from "../../stores/view.ts";
 import { Segments } from "../../ui/Choice.tsx";
@@ -12,13 +14,14 @@ import { words } from "../../words/index.ts";
 import { plotData } from "./plotData.ts";
 
 type What = "angles" | "speeds";
-const COLOURS = ["#4f8ff7", "#e0a12e", "#37a98f", "#c76bd6", "#e0665c", "#8a97a3"];
+const COLOURS = ["#4f8ff7", "#e0a12e", "#37a98f", "#c76bd6", "#e0665c", "#8a97a3", "#a3b53a"];
 const HEIGHT = 124;
 
 /** Joint angles or speeds over the whole plan; a click looks at that moment. */
 export default function Plots({ plan }: { plan: Plan }) {
   const [what, setWhat] = useState<What>("angles");
   const host = useRef<HTMLDivElement>(null), theme = useStore(viewStore, state => state.theme);
+  const joints = useStore(cellStore, state => robotOf(state.document)?.arm.joints.length ?? 0);
   useEffect(() => {
     const element = host.current;
     if (!element) return undefined;
@@ -27,9 +30,9 @@ export default function Plots({ plan }: { plan: Plan }) {
     const axis = { stroke: colour("--text-3"), grid: { stroke: colour("--line"), width: 1 }, ticks: { stroke: colour("--line") }, font: "11px Inter Variable", size: 46 };
     const plot = new uPlot({
       width: element.clientWidth, height: HEIGHT, legend: { show: true, live: true }, cursor: { y: false, drag: { x: false, y: false } }, scales: { x: { time: false } },
-      series: [{ label: "s", value: (_plot, value) => (value === null ? "" : value.toFixed(2)) }, ...COLOURS.map((stroke, i) => ({ label: words.time.joint(i + 1), stroke, width: 1.4, points: { show: false }, value: (_plot: uPlot, value: number | null) => (value === null ? "" : `${value.toFixed(1)}${unit}`) }))],
+      series: [{ label: "s", value: (_plot, value) => (value === null ? "" : value.toFixed(2)) }, ...COLOURS.slice(0, joints).map((stroke, i) => ({ label: words.time.joint(i + 1), stroke, width: 1.4, points: { show: false }, value: (_plot: uPlot, value: number | null) => (value === null ? "" : `${value.toFixed(1)}${unit}`) }))],
       axes: [{ ...axis, size: 24 }, axis],
-    }, plotData(plan, what, samplePlan), element);
+    }, plotData(plan, joints, what, samplePlan), element);
     const click = (): void => { const { idx } = plot.cursor, at = idx == null ? undefined : plot.data[0][idx]; if (at !== undefined) seek(at); };
     plot.over.addEventListener("click", click);
     const line = document.createElement("div");
@@ -39,7 +42,7 @@ export default function Plots({ plan }: { plan: Plan }) {
     const sizes = new ResizeObserver(() => plot.setSize({ width: element.clientWidth, height: HEIGHT }));
     sizes.observe(element);
     return () => { stop(); sizes.disconnect(); plot.destroy(); };
-  }, [plan, what, theme]);
+  }, [plan, joints, what, theme]);
   return (
     <div className="plots">
       <Segments<What> label={words.time.plots} value={what} onChange={setWhat} className="seg small-seg" options={[{ value: "angles", words: words.time.angles }, { value: "speeds", words: words.time.speeds }]} />

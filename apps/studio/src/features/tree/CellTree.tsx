@@ -5,6 +5,7 @@ import { useStore } from "zustand";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { commit, robotOf } from "../../stores/document.ts";
+import { shortName } from "../../stores/robot.ts";
 import { hover, select, selectionStore, type Thing } from "../../stores/selection.ts";
 import { Tip } from "../../ui/Tip.tsx";
 import { words } from "../../words/index.ts";
@@ -20,7 +21,7 @@ export function CellTree() {
         <Tip words={words.tree.addBox}><button className="btn quiet icon tight" aria-label={words.tree.addBox} onClick={() => runCommand("cell.box")}><Plus /></button></Tip>
       </h2>
       <div className="scroll cell-tree">
-        <Leaf thing={{ kind: "robot" }} glyph={<RobotGlyph />} kind={words.tree.robot} extra={robot && <span className="tag">{words.tree.axes(robot.arm.joints.length)}</span>}>{robot?.name.replace(/^\S+ /, "") ?? document.robot.id}</Leaf>
+        <Leaf thing={{ kind: "robot" }} glyph={<RobotGlyph />} kind={words.tree.robot} extra={robot && <span className="tag">{words.tree.axes(robot.arm.joints.length)}</span>}>{robot ? shortName(robot) : document.robot.id}</Leaf>
         <Leaf thing={{ kind: "tool" }} glyph={<Wrench />} kind={words.tree.tool} inside>{document.tool === "flange" ? words.tree.noTool : document.tool}</Leaf>
         {document.objects.map(object => (
           <Leaf key={object.id} thing={{ kind: "object", id: object.id }} glyph={object.shape.kind === "box" ? <Box /> : object.shape.kind === "mesh" ? <Cone /> : <Cylinder />} kind={words.tree.roles[object.role]}

@@ -1,22 +1,25 @@
+import { LIBRARY } from "@twincell/core";
 import { Cable, FileUp } from "lucide-react";
 import { useStore } from "zustand";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
-import { programOf } from "../../stores/document.ts";
+import { programOf, robotOf } from "../../stores/document.ts";
+import { shortName } from "../../stores/robot.ts";
 import { words } from "../../words/index.ts";
 import "./welcome.css";
 
 /** An empty cell offers three ways to begin. */
 export function Welcome() {
   const empty = useStore(cellStore, state => state.document !== null && state.document.objects.length === 0 && (programOf(state.document)?.steps.length ?? 0) === 0);
-  if (!empty) return null;
+  const robot = useStore(cellStore, state => robotOf(state.document));
+  if (!empty || !robot) return null;
   return (
     <section className="welcome float" aria-label={words.welcome.title}>
       <h2>{words.welcome.title}</h2>
       <div className="welcome-ways">
         <button className="welcome-way" onClick={() => runCommand("file.example")}><Thumbnail /><b>{words.welcome.example}</b><span>{words.welcome.exampleSays}</span></button>
         <button className="welcome-way" onClick={() => runCommand("file.load")}><span className="welcome-glyph" aria-hidden><FileUp /></span><b>{words.welcome.drop}</b><span>{words.welcome.dropSays}</span></button>
-        <div className="welcome-way" data-quiet><span className="welcome-glyph" aria-hidden><Cable /></span><b>{words.welcome.connect}</b><span>{words.welcome.connectSays}</span></div>
+        <button className="welcome-way" onClick={() => runCommand("cell.robot")}><span className="welcome-glyph" aria-hidden><Cable /></span><b>{words.welcome.robot}</b><span>{words.welcome.connectSays(shortName(robot))} {words.welcome.robotSays(LIBRARY.length)}</span></button>
       </div>
     </section>
   );

@@ -1,6 +1,7 @@
 import { JointCountFault } from "../../fault.ts";
 import type { Random } from "../../random.ts";
 import type { SerialArm } from "../../robots/arm.ts";
+import { isSlide, jointText } from "../../robots/slide.ts";
 import type { Pose } from "../../spatial/pose.ts";
 import { degrees } from "../../spatial/units.ts";
 import { dampedScratch, type DampedScratch } from "./damped-scratch.ts";
@@ -22,7 +23,7 @@ export interface DampedOptions {
 /** What keeps a descent from its target. */
 export type Stall =
   /** The joint (from 1) that the target presses hardest against its limit. */
-  | { readonly kind: "limit"; readonly joint: number; readonly limit_rad: number }
+  | { readonly kind: "limit"; readonly joint: number; readonly limit_rad: number; readonly slides?: boolean }
   /** With any orientation at all the flange stays this far away. */
   | { readonly kind: "too-far"; readonly short_m: number }
   /** The place can be had, but not this orientation there, from this start. */
@@ -97,7 +98,7 @@ export function explainNumeric(reach: NumericReach): string {
     case "stalled": {
       const left = `${millimetresOf(reach.position_m)} and ${degrees(reach.angle_rad).toFixed(1)}° are left`, { because } = reach;
       switch (because.kind) {
-        case "limit": return `Joint ${because.joint} stands at its limit of ${degrees(because.limit_rad).toFixed(1)}°; ${left}.`;
+        case "limit": return `Joint ${because.joint} stands at its limit of ${jointText({ kind: because.slides === true ? "prismatic" : "revolute" }, because.limit_rad)}; ${left}.`;
         case "too-far": return `The flange stays ${millimetresOf(because.short_m)} away, whatever its orientation; the arm is not long enough.`;
         case "local-minimum": return `No small motion of the joints comes nearer; ${left}. Another start may.`;
         case "out-of-steps": return `After ${because.steps} steps ${left}.`;
@@ -122,8 +123,8 @@ function hardestLimit(arm: SerialArm, wanted: Pose<"base", "flange">, aim: Desce
   let hardest = -1, push = 0;
   for (let j = 0; j < scratch.pressed.length; j++) if (scratch.pressed[j] === 1 && Math.abs(scratch.uphill[j]!) > push) { push = Math.abs(scratch.uphill[j]!); hardest = j; }
   if (hardest < 0) return undefined;
-  const { lower_rad, upper_rad } = arm.joints[hardest]!.limits;
-  return { kind: "limit", joint: hardest + 1, limit_rad: scratch.uphill[hardest]! > 0 ? upper_rad : lower_rad };
+  const joint = arm.joints[hardest]!, { lower_rad, upper_rad } = joint.limits;
+  return { kind: "limit", joint: hardest + 1, limit_rad: scratch.uphill[hardest]! > 0 ? upper_rad : lower_rad, ...(isSlide(joint) ? { slides: true } : {}) };
 }
 
 function drawPosture(arm: SerialArm, random: Random, out: Float64Array): void {

@@ -1,5 +1,6 @@
 import { JointCountFault } from "../../fault.ts";
 import type { SerialArm } from "../../robots/arm.ts";
+import { isSlide } from "../../robots/slide.ts";
 import { compose, identity, inverse, type Pose } from "../../spatial/pose.ts";
 import { armScratch, chainOf, walk } from "../chain.ts";
 import { flangePose } from "../forward.ts";
@@ -42,7 +43,8 @@ const UNDECIDED_M2 = 1e-12;
 export function solveFabrik(arm: SerialArm, baseFromFlange: Pose<"base", "flange">, q0: ArrayLike<number>, options: FabrikOptions = {}): FabrikAnswer {
   const n = arm.joints.length;
   if (q0.length !== n) throw new JointCountFault(arm.name, n, q0.length);
-  const because = flawOfPose(baseFromFlange) ?? (Array.from(q0).every(Number.isFinite) ? undefined : "A start angle is not a finite number.");
+  const because = flawOfPose(baseFromFlange) ?? (Array.from(q0).every(Number.isFinite) ? undefined : "A start angle is not a finite number.")
+    ?? (arm.joints.some(isSlide) ? `Joint ${arm.joints.findIndex(isSlide) + 1} of ${arm.name} slides; FABRIK keeps links at their lengths.` : undefined);
   if (because !== undefined) return { kind: "not-a-pose", because };
   const { rounds = 200, insignificant_m = 1e-6 } = options, beside_m = BESIDE * lengthOfArm(arm);
   const q = Float64Array.from(q0, (angle, j) => clamp(angle, arm, j)), best = q.slice(), scratch = armScratch(), flange = identity<"base", "flange">();

@@ -1,4 +1,5 @@
 import type { SerialArm } from "../../robots/arm.ts";
+import { slideOf } from "../../robots/slide.ts";
 import type { Pose } from "../../spatial/pose.ts";
 import { norm } from "../../spatial/vector.ts";
 
@@ -20,9 +21,9 @@ export function poseError(wanted: Pose, present: Pose, out: Float64Array): void 
 /** Length of three numbers of a row of numbers. */
 export const lengthAt = (v: Float64Array, at: number): number => Math.sqrt(v[at]! * v[at]! + v[at + 1]! * v[at + 1]! + v[at + 2]! * v[at + 2]!);
 
-/** Sum of the lengths between the joint origins from joint 2 on, and to the flange [m]: the flange is never farther from joint 2 than this. */
+/** Sum of the lengths between the joint origins from joint 2 on, to the flange, and of all slides drawn out [m]: the flange is never farther from joint 2 than this. */
 export function lengthOfArm(arm: SerialArm): number {
-  let sum = norm(arm.lastJointFromFlange.position);
+  let sum = norm(arm.lastJointFromFlange.position) + slideOf(arm.joints.slice(1));
   for (let j = 1; j < arm.joints.length; j++) sum += norm(arm.joints[j]!.parentFromJoint.position);
   return sum;
 }

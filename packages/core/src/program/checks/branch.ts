@@ -1,16 +1,19 @@
 import { branchOf, sameBranch, type Branch } from "../../kinematics/branch.ts";
+import type { Lost } from "../../trajectory/continuity/index.ts";
 import { blends } from "../../trajectory/moves.ts";
+import { isSlide, jointText } from "../../robots/slide.ts";
+import { LIMIT_SLACK_RAD } from "../../trajectory/run.ts";
 import { radians } from "../../spatial/units.ts";
 import type { Repair } from "../verdict.ts";
 import { jointMove, postureRepairs } from "./repairs.ts";
-import { deg, type CheckScene } from "./scene.ts";
+import { deg, motions, startOf, type CheckScene } from "./scene.ts";
 
 /** A joint move to a pose that turns a joint further than this has turned the arm over [rad]. */
 const BIG_TURN_RAD = radians(150);
 /** Joint angles this near to the taught ones are the taught ones [rad]. */
 const SAME_RAD = 1e-4;
 
-/** Postures that are not the taught ones at the end of a path, and joint moves that turn the arm over on the way to a pose. */
+/** Postures that are not the taught ones, or that no path leads through, at the end of a path, and joint moves that turn the arm over on the way to a pose. */
 export function checkBranch(scene: CheckScene): void {
   const n = scene.robot.arm.joints.length;
   for (const segment of scene.layout.plan.segments) {
@@ -36,11 +39,49 @@ export function checkBranch(scene: CheckScene): void {
       let off = 0;
       for (let j = 1; j < n; j++) if (Math.abs(last[j]! - taught[j]!) > Math.abs(last[off]! - taught[off]!)) off = j;
       if (Math.abs(last[off]! - taught[off]!) > SAME_RAD) {
-        scene.add(segment.step, "bad", { code: "branch.other", joint: off + 1, value: last[off]!, limit: taught[off]!, unit: "rad", at_s, sentence: `Joint ${off + 1} would be at ${deg(last[off]!)} at the end of the path; it was taught at ${deg(taught[off]!)}.`, repairs: asJointMove(scene, segment.step) });
+        scene.add(segment.step, "bad", { code: "branch.other", joint: off + 1, value: last[off]!, limit: taught[off]!, unit: isSlide(scene.robot.arm.joints[off]!) ? "m" : "rad", at_s, sentence: `Joint ${off + 1} would be at ${jointText(scene.robot.arm.joints[off]!, last[off]!)} at the end of the path; it was taught at ${jointText(scene.robot.arm.joints[off]!, taught[off]!)}.`, repairs: asJointMove(scene, segment.step) });
       }
     } else if (move.branch !== undefined && arrived !== undefined && !sameBranch(arrived, move.branch)) {
       scene.add(segment.step, "bad", { code: "branch.other", value: 1, limit: 0, unit: "1", at_s, sentence: `The path ends with ${words(arrived)}; it was taught with ${words(move.branch)}.`, repairs: asJointMove(scene, segment.step) });
     }
+  }
+}
+
+/**
+ * Where a path over its whole length has no posture, in numbers: how far the best one gets and why, or before which step the
+ * arm would have to turn over. Only where the plan itself is in trouble, since a blend may pass beside what stops the taught path.
+ */
+export function checkImpasses(scene: CheckScene): void {
+  const { layout, robot } = scene, joints = robot.arm.joints, n = joints.length;
+  if (layout.impasses.length === 0) return;
+  const troubled = new Set(layout.obstacles.map(({ move }) => move.step.id));
+  for (const { step, q_rad } of motions(scene)) {
+    if (q_rad.some((q, i) => q < joints[i % n]!.limits.lower_rad - LIMIT_SLACK_RAD || q > joints[i % n]!.limits.upper_rad + LIMIT_SLACK_RAD)) troubled.add(step);
+  }
+  let stuck = false;
+  for (const impasse of layout.impasses) {
+    const id = impasse.move.step.id, at_s = startOf(scene, id);
+    if ("broken" in impasse) {
+      const { best, tried, share } = impasse.broken;
+      if (best === undefined || !troubled.has(id)) continue;
+      stuck = true;
+      const how = tried.length === 1 ? "The arm gets" : `Of ${tried.length} postures of the arm none gets through; the best${best.branch === undefined ? "" : `, ${words(best.branch)},`} gets`;
+      scene.add(id, "bad", { code: "branch.no-way", ...("joint" in best.lost ? { joint: best.lost.joint } : {}), value: share, limit: 1, unit: "1", at_s, sentence: `${how} to ${(100 * share).toFixed(0)} % of the path, ${because(best.lost)}`, repairs: asJointMove(scene, id) });
+    } else if (stuck || troubled.has(id)) {
+      const { joint, way_rad, from, to } = impasse.flip;
+      scene.add(id, "bad", {
+        code: "branch.flip", joint, value: way_rad, limit: 0, unit: "rad", at_s, repairs: asJointMove(scene, id),
+        sentence: `The path can only go on if the arm turns over before this step${from === undefined || to === undefined || sameBranch(from, to) ? "" : ` from ${words(from)} to ${words(to)}`}: joint ${joint} by ${deg(way_rad)} where it stands.`,
+      });
+    }
+  }
+}
+
+function because(lost: Lost): string {
+  switch (lost.kind) {
+    case "limit": return `where joint ${lost.joint} would turn to ${deg(lost.wanted_rad)}; its limit is ${deg(lost.limit_rad)}.`;
+    case "out-of-reach": return "where the arm does not reach.";
+    case "singular": return `where joints would have to jump.${lost.near === undefined ? "" : ` ${lost.near}`}`;
   }
 }
 

@@ -1,17 +1,21 @@
 import type { Robot } from "../../robots/robot.ts";
 import { Follower } from "../../trajectory/follow.ts";
+import { chooseBranches, ContinuitySolver, withChoice, type Break, type Choice, type Flip } from "../../trajectory/continuity/index.ts";
 import { GoalFinder } from "../../trajectory/goal.ts";
 import { resolveMove, type Move, type PlanContext } from "../../trajectory/moves.ts";
 import type { Plan } from "../../trajectory/plan.ts";
-import { PlanWriter, inRuns, type MoveHappening, type PlanNote, type PlanOptions } from "../../trajectory/planner.ts";
+import { PlanWriter, inRuns, type MoveHappening, type FlowPart, type PlanNote, type PlanOptions } from "../../trajectory/planner.ts";
 import { PATH_TOLERANCE_M, RunPlanner } from "../../trajectory/run.ts";
 import type { RunStop } from "../../trajectory/run-path.ts";
-import { flow, type Happening, type Visit } from "../flow.ts";
+import { flow, type Visit } from "../flow.ts";
 import type { MoveStep, Program, Step } from "../program.ts";
 import { everyStep } from "../walk.ts";
 
 /** A step that could not be laid out as taught, and when. */
 export interface Obstacle { readonly move: Move; readonly stop: RunStop; readonly at_s: number }
+
+/** A move that no posture of its path gets through, with how far the best gets, or before which the arm would have to turn over. */
+export type Impasse = { readonly move: Move; readonly broken: Break } | { readonly move: Move; readonly flip: Flip };
 
 /** One carrying out of a step that is carried out more than once, or at the place of a pallet. */
 export interface Turn { readonly written: Step; readonly visits: readonly Visit[] }
@@ -24,6 +28,7 @@ export interface Layout {
   readonly plan: Plan;
   readonly notes: readonly PlanNote[];
   readonly obstacles: readonly Obstacle[];
+  readonly impasses: readonly Impasse[];
   /** The moves by id. */
   readonly moves: ReadonlyMap<string, Move>;
   /** Posture in which each move begins. */
@@ -56,18 +61,32 @@ const SAME_RAD = 1e-9;
 /**
  * Like `planProgram`, but goes on behind a step that cannot be carried out, from the posture its target would have, and
  * beyond joint limits, so that the path there can be drawn and named (rows L-38, L-40). Both sides of a decision are laid
- * out, and what follows from every posture they lead to.
+ * out, and what follows from every posture they lead to. Postures are chosen as `planProgram` chooses them.
  */
 export function layOut(program: Program, robot: Robot, options: LayoutOptions = {}): Layout {
   const sheet = new Sheet(program, robot, options), count = Math.max(1, Array.from(everyStep(program)).length);
-  let complete = true;
-  for (const part of inRuns(flow(program, { rounds: ROUNDS, mostSteps: MOST_LAID_OUT }))) {
-    if (options.cancelled?.() === true) { complete = false; break; }
+  const goesOn = (): boolean => {
+    if (options.cancelled?.() === true) return false;
     options.onProgress?.(sheet.evaluated.size / count);
-    if (part.kind === "run") sheet.run(part.moves); else sheet.happen(part);
+    return true;
+  };
+  // Postures are chosen over all that is done one after the other: from decision to decision.
+  let complete = true, parts: LinearPart[] = [];
+  for (const part of inRuns(flow(program, { rounds: ROUNDS, mostSteps: MOST_LAID_OUT }))) {
+    if (part.kind === "run" || part.kind === "step" || part.kind === "passed") { parts.push(part); continue; }
+    complete = sheet.section(parts, goesOn) && goesOn();
+    parts = [];
+    if (!complete) break;
+    sheet.turn(part);
   }
+  complete &&= sheet.section(parts, goesOn);
   return sheet.finish(complete);
 }
+
+type LinearPart = Extract<FlowPart, { kind: "run" | "step" | "passed" }>;
+type Turning = Exclude<FlowPart, LinearPart>;
+/** A posture the robot may be in, and how it was chosen to go on from there. */
+interface Chain { readonly q: Float64Array; readonly choice: Choice | undefined }
 
 class Sheet {
   readonly evaluated = new Set<string>();
@@ -77,7 +96,9 @@ class Sheet {
   private readonly writer: PlanWriter;
   private readonly planner: RunPlanner;
   private readonly goals: GoalFinder;
+  private readonly solver: ContinuitySolver;
   private readonly obstacles: Obstacle[] = [];
+  private readonly impasses: Impasse[] = [];
   private readonly moves = new Map<string, Move>();
   private readonly starts = new Map<string, Float64Array>();
   private readonly unjudged = new Set<string>();
@@ -95,66 +116,92 @@ class Sheet {
     this.writer = new PlanWriter(robot, options);
     this.planner = new RunPlanner(robot, options.tolerance_m ?? PATH_TOLERANCE_M);
     this.goals = new GoalFinder(robot, new Follower(robot.arm));
+    this.solver = new ContinuitySolver(robot);
     this.postures = [this.writer.q.slice()];
   }
 
-  happen(happening: Happening): void {
+  /** What is done one after the other, from every posture the robot may be in. @returns false when `goesOn` did. */
+  section(parts: readonly LinearPart[], goesOn: () => boolean): boolean {
+    const runs = parts.flatMap(part => (part.kind === "run" ? [part.moves.map(({ step }) => resolveMove(step, this.robot, this.context))] : []));
+    let chains: readonly Chain[] = this.postures.map(q => ({ q, choice: chooseBranches(runs, this.robot, q, this.solver) })), run = 0, first = 0;
+    for (const part of parts) {
+      if (!goesOn()) return false;
+      if (part.kind === "run") {
+        chains = this.run(part.moves, runs[run++]!, chains, first);
+        first += part.moves.length;
+      } else if (chains.length > 0) this.happen(part);
+    }
+    this.postures = chains.map(({ q }) => q);
+    return true;
+  }
+
+  /** Decisions and ends. */
+  turn(happening: Turning): void {
     switch (happening.kind) {
-      case "step":
-        if (this.postures.length === 0 || happening.step.type === "move") return;
-        this.made++;
-        this.evaluated.add(happening.step.id);
-        return this.writer.rest(happening.step, happening.stands);
-      case "passed": if (this.postures.length > 0) this.evaluated.add(happening.step.id); return;
       case "fork": this.forks.push({ before: this.postures, after: [] }); return;
       case "other": {
         const fork = this.forks.at(-1)!;
         fork.after = this.postures;
         this.postures = fork.before;
-        return this.stand();
+        return this.stand(this.postures);
       }
       case "join": {
-        const after = distinct([...this.forks.pop()!.after, ...this.postures]);
+        const after = distinct([...this.forks.pop()!.after, ...this.postures].map(q => ({ q })));
         if (after.length > MOST_POSTURES) this.unjudged.add(happening.step.id);
-        this.postures = after.slice(0, MOST_POSTURES);
-        return this.stand();
+        this.postures = after.slice(0, MOST_POSTURES).map(({ q }) => q);
+        return this.stand(this.postures);
       }
       case "end": this.postures = [];
     }
   }
 
-  /** A run from every posture the robot may be in. */
-  run(run: readonly MoveHappening[]): void {
-    const ends: Float64Array[] = [];
-    for (const posture of this.postures) {
-      this.writer.jumpTo(posture);
-      this.lay(run.map(happening => this.resolve(happening)));
-      ends.push(this.writer.q.slice());
+  private happen(happening: Exclude<LinearPart, { kind: "run" }>): void {
+    if (happening.kind === "step") {
+      if (happening.step.type === "move") return;
+      this.made++;
+      this.writer.rest(happening.step, happening.stands);
+    }
+    this.evaluated.add(happening.step.id);
+  }
+
+  private run(run: readonly MoveHappening[], resolved: readonly Move[], chains: readonly Chain[], first: number): readonly Chain[] {
+    const ends: Chain[] = [];
+    for (const { q, choice } of chains) {
+      this.writer.jumpTo(q);
+      const moves = run.map((happening, i) => this.own(happening, resolved[i]!)), chosen = choice === undefined ? moves : withChoice(moves, choice, first);
+      for (const move of chosen) this.moves.set(move.step.id, move);
+      if (choice !== undefined) this.noteImpasses(choice, chosen, first);
+      this.lay(chosen);
+      ends.push({ q: this.writer.q.slice(), choice });
     }
     this.made += run.length;
-    this.postures = distinct(ends);
-    this.stand();
+    const after = distinct(ends);
+    this.stand(after.map(({ q }) => q));
+    return after;
+  }
+
+  private noteImpasses({ way, broken }: Choice, moves: readonly Move[], first: number): void {
+    for (const one of broken) { const move = moves[one.move - first]; if (move !== undefined) this.impasses.push({ move, broken: one }); }
+    for (const flip of way.flips) { const move = moves[flip.move - first]; if (move !== undefined && flip.kind === "standstill") this.impasses.push({ move, flip }); }
   }
 
   finish(complete: boolean): Layout {
-    const { writer, obstacles, moves, starts, turns, evaluated, unjudged } = this;
-    return { plan: writer.plan(this.program.robot), notes: writer.notes, obstacles, moves, starts, turns, evaluated, unjudged, complete, cut: this.made > MOST_LAID_OUT ? MOST_LAID_OUT : undefined };
+    const { writer, obstacles, impasses, moves, starts, turns, evaluated, unjudged } = this;
+    return { plan: writer.plan(this.program.robot), notes: writer.notes, obstacles, impasses, moves, starts, turns, evaluated, unjudged, complete, cut: this.made > MOST_LAID_OUT ? MOST_LAID_OUT : undefined };
   }
 
-  private stand(): void {
-    if (this.postures[0] !== undefined) this.writer.jumpTo(this.postures[0]);
+  private stand(postures: readonly Float64Array[]): void {
+    if (postures[0] !== undefined) this.writer.jumpTo(postures[0]);
   }
 
   /** The move under an id that no other carrying out has. */
-  private resolve({ step, written, visits }: MoveHappening): Move {
+  private own({ step, written, visits }: MoveHappening, move: Move): Move {
     const time = (this.times.get(step.id) ?? 0) + 1;
     this.times.set(step.id, time);
     this.evaluated.add(step.id);
     const own: MoveStep = time === 1 ? step : { ...step, id: `${step.id}\0${time}` };
     if (time > 1 || visits.length > 0) this.turns.set(own.id, { written, visits });
-    const move = resolveMove(own, this.robot, this.context);
-    this.moves.set(own.id, move);
-    return move;
+    return time === 1 ? move : { ...move, step: own };
   }
 
   private lay(run: readonly Move[]): void {
@@ -190,8 +237,8 @@ class Sheet {
   }
 }
 
-function distinct(postures: readonly Float64Array[]): readonly Float64Array[] {
-  const kept: Float64Array[] = [];
-  for (const posture of postures) if (!kept.some(other => other.every((q, j) => Math.abs(q - posture[j]!) <= SAME_RAD))) kept.push(posture);
+function distinct<T extends { readonly q: Float64Array }>(all: readonly T[]): readonly T[] {
+  const kept: T[] = [];
+  for (const one of all) if (!kept.some(other => other.q.every((q, j) => Math.abs(q - one.q[j]!) <= SAME_RAD))) kept.push(one);
   return kept;
 }

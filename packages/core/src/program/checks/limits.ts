@@ -1,11 +1,16 @@
+import type { Joint } from "../../robots/arm.ts";
+import { isSlide, jointText, movesTo } from "../../robots/slide.ts";
 import { radians } from "../../spatial/units.ts";
 import type { MotionSegment } from "../../trajectory/plan.ts";
 import { LIMIT_SLACK_RAD } from "../../trajectory/run.ts";
 import { postureRepairs, reachRepairs } from "./repairs.ts";
-import { deg, motions, type CheckScene } from "./scene.ts";
+import { motions, type CheckScene } from "./scene.ts";
 
-/** Row L-39: a joint this near to its limit is worth a warning [rad]. */
-export const NEAR_LIMIT_RAD = radians(10);
+/** Row L-39: a joint this near to its limit is worth a warning [rad], of a slide [m]. */
+export const NEAR_LIMIT_RAD = radians(10), NEAR_LIMIT_M = 0.01;
+/** How near to its limit a joint is worth a warning, in its own unit. */
+export const nearLimit = (joint: Pick<Joint, "kind">): number => (isSlide(joint) ? NEAR_LIMIT_M : NEAR_LIMIT_RAD);
+const angleUnit = (joint: Joint): "rad" | "m" => (isSlide(joint) ? "m" : "rad");
 
 /** Joint angles over the whole motion, between the plan's nodes as well (rows L-39, L-40, L-56). */
 export function checkLimits(scene: CheckScene): void {
@@ -16,7 +21,7 @@ export function checkLimits(scene: CheckScene): void {
   for (const segment of motions(scene)) {
     extremes.of(segment);
     for (let j = 0; j < n; j++) {
-      const { lower_rad, upper_rad } = joints[j]!.limits, low = extremes.low[j]!, high = extremes.high[j]!;
+      const joint = joints[j]!, { lower_rad, upper_rad } = joint.limits, low = extremes.low[j]!, high = extremes.high[j]!;
       const up = upper_rad - high <= low - lower_rad;
       const value = up ? high : low, limit = up ? upper_rad : lower_rad, room = up ? upper_rad - high : low - lower_rad;
       const local_s = up ? extremes.highAt_s[j]! : extremes.lowAt_s[j]!, at_s = segment.start_s + local_s;
@@ -26,9 +31,9 @@ export function checkLimits(scene: CheckScene): void {
         if (named.has(segment.step)) continue;
         const move = scene.layout.moves.get(segment.step);
         const repairs = move === undefined ? [] : [...postureRepairs(scene, move), ...reachRepairs(scene, move)];
-        scene.add(segment.step, "bad", { code: "limits.joint", joint: j + 1, value, limit, unit: "rad", at_s, sentence: `Joint ${j + 1} would turn to ${deg(value)}; its limit is ${deg(limit)}.`, repairs });
-      } else if (room < NEAR_LIMIT_RAD) {
-        scene.add(segment.step, "warn", { code: "limits.near", joint: j + 1, value, limit, unit: "rad", at_s, sentence: `Joint ${j + 1} turns to ${deg(value)}, ${deg(Math.max(0, room))} before its limit of ${deg(limit)}.`, repairs: [] });
+        scene.add(segment.step, "bad", { code: "limits.joint", joint: j + 1, value, limit, unit: angleUnit(joint), at_s, sentence: `Joint ${j + 1} would ${movesTo(joint)} ${jointText(joint, value)}; its limit is ${jointText(joint, limit)}.`, repairs });
+      } else if (room < nearLimit(joint)) {
+        scene.add(segment.step, "warn", { code: "limits.near", joint: j + 1, value, limit, unit: angleUnit(joint), at_s, sentence: `Joint ${j + 1} ${isSlide(joint) ? "slides" : "turns"} to ${jointText(joint, value)}, ${jointText(joint, Math.max(0, room))} before its limit of ${jointText(joint, limit)}.`, repairs: [] });
       }
     }
     first = false;

@@ -1,6 +1,8 @@
-import { degrees } from "../../spatial/units.ts";
+import type { Joint } from "../../robots/arm.ts";
+import { isSlide, jointRateText } from "../../robots/slide.ts";
+import type { Slowed } from "../../trajectory/run-timing.ts";
 import type { MoveStep, Speed } from "../program.ts";
-import type { Repair } from "../verdict.ts";
+import type { Finding, Repair } from "../verdict.ts";
 import { metresPerSecond, motions, seconds, type CheckScene } from "./scene.ts";
 
 /** Commanded speeds that a joint cannot follow (rows L-26, L-56), and joint speeds of the plan itself. */
@@ -10,11 +12,7 @@ export function checkSpeed(scene: CheckScene): void {
     const move = scene.layout.moves.get(step)?.step;
     const repairs = move === undefined ? [] : slower(scene, move, slowed.wanted / slowed.limit);
     const { joint, wanted, limit } = slowed;
-    scene.add(step, "bad", slowed.unit === "rad/s3"
-      ? { code: "speed.jerk", joint, value: wanted, limit, unit: "rad/s3", at_s, sentence: `Joint ${joint} would need a jerk of ${rate(wanted)}³; its limit is ${rate(limit)}³.`, repairs }
-      : slowed.unit === "rad/s"
-      ? { code: "speed.joint", joint, value: wanted, limit, unit: "rad/s", at_s, sentence: `Joint ${joint} would turn at ${rate(wanted)}; its limit is ${rate(limit)}.`, repairs }
-      : { code: "speed.acceleration", joint, value: wanted, limit, unit: "rad/s2", at_s, sentence: `Joint ${joint} would accelerate at ${rate(wanted)}²; its limit is ${rate(limit)}².`, repairs });
+    scene.add(step, "bad", { ...saidOf(joints[joint - 1]!, slowed), joint, value: wanted, limit, at_s, repairs });
   }
   for (const segment of motions(scene)) {
     for (let j = 0; j < n; j++) {
@@ -27,13 +25,21 @@ export function checkSpeed(scene: CheckScene): void {
       if (top > limit * (1 + 1e-6)) {
         const at_s = segment.start_s + segment.times_s[at]!, move = scene.layout.moves.get(segment.step)?.step;
         const repairs = move === undefined ? [] : slower(scene, move, top / limit);
-        scene.add(segment.step, "bad", { code: "speed.joint", joint: j + 1, value: top, limit, unit: "rad/s", at_s, sentence: `Joint ${j + 1} would turn at ${rate(top)}; its limit is ${rate(limit)}.`, repairs });
+        scene.add(segment.step, "bad", { joint: j + 1, value: top, limit, at_s, repairs, ...saidOf(joints[j]!, { joint: j + 1, wanted: top, limit, unit: "rad/s" }) });
       }
     }
   }
 }
 
-const rate = (speed_rad_s: number): string => `${degrees(speed_rad_s).toFixed(1)}°/s`;
+/** Code, unit and sentence of a joint that cannot follow. */
+function saidOf(of: Joint, { joint, wanted, limit, unit }: Pick<Slowed, "joint" | "wanted" | "limit" | "unit">): Pick<Finding, "code" | "unit" | "sentence"> {
+  const slides = isSlide(of), rate = (value: number): string => jointRateText(of, value);
+  switch (unit) {
+    case "rad/s3": return { code: "speed.jerk", unit: slides ? "m/s3" : unit, sentence: `Joint ${joint} would need a jerk of ${rate(wanted)}³; its limit is ${rate(limit)}³.` };
+    case "rad/s2": return { code: "speed.acceleration", unit: slides ? "m/s2" : unit, sentence: `Joint ${joint} would accelerate at ${rate(wanted)}²; its limit is ${rate(limit)}².` };
+    case "rad/s": return { code: "speed.joint", unit: slides ? "m/s" : unit, sentence: `Joint ${joint} would ${slides ? "slide" : "turn"} at ${rate(wanted)}; its limit is ${rate(limit)}.` };
+  }
+}
 
 /** The step with a speed that every joint can follow, and a little to spare. */
 function slower(scene: CheckScene, step: MoveStep, factor: number): Repair[] {

@@ -38,9 +38,19 @@ class Reader {
   private readonly routines = new Map<string, Routine>();
   private readonly called = new Set<string>();
   private readonly lists: Statement[] = [];
+  private readonly words = new Map<string, string>();
   private depth = 0;
 
-  constructor(text: string) { this.cursor = new TokenCursor(text.replace(/^\uFEFF/, ""), LEXICON, word => word.toLowerCase()); }
+  constructor(text: string) { this.cursor = new TokenCursor(text.replace(/^\uFEFF/, ""), LEXICON, word => this.folded(word)); }
+
+  /** Capitals count for nothing. The words of a long text are few. */
+  private folded(word: string): string {
+    const known = this.words.get(word);
+    if (known !== undefined) return known;
+    const small = word.toLowerCase();
+    this.words.set(word, small);
+    return small;
+  }
 
   source(): SourceAnswer {
     const { cursor, routines } = this;

@@ -31,14 +31,17 @@ export class ControllerArm {
   /** HERE: the tool in the base that programs count from. */
   here(): Matrix { return times(inverted(this.base), times(this.flange, this.tool)); }
   placeOf(deg: readonly number[]): Matrix { return times(inverted(this.base), times(fromPose(flangePose(this.robot.arm, radians(deg))), this.tool)); }
-  inWorld<Into extends string, From extends string>(place: Matrix): Pose<Into, From> { return toPose(times(this.worldFromBase, times(this.base, place))); }
+  inWorld<Into extends string, From extends string>(place: Matrix): Pose<Into, From> { return toPose(times(this.worldFromBase, this.base === NULL ? place : times(this.base, place))); }
 
   atJoints(deg: readonly number[]): void {
     this.near = radians(deg);
     this.flange = fromPose(flangePose(this.robot.arm, this.near));
   }
 
-  atPlace(place: Matrix): void { this.flange = times(times(this.base, place), inverted(this.tool)); }
+  atPlace(place: Matrix): void {
+    const tip = this.base === NULL ? place : times(this.base, place);
+    this.flange = this.tool === NULL ? tip : times(tip, inverted(this.tool));
+  }
 
   /** The posture that words ask for at a place; what they leave open is as near as possible to where the arm was. Undefined when there is none. */
   branchAt(place: Matrix, words: Posture): Branch | undefined {

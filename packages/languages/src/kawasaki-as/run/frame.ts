@@ -10,8 +10,11 @@ const DEG = Math.PI / 180;
 
 /** TRANS(x, y, z, o, a, t) in mm and degrees:  R = Rz(o) · Ry(a) · Rz(t). */
 export function trans([x, y, z, o, a, t]: Six): Matrix {
-  const turned = times(times(about("z", o), about("y", a)), about("z", t));
-  return { r: turned.r, p: [x, y, z] };
+  const co = Math.cos(o * DEG), so = Math.sin(o * DEG), ca = Math.cos(a * DEG), sa = Math.sin(a * DEG), ct = Math.cos(t * DEG), st = Math.sin(t * DEG);
+  return {
+    r: [co * ca * ct - so * st, -co * ca * st - so * ct, co * sa, so * ca * ct + co * st, -so * ca * st + co * ct, so * sa, -sa * ct, sa * st, ca],
+    p: [x, y, z],
+  };
 }
 
 /** A turn about one axis [°]. */

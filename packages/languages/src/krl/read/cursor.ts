@@ -3,39 +3,44 @@ import { TextError, lineTokens, plainText, type Token, type TokenRules } from ".
 
 type Kind = "word" | "enum" | "number" | "bits" | "text" | "sign";
 const RULES: TokenRules<Kind> = [
-  [null, / +/y],
-  [null, /;.*/y],
+  // Most frequent first.
   ["word", /[A-Za-z_$][A-Za-z0-9_$]*/y],
-  ["enum", /#[A-Za-z_$][A-Za-z0-9_$]*/y],
+  [null, / +/y],
   ["number", /(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[Ee][+-]?[0-9]+)?/y],
+  ["sign", /==|<>|<=|>=|[-+*/=<>()[\]{},:.]/y],
+  [null, /;.*/y],
+  ["enum", /#[A-Za-z_$][A-Za-z0-9_$]*/y],
   ["bits", /'[BbHh][0-9A-Fa-f]+'/y],
   ["text", /"[^"]*"/y],
-  ["sign", /==|<>|<=|>=|[-+*/=<>()[\]{},:.]/y],
 ];
 
 /** Longer than any line of code; comments of inline forms may be longer. It also bounds how deep an expression can be. */
 const LINE_LENGTH = 4096;
 
+const TYPOGRAPHIC = /[^ -~]/;
+
 /** Walks over the tokens of one line. Words compare without regard to case. */
 export class Cursor {
   private readonly tokens: readonly Token<Kind>[];
+  private readonly upper: readonly string[];
   private readonly end: TextPlace;
   private at = 0;
 
   /** @throws {TextError} at a character that has no meaning in KRL, or when the line is too long for anybody. */
   constructor(text: string, line: number) {
     if (text.length > LINE_LENGTH) throw new TextError({ line, column: LINE_LENGTH + 1 }, `a line of at most ${LINE_LENGTH} characters`, `Line ${line} has ${text.length} characters.`);
-    this.tokens = lineTokens(plainText(text), line, RULES);
+    this.tokens = lineTokens(TYPOGRAPHIC.test(text) ? plainText(text) : text, line, RULES);
+    this.upper = this.tokens.map(token => token.text.toUpperCase());
     this.end = { line, column: text.length + 1 };
   }
 
   get here(): TextPlace { return this.tokens[this.at] ?? this.end; }
   get done(): boolean { return this.at >= this.tokens.length; }
   /** The next token in upper case, or "" at the end. */
-  get next(): string { return this.tokens[this.at]?.text.toUpperCase() ?? ""; }
+  get next(): string { return this.upper[this.at] ?? ""; }
   get nextKind(): Kind | "end" { return this.tokens[this.at]?.kind ?? "end"; }
   /** The token after the next, in upper case. */
-  get second(): string { return this.tokens[this.at + 1]?.text.toUpperCase() ?? ""; }
+  get second(): string { return this.upper[this.at + 1] ?? ""; }
   get secondKind(): Kind | "end" { return this.tokens[this.at + 1]?.kind ?? "end"; }
 
   /** The next token as it stands. */

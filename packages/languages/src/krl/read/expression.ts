@@ -6,6 +6,8 @@ const NAME_LENGTH = 24;
 /** Brackets inside brackets: more than anybody writes, less than the stack holds. */
 const DEPTH = 60;
 
+/** What stands behind a value that is no part of a longer one. */
+const ALONE = new Set([",", "}", ")", "]", ""]);
 const COMPARE = new Set(["==", "<>", "<", ">", "<=", ">="]);
 const AND = new Set(["AND", "B_AND"]), EXOR = new Set(["EXOR", "B_EXOR"]), OR = new Set(["OR", "B_OR"]);
 const SUM = new Set(["+", "-"]), PRODUCT = new Set(["*", "/"]), FRAMES = new Set([":"]);
@@ -13,6 +15,8 @@ const SUM = new Set(["+", "-"]), PRODUCT = new Set(["*", "/"]), FRAMES = new Set
 /** Or binds least, then exor, and, not, comparison, sum, product, sign; `:` joins frames first of all. */
 export function readExpression(cursor: Cursor, depth = 0): Expression {
   if (depth > DEPTH) throw new TextError(cursor.here, "a simpler expression", `The expression is nested more than ${DEPTH} deep.`);
+  // A number alone, as nearly every value of a point is.
+  if (cursor.nextKind === "number" && ALONE.has(cursor.second)) return primary(cursor, depth);
   return chain(cursor, OR, () => chain(cursor, EXOR, () => chain(cursor, AND, () => not(cursor, depth))));
 }
 

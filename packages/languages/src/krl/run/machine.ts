@@ -1,11 +1,12 @@
-import { Fault, type Executed, type MoveStep, type Search, type Signals, type Step, type TextPlace } from "@twincell/core";
+import type { Executed, MoveStep, Search, Signals, Step, TextPlace } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
 import type { Declaration, Expression, Instruction, Motion, Routine, Source, Statement, Variable } from "../read/syntax.ts";
 import { BAS } from "./bas.ts";
+import { WaitsOutside, axesOf, typed, within, type Frame } from "./frame.ts";
 import { Lines } from "./signals.ts";
-import type { ControllerState } from "./state.ts";
+import type { Context, ControllerState } from "./state.ts";
 import { spelling } from "./system.ts";
-import { boolOf, evaluate, keyOf, numberOf, real, structureOf, whole, type Memory, type Structure, type Value } from "./values.ts";
+import { boolOf, evaluate, keyOf, numberOf, structureOf, whole, type Memory, type Value } from "./values.ts";
 
 /** Statements without a motion or a wait after which the program is taken to run on the spot for ever. */
 const STATEMENTS_WITHOUT_MOTION = 100_000;
@@ -13,21 +14,6 @@ const STATEMENTS_WITHOUT_MOTION = 100_000;
 const CALL_DEPTH = 40;
 /** Dealt with before, or of no consequence for where the robot goes. */
 const QUIET_ROUTINES = new Set(["IR_STOPM", "MSGQUIT"]);
-
-/** A routine that is being executed, with its place, its loops and its own variables. */
-interface Frame {
-  readonly routine: Routine;
-  at: number;
-  readonly last: number[];
-  readonly step: number[];
-  readonly chosen: (Value | undefined)[];
-  readonly own: ReadonlySet<string>;
-  readonly values: Map<string, Value>;
-  readonly types: ReadonlyMap<string, string>;
-  /** Where the values of parameters go that are handed back. */
-  readonly back: readonly { readonly from: string; readonly to: Variable; readonly frame: Frame | undefined }[];
-  result: Value | undefined;
-}
 
 /** Executes a KRL module statement by statement. Deterministic: the same text and the same signals give the same steps. */
 export class Machine implements Memory {
@@ -47,10 +33,10 @@ export class Machine implements Memory {
   private idle = 0;
   private stopped = false;
 
-  constructor(source: Source, state: ControllerState, signals: Signals | undefined) {
+  constructor(source: Source, state: ControllerState, signals: Signals | undefined, met: Context["signals"]) {
     this.source = source;
     this.state = state;
-    this.lines = new Lines(source.signals, signals);
+    this.lines = new Lines(source.signals, signals, met);
   }
 
   /** @throws {TextError} where the text cannot be executed further. */
@@ -86,9 +72,9 @@ export class Machine implements Memory {
   call(name: string, args: readonly (Expression | undefined)[], at: TextPlace): Value {
     const routine = this.source.routines.get(name);
     if (routine?.isFunction !== true) throw new TextError(at, "a function of KRL or of this text", `"${name}" is no function that is understood here.`);
-    const depth = this.stack.length, frame = this.enter(routine, args, at), before = this.ready.length + (this.pending === undefined ? 0 : 1);
+    const depth = this.stack.length, frame = this.enter(routine, args, at), steps = (): number => this.times.size, before = steps();
     while (this.stack.length > depth) this.instruction(this.stack.at(-1)!);
-    if (this.ready.length + (this.pending === undefined ? 0 : 1) !== before) throw new TextError(at, "a function that computes", `Function ${name} moves the robot.`);
+    if (steps() !== before) throw new TextError(at, "a function that computes", `Function ${name} moves the robot.`);
     if (frame.result === undefined) throw new TextError(at, "a function with RETURN", `Function ${name} ends without a result.`);
     return frame.result;
   }
@@ -205,8 +191,7 @@ export class Machine implements Memory {
         const s = numberOf(statement.time, this);
         if (!(s >= 0)) throw new TextError(statement.time, "a time of 0 s or more", `The time is ${s} s.`);
         this.settle(false);
-        // WAIT SEC 0 only stops the advance run.
-        return s === 0 ? this.note(statement) : this.step(statement, { id: this.stepId(statement.line), type: "wait", s });
+        return this.step(statement, { id: this.stepId(statement.line), type: "wait", s });
       }
       case "wait-for": return this.waitFor(statement);
       case "pulse": {
@@ -394,31 +379,4 @@ export class Machine implements Memory {
     if (this.lines.asked) throw new WaitsOutside(at);
     throw new TextError(at, "a motion, a wait or an end", `The program has executed ${STATEMENTS_WITHOUT_MOTION} statements without a motion: it runs on the spot for ever.`);
   }
-}
-
-/** The program turns in a circle until something outside changes. */
-export class WaitsOutside extends Fault {
-  readonly code = "language.waits-outside";
-  readonly hint: string;
-  constructor({ line, column }: TextPlace) {
-    super("The program turns in a circle until a line from outside changes.");
-    this.hint = `Line ${line}, column ${column}: set the line that it looks at.`;
-  }
-}
-
-const axesOf = (axes_deg: readonly number[]): Structure => ({ kind: "structure", type: "E6AXIS", fields: new Map(axes_deg.map((value, i) => [`A${i + 1}`, real(value)])) });
-
-/** A structure with one member changed, which may lie inside others. */
-function within(structure: Structure, [name, ...rest]: readonly string[], value: Value): Structure {
-  if (name === undefined) return structure;
-  const inner = structure.fields.get(name);
-  const changed = rest.length === 0 ? value : within(inner?.kind === "structure" ? inner : { kind: "structure", type: undefined, fields: new Map() }, rest, value);
-  return { ...structure, fields: new Map(structure.fields).set(name, changed) };
-}
-
-/** A value as a variable of that type holds it. */
-function typed(value: Value, type: string | undefined): Value {
-  if (value.kind === "number" && type === "INT" && !value.whole) return whole(Math.round(value.value));
-  if (value.kind === "number" && type === "REAL" && value.whole) return real(value.value);
-  return value.kind === "structure" && value.type === undefined && type !== undefined ? { ...value, type } : value;
 }

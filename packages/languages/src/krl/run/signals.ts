@@ -1,4 +1,4 @@
-import type { Condition, Signals, TextPlace } from "@twincell/core";
+import type { Condition, SignalLine, Signals, TextPlace } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
 import type { Expression, SignalDeclaration, Variable } from "../read/syntax.ts";
 import { bool, real, type Value } from "./values.ts";
@@ -7,22 +7,26 @@ type Wire = SignalDeclaration["wire"];
 const WIRES: Readonly<Record<string, Wire>> = { $IN: "in", $OUT: "out", $ANIN: "analogue-in", $ANOUT: "analogue-out" };
 const KEY = /^(\$(?:IN|OUT|ANIN|ANOUT))\[([0-9]+)\]$/;
 /** The output that a gripper hangs on is called so; TRUE closes (row T-31). */
-export const GRIPPER = "GRIPPER";
+const GRIPPER = "GRIPPER";
 const CALLED: Readonly<Record<Wire, string>> = { in: "in", out: "out", "analogue-in": "anin", "analogue-out": "anout" };
 
-export interface Line { readonly name: string; readonly wire: Wire; readonly address: number }
+const KINDS: Readonly<Record<Wire, SignalLine["kind"]>> = { in: "digital-in", out: "digital-out", "analogue-in": "analogue-in", "analogue-out": "analogue-out" };
+
+interface Line { readonly name: string; readonly wire: Wire; readonly address: number }
 
 /** The lines in and out: declared with a name (`SIGNAL PART $IN[3]`), or met by their number. */
 export class Lines {
-  readonly met = new Map<string, Line>();
+  private readonly met: Record<string, SignalLine>;
   /** Whether something outside was asked for, which may change by itself. */
   asked = false;
   private readonly outside: Signals | undefined;
   private readonly byName = new Map<string, Line>();
   private readonly written = new Map<string, boolean | number>();
 
-  constructor(declared: readonly SignalDeclaration[], outside: Signals | undefined) {
+  /** @param met  receives the lines that are used, by name. */
+  constructor(declared: readonly SignalDeclaration[], outside: Signals | undefined, met: Record<string, SignalLine>) {
     this.outside = outside;
+    this.met = met;
     for (const { name, wire, address } of declared) {
       const line: Line = { name: name.toLowerCase(), wire, address };
       this.byName.set(name, line);
@@ -52,7 +56,7 @@ export class Lines {
   write(line: Line, value: boolean | number): void { this.written.set(line.name, value); }
 
   private note(line: Line): Line {
-    this.met.set(line.name, line);
+    if (!this.isGripper(line)) this.met[line.name] ??= { kind: KINDS[line.wire], address: line.address };
     return line;
   }
 

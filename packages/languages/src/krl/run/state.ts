@@ -1,13 +1,17 @@
-import { branchOf, compose, flangePose, inverse, type MoveStep, type Pose, type Robot, type Speed, type Target, type TextPlace, type Vector3 } from "@twincell/core";
+import { branchOf, compose, flangePose, inverse, type MoveStep, type Pose, type Robot, type SignalLine, type Speed, type Target, type TextPlace, type Vector3 } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
 import type { Motion } from "../read/syntax.ts";
-import { travel, type Axes } from "./axes.ts";
+import { STATUS_SLACK, travel, type Axes } from "./axes.ts";
 import { componentsOf, frameOf, fromPose, inverted, times, toPose, type Frame } from "./frames.ts";
 import { System, type Named } from "./system.ts";
 import { component, toFrame, type Structure } from "./values.ts";
 
 /** Tools and frames by the names under which the steps know them. */
-export interface Context { readonly tools: Record<string, Pose<"flange", "tcp">>; readonly frames: Record<string, Pose<"world", "frame">> }
+export interface Context {
+  readonly tools: Record<string, Pose<"flange", "tcp">>;
+  readonly frames: Record<string, Pose<"world", "frame">>;
+  readonly signals: Record<string, SignalLine>;
+}
 
 const AXIS_NAMES = ["A1", "A2", "A3", "A4", "A5", "A6"] as const;
 
@@ -78,7 +82,8 @@ export class ControllerState {
     this.flange = times(times(base.frame, baseFromTcp), inverted(tool.frame));
     const status = component(target, "S"), turn = motion.motion === "PTP" ? component(target, "T") : undefined;
     const before = this.axes_deg, all = this.axes.reaching(compose(inverse(this.rootFromBase), toPose<"root", "flange">(this.flange)), before);
-    const candidates = status === undefined ? all : all.filter(axes => this.axes.hasStatus(axes, status));
+    const exact = status === undefined ? all : all.filter(axes => this.axes.hasStatus(axes, status));
+    const candidates = exact.length > 0 || status === undefined ? exact : all.filter(axes => this.axes.hasStatus(axes, status, STATUS_SLACK.written));
     if (candidates.length === 0) {
       if (all.length > 0) throw new TextError(at, "a Status that the point can be reached with", `The point cannot be reached within the axis limits with Status ${status}.`);
       return this.poseTarget(baseFromTcp, undefined);

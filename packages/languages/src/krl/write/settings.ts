@@ -35,7 +35,8 @@ export class Settings {
   constructor(maxTcpSpeed_mps: number) {
     this.maxTcpSpeed_mps = maxTcpSpeed_mps;
     // BAS(#INITMOV,0) takes tool and base off and full acceleration on.
-    this.tool = this.base = "";
+    this.tool = "flange";
+    this.base = "world";
     this.ptpAcceleration = this.pathAcceleration = "100";
   }
 

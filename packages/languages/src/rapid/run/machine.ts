@@ -7,6 +7,7 @@ import { Arguments } from "./arguments.ts";
 import type { Confdata } from "./configuration.ts";
 import { inverted, times, toPose, turned, type Frame } from "./frame.ts";
 import { FUNCTIONS } from "./functions.ts";
+import { KIND_OF_FUNCTION, Lines } from "./lines.ts";
 import { predefined } from "./predefined.ts";
 import { asFrame, asNumber, asNumbers, asPosition, asRecord, asTruth, binary, fromFrame, placeOf, type Value } from "./values.ts";
 
@@ -40,8 +41,7 @@ export class Machine extends BlockMachine<Value> {
   private readonly source: Source;
   private readonly known: ReadonlyMap<string, Value>;
   private readonly changing: ReadonlySet<string>;
-  private readonly outputs = new Map<string, boolean | number>();
-  private readonly signals: Signals | undefined;
+  private readonly lines: Lines;
   private acceleration = 1;
   private override = 1;
   private fastest_mmps = Infinity;
@@ -56,7 +56,7 @@ export class Machine extends BlockMachine<Value> {
     this.changing = changing;
     this.arm = new ControllerArm(robot, worldFromBase);
     this.surroundings = surroundings;
-    this.signals = signals;
+    this.lines = new Lines(surroundings.signals, signals, name => this.spelt(name), name => this.variable(name) === undefined);
     this.tool = { mm: [0, 0, 0], wxyz: [1, 0, 0, 0] };
     for (const datum of source.data) this.make(datum, this.globals);
   }
@@ -108,7 +108,7 @@ export class Machine extends BlockMachine<Value> {
     switch (expression.kind) {
       case "number": case "truth": case "text": return expression.value;
       case "variable": {
-        const value = this.variable(expression.name) ?? this.level(expression.name);
+        const value = this.variable(expression.name) ?? this.lines.level(expression.name);
         if (value === undefined) throw new TextError(expression, "a datum that has a value", `"${this.spelt(expression.name)}" has no value here.`);
         return value;
       }
@@ -132,7 +132,7 @@ export class Machine extends BlockMachine<Value> {
 
   isTrue(expression: Expression): boolean {
     const when = this.condition(expression);
-    return when === undefined ? asTruth(this.evaluate(expression), expression) : this.holds(when);
+    return when === undefined ? asTruth(this.evaluate(expression), expression) : this.lines.holds(when);
   }
   numberOf(expression: Expression): number { return asNumber(this.evaluate(expression), expression); }
   fromNumber(value: number): Value { return value; }
@@ -170,7 +170,7 @@ export class Machine extends BlockMachine<Value> {
       case "cpos": return [...times(this.arm.flange, this.tool).mm];
       case "calcrobt": return [...asRecord(fromFrame(times(this.arm.flangeAt(this.joints(args.value(0, "a jointtarget"), expression)), this.toolFrame(args.value(1, "a tool"), expression))), expression, 2, "a pose"), [0, 0, 0, 0], NO_AXES];
       case "testdi": case "dinput": case "doutput": case "ainput": case "aoutput": {
-        const line = this.line(args.nameOf(0, "a line"), KIND_OF_FUNCTION[name]!), value = this.read(line);
+        const value = this.lines.read(this.lines.line(args.nameOf(0, "a line"), KIND_OF_FUNCTION[name]!));
         return name === "testdi" ? value === true : Number(value);
       }
       case "isfile": case "present": return false;
@@ -191,54 +191,7 @@ export class Machine extends BlockMachine<Value> {
 
   spelt(name: string): string { return this.source.spelling.get(name) ?? name; }
 
-  // --- lines ------------------------------------------------------------------------------------------------------
-
-  /** The line of that name, which is of that kind from now on. */
-  private line(name: string, kind: SignalLine["kind"]): string {
-    const { signals } = this.surroundings, spelt = this.source.spelling.get(name) ?? name;
-    signals[spelt] ??= { kind };
-    return spelt;
-  }
-
-  /** What a name is worth that is no datum but a line that was spoken of before. */
-  private level(name: string): Value | undefined {
-    const spelt = this.spelt(name);
-    return Object.hasOwn(this.surroundings.signals, spelt) ? Number(this.read(spelt)) : undefined;
-  }
-
-  private read(line: string): boolean | number {
-    const isDigital = this.surroundings.signals[line]!.kind.startsWith("digital"), value = this.outputs.get(line) ?? this.signals?.read(line);
-    return isDigital ? value === true || (typeof value === "number" && value !== 0) : Number(value ?? 0);
-  }
-
-  private holds(when: Condition): boolean {
-    const value = this.read(when.signal);
-    if ("is" in when) return (value === true) === when.is;
-    return "above" in when ? Number(value) > when.above : Number(value) < when.below;
-  }
-
-  condition(expression: Expression): Condition | undefined {
-    if (expression.kind === "unary" && expression.sign === "not") {
-      const inner = this.condition(expression.of);
-      return inner !== undefined && "is" in inner ? { signal: inner.signal, is: !inner.is } : undefined;
-    }
-    if (expression.kind === "call" && expression.name === "testdi") return { signal: this.lineOf(expression)!, is: true };
-    if (expression.kind !== "binary") return undefined;
-    const { sign, left, right } = expression, kind = left.kind === "call" ? KIND_OF_FUNCTION[left.name] : undefined;
-    const isLine = left.kind === "variable" && this.variable(left.name) === undefined && (right.kind === "number" || (right.kind === "variable" && this.known.has(right.name)));
-    if (!isLine && (kind === undefined || !["=", "<>", "<", ">"].includes(sign))) return undefined;
-    const signal = this.lineOf(left), value = right.kind === "number" || right.kind === "variable" ? this.evaluate(right) : undefined;
-    if (signal === undefined || typeof value !== "number") return undefined;
-    if (sign === ">" || sign === "<") return sign === ">" ? { signal, above: value } : { signal, below: value };
-    return value === 0 || value === 1 ? { signal, is: (value === 1) === (sign === "=") } : undefined;
-  }
-
-  private lineOf(expression: Expression): string | undefined {
-    if (expression.kind === "variable") return this.line(expression.name, "digital-in");
-    if (expression.kind !== "call" || !Object.hasOwn(KIND_OF_FUNCTION, expression.name)) return undefined;
-    const name = expression.args[0]?.value;
-    return name?.kind === "variable" ? this.line(name.name, KIND_OF_FUNCTION[expression.name]!) : undefined;
-  }
+  condition(expression: Expression): Condition | undefined { return this.lines.condition(expression, of => this.evaluate(of)); }
 
   // --- waits ------------------------------------------------------------------------------------------------------
 
@@ -284,7 +237,7 @@ export class Machine extends BlockMachine<Value> {
       case "setdo": return this.write(args.nameOf(0, "a line"), args.number(1, "a value") !== 0, at);
       case "setao": return this.write(args.nameOf(0, "a line"), args.number(1, "a value"), at);
       case "pulsedo": {
-        const pulse_s = args.option("plength") ?? 0.2, signal = this.line(args.nameOf(0, "a line"), "digital-out");
+        const pulse_s = args.option("plength") ?? 0.2, signal = this.lines.line(args.nameOf(0, "a line"), "digital-out");
         return { id: id(), type: "set", signal, to: true, pulse_s };
       }
       case "gripload": return this.payload(args.value(0, "a load"), at);
@@ -313,7 +266,7 @@ export class Machine extends BlockMachine<Value> {
 
   private waited(name: string, args: Arguments): Condition {
     const kind = name === "waitdi" ? "digital-in" : name === "waitdo" ? "digital-out" : name === "waitai" ? "analogue-in" : "analogue-out";
-    const signal = this.line(args.nameOf(0, "a line"), kind), value = args.number(1, "a value");
+    const signal = this.lines.line(args.nameOf(0, "a line"), kind), value = args.number(1, "a value");
     if (kind.startsWith("digital")) return { signal, is: value !== 0 };
     if (args.has("gt")) return { signal, above: value };
     if (args.has("lt")) return { signal, below: value };
@@ -322,8 +275,8 @@ export class Machine extends BlockMachine<Value> {
 
   private write(name: string, to: boolean | number, at: TextPlace): Step {
     if (name === GRIPPER && typeof to === "boolean") return { id: this.stepId(at), type: "gripper", closed: to };
-    const signal = this.line(name, typeof to === "boolean" ? "digital-out" : "analogue-out");
-    this.outputs.set(signal, to);
+    const signal = this.lines.line(name, typeof to === "boolean" ? "digital-out" : "analogue-out");
+    this.lines.write(signal, to);
     return { id: this.stepId(at), type: "set", signal, to };
   }
 
@@ -350,7 +303,7 @@ export class Machine extends BlockMachine<Value> {
   }
 
   private search(name: "searchl" | "searchc", args: Arguments, id: string): MoveStep {
-    const signal = this.line(args.nameOf(0, "a line"), "digital-in"), shift = name === "searchc" ? 1 : 0;
+    const signal = this.lines.line(args.nameOf(0, "a line"), "digital-in"), shift = name === "searchc" ? 1 : 0;
     if (args.has("flanks")) throw new TextError(args.at, "\\PosFlank or \\NegFlank", "A search for either edge is not executed here.");
     const motion: Motion = {
       goal: args.given(2 + shift, "a target"), speed: args.given(3 + shift, "a speed"), tool: args.given(4 + shift, "a tool"),
@@ -458,7 +411,7 @@ export class Machine extends BlockMachine<Value> {
   edge(): void { /* every move says everything */ }
 
   override remember(): () => void {
-    const values = super.remember(), arm = this.arm.remember(), { acceleration, override, fastest_mmps, asksConfiguration, tool } = this, outputs = new Map(this.outputs);
+    const values = super.remember(), arm = this.arm.remember(), { acceleration, override, fastest_mmps, asksConfiguration, tool } = this, lines = this.lines.remember();
     return () => {
       values();
       arm();
@@ -467,14 +420,12 @@ export class Machine extends BlockMachine<Value> {
       this.fastest_mmps = fastest_mmps;
       this.asksConfiguration = asksConfiguration;
       this.tool = tool;
-      this.outputs.clear();
-      for (const [line, value] of outputs) this.outputs.set(line, value);
+      lines();
     };
   }
 }
 
 const NO_AXES: Value = [9e9, 9e9, 9e9, 9e9, 9e9, 9e9];
-const KIND_OF_FUNCTION: Readonly<Record<string, SignalLine["kind"]>> = { testdi: "digital-in", dinput: "digital-in", doutput: "digital-out", ainput: "analogue-in", aoutput: "analogue-out" };
 const REFUSED: Readonly<Record<string, string>> = {
   triggl: "Events on the way of a move are not executed here.", triggj: "Events on the way of a move are not executed here.",
   pdispset: "Program displacement is not executed here: put it into the work object.", pdispon: "Program displacement is not executed here: put it into the work object.",

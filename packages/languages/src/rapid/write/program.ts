@@ -173,7 +173,7 @@ export class ProgramWriter {
   private pallet(step: Extract<Step, { type: "pallet" }>): void {
     const { program } = this.place, { names } = this.data, pallet = Object.hasOwn(program.pallets, step.pallet) ? program.pallets[step.pallet] : undefined;
     if (pallet === undefined) throw new CannotSay(step.id, `${called(step)} works on the pallet ${step.pallet}, which the program does not have.`, "Choose another pallet.");
-    const order = pallet.order ?? "rows", byRows = order.startsWith("rows"), isShifted = pallet.interleave === "odd-rows-shifted";
+    const order = pallet.order ?? "rows", byRows = order.startsWith("rows"), isShifted = pallet.interleave === "odd-rows-shifted" && pallet.rows > 1;
     if (isShifted && !byRows) throw new CannotSay(step.id, `${called(step)} visits the interleaved pallet ${step.pallet} by columns, which no plain loop does.`, "Visit it by rows.");
     const object = names.of("frame", step.pallet), { out } = this, add = (line: string): void => { out.add(line, step.id); };
     if (pallet.frame !== "world") this.frame(pallet.frame, step.id);
@@ -187,7 +187,7 @@ export class ProgramWriter {
       loop(line, `${lines - 1}`, () => {
         loop(along, last, () => {
           add(`${at}:=${along};`);
-          if (order.endsWith("zigzag")) out.block(`IF ${line} MOD 2=1 THEN`, "ENDIF", step.id, () => { add(`${at}:=${isShifted ? inLine - 2 : inLine - 1}-${along};`); });
+          if (order.endsWith("zigzag") && lines > 1 && inLine > 1) out.block(`IF ${line} MOD 2=1 THEN`, "ENDIF", step.id, () => { add(`${at}:=${isShifted ? inLine - 2 : inLine - 1}-${along};`); });
           add(`${object}.oframe:=${this.placeText(pallet, layer, line, at)};`);
           this.begin();
           this.steps(step.steps);
@@ -202,7 +202,7 @@ export class ProgramWriter {
     const isFree = pallet.frame === "world", { baseFromWorld } = this.place, seen = (v: Vector3): Vector3 => isFree ? rotate(baseFromWorld.quaternion, v) : v;
     const origin = isFree ? compose(baseFromWorld, compose(pose<"world", "frame">(), pallet.origin)) : pallet.origin, pitch = palletPitch(pallet);
     const byRows = (pallet.order ?? "rows").startsWith("rows"), along = seen(byRows ? pitch.column : pitch.row), away = seen(byRows ? pitch.row : pitch.column);
-    const up = seen(pallet.layers > 1 ? pitch.layer : [0, 0, 0]), isShifted = pallet.interleave === "odd-rows-shifted", fine = (value_m: number): string => fixed(value_m * 1000, 5);
+    const up = seen(pallet.layers > 1 ? pitch.layer : [0, 0, 0]), isShifted = pallet.interleave === "odd-rows-shifted" && pallet.rows > 1, fine = (value_m: number): string => fixed(value_m * 1000, 5);
     const term = (pitch_m: number, factor: string): string => fine(pitch_m) === "0" ? "" : `${pitch_m < 0 ? "-" : "+"}${fine(Math.abs(pitch_m))}*${factor}`;
     const parts = ([0, 1, 2] as const).map(i =>
       `${fine(origin.position[i])}${term(along[i], isShifted ? `(${at}+0.5*(${line} MOD 2))` : at)}${term(away[i], line)}${term(up[i], layer)}`);

@@ -1,14 +1,18 @@
 import type { TextPlace } from "@twincell/core";
 import { TextError } from "../faults.ts";
-import { Scanner, type Comment, type Lexicon, type TextToken, type TokenKind } from "./scanner.ts";
+import { Scanner, type Comment, type Lexicon, type TokenKind } from "./scanner.ts";
 
-/** Walks over the tokens of a text. `fold` gives words the form in which the language compares them. */
+/** Walks over the tokens of a text. `fold` gives words the form in which the language compares them. Going on allocates nothing. */
 export class TokenCursor {
+  /** The next token: its sort, as it is written, and as the language compares it ("" at the end and for a text). */
+  kind: TokenKind = "line-end";
+  raw = "";
+  next = "";
+  private line = 1;
+  private column = 1;
   private readonly scanner: Scanner;
   private readonly fold: (word: string) => string;
-  private current: TextToken = { kind: "line-end", text: "", line: 1, column: 1 };
-  private ahead: TextToken | undefined;
-  private word = "";
+  private isAhead = false;
 
   constructor(text: string, lexicon: Lexicon, fold: (word: string) => string) {
     this.scanner = new Scanner(text, lexicon);
@@ -16,42 +20,46 @@ export class TokenCursor {
   }
 
   /** Where the next token stands. */
-  get here(): TextPlace { return { line: this.current.line, column: this.current.column }; }
-  get kind(): TokenKind { return this.current.kind; }
-  /** The next token as the language compares it; "" at the end and for a text. */
-  get next(): string { return this.word; }
-  /** The next token as it is written. */
-  get raw(): string { return this.current.text; }
-  get done(): boolean { return this.current.kind === "end"; }
-
-  isAt(kind: TokenKind): boolean { return this.current.kind === kind; }
+  get here(): TextPlace { return { line: this.line, column: this.column }; }
+  get done(): boolean { return this.kind === "end"; }
+  isAt(kind: TokenKind): boolean { return this.kind === kind; }
 
   /** The token after the next. */
   get second(): string {
-    this.ahead ??= this.scanner.next();
-    return this.ahead.kind === "word" ? this.fold(this.ahead.text) : this.ahead.kind === "text" ? "" : this.ahead.text;
+    if (!this.isAhead) this.scanner.next();
+    this.isAhead = true;
+    return this.folded();
   }
 
   /** Takes the first comment in the lines before the next token. */
-  comment(): Comment | undefined { return this.scanner.commentBefore(this.current.line); }
+  comment(): Comment | undefined { return this.scanner.commentBefore(this.line); }
 
   /** Goes on by one token. @throws {TextError} at a character without a meaning. */
   advance(): void {
-    const token = this.ahead ?? this.scanner.next();
-    this.ahead = undefined;
-    this.current = token;
-    this.word = token.kind === "word" ? this.fold(token.text) : token.kind === "text" ? "" : token.text;
+    const { scanner } = this;
+    if (!this.isAhead) scanner.next();
+    this.isAhead = false;
+    this.kind = scanner.kind;
+    this.raw = scanner.raw;
+    this.line = scanner.tokenLine;
+    this.column = scanner.tokenColumn;
+    this.next = this.folded();
+  }
+
+  private folded(): string {
+    const { kind, raw } = this.scanner;
+    return kind === "word" ? this.fold(raw) : kind === "text" ? "" : raw;
   }
 
   /** The next token, which is left behind. */
   take(): string {
-    const { word } = this;
+    const { next } = this;
     this.advance();
-    return word;
+    return next;
   }
 
   accept(text: string): boolean {
-    if (this.word !== text || this.current.kind === "end" || this.current.kind === "text") return false;
+    if (this.next !== text || this.kind === "end" || this.kind === "text") return false;
     this.advance();
     return true;
   }
@@ -62,7 +70,7 @@ export class TokenCursor {
 
   /** A name, which is left behind. */
   name(expected: string): string {
-    if (this.current.kind !== "word") throw this.unexpected(expected);
+    if (this.kind !== "word") throw this.unexpected(expected);
     return this.take();
   }
 
@@ -79,8 +87,8 @@ export class TokenCursor {
   }
 
   unexpected(expected: string): TextError {
-    const { kind, text } = this.current;
-    const what = kind === "end" ? "The text ends" : kind === "line-end" ? "The line ends" : `"${text}" stands`;
+    const { kind, raw } = this;
+    const what = kind === "end" ? "The text ends" : kind === "line-end" ? "The line ends" : `"${raw}" stands`;
     return new TextError(this.here, expected, `${what} where ${expected} is expected.`);
   }
 }

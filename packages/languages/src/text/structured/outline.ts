@@ -2,6 +2,7 @@ import type { Condition, Executed, Group, Pallet, Pose, Step, TextFault, TextPla
 import { TextError, textFault } from "../faults.ts";
 import type { BlockMachine, Flow } from "./machine.ts";
 import { fitPallet } from "./pallet.ts";
+import { isSteady } from "./steady.ts";
 import type { Block, Expression, Statement } from "./tree.ts";
 
 /** A machine whose program can be written down as steps instead of being carried out. */
@@ -20,6 +21,8 @@ export interface OutlineMachine<V> extends BlockMachine<V> {
 
 /** More steps than this are taken for a program that repeats itself for ever. */
 const MOST_STEPS = 200_000;
+/** Rounds of a loop that are compared one by one. */
+const MOST_LOOKS = 50;
 
 type Loop = Extract<Statement, { kind: "while" | "for" }>;
 /** A loop that counts: its variable, how it runs, and its body without the counting. */
@@ -74,7 +77,7 @@ export class Outline<V> {
         if (!Object.hasOwn(this.routines, name)) {
           this.routines[name] = [];
           const inside: Step[] = [];
-          if (this.fresh(() => machine.inside(routine, () => this.block(routine.body, inside))) === "halt") this.endsAll.add(name);
+          if (this.fresh(() => { this.group = undefined; return machine.inside(routine, () => this.block(routine.body, inside)); }) === "halt") this.endsAll.add(name);
           this.routines[name] = inside;
         }
         machine.edge();
@@ -155,20 +158,15 @@ export class Outline<V> {
     const counter = this.counter(statement);
     if (counter !== undefined && counter.times > 0) {
       if (this.pallet(statement, counter, out)) return "next";
-      if (counter.times > 1 || statement.kind === "for") {
-        const back = machine.remember(), { count, groupCount, name, group } = this;
+      const back = machine.remember(), { count, groupCount, name, group } = this;
+      const isSame = this.isSame(counter);
+      back();
+      this.count = count; this.groupCount = groupCount; this.name = name; this.group = group;
+      if (isSame) {
         machine.setCount(counter.name, counter.from);
-        const first = this.trial(counter.body);
-        machine.setCount(counter.name, counter.from + counter.step * (counter.times - 1));
-        const last = this.trial(counter.body);
-        back();
-        this.count = count; this.groupCount = groupCount; this.name = name; this.group = group;
-        if (first !== undefined && first === last) {
-          machine.setCount(counter.name, counter.from);
-          const flow = this.repeat(statement, counter.times, counter.body, out);
-          machine.setCount(counter.name, counter.from + counter.step * counter.times);
-          return flow;
-        }
+        const flow = this.repeat(statement, counter.times, counter.body, out);
+        machine.setCount(counter.name, counter.from + counter.step * counter.times);
+        return flow;
       }
     }
     const before = out.length;
@@ -183,6 +181,20 @@ export class Outline<V> {
     if (flow !== "next" && flow !== "halt") throw new TextError(statement, "a loop that runs to its end", "The loop is left from inside, which steps cannot.");
     this.add(out, { ...step, type: "repeat", times, steps }, statement);
     return "next";
+  }
+
+  /** Whether every round does the same. Where a variable tells the rounds apart all of them are looked at, as long as they are few. */
+  private isSame({ name, from, step, times, body }: Counter): boolean {
+    const looks = Math.min(times, isSteady(body, name, routine => this.machine.routine(routine)) ? 2 : MOST_LOOKS + 1);
+    if (looks > MOST_LOOKS) return false;
+    let first: string | undefined;
+    for (let i = 0; i < looks; i++) {
+      this.machine.setCount(name, from + step * i);
+      const round = this.trial(body);
+      if (round === undefined || (i > 0 && round !== first)) return false;
+      first = round;
+    }
+    return true;
   }
 
   /** The steps of a body as one text to compare; undefined when it leaves the loop. */

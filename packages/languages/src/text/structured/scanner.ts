@@ -5,7 +5,6 @@ import { plainText } from "../lines.ts";
 export type TokenKind = "word" | "number" | "text" | "sign" | "line-end" | "end";
 /** What a comment says, without its sign. */
 export interface Comment extends TextPlace { readonly text: string }
-export interface TextToken extends TextPlace { readonly kind: TokenKind; readonly text: string }
 
 /** What tells one language from another before its grammar begins. */
 export interface Lexicon {
@@ -34,8 +33,12 @@ const SORTS = Uint8Array.from({ length: 128 }, (_, code) => {
 const isDigitCode = (code: number): boolean => code < 128 && SORTS[code] === DIGIT;
 const isWordCode = (code: number): boolean => code < 128 && (SORTS[code] === LETTER || SORTS[code] === DIGIT);
 
-/** The tokens of a text one after the other. Lines may end in CR LF, LF or CR. */
+/** The tokens of a text one after the other: `next` puts the token into these fields. Lines may end in CR LF, LF or CR. */
 export class Scanner {
+  kind: TokenKind = "line-end";
+  raw = "";
+  tokenLine = 1;
+  tokenColumn = 1;
   private readonly text: string;
   private readonly lexicon: Lexicon;
   private readonly signs = new Map<string, readonly string[]>();
@@ -62,32 +65,34 @@ export class Scanner {
   }
 
   /** @throws {TextError} at a character that has no meaning in the language; the character is then behind. */
-  next(): TextToken {
+  next(): void {
     const { text, lexicon } = this, { length } = text;
     for (;;) {
       while (this.at < length && text.charCodeAt(this.at) === BLANK) this.at++;
       const from = this.at, column = from - this.lineStart + 1, { line } = this;
-      if (from >= length) return { kind: "end", text: "", line, column };
+      this.tokenLine = line;
+      this.tokenColumn = column;
+      if (from >= length) return this.found("end", "");
       const code = text.charCodeAt(from), sort = code < 128 ? SORTS[code]! : 0;
       if (column > LINE_LENGTH && sort !== LINE_END) { this.skipLine(); throw new TextError({ line, column }, `a line of at most ${LINE_LENGTH} characters`, `Line ${line} has more than ${LINE_LENGTH} characters.`); }
       if (lexicon.word !== undefined && sort !== DIGIT && sort !== LINE_END) {
         lexicon.word.lastIndex = from;
         const word = lexicon.word.exec(text)?.[0];
-        if (word !== undefined) { this.at += word.length; return { kind: "word", text: word, line, column }; }
+        if (word !== undefined) { this.at += word.length; return this.found("word", word); }
       }
       if (sort === LETTER) {
         while (this.at < length && isWordCode(text.charCodeAt(this.at))) this.at++;
-        return { kind: "word", text: text.slice(from, this.at), line, column };
+        return this.found("word", text.slice(from, this.at));
       }
       if (sort === DIGIT || (code === DOT && isDigitCode(text.charCodeAt(from + 1)))) {
         NUMBER.lastIndex = from;
         const number = NUMBER.exec(text)![0];
         this.at += number.length;
-        return { kind: "number", text: number, line, column };
+        return this.found("number", number);
       }
       if (sort === LINE_END) {
         this.newLine(text[from]!);
-        if (lexicon.lineEnds && this.depth === 0) return { kind: "line-end", text: "", line, column };
+        if (lexicon.lineEnds && this.depth === 0) return this.found("line-end", "");
         continue;
       }
       const letter = text[from]!;
@@ -96,12 +101,17 @@ export class Scanner {
         this.comments.push({ text: text.slice(from + 1, this.at).trim(), line, column });
         continue;
       }
-      if (lexicon.quotes.includes(letter)) return { kind: "text", text: this.quoted(letter, { line, column }), line, column };
+      if (lexicon.quotes.includes(letter)) return this.found("text", this.quoted(letter, { line, column }));
       return this.sign(letter, line, column);
     }
   }
 
-  private sign(letter: string, line: number, column: number): TextToken {
+  private found(kind: TokenKind, raw: string): void {
+    this.kind = kind;
+    this.raw = raw;
+  }
+
+  private sign(letter: string, line: number, column: number): void {
     const { text } = this, choice = this.signs.get(letter);
     const sign = choice === undefined || choice.length === 1 && choice[0]!.length === 1 ? choice?.[0] : choice.find(each => text.startsWith(each, this.at));
     if (sign === undefined) {
@@ -112,7 +122,7 @@ export class Scanner {
     this.at += sign.length;
     if (sign === "(" || sign === "[" || sign === "{") this.depth++;
     if ((sign === ")" || sign === "]" || sign === "}") && this.depth > 0) this.depth--;
-    return { kind: "sign", text: sign, line, column };
+    this.found("sign", sign);
   }
 
   private newLine(letter: string): void {

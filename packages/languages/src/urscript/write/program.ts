@@ -141,7 +141,7 @@ export class ProgramWriter {
   private pallet(step: Extract<Step, { type: "pallet" }>): void {
     const { program } = this.place, pallet = Object.hasOwn(program.pallets, step.pallet) ? program.pallets[step.pallet] : undefined;
     if (pallet === undefined) throw new CannotSay(step.id, `${called(step)} works on the pallet ${step.pallet}, which the program does not have.`, "Choose another pallet.");
-    const order = pallet.order ?? "rows", byRows = order.startsWith("rows"), isShifted = pallet.interleave === "odd-rows-shifted";
+    const order = pallet.order ?? "rows", byRows = order.startsWith("rows"), isShifted = pallet.interleave === "odd-rows-shifted" && pallet.rows > 1;
     if (isShifted && !byRows) throw new CannotSay(step.id, `${called(step)} visits the interleaved pallet ${step.pallet} by columns, which no plain loop does.`, "Visit it by rows.");
     const variable = this.names.of("frame", step.pallet), { out } = this;
     const line = this.names.fresh(`${variable}_line`), along = this.names.fresh(`${variable}_along`), layer = this.names.fresh(`${variable}_layer`), at = this.names.fresh(`${variable}_at`);
@@ -153,7 +153,7 @@ export class ProgramWriter {
     const count = isShifted ? `${inLine} - ${line} % 2` : `${inLine}`;
     const visit = (): void => {
       out.add(`${at} = ${along}`, step.id);
-      if (order.endsWith("zigzag")) {
+      if (order.endsWith("zigzag") && lines > 1 && inLine > 1) {
         out.block(`if ${line} % 2 == 1:`, "end", step.id, () => { out.add(`${at} = ${isShifted ? inLine - 2 : inLine - 1} - ${along}`, step.id); });
       }
       out.add(`global ${variable} = ${this.placeText(pallet, layer, line, at)}`, step.id);
@@ -169,7 +169,7 @@ export class ProgramWriter {
     const isFree = pallet.frame === "world", toController = compose(controllerFromBase(this.robot), this.place.baseFromWorld);
     const seen = (v: Vector3): Vector3 => isFree ? rotate(toController.quaternion, v) : v, origin = isFree ? compose(toController, compose(pose<"world", "frame">(), pallet.origin)) : pallet.origin;
     const pitch = palletPitch(pallet), byRows = (pallet.order ?? "rows").startsWith("rows"), along = seen(byRows ? pitch.column : pitch.row), away = seen(byRows ? pitch.row : pitch.column);
-    const up = seen(pallet.layers > 1 ? pitch.layer : [0, 0, 0]), isShifted = pallet.interleave === "odd-rows-shifted";
+    const up = seen(pallet.layers > 1 ? pitch.layer : [0, 0, 0]), isShifted = pallet.interleave === "odd-rows-shifted" && pallet.rows > 1;
     const term = (step_m: number, factor: string): string => fine(step_m) === "0" ? "" : ` ${step_m < 0 ? "-" : "+"} ${fine(Math.abs(step_m))} * ${factor}`;
     const place = ([0, 1, 2] as const).map(i =>
       `${fine(origin.position[i])}${term(along[i], isShifted ? `(${at} + 0.5 * (${line} % 2))` : at)}${term(away[i], line)}${term(up[i], layer)}`);

@@ -1,0 +1,3 @@
+export * from "./stretch.ts";
+export * from "./continuity.ts";
+export * from "./choose.ts";

@@ -1,0 +1,104 @@
+import { compose, inverse, type MoveStep, type Pose, type Robot, type Target } from "@twincell/core";
+import type { AxisConvention, PulseData } from "../robots.ts";
+import type { Controller } from "./controller.ts";
+import { axisValues, pulseText, rconfText, rectanPose, rectanText } from "./location.ts";
+import type { Place } from "./postures.ts";
+import { TextWriter } from "./text-writer.ts";
+
+/** Where the robot is after a motion, as the text says it: what arcs and curves begin with once more. */
+export interface Arrival {
+  readonly q_rad: ArrayLike<number>;
+  /** Undefined in jobs that hold pulses. */
+  readonly written: { readonly frame: string; readonly tool: string; readonly text: string } | undefined;
+}
+
+/** The positions of a job. Settings are written where they change. */
+export class Points {
+  readonly out = new TextWriter();
+  count = 0;
+  private readonly place: Place;
+  private readonly controller: Controller;
+  private readonly convention: AxisConvention;
+  private readonly pulses: PulseData | undefined;
+  private readonly robot: Robot;
+  private user = "";
+  private tool = "";
+  private type = "";
+  private rconf = "";
+
+  constructor(place: Place, controller: Controller, convention: AxisConvention, pulses: PulseData | undefined) {
+    this.place = place;
+    this.robot = place.robot;
+    this.controller = controller;
+    this.convention = convention;
+    this.pulses = pulses;
+  }
+
+  /** Adds a point and returns its name and where the robot is then. */
+  add({ id }: MoveStep, target: Target, frame: string, tool: string, q_rad: ArrayLike<number>): { readonly name: string; readonly arrival: Arrival } {
+    if (this.pulses !== undefined) return { name: this.pulsePoint(id, tool, q_rad), arrival: { q_rad, written: undefined } };
+    const text = rectanText(this.inFrame(target, frame, tool));
+    return { name: this.rectanPoint(id, frame, tool, text, q_rad), arrival: { q_rad, written: { frame, tool, text } } };
+  }
+
+  /** The place where the robot is, once more, as a point of an arc or a curve. */
+  repeat({ id }: MoveStep, arrival: Arrival, frame: string, tool: string): string {
+    const { q_rad, written } = arrival;
+    if (this.pulses !== undefined) return this.pulsePoint(id, tool, q_rad);
+    if (written?.frame === frame && written.tool === tool) return this.rectanPoint(id, frame, tool, written.text, q_rad);
+    const { frame: before, tool: by, text } = written!;
+    const worldFromFlange = compose(compose(this.worldFrom(before), rectanPose<"frame", "tcp">(text)), inverse(rectanPose<"flange", "tcp">(rectanText(this.place.tool(by)))));
+    const tip = compose(inverse(this.worldFrom(frame)), compose(worldFromFlange, rectanPose<"flange", "tcp">(rectanText(this.place.tool(tool)))));
+    return this.rectanPoint(id, frame, tool, rectanText(tip), q_rad);
+  }
+
+  /** A variable for shifts, at 0. */
+  variable(name: string): void {
+    this.settings("world", "flange", "BASE");
+    this.out.add(`P${name.slice(1).padStart(4, "0")}=0.000,0.000,0.000,0.0000,0.0000,0.0000`);
+  }
+
+  private inFrame(target: Target, frame: string, tool: string): Pose {
+    if ("pose" in target && target.frame === frame && frame !== "world") return target.pose;
+    const worldFromTcp = this.place.worldFromTarget(target, tool);
+    return frame === "world" ? compose(this.place.vendorFromWorld, worldFromTcp) : compose(inverse(this.place.worldFromFrame(frame)), worldFromTcp);
+  }
+
+  /** A frame as the text has it. */
+  private worldFrom(frame: string): Pose<"world", "frame"> {
+    const worldFromVendor = inverse(this.place.vendorFromWorld);
+    return frame === "world" ? worldFromVendor as Pose as Pose<"world", "frame"> : compose(worldFromVendor, rectanPose<"vendor-world", "frame">(rectanText(this.controller.vendorFromFrame(frame))));
+  }
+
+  private pulsePoint(id: string, tool: string, q_rad: ArrayLike<number>): string {
+    this.settings("", tool, "PULSE");
+    return this.point(id, pulseText(axisValues(q_rad, this.convention), this.pulses!.pulsesPerDegree));
+  }
+
+  private rectanPoint(id: string, frame: string, tool: string, text: string, q_rad: ArrayLike<number>): string {
+    this.settings(frame === "world" ? "" : frame, tool, frame === "world" ? "BASE" : "USER");
+    const rconf = rconfText(this.robot, q_rad, axisValues(q_rad, this.convention));
+    if (rconf !== this.rconf) this.out.add(`///RCONF ${rconf}`);
+    this.rconf = rconf;
+    return this.point(id, text);
+  }
+
+  private settings(frame: string, tool: string, type: string): void {
+    const user = frame === "" || frame === "world" ? this.user : `///USER ${this.controller.user(frame)}`, toolLine = `///TOOL ${this.controller.tool(tool)}`;
+    if (user !== this.user) this.out.add(user);
+    if (toolLine !== this.tool) this.out.add(toolLine);
+    if (type !== this.type) {
+      this.out.add(`///POSTYPE ${type}`);
+      this.out.add(type === "PULSE" ? "///PULSE" : "///RECTAN");
+    }
+    this.user = user;
+    this.tool = toolLine;
+    this.type = type;
+  }
+
+  private point(id: string, text: string): string {
+    const name = `C${String(this.count++).padStart(5, "0")}`;
+    this.out.add(`${name}=${text}`, id);
+    return name;
+  }
+}
