@@ -28,4 +28,9 @@ export interface CellGeometry {
 }
 
 /** Two solids that touch. Names are those of links ("link 4"), "tool", or ids of objects. */
-export interface Contact { readonly a: string; readonly b: string }
+export interface Contact {
+  readonly a: string;
+  readonly b: string;
+  /** "self": two parts of the robot, its tool among them; "other": one of them is an object, held or not (row X-12). */
+  readonly between: "self" | "other";
+}
