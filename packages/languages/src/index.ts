@@ -1,11 +1,13 @@
 import { emptyProgram, type Dialect, type Robot } from "@twincell/core";
 import { inform } from "./inform/index.ts";
 import { krl } from "./krl/index.ts";
+import { poseList } from "./l-irl/index.ts";
 import { rapid } from "./rapid/index.ts";
 import { urScript } from "./urscript/index.ts";
 import { vPlus } from "./v-plus/index.ts";
 
 export { EXAMPLE_PULSES, inform, informDialect, informExamplePulses, type InformOptions, type PulseData } from "./inform/index.ts";
+export { loadPoses, poseList, savePoses, type LoadedPoses } from "./l-irl/index.ts";
 export { rapid } from "./rapid/index.ts";
 export { urScript } from "./urscript/index.ts";
 export { emitPtpAxis, krl } from "./krl/index.ts";
@@ -13,7 +15,7 @@ export { vPlus } from "./v-plus/index.ts";
 export * from "./prove.ts";
 
 /** Every dialect. A new one is a folder and one line here. */
-export const DIALECTS: readonly Dialect[] = [vPlus, krl, inform, urScript, rapid];
+export const DIALECTS: readonly Dialect[] = [vPlus, krl, inform, urScript, rapid, poseList];
 
 /** The dialect of that id, or undefined. */
 export const dialectById = (id: string): Dialect | undefined => DIALECTS.find(dialect => dialect.id === id);

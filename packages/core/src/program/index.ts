@@ -12,3 +12,4 @@ export * from "./stepper.ts";
 export * from "./check.ts";
 export { NEAR_LIMIT_RAD } from "./checks/limits.ts";
 export { NEAR_SINGULAR_RAD } from "./checks/singular.ts";
+export * from "./coords.ts";
