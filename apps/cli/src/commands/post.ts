@@ -1,4 +1,4 @@
-import { pose } from "@twincell/core";
+import { pose, withBranches } from "@twincell/core";
 import { proveText, runnableFile } from "@twincell/languages";
 import { given } from "../io/arguments.ts";
 import { dialectOf } from "../io/dialect.ts";
@@ -20,9 +20,11 @@ dialect's own interpreter and compared with the plan first; text that does not s
     const [path] = options.positionals, folder = options.text("out"), cellPath = options.text("cell");
     if (path === undefined) throw new UseFault("PROGRAM is missing.", "Give the path of a program file.");
     if (folder === undefined) throw new UseFault("-o DIR is missing.", "Give the folder to write to.");
-    const dialect = dialectOf("to", options.text("to")), { program, robot } = await readProgram(path);
+    const dialect = dialectOf("to", options.text("to")), { program: taught, robot } = await readProgram(path);
     const worldFromBase = cellPath === undefined ? pose<"world", "base">() : (await readCell(cellPath)).robot.worldFromBase;
 
+    // A controller takes the nearest posture: where the checked plan takes another one, the text says so.
+    const program = withBranches(taught, robot, { where: "needed", worldFromBase });
     const emitted = dialect.emit(program, robot, worldFromBase);
     if (emitted.kind === "cannot") {
       process.stderr.write(`twincell: ${emitted.step ? `Step ${emitted.step}: ` : ""}${emitted.sentence} ${emitted.hint}\n`);
