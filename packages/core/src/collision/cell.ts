@@ -7,6 +7,8 @@ export interface CellObject {
   readonly name: string;
   readonly worldFromObject: Pose<"world", "object">;
   readonly mesh: TriangleMesh;
+  /** What may stand on it, where that is known [kg]. */
+  readonly carries_kg?: number;
 }
 
 /** The solid of one robot link, in that link's frame (link 0 is the base). */
