@@ -12,5 +12,6 @@ export { SolidShelf } from "./bodies.ts";
 export * from "./cell-collider.ts";
 export * from "./motion.ts";
 export * from "./certificate.ts";
+export * from "./matrix.ts";
 export * from "./tip.ts";
 export * from "./watch.ts";
