@@ -11,5 +11,7 @@ export * from "./solid.ts";
 export { SolidShelf } from "./bodies.ts";
 export * from "./cell-collider.ts";
 export * from "./motion.ts";
+export * from "./certificate.ts";
+export * from "./matrix.ts";
 export * from "./tip.ts";
 export * from "./watch.ts";

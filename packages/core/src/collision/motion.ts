@@ -26,7 +26,12 @@ export interface MotionOptions {
   /** How near to the margin the answer may be undecided; it then counts as contact [m]. */
   readonly resolution_m?: number;
   readonly maxChecks?: number;
+  /** Receives what was proven, piece by piece; with the verdict "clear" it is the certificate (see `certificate.ts`). */
+  readonly proof?: CertifiedPiece[];
 }
+
+/** A pair and a stretch of the motion during which it is proven to be more than `atLeast_m` apart [m]. */
+export interface CertifiedPiece { readonly a: string; readonly b: string; readonly from: number; readonly to: number; readonly atLeast_m: number }
 
 /**
  * Whether a whole motion keeps its distance: not only at samples, but between them.
@@ -41,7 +46,7 @@ export interface MotionOptions {
 export function checkMotion(
   collider: CellCollider, motion: JointMotion, from: number, to: number, options: MotionOptions = {},
 ): MotionVerdict {
-  const { margin_m = 0, resolution_m = 0.0002, maxChecks = 100_000, keepsMargin = () => true } = options;
+  const { margin_m = 0, resolution_m = 0.0002, maxChecks = 100_000, keepsMargin = () => true, proof } = options;
   const pairs = collider.pairs, rates = pairs.map(pair => relativeRate(pair, motion.maxRate));
   const turns = pairs.map(pair => relativeTurn(pair, motion.maxRate));
   const margins = pairs.map(pair => (keepsMargin(pair) ? marginOf(pair, margin_m, collider.shapeError_m) : 0));
@@ -57,7 +62,10 @@ export function checkMotion(
     checks++;
     for (const i of interval.open) {
       const pair = pairs[i]!, margin = margins[i]!, drift = rates[i]! * half;
-      if (collider.keepsApart(pair, margin + drift - turns[i]! * half * radiusOf(pair), turns[i]! * half)) continue;
+      if (collider.keepsApart(pair, margin + drift - turns[i]! * half * radiusOf(pair), turns[i]! * half)) {
+        proof?.push({ a: pair.contact.a, b: pair.contact.b, from: interval.from, to: interval.to, atLeast_m: provenAt(collider, pair, margin, drift) });
+        continue;
+      }
       if (drift <= resolution_m) {
         const distance_m = collider.distanceOf(pair, margin + resolution_m);
         return { kind: "contact", at: middle, ...pair.contact, distance_m, margin_m: margin, checks };
@@ -73,14 +81,26 @@ export function checkMotion(
   return { kind: "clear", checks };
 }
 
+/** Distances farther beyond the margin than this are not measured for a certificate [m]. */
+const PLENTY_M = 0.1;
+
+/** Half of what is left above the margin after the drift is claimed, so that whoever proves it again has room for a coarser bound. */
+function provenAt(collider: CellCollider, pair: SolidPair, margin_m: number, drift_m: number): number {
+  const distance_m = Math.min(collider.distanceOf(pair, margin_m + drift_m + PLENTY_M), margin_m + drift_m + PLENTY_M);
+  return margin_m + Math.max(0, distance_m - drift_m - margin_m) / 2;
+}
+
 interface Interval { readonly from: number; readonly to: number; readonly open: readonly number[] }
 
 /** The straight line in joint space from one posture to the other, t from 0 to 1. */
 export function checkJointLine(collider: CellCollider, fromQ: ArrayLike<number>, toQ: ArrayLike<number>, options: MotionOptions = {}): MotionVerdict {
-  const maxRate = Float64Array.from(fromQ, (q, i) => Math.abs(toQ[i]! - q));
-  const sample = (t: number, out: Float64Array): void => { for (let i = 0; i < out.length; i++) out[i] = fromQ[i]! + t * (toQ[i]! - fromQ[i]!); };
-  return checkMotion(collider, { sample, maxRate }, 0, 1, options);
+  return checkMotion(collider, jointLine(fromQ, toQ), 0, 1, options);
 }
+
+export const jointLine = (fromQ: ArrayLike<number>, toQ: ArrayLike<number>): JointMotion => ({
+  maxRate: Float64Array.from(fromQ, (q, i) => Math.abs(toQ[i]! - q)),
+  sample: (t, out) => { for (let i = 0; i < out.length; i++) out[i] = fromQ[i]! + t * (toQ[i]! - fromQ[i]!); },
+});
 
 const outerOf = ({ a, b }: SolidPair): Body => (a.carrier > b.carrier ? a : b);
 const radiusOf = (pair: SolidPair): number => outerOf(pair).solid.radius_m;

@@ -158,6 +158,24 @@ describe("collision in a program", () => {
     expect(verdict.ok).toBe(false);
   });
 
+  test("M-49 one report: reach and orientation of a target, clearance and collision on the way, each with its number", () => {
+    const back: Quaternion = fromAxisAngle([0, 1, 0], -Math.PI / 2);
+    const far = move("far", "ptp", at([1.6, 0, 0.4])), turned = move("turned", "ptp", at([0.68, 0, 0.3], back));
+    const targets = check(programOf(left, far, turned), { cell: cell() });
+    expect(findingOf(targets, "far", "reach.too-far")).toMatchObject({ unit: "m" });
+    const orientation = findingOf(targets, "turned", "limits.joint");
+    expect(orientation).toMatchObject({ joint: 5, unit: "rad" });
+    expect(orientation.repairs.map(({ sentence }) => sentence).join()).toMatch(/^Tilt the tool by /);
+    const high = move("high", "ptp", at([0.55, 0.2, 0.5])), free = check(programOf(high), { cell: cell() });
+    expect(free.ok).toBe(true);
+    expect(free.clearance_m).toBeGreaterThan(0.05);
+    expect(free.clearance_m).toBeLessThan(0.3);
+    const blocked = check(programOf(left, across), { cell: cell() });
+    // The first contact is found to within 0.2 mm of distance.
+    expect(findingOf(blocked, "across", "collision.contact").value).toBeLessThan(0.0005);
+    expect(blocked.clearance_m).toBe(0);
+  });
+
   test("pairs that may touch are not reported", () => {
     const contacts = (pairs: CellGeometry["allowedPairs"]): number => reportOf(check(programOf(left, across), { cell: cell(pairs) }), "across").findings.length;
     expect(contacts([])).toBe(1);
