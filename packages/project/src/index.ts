@@ -5,3 +5,4 @@ export * from "./programs.ts";
 export * from "./history.ts";
 export * from "./mesh/index.ts";
 export * from "./example/index.ts";
+export * from "./saved-poses.ts";
