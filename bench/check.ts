@@ -1,5 +1,5 @@
 import {
-  checkProgram, emptyProgram, linkSolids, robotById, seededRandom, type Pose, type Program, type Quaternion, type Robot, type Step, type Vector3,
+  checkProgram, emptyProgram, flangePose, linkSolids, robotById, seededRandom, type Pose, type Program, type Quaternion, type Robot, type Step, type Vector3,
 } from "@twincell/core";
 import { cellGeometry, edgeTraceCell } from "@twincell/project";
 import { figure, type Figure } from "./figure.ts";
@@ -11,7 +11,7 @@ const JOINT_MOVES = 200;
 /**
  * A program of 10,000 poses checked whole: postures, limits, speeds, singular postures, and contact proven along every
  * motion against the robot itself, table, carton and walls of the edge-trace cell: straight moves 2 mm apart, blended like
- * a traced edge, and the same with a stop at each pose. Beside it 200 far joint moves between seeded postures.
+ * a traced edge, the same with a stop at each pose, and rows that the nearest postures do not get through. Beside it 200 far joint moves between seeded postures.
  */
 export function run(): Promise<Figure[]> {
   const cell = edgeTraceCell(), robot = robotById(cell.robot.id);
@@ -19,7 +19,7 @@ export function run(): Promise<Figure[]> {
   const geometry = cellGeometry(cell, linkSolids(robot)), worldFromBase = cell.robot.worldFromBase;
   const figures: Figure[] = [];
   const programs: readonly (readonly [string, Program])[] = [
-    ["10k", traced(robot, 0.002)], ["10k-stops", traced(robot, 0)], [`joints-${JOINT_MOVES}`, jointMoves(robot)],
+    ["10k", traced(robot, 0.002)], ["10k-stops", traced(robot, 0)], ["10k-choice", chosen(robot)], [`joints-${JOINT_MOVES}`, jointMoves(robot)],
   ];
   for (const [name, program] of programs) {
     for (const withCell of [false, true]) {
@@ -53,6 +53,19 @@ function traced(robot: Robot, blend_m: number): Program {
     });
   }
   return { ...emptyProgram(robot.id, "Traced"), steps };
+}
+
+/**
+ * Rows of nine straight moves that turn the tool by 206°, each begun by a joint move to a pose taught without a posture: the nearest
+ * one runs joint 6 into its limit in every row, so that all postures of all poses have to be weighed.
+ */
+function chosen(robot: Robot): Program {
+  const row = 10, steps: Step[] = Array.from({ length: POSES }, (_, i) => {
+    const k = i % row, turn = Math.floor(i / row) * 0.05;
+    const { position, quaternion } = flangePose(robot.arm, [0.4 * Math.sin(turn) + 0.002 * k, -0.9 + 0.1 * Math.cos(turn), 2.2, 0.1, 0.7, 2.9 + 0.4 * k]);
+    return { id: `s${i}`, type: "move", path: k === 0 ? "ptp" : "lin", target: { pose: { position, quaternion }, frame: "world", tool: "flange" }, speed: k === 0 ? { ratio: 0.5 } : { mps: 0.05 }, blend_m: 0 };
+  });
+  return { ...emptyProgram(robot.id, "Rows"), steps };
 }
 
 /** Joint moves from one seeded posture to the next, all inside the limits and not far from home. */

@@ -3,10 +3,11 @@ import {
   solveGeneralSix, solveOrthoParallel, solverScratch, solveSphericalSeven, solveThreeParallel, type Pose, type Robot,
 } from "@twincell/core";
 import { collections, figure, settled, type Bench, type Figure } from "./figure.ts";
+import { eaikFigures } from "./kinematics-peers.ts";
 import { KR6_ARM } from "./robots/kr6.ts";
 
 /** More inputs than a branch predictor can learn by heart. Many rounds shorter than a time slice: the median then stands even while other processes share the cores. */
-const POSES = 8192, CALLS = 2000, ROUNDS = 301, WARM_UP = 100;
+const POSES = 8192, CALLS = 2000, ROUNDS = 301, WARM_UP = 100, PEER_POSES = 2000;
 /** The search over θ6 takes hundreds of microseconds: fewer of them make a round. */
 const SEARCHES = 40, SEARCH_ROUNDS = 61, SEARCH_WARM_UP = 20;
 const MILLION = 1_000_000;
@@ -70,6 +71,7 @@ async function figuresOf(name: string, robot: Robot, budget?: number, verifiedBu
   }
   const working = solverScratch(), q = new Float64Array(n), near = starts.map(start => start.map(angle => angle + 0.01));
   figures.push(figure(`ik/${name}-nearest`, "us", timed(i => { nearestSolution(robot, poses[i % POSES]!, near[i % POSES]!, q, working); }), "the solution inside the limits nearest to a posture 0.01 rad away in every joint, verified"));
+  if (family.kind === "ortho-parallel" || family.kind === "three-parallel") figures.push(...eaikFigures(name, arm, starts.slice(0, PEER_POSES)));
   if (!searched) figures.push(figure(`ik/${name}-collections`, "per 10⁶", [await collections(MILLION, verify)], "garbage collections; budget 0"));
   return figures;
 }

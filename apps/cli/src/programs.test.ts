@@ -120,6 +120,28 @@ describe("post, run, parse", () => {
   });
 });
 
+test("X-10 torques of a UR10e with 10 kg: check names joint and torque, simulate writes them and slows down when asked", () => {
+  const q = (shoulder: number): number[] => [0.2, shoulder, 0.4, -1.5, -1.5, 0], move = (id: string, shoulder: number): object => ({ id, type: "move", path: "ptp", target: { q: q(shoulder) }, speed: { ratio: 1 }, blend_m: 0 });
+  const path = join(folder, "heavy.json");
+  writeFileSync(path, JSON.stringify({ format: "twincell.program", version: 1, robot: "ur10e", tools: {}, frames: {}, steps: [{ id: "load", type: "payload", mass_kg: 10, center_m: [0, 0, 0.1] }, move("up", -1.6), move("out", -0.2)] }));
+  const judged = twincell("check", path);
+  expect(judged.code).toBe(1);
+  expect(judged.err).toMatch(/^Joint 2 is asked most: [\d.]+ of 330\.0 N m at [\d.]+ s\.$/m);
+  expect(judged.out).toContain("with 10 kg; its limit is");
+  const lines = twincell("simulate", path, "--torque", "--period", "0.01"), torques = lines.out.trim().split("\n").map(line => (JSON.parse(line) as { torque: number[] }).torque);
+  expect(torques.every(torque => torque.length === 6)).toBe(true);
+  const held = twincell("simulate", path, "--torque", "--within-torque", "--period", "0.01");
+  expect(held.err).toMatch(/^Step out runs at \d\d % of its speed: joint 2 would need [\d.]+ N m; its limit is 330\.0 N m\.$/m);
+  expect(moments(held.out).at(-1)!.t).toBeGreaterThan(moments(lines.out).at(-1)!.t);
+  for (const line of held.out.trim().split("\n")) expect(Math.abs((JSON.parse(line) as { torque: number[] }).torque[1]!)).toBeLessThan(330);
+  const off = twincell("simulate", path, "--accuracy", "0.2,0.4").out.trim().split("\n").map(line => JSON.parse(line) as { override: number; worst_m: number });
+  expect(off.map(({ override }) => override)).toEqual([0.2, 0.4]);
+  expect(off[1]!.worst_m).toBeGreaterThan(off[0]!.worst_m);
+  const unknown = twincell("simulate", PROGRAM, "--torque");
+  expect(unknown.code).toBe(1);
+  expect(unknown.err).toMatch(/The torques of Stäubli RX90L are unknown/);
+});
+
 test("simulate stops at the step that cannot be carried out and names it, exit 1", () => {
   const path = changed("simulate-too-far", program => { pointed(program, "s4", [4, 0, 1]); }), { code, out, sentences } = twincell("simulate", path);
   expect(code).toBe(1);

@@ -11,7 +11,7 @@ import { Studio, type StudioPage } from "./support/studio.ts";
 const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const TRACED = saveDocument(tracedCartonCell());
 const MODES: readonly StudioMode[] = ["teach", "check", "run", "history"];
-const DIALOGS = ["palette", "shortcuts", "controls", "export", "import"] as const;
+const DIALOGS = ["palette", "shortcuts", "controls", "export", "import", "robots"] as const;
 /** The picture costs most where the processor draws it. */
 const SMALL = { width: 1000, height: 600 };
 declare global { interface Window { axe: { run(root: Document, options: object): Promise<AxeResults> } } }

@@ -83,12 +83,11 @@ describe("a file that is not what it says", () => {
   test("V+ text with faults in the import dialog: line, column and sentence of each, and the text stays", async () => {
     const { page } = open, before = await documentOf(page), text = ".PROGRAM a()\nMOVE #PPOINT(1,2,3\nFLY home\n.END\n";
     await page.evaluate(() => window.twincell.run("export.import"));
-    await page.getByRole("textbox", { name: "V+ text" }).fill(text);
-    await page.getByRole("button", { name: "Import", exact: true }).click();
+    await page.getByRole("textbox", { name: "Program text" }).fill(text);
     const faults = page.getByRole("dialog").getByRole("alert").locator("li");
     await faults.first().waitFor();
     expect((await faults.allTextContents())[0]).toMatch(/^Line 2, column \d+: .+\.$/);
-    expect(await page.getByRole("textbox", { name: "V+ text" }).inputValue()).toBe(text);
+    expect(await page.getByRole("textbox", { name: "Program text" }).inputValue()).toBe(text);
     expect(await documentOf(page)).toBe(before);
     await page.keyboard.press("Escape");
     await page.getByRole("dialog").waitFor({ state: "detached" });

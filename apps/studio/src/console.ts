@@ -15,6 +15,8 @@ import { jogStore } from "./stores/jog.ts";
 import { noticeStore } from "./stores/notices.ts";
 import { openCellText } from "./stores/opening.ts";
 import { playStore } from "./stores/play.ts";
+import { foreignStore } from "./stores/foreign.ts";
+import { languageStore } from "./stores/languages.ts";
 import { postStore } from "./stores/post.ts";
 import { seek } from "./stores/seek.ts";
 import { selectionStore } from "./stores/selection.ts";
@@ -25,7 +27,7 @@ import { watchStore } from "./stores/watch.ts";
 
 /** What the browser's console and tests can reach: every store, the live state, and the commands by name. */
 const twincell = {
-  stores: { aidStore, bindingStore, cellStore, commandStore, controlStore, dialogStore, gamepadStore, historyStore, jogStore, noticeStore, playStore, postStore, selectionStore, soundStore, traceStore, viewStore, watchStore },
+  stores: { aidStore, bindingStore, cellStore, commandStore, controlStore, dialogStore, foreignStore, gamepadStore, historyStore, jogStore, languageStore, noticeStore, playStore, postStore, selectionStore, soundStore, traceStore, viewStore, watchStore },
   live: { now: theLive, touching: touchingNow, showJoints, hold, release, releaseAll, playhead: playheadNow, link: linkMeter },
   document: { commit, undo, redo, show: showDocument, open: openCellText },
   run: runCommand, seek,

@@ -5,6 +5,7 @@ export * from "./scheduler.ts";
 export * from "./spatial/index.ts";
 export * from "./robots/index.ts";
 export * from "./kinematics/index.ts";
+export * from "./torque/index.ts";
 export * from "./trajectory/index.ts";
 export * from "./dynamics/index.ts";
 export * from "./collision/index.ts";

@@ -26,9 +26,12 @@ export interface ObjectRecord {
   readonly shape: Shape;
   /** #rrggbb */
   readonly color: string;
+  /** What may stand on it, as its maker says: the robot with its load is held against it. */
+  readonly carries_kg?: number;
 }
 
-export interface FrameRecord { readonly name: string; readonly worldFromFrame: Pose<"world", "frame"> }
+/** A user frame; `saved`: a pose of the tool tip that a person saved, to go through it later (rows L-44 … L-49). */
+export interface FrameRecord { readonly name: string; readonly worldFromFrame: Pose<"world", "frame">; readonly saved?: true }
 
 /** Everything a person saves: one robot, its tools, what stands around it, and the programs taught there. */
 export interface CellDocument {

@@ -1,7 +1,7 @@
 import { readFileSync } from "node:fs";
 import fc from "fast-check";
 import { describe, expect, test } from "vitest";
-import { edgeTraceCell, emptyCell, openDocument, saveDocument, type CellDocument } from "./index.ts";
+import { cellGeometry, edgeTraceCell, emptyCell, openDocument, saveDocument, type CellDocument } from "./index.ts";
 import { NEWEST, STEPS, lift } from "./versions.ts";
 
 const kept = (version: number): string => readFileSync(new URL(`../../../fixtures/cells/v${version}.json`, import.meta.url), "utf8");
@@ -89,6 +89,15 @@ describe("opening a cell", () => {
     }), { seed: 7, numRuns: 300 });
     fc.assert(fc.property(fc.jsonValue(), value => { openDocument(JSON.stringify({ format: "twincell.cell", version: 1, ...(typeof value === "object" ? value : {}) })); }), { seed: 8, numRuns: 200 });
   });
+});
+
+test("X-09 what an object carries is kept, and is more than nothing", () => {
+  const cell = edgeTraceCell(), carrying = (carries_kg: number): string => saveDocument({ ...cell, objects: cell.objects.map((object, i) => (i === 0 ? { ...object, carries_kg } : object)) });
+  const opened = openDocument(carrying(250));
+  if (opened.kind !== "opened") throw new Error(JSON.stringify(opened));
+  expect(opened.document.objects[0]!.carries_kg).toBe(250);
+  expect(cellGeometry(opened.document, []).objects[0]!.carries_kg).toBe(250);
+  expect(openDocument(carrying(-1)).kind).toBe("not-a-cell");
 });
 
 test("a hundred thousand brackets are a sentence, not an overflow", () => {

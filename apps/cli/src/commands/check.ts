@@ -8,10 +8,11 @@ import { UseFault, type Command } from "../io/usage.ts";
 
 export const checkCommand: Command = {
   name: "check",
-  summary: "judge a program: reach, limits, speed, branches, collision",
+  summary: "judge a program: reach, limits, speed, torques, branches, collision",
   usage: `twincell check PROGRAM [--robot R] [--cell CELL] [--margin M] [--junit FILE]
 
-Writes VERDICT {"ok","steps":[{"id","verdict","findings":[…]}],…} and ends with 1 when any step is bad.
+Writes VERDICT {"ok","steps":[{"id","verdict","findings":[…]}],"torque":…,…} and ends with 1 when any step is bad. Where torques are
+known, which joint is asked most goes to stderr as well; where they are not, "torque" says why.
 
   --robot R       the robot to judge it on; the one the program names when absent
   --cell CELL     the saved cell to keep clear of; without it collisions are not looked at
@@ -29,6 +30,7 @@ ${ROBOT_HELP}`,
     const { verdict } = checkProgram(program, robot, { margin_m, ...(cell ? { cell } : {}) });
     if (junit !== undefined) await writeOne(junit, junitReport(program.name, verdict));
     process.stdout.write(`${JSON.stringify(verdict)}\n`);
+    if (verdict.torque.kind === "known") process.stderr.write(`${verdict.torque.sentence}\n`);
     return verdict.ok ? 0 : 1;
   },
 };

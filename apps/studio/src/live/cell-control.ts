@@ -1,10 +1,11 @@
 import { CellCollider, linkSolids, type Robot } from "@twincell/core";
-import { vPlus } from "@twincell/languages";
 import { cellGeometry, type CellDocument } from "@twincell/project";
 import { cellStore } from "../stores/cell.ts";
 import { registerCommands } from "../stores/commands.ts";
 import { controlStore } from "../stores/control.ts";
 import { flangeFromTcpOf, programOf, robotOf } from "../stores/document.ts";
+import { onInput } from "../stores/inputs.ts";
+import { theLanguage } from "../stores/languages.ts";
 import { notify } from "../stores/notices.ts";
 import { playStore } from "../stores/play.ts";
 import { sound } from "../stores/sound.ts";
@@ -40,7 +41,7 @@ export function theControl(): CellControl | null {
   control?.close();
   made = document;
   control = controlCell(
-    { dialect: vPlus, scheduler: pageScheduler, shelf, clock_ms: () => Date.now() },
+    { dialect: theLanguage, scheduler: pageScheduler, shelf, clock_ms: () => Date.now() },
     { robot, worldFromBase: document.robot.worldFromBase, flangeFromTcp: flangeFromTcpOf(document), isSafe: contactTest(document, robot) },
   );
   control.setOverride(playStore.getState().speed);
@@ -62,7 +63,7 @@ export async function startRun(): Promise<void> {
     case "done": sound("done"); notify("done", words.run.done(((performance.now() - began) / 1000).toFixed(2)), words.run.kept); break;
     case "stopped": notify("warn", words.run.stopped(outcome.why.sentence), outcome.why.hint); break;
     case "refused": notify("bad", words.run.refused(outcome.why.sentence), outcome.why.hint); break;
-    case "not-emitted": notify("bad", `${words.run.notEmitted} ${outcome.sentence}`, outcome.hint); break;
+    case "not-emitted": notify("bad", `${words.run.notEmitted(theLanguage()?.name ?? "")} ${outcome.sentence}`, outcome.hint); break;
     case "not-understood": notify("bad", `${words.run.notUnderstood} ${outcome.sentence}`, outcome.hint); break;
   }
 }
@@ -71,12 +72,15 @@ export async function startRun(): Promise<void> {
 export function startCellControl(): void {
   theControl();
   void theHistory.refresh();
+  // Another robot is another controller, as the chip says at once.
+  cellStore.subscribe((state, before) => { if (state.document?.robot.id !== before.document?.robot.id) theControl(); });
   onStop(() => { control?.stop(); theHistory.pause(); });
   playStore.subscribe((state, before) => { if (state.speed !== before.speed) control?.setOverride(state.speed); });
   viewStore.subscribe((state, before) => {
     if (before.mode === "history" && state.mode !== "history") theHistory.pause();
     if (state.mode === "history" && before.mode !== "history") takeRobot("history", () => { theHistory.pause(); });
   });
+  onInput((signal, value) => { theControl()?.setInput(signal, value); });
   registerCommands([
     { id: "run.start", group: "play", words: words.commands.startRun, keys: ["Mod+Shift+Enter"], run: () => { void startRun(); } },
     {

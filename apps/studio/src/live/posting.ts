@@ -1,5 +1,6 @@
 import { cellStore } from "../stores/cell.ts";
 import { programOf } from "../stores/document.ts";
+import { theLanguage } from "../stores/languages.ts";
 import { postStore } from "../stores/post.ts";
 import type { FromPoster, ToPoster } from "../workers/post-messages.ts";
 
@@ -19,9 +20,9 @@ function hired(): Worker {
 
 /** Writes the present program in the chosen language, away from the page; the answer comes through the store. */
 export function postProgram(): void {
-  const { document } = cellStore.getState(), program = programOf(document);
-  if (!document || !program || program.steps.length === 0) { id++; postStore.setState({ working: false, emitted: null, proof: null, trouble: null }); return; }
-  const message: ToPoster = { id: ++id, dialect: postStore.getState().dialect, program, robot: document.robot.id, worldFromBase: document.robot.worldFromBase };
+  const { document } = cellStore.getState(), program = programOf(document), dialect = theLanguage();
+  if (!document || !program || !dialect || program.steps.length === 0) { id++; postStore.setState({ working: false, emitted: null, proof: null, trouble: null }); return; }
+  const message: ToPoster = { id: ++id, dialect: dialect.id, program, robot: document.robot.id, worldFromBase: document.robot.worldFromBase };
   postStore.setState({ working: true });
   hired().postMessage(message);
 }

@@ -1,4 +1,4 @@
-import { manualScheduler, robotById } from "@twincell/core";
+import { manualScheduler, robotById, type Program } from "@twincell/core";
 import { vPlus } from "@twincell/languages";
 import { tracedCartonCell } from "@twincell/project";
 import { openRecording } from "@twincell/recording";
@@ -24,7 +24,7 @@ function memoryShelf(): Shelf {
 function bench(isSafe?: (q: Float64Array) => boolean) {
   const scheduler = manualScheduler(), shelf = memoryShelf();
   showJoints(robot.home_rad);
-  const control = controlCell({ dialect: vPlus, scheduler, shelf, clock_ms: () => 1_700_000_000_000 + scheduler.now_s() * 1000 }, { robot, worldFromBase, flangeFromTcp, ...(isSafe ? { isSafe } : {}) });
+  const control = controlCell({ dialect: () => vPlus, scheduler, shelf, clock_ms: () => 1_700_000_000_000 + scheduler.now_s() * 1000 }, { robot, worldFromBase, flangeFromTcp, ...(isSafe ? { isSafe } : {}) });
   return { scheduler, shelf, control };
 }
 
@@ -112,3 +112,31 @@ test("override 0 holds the robot and more lets it go on", async () => {
   expect(await outcome).toEqual({ kind: "done" });
   control.close();
 }, 60_000);
+
+test("a robot that no language speaks for runs the steps themselves, to the same end", async () => {
+  const scheduler = manualScheduler(), shelf = memoryShelf();
+  showJoints(robot.home_rad);
+  const control = controlCell({ dialect: () => null, scheduler, shelf, clock_ms: () => 1_700_000_000_000 }, { robot, worldFromBase, flangeFromTcp });
+  const outcome = control.run(program, cell.name);
+  await scheduler.elapse(3);
+  expect(controlStore.getState()).toMatchObject({ running: true, line: 0 });
+  await scheduler.elapse(120);
+  expect(await outcome).toEqual({ kind: "done" });
+  control.close();
+}, 60_000);
+
+test("an input switched by hand lets a program go on; outputs are told as the controller says them", async () => {
+  const { scheduler, control } = bench();
+  const waiting: Program = { ...program, signals: { part: { kind: "digital-in", address: 1001 }, lamp: { kind: "digital-out", address: 1 } }, steps: [
+    { id: "i", type: "wait-for", when: { signal: "part", is: true } }, { id: "o", type: "set", signal: "lamp", to: true }, { id: "w", type: "wait", s: 0.5 },
+  ] };
+  const outcome = control.run(waiting, cell.name);
+  await scheduler.elapse(2);
+  expect(controlStore.getState().signals.get("lamp")).toBeUndefined();
+  control.setInput("part", true);
+  await scheduler.elapse(2);
+  expect(await outcome).toEqual({ kind: "done" });
+  expect(controlStore.getState().signals.get("part")).toBe(true);
+  expect(controlStore.getState().signals.get("lamp")).toBe(true);
+  control.close();
+});

@@ -1,5 +1,5 @@
 import { createGuard, createTwin, createVirtualController, textSteps, type Guard, type Twin, type VirtualController } from "@twincell/controllers";
-import type { CommandOutcome, Dialect, EmittedFile, Pose, Program, Robot, Scheduler, Signals, Step } from "@twincell/core";
+import { unrolled, type CommandOutcome, type Dialect, type EmittedFile, type Pose, type Program, type Robot, type Scheduler, type Signals, type Step } from "@twincell/core";
 import { createRunRecorder, type RunRecorder } from "@twincell/recording";
 import { controlStore } from "../stores/control.ts";
 import { historyStore, type RunEnding } from "../stores/history.ts";
@@ -18,16 +18,17 @@ export interface RunSetting {
 }
 
 export interface RunWorld {
-  readonly dialect: Dialect;
+  /** The language programs are run in; null when none speaks for the robot: then the steps themselves run. */
+  readonly dialect: () => Dialect | null;
   readonly scheduler: Scheduler;
   readonly shelf: Shelf;
   /** Wall clock, milliseconds since 1970. */
   readonly clock_ms: () => number;
 }
 
-/** The text that runs, and which step each of its lines came from. */
+/** What runs: a text of which each line came from a step, or with no text the steps themselves. */
 export type Prepared =
-  | { readonly kind: "ready"; readonly file: EmittedFile; readonly steps: () => Iterable<Step>; readonly context: Pick<Program, "tools" | "frames"> }
+  | { readonly kind: "ready"; readonly file: EmittedFile | null; readonly steps: () => Iterable<Step>; readonly context: Pick<Program, "tools" | "frames"> }
   | { readonly kind: "not-emitted" | "not-understood"; readonly sentence: string; readonly hint: string };
 
 const TELL_EVERY_S = 0.1;
@@ -36,7 +37,11 @@ const TELL_EVERY_S = 0.1;
  * Emits the program, interprets that very text, and gives the steps it amounts to. A step of the text keeps the id of the
  * program step its line was written for, so that screen and recording speak of the same thing.
  */
-export function prepareRun(dialect: Dialect, program: Program, { robot, worldFromBase }: Pick<RunSetting, "robot" | "worldFromBase">, onLine: (step: string, line: number) => void, signals?: Signals): Prepared {
+export function prepareRun(dialect: Dialect | null, program: Program, { robot, worldFromBase }: Pick<RunSetting, "robot" | "worldFromBase">, onLine: (step: string, line: number) => void, signals?: Signals): Prepared {
+  if (dialect === null) {
+    const alone = function* (): Generator<Step> { for (const step of unrolled(program, signals)) { onLine(step.id, 0); yield step; } };
+    return { kind: "ready", file: null, steps: alone, context: program };
+  }
   const emitted = dialect.emit(program, robot, worldFromBase);
   if (emitted.kind === "cannot") return { kind: "not-emitted", sentence: emitted.sentence, hint: emitted.hint };
   const file = dialect.runnable?.(emitted.files) ?? emitted.files[0]!;
@@ -63,16 +68,29 @@ function programNames(mine: Program["signals"], theirs: Program["signals"]): (si
   const byNumber = new Map(Object.entries(mine).map(([name, { address }]) => [address, name]));
   return signal => { const address = theirs[signal]?.address; return (address === undefined ? undefined : byNumber.get(address)) ?? signal; };
 }
+const sameLines = (a: ReadonlyMap<string, boolean | number>, b: ReadonlyMap<string, boolean | number>): boolean => a.size === b.size && [...a].every(([name, value]) => b.get(name) === value);
 function withSignals(step: Step, called: (signal: string) => string): Step {
   if (step.type === "set") return { ...step, signal: called(step.signal) };
   return step.type === "wait-for" ? { ...step, when: { ...step.when, signal: called(step.when.signal) } } : step;
 }
 
 
+/** A run under way. */
+export interface RunSession {
+  /** Carries out these steps; resolves when the robot stands. */
+  part(steps: Iterable<Step>, context: Pick<Program, "tools" | "frames">): Promise<CommandOutcome>;
+  /** The line a step came from is shown while it runs. */
+  onLine(step: string, line: number): void;
+  /** Ends the recording. */
+  end(outcome: CommandOutcome): Promise<void>;
+}
+
 /** The virtual controller of the page, its guard and its twin, for as long as the cell is open. */
 export interface CellControl {
   /** Carries out the program's exported text. Resolves when it is done, stopped or refused. */
   run(program: Program, cellName: string): Promise<CommandOutcome | Exclude<Prepared, { kind: "ready" }>>;
+  /** Begins a run that is handed over in parts, one after the other: a text with breakpoints. Refused while one is under way. */
+  begin(program: string, cellName: string): RunSession | Exclude<CommandOutcome, { kind: "done" }>;
   stop(emergency?: boolean): void;
   reset(): CommandOutcome;
   /** 0 … 1; 0 holds. */
@@ -81,6 +99,10 @@ export interface CellControl {
   setMode(mode: "manual" | "automatic"): void;
   readonly twin: Twin;
   readonly guard: Guard;
+  /** The lines in and out of the virtual controller. */
+  readonly signals: Signals;
+  /** What is connected to an input says this from now on. */
+  setInput(signal: string, value: boolean | number): void;
   close(): void;
 }
 
@@ -114,9 +136,11 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
     const urgent = sample.safety !== known.safety || sample.mode !== known.mode || (running && sample.step !== known.step && sample.step !== "");
     if (!urgent && now_s - told_s < TELL_EVERY_S) return;
     told_s = now_s;
+    const { signals } = known, said = sample.signals;
     const { mirror_rad, command_rad } = twin.accuracy;
     controlStore.setState({
       mode: sample.mode, safety: sample.safety, step: sample.step, line: lines.get(sample.step) ?? 0, message: sample.message,
+      signals: said === undefined || sameLines(said, signals) ? signals : new Map(said),
       latency_ms: Math.max(0, (now_s - begun_s - sample.time_s) * 1000), twinError_rad: Math.max(mirror_rad, command_rad),
     });
   });
@@ -124,29 +148,41 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
   controlStore.setState({ controller: virtual.name, running: false, message: "", safety: "normal", mode: "automatic", line: 0, step: "" });
 
   async function run(program: Program, cellName: string): Promise<CommandOutcome | Exclude<Prepared, { kind: "ready" }>> {
-    lines.clear();
-    const prepared = prepareRun(world.dialect, program, { robot, worldFromBase }, (step, line) => lines.set(step, line), virtual.signals);
+    const prepared = prepareRun(world.dialect(), program, { robot, worldFromBase }, (step, line) => lines.set(step, line), virtual.signals);
     if (prepared.kind !== "ready") return prepared;
+    const session = begin(program.name, cellName);
+    if ("kind" in session) return session;
+    const outcome = await session.part(prepared.steps(), prepared.context);
+    await session.end(outcome);
+    return outcome;
+  }
+
+  function begin(program: string, cellName: string): RunSession | Exclude<CommandOutcome, { kind: "done" }> {
+    lines.clear();
     // A virtual robot may jump (row T-18): it starts from where the robot on screen stands.
     const jumped = virtual.jumpTo(theLive().q_rad);
     if (jumped.kind !== "done") return jumped;
 
     const startedAt = new Date(world.clock_ms()), id = startedAt.toISOString().replace(/[:.]/g, "-");
-    const file = openRunFile(world.shelf, id), name = `${cellName} · ${program.name}`;
-    recorder = createRunRecorder(file.sink, { robot, startedAt_ns: BigInt(startedAt.getTime()) * 1_000_000n, program: program.name, cell: cellName, chunk_s: 0.5 });
+    const file = openRunFile(world.shelf, id), name = `${cellName} · ${program}`;
+    recorder = createRunRecorder(file.sink, { robot, startedAt_ns: BigInt(startedAt.getTime()) * 1_000_000n, program, cell: cellName, chunk_s: 0.5 });
     const from_s = scheduler.now_s();
     const note = (ending: RunEnding): void => { file.note({ id, name, startedAt: startedAt.toISOString(), duration_s: scheduler.now_s() - from_s, bytes: file.sink.position, ending }); };
     note("running");
-    recorder.event("run", `The run of ${program.name} began.`);
+    recorder.event("run", `The run of ${program} began.`);
     running = true;
     twin.clearLog();
     linkMeter.reset();
     controlStore.setState({ running: true, twinError_rad: 0 });
-    const outcome = await twin.run(prepared.steps(), prepared.context);
-    running = false;
-    await endRecording(file, outcome, note);
-    controlStore.setState({ running: false, message: outcome.kind === "done" ? "" : outcome.why.sentence });
-    return outcome;
+    return {
+      part: (steps, context) => twin.run(steps, context),
+      onLine: (step, line) => { lines.set(step, line); },
+      async end(outcome) {
+        running = false;
+        await endRecording(file, outcome, note);
+        controlStore.setState({ running: false, message: outcome.kind === "done" ? "" : outcome.why.sentence });
+      },
+    };
   }
 
   async function endRecording(file: RunFile, outcome: CommandOutcome, note: (ending: RunEnding) => void): Promise<void> {
@@ -161,7 +197,8 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
   }
 
   return {
-    run, twin, guard,
+    run, begin, twin, guard, signals: virtual.signals,
+    setInput: (signal, value) => { virtual.atTheRobot.setInput(signal, value); },
     stop(emergency = false) { guard.stop(emergency); },
     reset: () => seat.robot.reset(),
     setOverride: part => twin.setSpeed(Math.round(Math.min(1, Math.max(0, part)) * 100)),

@@ -15,8 +15,10 @@ export interface ControlState {
   /** Largest joint difference between twin and controller in this run [rad]. */
   readonly twinError_rad: number;
   readonly message: string;
+  /** What the lines in and out say, by name. */
+  readonly signals: ReadonlyMap<string, boolean | number>;
 }
 export const controlStore = createStore<ControlState>(() => ({
   controller: "Virtual robot", mode: "automatic", safety: "normal", commander: "you", latency_ms: null,
-  running: false, step: "", line: 0, twinError_rad: 0, message: "",
+  running: false, step: "", line: 0, twinError_rad: 0, message: "", signals: new Map(),
 }));

@@ -1,8 +1,9 @@
 import { bindingStore, type Bindings } from "./bindings.ts";
+import { languageStore } from "./languages.ts";
 import { viewStore, type ViewState } from "./view.ts";
 
 /** Choices of the person, not of the cell: kept beside the document, never in it. */
-interface Preferences { readonly theme?: ViewState["theme"]; readonly muted?: boolean; readonly coachDone?: boolean; readonly plots?: boolean; readonly bindings?: Bindings }
+interface Preferences { readonly theme?: ViewState["theme"]; readonly muted?: boolean; readonly coachDone?: boolean; readonly plots?: boolean; readonly bindings?: Bindings; readonly languages?: Readonly<Record<string, string>> }
 export interface TextStore { getItem(key: string): string | null; setItem(key: string, text: string): void }
 const KEY = "twincell.preferences";
 
@@ -13,13 +14,14 @@ export function keepPreferences(store: TextStore, prefersLight: boolean): () => 
     theme: kept.theme ?? (prefersLight ? "light" : "dark"), muted: kept.muted ?? false, coachDone: kept.coachDone ?? false, plots: kept.plots ?? false,
   });
   if (kept.bindings) bindingStore.setState(kept.bindings);
+  if (kept.languages) languageStore.setState({ chosen: kept.languages });
   const write = (): void => {
     const { theme, muted, coachDone, plots } = viewStore.getState();
     const { keyboard, buttons, axes } = bindingStore.getState();
-    try { store.setItem(KEY, JSON.stringify({ theme, muted, coachDone, plots, bindings: { keyboard, buttons, axes } })); }
+    try { store.setItem(KEY, JSON.stringify({ theme, muted, coachDone, plots, bindings: { keyboard, buttons, axes }, languages: languageStore.getState().chosen })); }
     catch { return; } // a full or forbidden store: the choice holds until the page closes
   };
-  const stops = [viewStore.subscribe(write), bindingStore.subscribe(write)];
+  const stops = [viewStore.subscribe(write), bindingStore.subscribe(write), languageStore.subscribe(write)];
   return () => { for (const stop of stops) stop(); };
 }
 
@@ -28,10 +30,11 @@ function read(store: TextStore): Preferences {
   try { raw = JSON.parse(store.getItem(KEY) ?? "{}"); } catch { return {}; } // damaged: start with defaults
   if (typeof raw !== "object" || raw === null) return {};
   const has = (key: string): unknown => Reflect.get(raw, key);
-  const theme = has("theme"), bindings = readBindings(has("bindings"));
+  const theme = has("theme"), bindings = readBindings(has("bindings")), languages = has("languages");
   return {
     ...(theme === "dark" || theme === "light" ? { theme } : {}),
     ...(bindings ? { bindings } : {}),
+    ...(typeof languages === "object" && languages !== null ? { languages: Object.fromEntries(Object.entries(languages).filter((entry): entry is [string, string] => typeof entry[1] === "string")) } : {}),
     muted: has("muted") === true, coachDone: has("coachDone") === true, plots: has("plots") === true,
   };
 }

@@ -258,7 +258,7 @@ export class CellCollider {
       const [a, b] = [this.#bodies[i]!, this.#bodies[j]!], key = keyOf(a.name, b.name), before = known.get(key);
       if (this.#allowed.has(key) || !mayMeet(a, b)) continue;
       const same = before?.a === a && before.b === b;
-      this.#pairs.push(same ? before : { a, b, contact: { a: a.name, b: b.name }, witness: new Int32Array(2).fill(-1), tooNear: new Int32Array(2).fill(-1), hits: 0 });
+      this.#pairs.push(same ? before : { a, b, contact: { a: a.name, b: b.name, between: a.kind === "object" || b.kind === "object" ? "other" : "self" }, witness: new Int32Array(2).fill(-1), tooNear: new Int32Array(2).fill(-1), hits: 0 });
     }
     this.#pairs.sort((p, q) => q.hits - p.hits);
   }

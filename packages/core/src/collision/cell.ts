@@ -7,6 +7,8 @@ export interface CellObject {
   readonly name: string;
   readonly worldFromObject: Pose<"world", "object">;
   readonly mesh: TriangleMesh;
+  /** What may stand on it, where that is known [kg]. */
+  readonly carries_kg?: number;
 }
 
 /** The solid of one robot link, in that link's frame (link 0 is the base). */
@@ -26,4 +28,9 @@ export interface CellGeometry {
 }
 
 /** Two solids that touch. Names are those of links ("link 4"), "tool", or ids of objects. */
-export interface Contact { readonly a: string; readonly b: string }
+export interface Contact {
+  readonly a: string;
+  readonly b: string;
+  /** "self": two parts of the robot, its tool among them; "other": one of them is an object, held or not (row X-12). */
+  readonly between: "self" | "other";
+}

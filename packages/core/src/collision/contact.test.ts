@@ -2,7 +2,7 @@ import { describe, expect, test } from "vitest";
 import { BufferAttribute, BufferGeometry, Matrix4, Quaternion as ThreeQuaternion, Vector3 as ThreeVector } from "three";
 import { MeshBVH } from "three-mesh-bvh";
 import {
-  boxMesh, buildBvh, buildSolid, cylinderMesh, fromAxisAngle, inverse, mergeMeshes, pairScratch, pose, rigidFromPose, scaleMesh, seededRandom, solidDistance,
+  boxMesh, buildBvh, buildSolid, cylinderMesh, fromAxisAngle, inverse, mergeMeshes, pairScratch, pointInside, pose, revolvedMesh, rigidFromPose, scaleMesh, seededRandom, solidDistance,
   solidsTouch, sphereMesh, surfaceDistance, surfacesTouch, torusMesh, transformPoint, triangleDistance2, trianglesTouch,
   type Pose, type TriangleMesh, type Vector3,
 } from "../index.ts";
@@ -134,6 +134,17 @@ describe("L-72 concave parts keep their hollows", () => {
     expect(gap(ring, peg, pose([0.019, 0, 0]), 0.0005)).toBe(Infinity);
   });
 
+  test("a probe in a cup, in a hole and between two prongs touches nothing though the hull of the part holds it", () => {
+    const probe = sphereMesh(0.01), cup = revolvedMesh([[0, 0], [0.05, 0], [0.05, 0.1], [0.045, 0.1], [0.045, 0.005], [0, 0.005]], 48);
+    expect(touch(cup, probe, pose([0, 0, 0.05]))).toBe(false);
+    expect(gap(cup, probe, pose([0, 0, 0.05]))).toBeCloseTo(0.035, 3);
+    expect(touch(cup, probe, pose([0, 0, 0.012]))).toBe(true);
+    expect(touch(ring, probe)).toBe(false);
+    const fork = mergeMeshes([{ mesh: boxMesh([0.3, 0.05, 0.02]) }, ...[-0.1, 0.1].map(x => ({ mesh: boxMesh([0.02, 0.3, 0.02]), pose: pose([x, 0.15, 0]) }))]);
+    expect(touch(fork, probe, pose([0, 0.2, 0]))).toBe(false);
+    expect(touch(fork, probe, pose([0.085, 0.2, 0]))).toBe(true);
+  });
+
   test("1 mm further in it touches; tilted far enough it touches too", () => {
     expect(touch(ring, peg, pose([0.021, 0, 0]))).toBe(true);
     expect(gap(ring, peg, pose([0.021, 0, 0]))).toBe(0);
@@ -178,6 +189,36 @@ describe("one solid inside another is contact", () => {
   test("rays through corners and edges count once", () => {
     const centre = pose([0, 0, 0]);
     for (const mesh of [big, sphereMesh(0.5, 8, 4), cylinderMesh(0.5, 1, 4)]) expect(touch(mesh, scaleMesh(small, 0.01), centre)).toBe(true);
+  });
+});
+
+describe("parts of one mesh that overlap are inside throughout", () => {
+  const cube = boxMesh([1, 1, 1]), crumb = sphereMesh(0.05), twice = (by: Vector3): TriangleMesh => mergeMeshes([{ mesh: cube }, { mesh: cube, pose: pose(by) }]);
+  const inOne = (at: Vector3, by: Vector3): boolean => [[0, 0, 0], by].some(middle => at.every((v, k) => Math.abs(v - middle[k]!) < 0.5));
+
+  test("an object wholly in the overlap of two boxes is found", () => {
+    expect(touch(twice([0.6, 0, 0]), crumb, pose([0.3, 0, 0]))).toBe(true);
+    expect(touch(crumb, twice([0.6, 0, 0]), pose([-0.3, 0, 0]))).toBe(true);
+    expect(gap(twice([0.6, 0, 0]), crumb, pose([0.3, 0, 0]))).toBe(0);
+    expect(gap(twice([0.6, 0, 0]), crumb, pose([0.3, 0, 0.8]))).toBeCloseTo(0.25, 3);
+  });
+
+  test.each<[string, Vector3]>([["askew", [0.3, 0.4, 0.2]], ["flush on four sides", [0.5, 0, 0]], ["the same box twice", [0, 0, 0]], ["face on face", [1, 0, 0]], ["edge on edge", [1, 1, 0]]])(
+    "%s: 400 random points are in exactly when one of the boxes holds them", (_, by) => {
+      const solid = buildSolid(twice(by)), random = seededRandom(17);
+      for (let i = 0; i < 400; i++) {
+        const at: Vector3 = [random() * 3 - 1, random() * 3 - 1, random() * 3 - 1];
+        expect(pointInside(solid, ...at, scratch)).toBe(inOne(at, by));
+      }
+    });
+
+  test("a part turned inside out is as full as one that is not; a mesh whose triangles disagree is read by odd and even", () => {
+    const outward = cube.indices, inward = outward.slice().reverse(), mixed = outward.slice();
+    mixed.set([outward[1]!, outward[0]!], 0);
+    for (const indices of [inward, mixed]) {
+      expect(touch({ positions: cube.positions, indices }, crumb)).toBe(true);
+      expect(touch({ positions: cube.positions, indices }, crumb, pose([0.7, 0, 0]))).toBe(false);
+    }
   });
 });
 

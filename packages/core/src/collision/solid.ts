@@ -1,9 +1,9 @@
-import { isClosed } from "../shapes/measure.ts";
+import { isClosed, isOriented } from "../shapes/measure.ts";
 import { weldMesh } from "../shapes/weld.ts";
-import { buildBvh, type Bvh } from "./bvh.ts";
+import { buildBvh } from "./bvh.ts";
 import { keepsApart, surfaceDistance } from "./distance.ts";
 import { surfacesTouch, type PairScratch } from "./intersect.ts";
-import { pointInside } from "./inside.ts";
+import { pointInside, type Filling } from "./inside.ts";
 import type { TriangleMesh } from "./mesh.ts";
 import { movePoints, type Rigid } from "./relative.ts";
 
@@ -11,10 +11,7 @@ import { movePoints, type Rigid } from "./relative.ts";
 const SAME_CORNER_M = 1e-7;
 
 /** A mesh ready to be asked about contact and distance. Read only; may be shared by many places in the cell. */
-export interface Solid {
-  readonly bvh: Bvh;
-  /** Every edge has one triangle on either side. */
-  readonly closed: boolean;
+export interface Solid extends Filling {
   /** One corner of every connected piece of surface, 3 numbers each [m]. */
   readonly shells: Float64Array;
   /** Radius of the smallest ball around the frame's origin that holds the solid [m]. */
@@ -28,7 +25,7 @@ export function buildSolid(mesh: TriangleMesh): Solid {
     const x = p[3 * vertex]!, y = p[3 * vertex + 1]!, z = p[3 * vertex + 2]!;
     radius2 = Math.max(radius2, x * x + y * y + z * z);
   }
-  return { bvh: buildBvh(mesh), closed: isClosed(welded), shells: shellCorners(welded), radius_m: Math.sqrt(radius2) };
+  return { bvh: buildBvh(mesh), closed: isClosed(welded), oriented: isOriented(welded), shells: shellCorners(welded), radius_m: Math.sqrt(radius2) };
 }
 
 /** Whether two solids share a point, one lying wholly inside the other included. The call allocates nothing. */
@@ -61,13 +58,13 @@ function oneInsideOther(a: Solid, b: Solid, aFromB: Rigid, scratch: PairScratch)
   const point = scratch.point;
   for (let s = 0; s < b.shells.length; s += 3) {
     movePoints(aFromB, b.shells, s, 1, point, 0);
-    if (pointInside(a.bvh, a.closed, point[0]!, point[1]!, point[2]!, scratch)) return true;
+    if (pointInside(a, point[0]!, point[1]!, point[2]!, scratch)) return true;
   }
   const r = aFromB;
   for (let s = 0; s < a.shells.length; s += 3) {
     const x = a.shells[s]! - r[9]!, y = a.shells[s + 1]! - r[10]!, z = a.shells[s + 2]! - r[11]!;
     const bx = r[0]! * x + r[3]! * y + r[6]! * z, by = r[1]! * x + r[4]! * y + r[7]! * z, bz = r[2]! * x + r[5]! * y + r[8]! * z;
-    if (!pointInside(b.bvh, b.closed, bx, by, bz, scratch)) continue;
+    if (!pointInside(b, bx, by, bz, scratch)) continue;
     for (let k = 0; k < 3; k++) point[k] = a.shells[s + k]!;
     return true;
   }

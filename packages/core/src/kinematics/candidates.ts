@@ -4,6 +4,7 @@ import { wrapAngle } from "../spatial/units.ts";
 import { armScratch, flangePose, type ArmScratch } from "./forward.ts";
 import { MAX_GENERAL_SIX, solveGeneralSix } from "./general-six-search.ts";
 import { generalSixScratch, type GeneralSixScratch } from "./general-six.ts";
+import { dampedScratch, type DampedScratch } from "./numeric/damped-scratch.ts";
 import { mend, mendScratch, type MendScratch } from "./mend.ts";
 import { solveOrthoParallel } from "./ortho-parallel.ts";
 import { refine, refineScratch, type HeldElbow, type RefineScratch } from "./refine.ts";
@@ -26,12 +27,14 @@ export interface SolverScratch {
   readonly arm: ArmScratch; readonly pose: Pose<"base", "flange">;
   readonly refine: RefineScratch; readonly six: GeneralSixScratch;
   readonly start: Float64Array; readonly mend: MendScratch;
+  /** Of arms without a closed form; made when first needed. */
+  damped: DampedScratch | null;
   /** The elbow angle that seven-joint postures are mended to. */
   held: HeldElbow | null;
 }
 
 export const solverScratch = (): SolverScratch => ({
-  raw: new Float64Array(6 * MAX_GENERAL_SIX), q: new Float64Array(6), arm: armScratch(), pose: identity(), refine: refineScratch(), six: generalSixScratch(), start: new Float64Array(6), mend: mendScratch(), held: null,
+  raw: new Float64Array(6 * MAX_GENERAL_SIX), q: new Float64Array(6), arm: armScratch(), pose: identity(), refine: refineScratch(), six: generalSixScratch(), start: new Float64Array(6), mend: mendScratch(), held: null, damped: null,
 });
 
 /**
@@ -86,6 +89,12 @@ export function settled(robot: Robot, baseFromFlange: Pose<"base", "flange">, q:
 function nearby(a: Float64Array, b: Float64Array): boolean {
   for (let j = 0; j < a.length; j++) if (!(Math.abs(a[j]! - b[j]!) < FREE_RAD)) return false;
   return true;
+}
+
+/** The scratch of damped least squares for arms of so many joints. */
+export function dampedFor(joints: number, scratch: SolverScratch): DampedScratch {
+  if (scratch.damped?.q.length !== joints) scratch.damped = dampedScratch(joints);
+  return scratch.damped ?? dampedScratch(joints);
 }
 
 /** The elbow angle of a seven-joint posture [rad, in (−π, π]]; undefined for an arm without one. */

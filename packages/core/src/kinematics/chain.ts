@@ -29,7 +29,11 @@ const X = 0, Y = 1, Z = 2, ANY = 3, NONE = 4, SLIDE = 5;
  */
 export function chainOf(arm: SerialArm, q: ArrayLike<number>, scratch: ArmScratch): Float64Array {
   if (q.length !== arm.joints.length) throw new JointCountFault(arm.name, arm.joints.length, q.length);
-  if (scratch.arm === arm) return scratch.chain;
+  return scratch.arm === arm ? scratch.chain : layOut(arm, scratch);
+}
+
+/** Apart from `chainOf`: what a closure keeps is allocated on entry, used or not. */
+function layOut(arm: SerialArm, scratch: ArmScratch): Float64Array {
   const rows = [...arm.joints.map(joint => ({ fixed: joint.parentFromJoint as Pose, axis: joint.axis, kind: isSlide(joint) ? SLIDE : directionOf(joint.axis) })),
     { fixed: arm.lastJointFromFlange as Pose, axis: null, kind: NONE }];
   const chain = new Float64Array(rows.length * STRIDE);

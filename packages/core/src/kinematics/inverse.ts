@@ -1,8 +1,10 @@
 import type { Robot } from "../robots/robot.ts";
 import { compose, identity, inverse, type Pose } from "../spatial/pose.ts";
 import { branchOf, sameBranch, type Branch } from "./branch.ts";
-import { candidates, elbowOf, settle, settled, solverScratch, VERIFIED, type SolverScratch } from "./candidates.ts";
+import { candidates, dampedFor, elbowOf, settle, settled, solverScratch, VERIFIED, type SolverScratch } from "./candidates.ts";
 import { nearestElbow } from "./elbow.ts";
+import { nearestDamped } from "./numeric/damped.ts";
+import { numericBranches, numericReach } from "./numeric-reach.ts";
 import { outOfReach } from "./out-of-reach.ts";
 import type { Reach, Solution } from "./reach.ts";
 import { isSingularPosture } from "./singularity.ts";
@@ -27,9 +29,10 @@ export interface SolveOptions {
 
 /**
  * Every distinct branch, angles in (−π, π], limits not looked at, each verified by forward kinematics; of seven joints those of
- * one elbow angle. Empty for an arm without a solver of its own.
+ * one elbow angle. Of an arm without a closed form those that damped least squares finds inside the limits, maybe not all.
  */
 export function allBranches(robot: Robot, baseFromFlange: Pose<"base", "flange">, near?: ArrayLike<number>, scratch = solverScratch(), elbow_rad?: number): Float64Array[] {
+  if (robot.family.kind === "general") return poseFlaw(baseFromFlange) === undefined ? [...numericBranches(robot, baseFromFlange, near).found] : [];
   const count = candidates(robot, baseFromFlange, near, elbow_rad, scratch), same = robot.family.kind === "general-6r" ? SAME_SEARCHED_RAD : SAME_RAD;
   const solutions: Float64Array[] = [];
   for (let s = 0; s < count; s++) {
@@ -50,9 +53,9 @@ export function allBranches(robot: Robot, baseFromFlange: Pose<"base", "flange">
 export function solveAll(robot: Robot, baseFromFlange: Pose<"base", "flange">, options: SolveOptions = {}, scratch = solverScratch()): Reach {
   const flaw = poseFlaw(baseFromFlange);
   if (flaw !== undefined) return { kind: "not-a-pose", because: flaw };
-  if (robot.family.kind === "general") return { kind: "no-solver", because: `${robot.name} has no closed-form solver.` };
-  const { near, branch } = options, asked = options.elbow_rad ?? branch?.elbow_rad;
-
+  const { near, branch } = options;
+  if (robot.family.kind === "general") return insideDeclared(robot, numericReach(robot, baseFromFlange, near));
+  const asked = options.elbow_rad ?? branch?.elbow_rad;
   const found = allBranches(robot, baseFromFlange, near, scratch, asked);
   if (found.length === 0) return outOfReach(robot, baseFromFlange);
   const first = withinLimits(robot, found, branch);
@@ -61,6 +64,12 @@ export function solveAll(robot: Robot, baseFromFlange: Pose<"base", "flange">, o
     if (elbow !== undefined) return answer(robot, withinLimits(robot, allBranches(robot, baseFromFlange, near, scratch, elbow), branch), near);
   }
   return answer(robot, first, near);
+}
+
+function insideDeclared(robot: Robot, reach: Reach): Reach {
+  if (reach.kind !== "reached") return reach;
+  const solutions = insideWorkspace(robot, reach.solutions);
+  return "kind" in solutions ? solutions : { ...reach, solutions };
 }
 
 interface Sorted { readonly inside: Solution[]; readonly pool: readonly Float64Array[] }
@@ -97,7 +106,8 @@ function answer(robot: Robot, { inside, pool }: Sorted, near: ArrayLike<number> 
  * @returns true when there is one. `solveAll` tells why not.
  */
 export function nearestSolution(robot: Robot, baseFromFlange: Pose<"base", "flange">, near: ArrayLike<number>, out: Float64Array, scratch = solverScratch()): boolean {
-  if (robot.family.kind === "general" || !isUnit(baseFromFlange)) return false;
+  if (!isUnit(baseFromFlange)) return false;
+  if (robot.family.kind === "general") return nearestDamped(robot.arm, baseFromFlange, near, out, dampedFor(robot.arm.joints.length, scratch));
   if ((robot.family.kind === "general-6r" || robot.family.kind === "three-parallel") && follows(robot, baseFromFlange, near, scratch)) { out.set(scratch.q); return true; }
   if (nearestOf(robot, baseFromFlange, near, undefined, out, scratch)) return true;
   if (robot.family.kind !== "spherical-seven") return false;

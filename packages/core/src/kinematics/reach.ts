@@ -11,8 +11,10 @@ export type Reach =
   /**
    * All distinct solutions inside the limits, ±2π copies included, least total travel first when `near` was given.
    * `considered` counts the candidates they were taken from: closed-form branches times a turn less, none, or more of each joint.
+   * `method` is "numeric" for an arm without a closed form: solutions that a search found from `considered` starts, maybe not all,
+   * and without their copies by whole turns.
    */
-  | { readonly kind: "reached"; readonly solutions: readonly Solution[]; readonly singular: boolean; readonly considered: number }
+  | { readonly kind: "reached"; readonly method?: "numeric"; readonly solutions: readonly Solution[]; readonly singular: boolean; readonly considered: number }
   | { readonly kind: "too-far"; readonly beyond_m: number; readonly reach_m: number }
   | { readonly kind: "too-near"; readonly inside_m: number; readonly nearest_m: number }
   /** The links would reach it, but the maker declares a smaller workspace, counted from axis 2 to the wrist centre. */

@@ -43,8 +43,8 @@ export function isSingularPosture(robot: Robot, q_rad: ArrayLike<number>): boole
   }
 }
 
-/** The sixth singular value of the Jacobian [m or rad per rad]: 0 where a direction of motion is lost. */
-export const leastSingularValue = (arm: SerialArm, q_rad: ArrayLike<number>): number => singularValues(jacobian(arm, q_rad))[5] ?? 0;
+/** The sixth singular value of the Jacobian, of fewer joints the last [m or rad per rad]: 0 where a direction of motion is lost. */
+export const leastSingularValue = (arm: SerialArm, q_rad: ArrayLike<number>): number => singularValues(jacobian(arm, q_rad))[Math.min(6, arm.joints.length) - 1] ?? 0;
 
 /** As of an ortho-parallel arm: axes 4 and 6 parallel, the arm stretched or folded, the meeting of axes 5 and 6 above axis 1. */
 export function threeParallelDistances({ signs, offsets_rad, a1_m, c2_m, c3_m, c5_m }: ThreeParallelGeometry, q_rad: ArrayLike<number>): SingularDistances {

@@ -1,6 +1,9 @@
 import { describe, expect, test } from "vitest";
 import { robotById } from "../robots/library/index.ts";
+import { boxMesh } from "../shapes/solids.ts";
 import type { Robot } from "../robots/robot.ts";
+import { standLoad } from "../robots/stand.ts";
+import { pose } from "../spatial/pose.ts";
 import type { Vector3 } from "../spatial/vector.ts";
 import { checkProgram } from "./check.ts";
 import { applyRepair } from "./edit.ts";
@@ -78,6 +81,23 @@ describe("checkProgram of programs with blocks", () => {
     const ur10e = robotById("ur10e")!, load = (mass_kg: number): Verdict => check({ ...emptyProgram(ur10e.id), steps: [{ id: "l", type: "payload", mass_kg, center_m: [0, 0, 0.05] }] }, ur10e);
     expect([load(9.9).ok, load(10).ok, load(10.1).ok]).toEqual([true, true, false]);
     expect(load(10.1).steps[0]!.findings[0]).toMatchObject({ code: "payload.too-heavy", value: 10.1, limit: 10, unit: "kg", sentence: `The load is 10.1 kg; the ${ur10e.name} lifts at most 10 kg.` });
+  });
+
+  test("X-09 the stand carries robot and load, 33.5 kg and 43.5 kg, or says by how much it does not", () => {
+    const ur10e = robotById("ur10e")!, program = { ...emptyProgram(ur10e.id), steps: [{ id: "w", type: "wait", s: 1 }, { id: "l", type: "payload", mass_kg: 10, center_m: [0, 0, 0.05] }] satisfies Step[] };
+    expect(standLoad(ur10e)).toEqual({ kind: "known", robot_kg: 33.5, payload_kg: 10, total_kg: 43.5 });
+    const { mass_kg, ...unweighed } = ur10e;
+    expect(mass_kg).toBe(33.5);
+    expect(standLoad(unweighed)).toEqual({ kind: "unknown", sentence: `The mass of ${ur10e.name} is not published: whether its stand carries it is not judged.` });
+    const on = (carries_kg: number, where: Vector3 = [0, 0, 0.25]): Verdict => checkProgram(program, ur10e, { cell: {
+      worldFromBase: pose([0, 0, 0.5]), links: [], allowedPairs: [], shapeError_m: 0,
+      objects: [{ id: "table", name: "The table", worldFromObject: pose(where), mesh: boxMesh([0.6, 0.6, 0.5]), carries_kg }],
+    } }).verdict;
+    expect([43.5, 43.4, 33.5, 33.4].map(kg => on(kg).steps.map(({ verdict }) => verdict))).toEqual([["ok", "ok"], ["ok", "bad"], ["ok", "bad"], ["bad", "ok"]]);
+    expect(on(40).steps[1]!.findings[0]).toMatchObject({ code: "stand.overloaded", value: 43.5, limit: 40, unit: "kg", sentence: `${ur10e.name} weighs 33.5 kg and carries 10 kg, 43.5 kg together; The table carries 40 kg.` });
+    expect(on(30).steps[0]!.findings[0]!.sentence).toBe(`${ur10e.name} weighs 33.5 kg; The table carries 30 kg.`);
+    // A table beside the robot, or high above its base, is not what it stands on.
+    expect([on(1, [1, 0, 0.25]).ok, on(1, [0, 0, 0.5]).ok]).toEqual([true, true]);
   });
 
   test("N-09 the payload of the RX90L: 3.5 kg at full speed, 6 kg at reduced speed, no more", () => {

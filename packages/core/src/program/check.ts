@@ -1,4 +1,5 @@
 import type { CellGeometry } from "../collision/cell.ts";
+import type { Payload } from "../dynamics/model.ts";
 import type { Robot } from "../robots/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import type { Plan } from "../trajectory/plan.ts";
@@ -16,6 +17,8 @@ import { Book } from "./checks/book.ts";
 import { checkFlow } from "./checks/flow.ts";
 import { checkPayload } from "./checks/payload.ts";
 import { checkSignals } from "./checks/signals.ts";
+import { checkStand } from "./checks/stand.ts";
+import { checkTorque } from "./checks/torque.ts";
 import { checkWorkspace } from "./checks/workspace.ts";
 import type { Program, Step } from "./program.ts";
 import type { Verdict } from "./verdict.ts";
@@ -30,6 +33,8 @@ export interface CheckOptions {
   readonly start_rad?: ArrayLike<number>;
   /** Distance the robot keeps from the cell [m], its shape error on top; 0 asks for no contact only. */
   readonly margin_m?: number;
+  /** What the flange carries before the first payload step; nothing by default. */
+  readonly payload?: Payload;
   /** Called with 0 … 1 now and then. */
   readonly onProgress?: (share: number) => void;
   /** Asked now and then; steps not reached by then are "unknown". */
@@ -42,7 +47,7 @@ export interface Checked { readonly verdict: Verdict; readonly plan: Plan }
 const LAYOUT_SHARE = 0.4;
 
 /**
- * Judges a whole program: reach, joint limits, speeds, postures, singular postures and collision, each step with what
+ * Judges a whole program: reach, joint limits, speeds, torques, postures, singular postures and collision, each step with what
  * was found, in numbers and a sentence, and ways out. The plan goes on behind steps that are bad, beyond joint limits
  * where it must, so that everything can be drawn; only a plan whose verdict is ok is one to execute.
  */
@@ -71,6 +76,8 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
   checkSignals(scene);
   checkPayload(scene);
   checkFlow(scene);
+  const torque = checkTorque(scene, options.payload);
+  const unjudged = cell === undefined ? [] : checkStand(scene, cell, options.payload?.mass_kg);
   const collision = cell === undefined ? undefined : checkCollision(scene, {
     cell, margin_m: options.margin_m ?? 0,
     ...(onProgress === undefined ? {} : { onProgress: (share: number) => { onProgress(layoutShare + share * (1 - layoutShare)); } }),
@@ -84,10 +91,11 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
   });
   const ok = steps.every(step => step.verdict === "ok" || step.verdict === "warn");
   const verdict: Verdict = {
-    ok, steps, duration_s: layout.plan.duration_s, clearance_m: collision?.clearance_m ?? null,
+    ok, steps, duration_s: layout.plan.duration_s, clearance_m: collision?.clearance_m ?? null, torque,
     assumptions: [
       ...robot.assumptions, ...motionAssumptions(robot),
-      ...assumed(written, layout),
+      ...assumed(written, layout), ...unjudged,
+      ...(torque.kind === "known" ? ["Torques are those of masses and accelerations; friction is not counted."] : []),
       cell === undefined ? "Collisions were not looked at: no cell was given." : "Objects stand where the cell draws them; gripped objects are not carried along.",
     ],
   };

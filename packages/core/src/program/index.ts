@@ -10,6 +10,8 @@ export * from "./edit.ts";
 export * from "./retarget.ts";
 export * from "./stepper.ts";
 export * from "./check.ts";
+export { standOf } from "./checks/stand.ts";
+export * from "./with-branches.ts";
 export { NEAR_LIMIT_RAD } from "./checks/limits.ts";
 export { NEAR_SINGULAR_RAD } from "./checks/singular.ts";
 export * from "./coords.ts";

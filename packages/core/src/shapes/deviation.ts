@@ -54,7 +54,7 @@ class Meter {
     indices: Uint32Array.of(0, 1, 3, 0, 2, 1, 0, 3, 2, 1, 2, 3),
   });
 
-  inside({ bvh, closed }: Solid, [x, y, z]: Vector3): boolean { return pointInside(bvh, closed, x, y, z, this.#scratch); }
+  inside(solid: Solid, [x, y, z]: Vector3): boolean { return pointInside(solid, x, y, z, this.#scratch); }
 
   distance({ bvh }: Solid, [x, y, z]: Vector3): number {
     this.#at[9] = x; this.#at[10] = y; this.#at[11] = z;

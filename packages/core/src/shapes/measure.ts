@@ -53,3 +53,18 @@ export function isClosed(mesh: TriangleMesh): boolean {
   const { open, crowded } = censusOfEdges(mesh);
   return mesh.indices.length > 0 && open === 0 && crowded === 0;
 }
+
+/**
+ * Whether triangles that share an edge agree on which side is out: along every edge as many run one way as the other, but
+ * for one at an open border. Vertices must be welded.
+ */
+export function isOriented({ indices, positions }: TriangleMesh): boolean {
+  const vertices = positions.length / 3, balance = new Map<number, number>();
+  for (let t = 0; t < indices.length; t += 3) for (let c = 0; c < 3; c++) {
+    const from = indices[t + c]!, to = indices[t + (c + 1) % 3]!;
+    const key = Math.min(from, to) * vertices + Math.max(from, to);
+    balance.set(key, (balance.get(key) ?? 0) + (from < to ? 1 : -1));
+  }
+  for (const surplus of balance.values()) if (Math.abs(surplus) > 1) return false;
+  return true;
+}

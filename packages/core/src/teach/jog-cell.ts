@@ -1,5 +1,8 @@
 import { armScratch, type ArmScratch } from "../kinematics/forward.ts";
+import type { Branch } from "../kinematics/branch.ts";
+import { solverScratch, type SolverScratch } from "../kinematics/candidates.ts";
 import { MAX_BRANCHES } from "../kinematics/ortho-parallel.ts";
+import type { Reach } from "../kinematics/reach.ts";
 import type { DampedScratch } from "../kinematics/numeric/damped-scratch.ts";
 import type { SerialArm } from "../robots/arm.ts";
 import type { Robot } from "../robots/robot.ts";
@@ -30,6 +33,8 @@ export interface NumericJog {
 /** Working memory of `jogStep`: one per hand. Fits itself to the number of joints when it first meets an arm. */
 export interface JogScratch {
   readonly raw: Float64Array; readonly ahead: Float64Array; readonly arm: ArmScratch;
+  /** Of the candidates in `raw`: their number, what each costs; what settles one. */
+  count: number; readonly costs: Float64Array; readonly solver: SolverScratch;
   best: Float64Array; start: Float64Array; turned: Float64Array; numeric: NumericJog | null;
   readonly baseFromFlange: Pose<"base", "flange">; readonly worldFromTcp: Pose<"world", "tcp">; readonly wanted: Pose<"world", "tcp">;
   readonly worldFromFlange: Pose<"world", "flange">; readonly baseFromTcp: Pose<"base", "tcp">;
@@ -40,6 +45,7 @@ export interface JogScratch {
 }
 export const jogScratch = (): JogScratch => ({
   raw: new Float64Array(6 * MAX_BRANCHES), best: new Float64Array(6), start: new Float64Array(6), ahead: new Float64Array(6), turned: new Float64Array(6), arm: armScratch(), numeric: null,
+  count: 0, costs: new Float64Array(MAX_BRANCHES), solver: solverScratch(),
   baseFromFlange: identity(), worldFromTcp: identity(), wanted: identity(),
   worldFromFlange: identity(), baseFromTcp: identity(), baseFromWorld: identity(), tcpFromFlange: identity(),
   linear: [0, 0, 0], angular: [0, 0, 0], masked: [0, 0, 0], axis: [0, 0, 0], turns: [0, 0, 0], turn: [0, 0, 0, 1],
@@ -51,6 +57,26 @@ export function speedLoad(robot: Robot, from: Float64Array, to: Float64Array, dt
   let load = 0;
   for (let j = 0; j < to.length; j++) load = Math.max(load, Math.abs(to[j]! - from[j]!) / (robot.arm.joints[j]!.limits.speed_rad_s * dt_s));
   return load;
+}
+
+/** Rounding of limits given in degrees. */
+const LIMIT_SLACK_RAD = 1e-9;
+/** This near to a singularity [m, sine] the tip does not notice its joints being turned in place. */
+export const ON_SINGULARITY = 1e-8;
+
+/** First joint (from 1) that would leave its limits, or go further out of them than at `start`; 0 when none does. */
+export function jointOutside(robot: Robot, angles: Float64Array, at: number, start: Float64Array): number {
+  for (let j = 0; j < start.length; j++) {
+    const { lower_rad, upper_rad } = robot.arm.joints[j]!.limits, angle = angles[at + j]!;
+    if ((angle > upper_rad + LIMIT_SLACK_RAD && angle > start[j]!) || (angle < lower_rad - LIMIT_SLACK_RAD && angle < start[j]!)) return j + 1;
+  }
+  return 0;
+}
+
+/** That a joint (from 1) would leave its limits. */
+export function nearestLimit(robot: Robot, q: Float64Array, joint: number, branch: Branch | undefined): Reach {
+  const { lower_rad, upper_rad } = robot.arm.joints[joint - 1]!.limits, wanted_rad = q[joint - 1]!;
+  return { kind: "outside-limits", joint, wanted_rad, limit_rad: wanted_rad < lower_rad ? lower_rad : upper_rad, branch };
 }
 
 /** A turn in place below this share of the joint speeds is rounding. */

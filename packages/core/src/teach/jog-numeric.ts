@@ -19,7 +19,7 @@ export function fitScratch(scratch: JogScratch, robot: Robot): void {
     scratch.start = new Float64Array(n); scratch.best = new Float64Array(n); scratch.turned = new Float64Array(n);
     scratch.turnedLast = new Float64Array(n); scratch.turnedNow = new Float64Array(n);
   }
-  if (robot.family.kind === "ortho-parallel") scratch.numeric = null;
+  if (robot.family.kind === "ortho-parallel" || robot.family.kind === "three-parallel") scratch.numeric = null;
   else if (scratch.numeric?.arm !== robot.arm) scratch.numeric = numericJog(robot.arm);
 }
 

@@ -7,12 +7,8 @@ import { singularDistances } from "../kinematics/singularity.ts";
 import { wristCentre } from "../kinematics/span.ts";
 import type { OrthoParallelGeometry, Robot } from "../robots/robot.ts";
 import { wrapAngle } from "../spatial/units.ts";
-import { LEAST_TURN, speedLoad, type JogScratch } from "./jog-cell.ts";
+import { jointOutside, LEAST_TURN, nearestLimit, ON_SINGULARITY, speedLoad, type JogScratch } from "./jog-cell.ts";
 
-/** This near to a singularity [m, sine] the tip does not notice its joints being turned in place. */
-const ON_SINGULARITY = 1e-8;
-/** Rounding of limits given in degrees. */
-const LIMIT_SLACK_RAD = 1e-9;
 /** At a singularity two branches meet; within this travel they are the same posture. */
 const SAME_TRAVEL_RAD = 1e-6;
 /** Weight of joints 2 and 3 in telling which solution continues the posture. */
@@ -43,21 +39,7 @@ function nearest(robot: Robot, family: OrthoParallelGeometry, count: number, { r
     if (preferred) { least = total; chosen = s; chosenJoint = outside; }
   }
   for (let j = 0; j < 6; j++) best[j] = raw[6 * chosen + j]!;
-  return chosenJoint === 0 ? undefined : outsideLimits(robot, family, best, chosenJoint);
-}
-
-function outsideLimits(robot: Robot, family: OrthoParallelGeometry, q: Float64Array, joint: number): Reach {
-  const { lower_rad, upper_rad } = robot.arm.joints[joint - 1]!.limits, wanted_rad = q[joint - 1]!;
-  return { kind: "outside-limits", joint, wanted_rad, limit_rad: wanted_rad < lower_rad ? lower_rad : upper_rad, branch: branchOfOrthoParallel(family, q) };
-}
-
-/** First joint (from 1) that would leave its limits, or go further out of them; 0 when none does. */
-function jointOutside(robot: Robot, angles: Float64Array, at: number, start: Float64Array): number {
-  for (let j = 0; j < 6; j++) {
-    const { lower_rad, upper_rad } = robot.arm.joints[j]!.limits, angle = angles[at + j]!;
-    if ((angle > upper_rad + LIMIT_SLACK_RAD && angle > start[j]!) || (angle < lower_rad - LIMIT_SLACK_RAD && angle < start[j]!)) return j + 1;
-  }
-  return 0;
+  return chosenJoint === 0 ? undefined : nearestLimit(robot, best, chosenJoint, branchOfOrthoParallel(family, best));
 }
 
 /**
@@ -103,7 +85,7 @@ function turnWrist(robot: Robot, family: OrthoParallelGeometry, dt_s: number, sc
   const bend = wrapAngle(family.signs[4] * start[4]! - family.offsets_rad[4]);
   if (Math.abs(bend) < ON_SINGULARITY) best[4] = start[4]! - family.signs[4] * bend;
   const outside = jointOutside(robot, best, 0, start);
-  return outside === 0 ? speedLoad(robot, start, best, dt_s) > LEAST_TURN : outsideLimits(robot, family, best, outside);
+  return outside === 0 ? speedLoad(robot, start, best, dt_s) > LEAST_TURN : nearestLimit(robot, best, outside, branchOfOrthoParallel(family, best));
 }
 
 /** The share of these turns of joints 1, 4 and 6 that their speeds allow in one step. */

@@ -5,17 +5,18 @@ import { singularJogs } from "./testing/singular-jogs.ts";
 const NAMES = { 2: "wrist over axis 1", 3: "arm stretched", 5: "wrist straight" } as const;
 
 // scripts/soak/jog-singular.ts runs a thousand of each.
-describe.each(["staubli_rx90l", "kuka_kr6_2", "yaskawa_gp8"])("jogging %s into each singularity", id => {
-  test.each([2, 3, 5] as const)("joint %i: every jog can leave, no joint is too fast or leaves its limits, 0 NaN", joint => {
-    const { jogs, left, arrived, notNumbers, tooFast, outside, stuck } = singularJogs(robotById(id)!, joint, 60, seededRandom(100 + joint));
+describe.each(["staubli_rx90l", "kuka_kr6_2", "yaskawa_gp8", "ur10e"])("jogging %s into each singularity", id => {
+  test.each([2, 3, 5] as const)("joint %i: every jog can leave, no joint is too fast or leaves its limits, the tip keeps to its way, 0 NaN", joint => {
+    const { jogs, left, limited, arrived, notNumbers, tooFast, outside, strayed, stuck } = singularJogs(robotById(id)!, joint, 24, seededRandom(100 + joint));
     expect(stuck, NAMES[joint]).toEqual([]);
-    expect({ left, notNumbers, tooFast, outside }).toEqual({ left: jogs, notNumbers: 0, tooFast: 0, outside: 0 });
+    expect(limited).toBeLessThanOrEqual(1);
+    expect({ left, notNumbers, tooFast, outside, strayed }).toEqual({ left: jogs - limited, notNumbers: 0, tooFast: 0, outside: 0, strayed: 0 });
     expect(arrived).toBeGreaterThan(0.9 * jogs);
   });
 });
 
 describe("arms jogged by damped least squares", () => {
-  test.each([["ur10e", 2, 8], ["ur10e", 3, 10], ["ur10e", 5, 3], ["abb_crb15000_5_95", 3, 8]] as const)("%s joint %i: jogs leave the singularity within speeds and limits, 0 NaN", (id, joint, wanted) => {
+  test.each([["abb_crb15000_5_95", 3, 8]] as const)("%s joint %i: jogs leave the singularity within speeds and limits, 0 NaN", (id, joint, wanted) => {
     const { jogs, left, notNumbers, tooFast, outside } = singularJogs(robotById(id)!, joint, wanted, seededRandom(200 + joint));
     expect({ notNumbers, tooFast, outside }).toEqual({ notNumbers: 0, tooFast: 0, outside: 0 });
     expect(left).toBeGreaterThanOrEqual(0.9 * jogs);

@@ -8,6 +8,7 @@ import { jogScratch, speedLoad, type JogCell, type JogCommand, type JogFrame, ty
 import { jogJoints } from "./jog-joints.ts";
 import { continueNumeric, fitScratch, noteStart, turnNumeric } from "./jog-numeric.ts";
 import { continueOrthoParallel, turnOrthoParallel } from "./jog-ortho-parallel.ts";
+import { continueThreeParallel, endsThere, shortestOfThreeParallel, turnThreeParallel } from "./jog-three-parallel.ts";
 import type { JogBlock, Jogged } from "./jogged.ts";
 
 export { jogScratch, type JogCell, type JogCommand, type JogFrame, type JogScratch } from "./jog-cell.ts";
@@ -17,6 +18,8 @@ const AXES = ["x", "y", "z"] as const;
 /** A step shortened below this [m, rad] is looked at twice: on a singularity the arm must turn in place instead. */
 const ALL_BUT_STANDING = 1e-6;
 const SHORTEST = 1e-12;
+/** A step cut down to all but nothing that then asks the joints for less than this share of their speed: between the two lies a leap. */
+const LEAPT = 0.02;
 /** What is left of a step that leaves the reach is taken up to this near to the edge [m, rad]. */
 const AT_THE_EDGE = 1e-5;
 /** Two steps count as the same wish while their directions differ by less than this cosine. */
@@ -32,7 +35,7 @@ const SAME_WISH = 0.99;
  * wanted direction. Where the whole step leaves the reach, each coordinate is tried: those that can go on do (row N-39),
  * rotation goes or stops as one (row N-41). Where none can, the last piece to the edge is taken, to 1e-5 (m, rad).
  *
- * The ortho-parallel family jogs by its closed form, every other arm by damped least squares.
+ * The ortho-parallel and three-parallel families jog by their closed forms, every other arm by damped least squares.
  *
  * @param q        joint angles [rad] the arm stands at. Read only.
  * @param dt_s     duration of the step; over 0.
@@ -114,14 +117,19 @@ function towards(cell: JogCell, frame: Quaternion, x: boolean, y: boolean, z: bo
   const { masked, linear, start, best, numeric } = scratch;
   masked[0] = x ? linear[0] : 0; masked[1] = y ? linear[1] : 0; masked[2] = z ? linear[2] : 0;
   rotate(frame, masked, masked);
-  const length = norm(masked) + (turns ? norm(scratch.angular) : 0), shortest = numeric === null ? SHORTEST : ALL_BUT_STANDING / length;
+  const length = norm(masked) + (turns ? norm(scratch.angular) : 0), { family } = cell.robot;
+  const shortest = numeric !== null ? ALL_BUT_STANDING / length : family.kind === "three-parallel" ? shortestOfThreeParallel(family, start) / length : SHORTEST;
+  let ends = false;
   for (let fraction = 1; fraction >= shortest;) {
     const reach = solveAt(cell, masked, turns, fraction, scratch);
     if (reach !== undefined) return reach;
+    if (family.kind === "three-parallel" && endsThere(family, scratch)) { ends = true; fraction *= 0.5; continue; }
     const load = speedLoad(cell.robot, start, best, dt_s);
     if (load <= 1) {
+      if (ends && fraction * length < ALL_BUT_STANDING) return ENDS_HERE;
       const turned = fraction < 1 && fraction * length < ALL_BUT_STANDING && turnInPlace(cell, dt_s, out, scratch);
       if (turned !== false) return turned === true ? 0 : turned;
+      if (family.kind === "three-parallel" && fraction < 1 && fraction * length < ALL_BUT_STANDING && load < LEAPT) return ENDS_HERE;
       out.set(best);
       scratch.turnedNow.fill(0);
       return fraction;
@@ -129,14 +137,16 @@ function towards(cell: JogCell, frame: Quaternion, x: boolean, y: boolean, z: bo
     if (numeric === null) { scratch.turns[0] = best[0]! - start[0]!; scratch.turns[1] = best[3]! - start[3]!; scratch.turns[2] = best[5]! - start[5]!; }
     fraction *= Math.max(0.05, Math.min(0.9, 0.98 / load));
   }
+  if (ends) return ENDS_HERE;
   const turned = turnInPlace(cell, dt_s, out, scratch);
-  return turned === false && numeric !== null ? NO_WAY_OUT : typeof turned === "boolean" ? 0 : turned;
+  return turned === false && family.kind !== "ortho-parallel" ? NO_WAY_OUT : typeof turned === "boolean" ? 0 : turned;
 }
 
 /** On a singularity: turns joints while the tip stands still, into `out`. False where no joint is free; why not, where one stands at its limit. */
 function turnInPlace({ robot }: JogCell, dt_s: number, out: Float64Array, scratch: JogScratch): boolean | Reach {
   const { family } = robot, { start, best, turnedNow, numeric } = scratch;
-  const turned = numeric !== null ? turnNumeric(robot, numeric, dt_s, scratch) : family.kind === "ortho-parallel" && turnOrthoParallel(robot, family, dt_s, scratch);
+  const turned = numeric !== null ? turnNumeric(robot, numeric, dt_s, scratch)
+    : family.kind === "three-parallel" ? turnThreeParallel(robot, family, dt_s, scratch) : family.kind === "ortho-parallel" && turnOrthoParallel(robot, family, dt_s, scratch);
   if (turned !== true) return turned;
   out.set(best);
   for (let j = 0; j < out.length; j++) turnedNow[j] = best[j]! - start[j]!;
@@ -152,10 +162,12 @@ function solveAt(cell: JogCell, shift: Vector3, turns: boolean, fraction: number
   compose(scratch.baseFromWorld, wanted, scratch.baseFromTcp);
   compose(scratch.baseFromTcp, scratch.tcpFromFlange, baseFromFlange);
   if (numeric !== null) return continueNumeric(robot, numeric, scratch);
-  return family.kind === "ortho-parallel" ? continueOrthoParallel(robot, family, scratch) : undefined;
+  return family.kind === "three-parallel" ? continueThreeParallel(robot, family, scratch) : family.kind === "ortho-parallel" ? continueOrthoParallel(robot, family, scratch) : undefined;
 }
 
 const NEITHER_WAY: Reach = { kind: "no-solver", because: "The arm stands on a singularity; turned in place to either side it meets a limit, and the tip would not move." };
+
+const ENDS_HERE: Reach = { kind: "no-solver", because: "In this posture the arm goes no farther that way: it is stretched, folded or stands too near to axis 1, and would have to turn over into another posture." };
 
 const NO_WAY_OUT: Reach = { kind: "no-solver", because: "The arm stands on a singularity, and no turn in place of its joints brings the tip that way." };
 

@@ -2,6 +2,7 @@ import { flow, type Happening } from "../program/flow.ts";
 import type { MoveStep, PrimitiveStep, Program, SetStep } from "../program/program.ts";
 import { SignalTable, holds } from "../program/signals.ts";
 import { motionAssumptions } from "../robots/jerk.ts";
+import type { Payload } from "../dynamics/model.ts";
 import type { Robot } from "../robots/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import { chooseBranches, withChoice } from "./continuity/index.ts";
@@ -9,6 +10,7 @@ import { passes, resolveMove, type Move } from "./moves.ts";
 import type { MotionSegment, Plan, Segment, SignalWrite } from "./plan.ts";
 import type { Slowed } from "./run-timing.ts";
 import { PATH_TOLERANCE_M, RunPlanner } from "./run.ts";
+import { Gentler, type Gentled } from "../torque/gentle.ts";
 import { explainStop, type Stuck } from "./stop.ts";
 
 export interface PlanOptions {
@@ -20,6 +22,11 @@ export interface PlanOptions {
   readonly tolerance_m?: number;
   /** Time a gripper is given to close or open [s]. */
   readonly gripper_s?: number;
+  /**
+   * Slows every run of motions until no joint is asked for more torque than it can give (rows X-10, X-46), where masses and torque limits
+   * are published. `payload` is what the flange carries before the first payload step.
+   */
+  readonly withinTorque?: { readonly payload?: Payload };
   /** What inputs are, for decisions; false and 0 otherwise. */
   readonly inputs?: Readonly<Record<string, boolean | number>>;
 }
@@ -33,6 +40,8 @@ export interface PlanNote { readonly step: string; readonly at_s: number; readon
 interface Planned {
   readonly plan: Plan;
   readonly notes: readonly PlanNote[];
+  /** Runs that were slowed for their torques. */
+  readonly gentled: readonly Gentled[];
   /** What the plan's duration rests on, one sentence each (row N-64). */
   readonly assumptions: readonly string[];
 }
@@ -54,12 +63,12 @@ export function planProgram(program: Program, robot: Robot, options: PlanOptions
   const writer = new PlanWriter(robot, options);
   const planner = new RunPlanner(robot, options.tolerance_m ?? PATH_TOLERANCE_M);
   const context = { tools: program.tools, frames: program.frames, ...(options.worldFromBase === undefined ? {} : { worldFromBase: options.worldFromBase }) };
-  const assumptions = durationAssumptions(program, robot), parts = ahead(program, options.inputs ?? {});
+  const assumptions = durationAssumptions(program, robot), parts = ahead(program, options.inputs ?? {}), gentler = new Gentler(robot, options), { gentled } = gentler;
   const runs = parts.flatMap(part => (part.kind === "run" ? [part.moves.map(({ step }) => resolveMove(step, robot, context))] : []));
   const choice = chooseBranches(runs, robot, writer.q);
   let run = 0, first = 0;
   for (const part of parts) {
-    if (part.kind === "step") { if (part.step.type !== "move") writer.rest(part.step, part.stands); continue; }
+    if (part.kind === "step") { gentler.carry(part.step); if (part.step.type !== "move") writer.rest(part.step, part.stands); continue; }
     if (part.kind !== "run") continue;
     let moves: readonly Move[] = runs[run++]!;
     const count = moves.length;
@@ -67,18 +76,24 @@ export function planProgram(program: Program, robot: Robot, options: PlanOptions
     first += count;
     for (;;) {
       const answer = planner.plan(moves, writer.q);
-      if (answer.kind === "timed") { writer.run(answer.run.parts, answer.run.slowed); break; }
+      if (answer.kind === "timed") {
+        const held = gentler.hold(answer.run.parts, writer.now_s);
+        if (held.kind === "too-heavy") return { kind: "stuck", stuck: held.stuck, plan: writer.plan(program.robot), notes: writer.notes, gentled, assumptions };
+        writer.run(held.parts, answer.run.slowed);
+        break;
+      }
       const at = answer.stop.move, stuck = explainStop(answer.stop, moves[at]!, robot);
       if (at > 0) {
         // What comes before the move in the way can still be done, with a stop at its end.
         moves = moves.slice(0, at);
         const before = planner.plan(moves, writer.q);
-        if (before.kind === "timed") writer.run(before.run.parts, before.run.slowed);
+        const held = before.kind === "timed" ? gentler.hold(before.run.parts, writer.now_s) : undefined;
+        if (before.kind === "timed" && held?.kind === "held") writer.run(held.parts, before.run.slowed);
       }
-      return { kind: "stuck", stuck, plan: writer.plan(program.robot), notes: writer.notes, assumptions };
+      return { kind: "stuck", stuck, plan: writer.plan(program.robot), notes: writer.notes, gentled, assumptions };
     }
   }
-  return { kind: "planned", plan: writer.plan(program.robot), notes: writer.notes, assumptions };
+  return { kind: "planned", plan: writer.plan(program.robot), notes: writer.notes, gentled, assumptions };
 }
 
 /** The whole program in order, before anything moves: signals change only where steps write them, and waits end. */

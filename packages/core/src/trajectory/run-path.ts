@@ -1,4 +1,4 @@
-import { flangePose } from "../kinematics/forward.ts";
+import { armScratch, flangePose } from "../kinematics/forward.ts";
 import type { Robot } from "../robots/robot.ts";
 import { compose, identity, type Pose } from "../spatial/pose.ts";
 import { distance, type Vector3 } from "../spatial/vector.ts";
@@ -40,6 +40,7 @@ export class RunPath {
   private readonly follower: Follower;
   private readonly goals: GoalFinder;
   private readonly scratch = geometryScratch();
+  private readonly arm = armScratch();
   private readonly q: Float64Array;
   private startFlange: Pose<"base", "flange"> = identity();
 
@@ -79,7 +80,7 @@ export class RunPath {
   private layLegs(moves: readonly Move[], q0: Float64Array, legs: Leg[]): RunStop | undefined {
     // Postures at the corners are only needed where a joint move ends or begins.
     let q: Float64Array | undefined = q0;
-    this.startFlange = flangePose(this.robot.arm, q0);
+    this.startFlange = flangePose(this.robot.arm, q0, identity(), this.arm);
     for (let i = 0; i < moves.length; i++) {
       const move = moves[i]!;
       if (move.step.path === "ptp") {
@@ -135,7 +136,7 @@ export class RunPath {
 
   private tcpAt(q0: Float64Array, q1: Float64Array, share: number, move: Move): Vector3 {
     const q = q0.map((a, j) => a + (q1[j]! - a) * share);
-    return compose(flangePose(this.robot.arm, q), move.flangeFromTcp).position;
+    return compose(flangePose(this.robot.arm, q, identity(), this.arm), move.flangeFromTcp).position;
   }
 
   private smooth(leg: Leg, next: Leg): boolean {

@@ -22,6 +22,8 @@ const SLOWEST = 1e-10;
 const NEAR = 1e-6;
 /** A run is tried with less acceleration when this share of it or less would do. */
 const WORTHWHILE = 0.9;
+/** A run over its limits by more than this factor of time is eased where it is, not as a whole; so often; and a little more each time than was missing. */
+const WORTH_EASING = 1.003, EASING_ROUNDS = 8, EASING_MORE = 1.01;
 /** Rounds in which the pace of moves of a given duration is tuned inside a run. */
 const ROUNDS = 12;
 
@@ -69,11 +71,13 @@ export class RunTimer {
   private cap = new Float64Array(64);
   private x = new Float64Array(64);
   private share = new Float64Array(64);
+  private eased = new Float64Array(64).fill(1);
   private owner = new Int32Array(64);
   private knot = new Int32Array(64);
   private q: Float64Array;
   private q1: Float64Array;
   private q2: Float64Array;
+  private readonly bend: Float64Array;
 
   constructor(robot: Robot) {
     this.robot = robot;
@@ -82,6 +86,7 @@ export class RunTimer {
     this.timer = new PathTimer(this.limits);
     this.rounder = new Rounder(robot);
     this.emission = new Emission(this.rounder.law, this.joints);
+    this.bend = new Float64Array(2 * this.joints);
     this.q = new Float64Array(64 * this.joints); this.q1 = this.q.slice(); this.q2 = this.q.slice();
   }
 
@@ -100,8 +105,15 @@ export class RunTimer {
       if (steps.length === 1 && paces[0]!.time_s > 0) stretch = this.stretchOf(paces[0]!.time_s, slowed);
       else if (paces.some(pace => pace.time_s > 0)) this.tune(grid, paces, softness, slowed);
       run = this.emit(path, steps, stretch, slowed);
-      // The grid holds the limits at its nodes; what the cubics do between them is looked at here.
+      // The grid holds the limits at its nodes; what rounding and the cubics do between them is looked at here.
       over = this.worstShare(run.parts);
+      for (let round = 0; over > WORTH_EASING && stretch === 1 && round < EASING_ROUNDS; round++) {
+        this.ease(run.parts);
+        this.solve(grid);
+        this.rounder.round(grid, this.x, softness);
+        run = this.emit(path, steps, stretch, slowed);
+        over = this.worstShare(run.parts);
+      }
       if (over <= 1) return run;
     }
     return this.emit(path, steps, over, slowed);
@@ -143,21 +155,47 @@ export class RunTimer {
 
   /** How far, as a factor of time, the cubics of the parts are over the published limits; at most 1 when they are not. */
   private worstShare(parts: readonly MotionSegment[]): number {
-    const joints = this.robot.arm.joints, n = this.joints, bend = new Float64Array(2 * n);
     let worst = 0;
-    for (const part of parts) {
-      for (let i = 0; i + 1 < part.times_s.length; i++) {
-        intervalAccelerations(part, i, n, bend);
-        const h = part.times_s[i + 1]! - part.times_s[i]!;
-        for (let j = 0; j < n; j++) {
-          const { speed_rad_s, acceleration_rad_s2 } = joints[j]!.limits, at = i * n + j;
-          const middle = h > 0 ? (1.5 * (part.q_rad[at + n]! - part.q_rad[at]!)) / h - (part.qd_rad_s[at]! + part.qd_rad_s[at + n]!) / 4 : 0;
-          const acceleration = Math.max(Math.abs(bend[j]!), Math.abs(bend[n + j]!));
-          worst = Math.max(worst, Math.sqrt(acceleration / acceleration_rad_s2), Math.abs(middle) / speed_rad_s, Math.abs(part.qd_rad_s[at]!) / speed_rad_s);
-        }
-      }
+    for (const part of parts) for (let i = 0; i + 1 < part.times_s.length; i++) worst = Math.max(worst, this.shareIn(part, i));
+    return worst;
+  }
+
+  /** The same for one interval of one part. */
+  private shareIn(part: MotionSegment, i: number): number {
+    const joints = this.robot.arm.joints, n = this.joints, bend = this.bend;
+    intervalAccelerations(part, i, n, bend);
+    const h = part.times_s[i + 1]! - part.times_s[i]!;
+    let worst = 0;
+    for (let j = 0; j < n; j++) {
+      const { speed_rad_s, acceleration_rad_s2 } = joints[j]!.limits, at = i * n + j;
+      const middle = h > 0 ? (1.5 * (part.q_rad[at + n]! - part.q_rad[at]!)) / h - (part.qd_rad_s[at]! + part.qd_rad_s[at + n]!) / 4 : 0;
+      const acceleration = Math.max(Math.abs(bend[j]!), Math.abs(bend[n + j]!));
+      worst = Math.max(worst, Math.sqrt(acceleration / acceleration_rad_s2), Math.abs(middle) / speed_rad_s, Math.abs(part.qd_rad_s[at]!) / speed_rad_s);
     }
     return worst;
+  }
+
+  /**
+   * Lowers the pace where the parts are over a limit, and as long around it as corners are rounded over: rounding lets a
+   * bend of the path be entered faster than its place allows. The rest of the run keeps its pace.
+   */
+  private ease(parts: readonly MotionSegment[]): void {
+    const { law } = this.rounder, around_s = law.window_s;
+    let node = 0;
+    for (const part of parts) {
+      for (let i = 0; i + 1 < part.times_s.length; i++) {
+        const share = this.shareIn(part, i);
+        if (share <= 1) continue;
+        const from_s = part.start_s + part.times_s[i]! - around_s, to_s = part.start_s + part.times_s[i + 1]!;
+        while (node > 0 && law.t[node]! > from_s) node--;
+        while (node < this.nodes && law.t[node]! < from_s) node++;
+        for (let k = Math.max(0, node - 1); k < this.nodes && law.t[k]! <= to_s; k++) this.eased[k] = Math.max(this.eased[k]!, share);
+      }
+    }
+    for (let i = 0; i < this.nodes; i++) {
+      if (this.eased[i]! > 1) this.cap[i] = Math.min(this.cap[i]!, this.x[i]! / (this.eased[i]! * EASING_MORE) ** 2);
+      this.eased[i] = 1;
+    }
   }
 
   private standing(step: MoveStep, q0: Float64Array): MotionSegment {
@@ -202,7 +240,7 @@ export class RunTimer {
   private grow(): void {
     const more = this.s.length * 2, n = this.joints, to = (from: Float64Array, size: number): Float64Array<ArrayBuffer> => { const big = new Float64Array(size); big.set(from); return big; };
     const ints = (from: Int32Array): Int32Array<ArrayBuffer> => { const big = new Int32Array(more); big.set(from); return big; };
-    this.s = to(this.s, more); this.cap = to(this.cap, more); this.x = to(this.x, more); this.share = to(this.share, more);
+    this.s = to(this.s, more); this.cap = to(this.cap, more); this.x = to(this.x, more); this.share = to(this.share, more); this.eased = new Float64Array(more).fill(1);
     this.q = to(this.q, more * n); this.q1 = to(this.q1, more * n); this.q2 = to(this.q2, more * n);
     this.owner = ints(this.owner); this.knot = ints(this.knot);
   }

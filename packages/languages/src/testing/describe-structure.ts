@@ -24,7 +24,11 @@ export function describeStructure(dialect: Dialect, bench: DialectBench): void {
     expect(parsed.warnings).toEqual([]);
     return parsed.program;
   };
-  const whole = structuredProgram(robot, worldFromBase, cannot);
+  const structured = (pallet?: Partial<Pallet>): Program => {
+    const program = structuredProgram(robot, worldFromBase, cannot, pallet);
+    return { ...program, signals: { ...program.signals, ...bench.signals } };
+  };
+  const whole = structured();
 
   describe(`structure in ${dialect.name}`, () => {
     test("lines, loads, loops, decisions, calls, patterns and searches are carried out as the program says", () => {
@@ -47,7 +51,7 @@ export function describeStructure(dialect: Dialect, bench: DialectBench): void {
 
     const patterns: readonly Partial<Pallet>[] = [...PALLET_ORDERS.map(order => ({ order })), { interleave: "odd-rows-shifted" }, { interleave: "odd-rows-shifted", order: "rows-zigzag" }, { rows: 1 }, { columns: 1, layers: 1 }, { rows: 1, columns: 1, layers: 1 }, { frame: "world" }];
     test.each(cannot.has("pallet") ? [] : patterns)("a pattern of places stays a loop, and every place is met: %o", pattern => {
-      const program = structuredProgram(robot, worldFromBase, cannot, pattern), file = emit(program), again = parse(file.text);
+      const program = structured(pattern), file = emit(program), again = parse(file.text);
       const proof = proveText(dialect, file, program, robot, worldFromBase);
       expect(proof.kind, proof.sentence).toBe("proven");
       expect(emit(again).text).toBe(file.text);

@@ -42,7 +42,7 @@ export function structuredProgram(robot: Robot, worldFromBase: Pose<"world", "ba
   return {
     ...emptyProgram(robot.id, "Palletise"), tools: { torch: pose([0, 0, 0.08]) }, frames: { carton },
     signals: {
-      lamp: { kind: "digital-out", address: 3 }, part: { kind: "digital-in", address: 9 }, flowrate: { kind: "analogue-out", address: 1 }, pressure: { kind: "analogue-in", address: 0 },
+      lamp: { kind: "digital-out", address: 3 }, part: { kind: "digital-in", address: 9 }, flowrate: { kind: "analogue-out", address: 1 }, pressure: { kind: "analogue-in", address: 1 },
     },
     pallets: {
       tray: {

@@ -36,6 +36,7 @@ export function cellGeometry(document: CellDocument, links: readonly LinkSolid[]
     ...(tool?.shape === undefined ? {} : { tool: { name: tool.name, mesh: shapeMesh(tool.shape) } }),
     objects: document.objects.map(object => ({
       id: object.id, name: object.name, worldFromObject: object.worldFromObject, mesh: shapeMesh(object.shape),
+      ...(object.carries_kg === undefined ? {} : { carries_kg: object.carries_kg }),
     })),
     allowedPairs: document.allowedPairs,
     shapeError_m: robotById(document.robot.id)?.shapeError_m ?? 0,

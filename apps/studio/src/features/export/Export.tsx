@@ -3,18 +3,19 @@ import { useStore } from "zustand";
 import { postProgram } from "../../live/posting.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
-import { programOf } from "../../stores/document.ts";
+import { programOf, robotOf } from "../../stores/document.ts";
+import { languageOf, languageStore } from "../../stores/languages.ts";
 import { notify } from "../../stores/notices.ts";
 import { postStore } from "../../stores/post.ts";
 import { findStep, stepWords } from "../../stores/program.ts";
 import { select, selectionStore } from "../../stores/selection.ts";
-import { DIALECTS, dialectById } from "@twincell/languages";
-import { Chooser, Segments } from "../../ui/Choice.tsx";
+import { Segments } from "../../ui/Choice.tsx";
 import { CodeView } from "../../ui/CodeView.tsx";
 import { download } from "../../ui/download.ts";
 import { Frame } from "../../ui/Frame.tsx";
 import { words } from "../../words/index.ts";
 import { ImportDialog } from "./ImportDialog.tsx";
+import { LanguageChoice } from "../../ui/LanguageChoice.tsx";
 import { manifestOf } from "./manifest.ts";
 import "./export.css";
 
@@ -30,11 +31,13 @@ export default function Export() {
 }
 
 function Body() {
-  const { dialect: id, emitted, proof, working, trouble } = useStore(postStore), cell = useStore(cellStore, state => state.document), program = programOf(cell);
-  const [chosen, setChosen] = useState(0), dialect = dialectById(id);
+  const { emitted, proof, working, trouble } = useStore(postStore), cell = useStore(cellStore, state => state.document), program = programOf(cell), robot = robotOf(cell);
+  const dialect = useStore(languageStore, state => languageOf(robot, state)), id = dialect?.id ?? "";
+  const [chosen, setChosen] = useState(0);
   const selected = useStore(selectionStore, state => (state.selected?.kind === "step" ? state.selected.id : ""));
-  useEffect(() => { postProgram(); }, [program, id]);
+  useEffect(() => { postStore.setState({ emitted: null, proof: null }); postProgram(); }, [program, id]);
   if (!program || program.steps.length === 0) return <p className="muted">{words.run.nothing}</p>;
+  if (!robot || !dialect) return <p className="muted">{words.export.noLanguage(robot?.name ?? "")}</p>;
   const files = emitted?.kind === "emitted" ? emitted.files : [], file = files[Math.min(chosen, files.length - 1)];
   const stepOf = (line: number): string => file?.lines[line - 1] ?? "";
   const copy = async (text: string): Promise<void> => {
@@ -48,12 +51,12 @@ function Body() {
     <div className="export" aria-busy={working}>
       <div className="export-side stack">
         <span className="dim small">{words.export.dialect}</span>
-        <Chooser label={words.export.dialect} value={id} onChange={value => postStore.setState({ dialect: value, emitted: null, proof: null })} options={DIALECTS.map(each => ({ value: each.id, words: `${each.name} · ${each.brand}` }))} />
-        {dialect && <p className="small dim">{dialect.maturity === "proven" ? words.export.proven : words.export.experimental}</p>}
+        <LanguageChoice robot={robot} />
+        <p className="small muted">{dialect.maturity === "proven" ? words.export.proven : <><i className="mark" data-verdict="warn" aria-hidden /> {words.export.experimental}</>}</p>
         {proof && <p className="export-proof" data-good={proof.kind === "proven"}><i className="mark" data-verdict={proof.kind === "proven" ? "ok" : "bad"} aria-hidden />{proof.sentence}</p>}
         {(trouble ?? (emitted?.kind === "cannot" ? `${emitted.sentence} ${emitted.hint}` : null)) !== null && <p className="export-proof" role="alert"><i className="mark" data-verdict="bad" aria-hidden />{words.export.cannot} {trouble ?? (emitted?.kind === "cannot" && `${emitted.sentence} ${emitted.hint}`)}</p>}
         {emitted?.kind === "emitted" && <><span className="dim small">{words.export.warnings}</span>{emitted.warnings.length === 0 ? <p className="small muted">{words.export.none}</p> : <ul className="notes small">{emitted.warnings.map(says => <li key={says}>{says}</li>)}</ul>}</>}
-        {dialect && dialect.cannot.length > 0 && <details className="small"><summary>{words.export.cannotDo}</summary><ul className="notes">{dialect.cannot.map(({ what, because }) => <li key={what}><b>{what}</b>: {because}</li>)}</ul></details>}
+        {dialect.cannot.length > 0 && <details className="small"><summary>{words.export.cannotDo}</summary><ul className="notes">{dialect.cannot.map(({ what, because }) => <li key={what}><b>{what}</b>: {because}</li>)}</ul></details>}
       </div>
       <div className="export-main stack">
         {file && (
@@ -64,7 +67,7 @@ function Body() {
               <button className="btn" onClick={() => void copy(file.text)}>{words.export.copy}</button>
               <button className="btn primary" onClick={downloadAll}>{words.export.download}</button>
             </div>
-            <CodeView text={file.text} label={`${words.export.text} ${file.name}`} height="min(54vh, 520px)" marked={line => selected !== "" && stepOf(line) === selected} onLine={line => { const step = stepOf(line); if (step) select({ kind: "step", id: step }); }} />
+            <CodeView text={file.text} dialect={id} label={`${words.export.text} ${file.name}`} height="min(54vh, 520px)" marked={line => selected !== "" && stepOf(line) === selected} onLine={line => { const step = stepOf(line); if (step) select({ kind: "step", id: step }); }} />
             <p className="small dim">{nameOfSelected(program, selected)}</p>
           </>
         )}

@@ -1,23 +1,83 @@
-import { useState } from "react";
+import type { TextFault } from "@twincell/core";
+import { DIALECTS } from "@twincell/languages";
+import { useEffect, useRef, useState, type DragEvent } from "react";
+import { useStore } from "zustand";
+import { readText, type Reading } from "../../live/reading.ts";
+import { cellStore } from "../../stores/cell.ts";
+import { controlStore } from "../../stores/control.ts";
 import { closeDialog } from "../../stores/dialogs.ts";
-import { importText } from "../../stores/importing.ts";
+import { robotOf } from "../../stores/document.ts";
+import { foreignStore, openForeign } from "../../stores/foreign.ts";
+import { importParsed } from "../../stores/importing.ts";
+import { notify } from "../../stores/notices.ts";
+import { showMode, viewStore } from "../../stores/view.ts";
+import { Chooser } from "../../ui/Choice.tsx";
 import { Frame } from "../../ui/Frame.tsx";
 import { words } from "../../words/index.ts";
 
-/** A program text becomes steps. */
+const GUESS = "guess";
+/** Typing settles before the text is read. */
+const WAIT_MS = 250;
+const MOST_FAULTS = 12;
+
+/** A program text of any language becomes steps, or is run as it stands. */
 export function ImportDialog({ open }: { open: boolean }) {
-  const [text, setText] = useState(""), [faults, setFaults] = useState<readonly string[]>([]);
-  const go = (): void => {
-    const answer = importText(text);
-    if (answer.length > 0) { setFaults(answer); return; }
-    setText(""); setFaults([]);
+  return <Frame open={open} title={words.export.import} onClose={closeDialog} width={960}>{open && <Body />}</Frame>;
+}
+
+function Body() {
+  const { text, name } = useStore(foreignStore, state => state.draft), cell = useStore(cellStore, state => state.document), robot = robotOf(cell), running = useStore(controlStore, state => state.running);
+  const [wanted, setWanted] = useState(GUESS), [reading, setReading] = useState<Reading | null>(null), area = useRef<HTMLTextAreaElement>(null);
+  const set = (next: string, file = ""): void => foreignStore.setState({ draft: { text: next, name: file } });
+  useEffect(() => {
+    if (!robot || !cell || text.trim() === "") { setReading(null); return undefined; }
+    const timer = setTimeout(() => setReading(readText(text, robot, cell.robot.worldFromBase, name, wanted === GUESS ? undefined : wanted) ?? null), WAIT_MS);
+    return () => clearTimeout(timer);
+  }, [text, name, wanted, robot, cell]);
+
+  const faults = reading === null ? [] : reading.parsed.kind === "parsed" ? reading.parsed.warnings : reading.parsed.faults, understood = reading?.parsed.kind === "parsed" && reading.parsed.program.steps.length > 0;
+  const look = ({ line, column }: TextFault): void => {
+    const element = area.current;
+    if (!element) return;
+    const before = text.split("\n").slice(0, line - 1).reduce((sum, each) => sum + each.length + 1, 0), height = parseFloat(getComputedStyle(element).lineHeight);
+    element.focus();
+    element.setSelectionRange(before + column - 1, before + (text.split("\n")[line - 1]?.length ?? 0));
+    element.scrollTop = Math.max(0, (line - 4) * height);
+  };
+  const drop = (event: DragEvent): void => {
+    const file = event.dataTransfer.files[0];
+    if (!file) return;
+    event.preventDefault();
+    event.stopPropagation();
+    file.text().then(content => set(content, file.name), () => notify("bad", words.file.unreadable(file.name)));
+  };
+  const steps = (): void => { if (reading?.parsed.kind === "parsed" && importParsed(reading.parsed, name || reading.dialect.name)) { set(""); closeDialog(); } };
+  const runIt = (): void => {
+    if (!reading) return;
+    openForeign({ name: name || words.foreign.pasted, dialect: reading.dialect.id, text });
     closeDialog();
+    showMode("run");
+    viewStore.setState({ sheet: "run" });
   };
   return (
-    <Frame open={open} title={words.export.import} onClose={closeDialog} foot={<button className="btn primary" disabled={text.trim() === ""} onClick={go}>{words.export.importGo}</button>}>
-      <p className="muted">{words.export.importSays}</p>
-      <textarea className="import-text" aria-label={words.export.paste} value={text} spellCheck={false} onChange={event => { setText(event.currentTarget.value); setFaults([]); }} />
-      {faults.length > 0 && <ul className="notes" role="alert">{faults.slice(0, 8).map(says => <li key={says} className="field-fault">{says}</li>)}</ul>}
-    </Frame>
+    <div className="import">
+      <div className="import-main">
+        <p className="muted small">{words.export.importSays}</p>
+        <textarea ref={area} className="import-text" aria-label={words.export.paste} value={text} spellCheck={false} wrap="off" onChange={event => set(event.currentTarget.value)} onDragOver={event => event.preventDefault()} onDrop={drop} />
+      </div>
+      <div className="import-side stack">
+        <span className="dim small">{words.export.dialect}</span>
+        <Chooser label={words.export.dialect} value={wanted} onChange={setWanted} options={[{ value: GUESS, words: words.foreign.guess }, ...DIALECTS.map(each => ({ value: each.id, words: `${each.name} · ${each.brand}` }))]} />
+        <p className="small" role="status">{reading === null ? words.foreign.nothing : understood && reading.parsed.kind === "parsed" ? words.foreign.reads(reading.dialect.name, reading.parsed.program.steps.length) : words.foreign.cannotRead(reading.dialect.name)}</p>
+        {reading?.dialect.maturity === "experimental" && <p className="small muted"><i className="mark" data-verdict="warn" aria-hidden /> {words.export.experimental}</p>}
+        {faults.length > 0 && <ul className="notes import-faults" role={understood ? "status" : "alert"}>
+          {faults.slice(0, MOST_FAULTS).map((fault, i) => <li key={i}><button className="import-fault" data-bad={!understood} onClick={() => look(fault)}>{words.export.line(fault.line, fault.column, fault.sentence)}</button></li>)}
+          {faults.length > MOST_FAULTS && <li className="small dim">{words.check.more(faults.length - MOST_FAULTS)}</li>}
+        </ul>}
+        <button className="btn primary" disabled={!understood} onClick={steps}>{words.foreign.steps}</button>
+        <button className="btn" disabled={reading === null || running} onClick={runIt}>{words.foreign.asText}</button>
+        <p className="small muted">{words.foreign.asTextSays}</p>
+      </div>
+    </div>
   );
 }

@@ -1,4 +1,5 @@
 import { edgeTraceCell, emptyCell, saveDocument } from "@twincell/project";
+import { DIALECTS } from "@twincell/languages";
 import { useEffect, useRef, useState } from "react";
 import { cellStore } from "../../stores/cell.ts";
 import { registerCommands } from "../../stores/commands.ts";
@@ -9,7 +10,7 @@ import { words } from "../../words/index.ts";
 import { openFile } from "./openFile.ts";
 import "./files.css";
 
-const KINDS = ".json,.v2,.pg,.txt,.stl,.obj,.ply";
+const KINDS = [".json", ".txt", ".stl", ".obj", ".ply", ...new Set(DIALECTS.flatMap(({ extensions }) => extensions))].join();
 
 /** Save, open and drop. */
 export function Files() {

@@ -2,7 +2,11 @@ import { notify } from "../../stores/notices.ts";
 import { openCellText } from "../../stores/opening.ts";
 import { importText } from "../../stores/importing.ts";
 import { importMesh } from "../../live/mesh-import.ts";
+import { DIALECTS } from "@twincell/languages";
 import { words } from "../../words/index.ts";
+
+/** Whether files with that ending are programs of a robot language. */
+const isProgram = (kind: string): boolean => DIALECTS.some(({ extensions }) => extensions.some(each => each.toLowerCase() === `.${kind}`));
 
 /** Opens a chosen or dropped file by what it is. Whatever is wrong with it is one sentence; what was open stays open. */
 export async function openFile(file: File): Promise<void> {
@@ -10,7 +14,7 @@ export async function openFile(file: File): Promise<void> {
   try {
     if (kind === "json") openCellText(await file.text(), file.name);
     else if (kind === "stl" || kind === "obj" || kind === "ply") await importMesh(file.name, kind, new Uint8Array(await file.arrayBuffer()));
-    else if (kind === "v2" || kind === "pg" || kind === "txt") {
+    else if (kind === "txt" || isProgram(kind)) {
       const [fault] = importText(await file.text(), file.name);
       if (fault !== undefined) notify("bad", words.file.notCell(file.name, fault), words.file.notCellHint);
     } else notify("bad", words.file.unknownKind(file.name), words.file.unknownHint);

@@ -1,3 +1,4 @@
+import { standLoad } from "@twincell/core";
 import type { CellDocument } from "@twincell/project";
 import { runCommand } from "../../stores/commands.ts";
 import { commit, robotOf } from "../../stores/document.ts";
@@ -9,10 +10,11 @@ import { PoseFields } from "./PoseFields.tsx";
 export function RobotInspector({ document }: { document: CellDocument }) {
   const robot = robotOf(document);
   if (!robot) return null;
+  const load = standLoad(robot), mass = load.kind === "known" && load.payload_kg > 0 ? words.inspector.massLoaded(load.robot_kg, load.total_kg) : `${robot.mass_kg ?? 0} kg`;
   const facts = [
     [words.inspector.reach, `${showNumber(robot.reach_m, "length", 0)} mm`], [words.inspector.payload, `${robot.payload_kg} kg`],
     [words.inspector.repeatability, `±${showNumber(robot.repeatability_m, "length", 3)} mm`], [words.inspector.tcpSpeed, `${robot.maxTcpSpeed_mps} m/s`],
-    [words.inspector.shapeError, `${showNumber(robot.shapeError_m, "length", 0)} mm`], ...(robot.mass_kg === undefined ? [] : [[words.inspector.mass, `${robot.mass_kg} kg`] as const]),
+    [words.inspector.shapeError, `${showNumber(robot.shapeError_m, "length", 0)} mm`], ...(robot.mass_kg === undefined ? [] : [[words.inspector.mass, mass] as const]),
   ] as const;
   return (
     <section aria-label={robot.name}>

@@ -16,6 +16,6 @@ export function robotPicture(robot: Robot): RobotPicture {
   const round = (value: number): number => Math.round(value * 1000) / 1000;
   return {
     viewBox: [left - (size - width) / 2 - room, top - (size - height) / 2 - room, size + 2 * room, size + 2 * room].map(round).join(" "),
-    bones: `M${points.map(([x, y]) => `${round(x)} ${round(y)}`).join("L")}`, joints: points.map(([x, y]) => [round(x), round(y)] as const), width: round(0.085 * size),
+    bones: `M${points.map(([x, y]) => `${round(x)} ${round(y)}`).join("L")}`, joints: points.map(([x, y]) => [round(x), round(y)] as const), width: round(0.13 * size),
   };
 }

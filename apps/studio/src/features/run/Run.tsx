@@ -1,45 +1,61 @@
 import { Pause, Play, RotateCcw, Square } from "lucide-react";
 import { useMemo } from "react";
 import { useStore } from "zustand";
-import { vPlus } from "@twincell/languages";
+import { runnableFile } from "@twincell/languages";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { controlStore } from "../../stores/control.ts";
 import { programOf, robotOf } from "../../stores/document.ts";
+import { foreignStore } from "../../stores/foreign.ts";
+import { languageOf, languageStore } from "../../stores/languages.ts";
 import { playStore } from "../../stores/play.ts";
 import { CodeView } from "../../ui/CodeView.tsx";
 import { words } from "../../words/index.ts";
+import { LanguageChoice } from "../../ui/LanguageChoice.tsx";
+import { Foreign } from "./Foreign.tsx";
+import { SignalList } from "./SignalList.tsx";
 import "./run.css";
 
 /** Run: the exported text on the left of one's mind, the twin in the view. The line under way is lit and kept in sight. */
 export default function Run() {
   const document = useStore(cellStore, state => state.document), program = programOf(document), robot = robotOf(document);
   const running = useStore(controlStore, state => state.running), safety = useStore(controlStore, state => state.safety);
-  const held = useStore(playStore, state => state.speed === 0);
+  const held = useStore(playStore, state => state.speed === 0), dialect = useStore(languageStore, state => languageOf(robot, state));
+  const nothing = !program || !robot || program.steps.length === 0;
   const file = useMemo(() => {
-    if (!program || !robot || !document || program.steps.length === 0) return null;
-    const emitted = vPlus.emit(program, robot, document.robot.worldFromBase);
-    return emitted.kind === "cannot" ? emitted : emitted.files.find(each => /^\s*\.PROGRAM/im.test(each.text)) ?? emitted.files[0] ?? null;
-  }, [program, robot, document]);
+    if (!program || !robot || !document || !dialect || program.steps.length === 0) return null;
+    const emitted = dialect.emit(program, robot, document.robot.worldFromBase);
+    return emitted.kind === "cannot" ? emitted : runnableFile(dialect, emitted.files) ?? null;
+  }, [program, robot, document, dialect]);
+  const foreign = useStore(foreignStore, state => state.open);
+  const cannot = file !== null && "kind" in file;
 
+  if (foreign) return (
+    <section aria-label={words.run.title}>
+      <h2 className="heading"><span className="grow">{words.run.title}</span></h2>
+      <div className="section run"><Foreign open={foreign} /><TwinError /></div>
+    </section>
+  );
   return (
     <section aria-label={words.run.title}>
       <h2 className="heading"><span className="grow">{words.run.title}</span></h2>
       <div className="section run">
-      <p className="small muted">{words.run.idle} {words.run.recording}</p>
+      <p className="small muted">{dialect ? words.run.idle : words.run.neutral(robot?.name ?? "")} {words.run.recording}</p>
+      {robot && dialect && <LanguageChoice robot={robot} disabled={running} />}
       <div className="run-buttons">
         {running
           ? <>
             <button className="btn" onClick={() => playStore.setState({ speed: held ? 1 : 0 })}>{held ? <Play /> : <Pause />}{held ? words.run.resume : words.run.hold}</button>
             <button className="btn" onClick={() => runCommand("stop")}><Square />{words.run.stop}</button>
           </>
-          : <button className="btn primary" disabled={file === null || "kind" in file || safety !== "normal"} onClick={() => runCommand("run.start")}><Play />{words.run.run}</button>}
+          : <button className="btn primary" disabled={nothing || cannot || safety !== "normal"} onClick={() => runCommand("run.start")}><Play />{words.run.run}</button>}
         {safety !== "normal" && <button className="btn" onClick={() => runCommand("run.reset")}><RotateCcw />{words.control.reset}</button>}
       </div>
       <TwinError />
-      {file === null && <p className="muted">{words.run.nothing}</p>}
-      {file !== null && "kind" in file && <p role="alert" className="run-cannot">{words.run.notEmitted} {file.sentence}</p>}
-      {file !== null && !("kind" in file) && <Listing text={file.text} />}
+      {nothing && <p className="muted">{words.run.nothing}</p>}
+      {cannot && <p role="alert" className="run-cannot">{words.run.notEmitted(dialect?.name ?? "")} {file.sentence}</p>}
+      {program && <SignalList signals={program.signals} />}
+      {file !== null && !("kind" in file) && dialect && <Listing text={file.text} dialect={dialect.id} name={dialect.name} />}
       </div>
     </section>
   );
@@ -56,7 +72,7 @@ function TwinError() {
 }
 
 /** The text with the line under way lit and kept in sight. */
-function Listing({ text }: { readonly text: string }) {
+function Listing({ text, dialect, name }: { readonly text: string; readonly dialect: string; readonly name: string }) {
   const line = useStore(controlStore, state => (state.running ? state.line : 0));
-  return <CodeView text={text.replace(/\r?\n$/, "")} label={words.run.text} current={line} height="min(48vh, 520px)" />;
+  return <CodeView text={text.replace(/\r?\n$/, "")} dialect={dialect} label={words.run.text(name)} current={line} height="min(48vh, 520px)" />;
 }

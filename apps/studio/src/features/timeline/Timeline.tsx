@@ -5,7 +5,8 @@ import { onFrame } from "../../live/frames.ts";
 import { playheadNow } from "../../live/playhead.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
-import { programOf } from "../../stores/document.ts";
+import { programOf, robotOf } from "../../stores/document.ts";
+import { languageOf, languageStore } from "../../stores/languages.ts";
 import { playStore } from "../../stores/play.ts";
 import { seek } from "../../stores/seek.ts";
 import { select, selectionStore } from "../../stores/selection.ts";
@@ -35,6 +36,7 @@ function Transport({ hasPlan }: { hasPlan: boolean }) {
   const playing = useStore(playStore, state => state.playing), duration = useStore(playStore, state => state.plan?.duration_s ?? 0);
   const repairs = useStore(playStore, state => state.verdict?.steps.reduce((count, step) => count + (step.findings.some(finding => finding.repairs.length > 0) ? 1 : 0), 0) ?? 0);
   const plots = useStore(viewStore, state => state.plots), checking = useStore(playStore, state => state.checking);
+  const robot = useStore(cellStore, state => robotOf(state.document)), language = useStore(languageStore, state => languageOf(robot, state)?.name ?? "");
   const clock = useRef<HTMLSpanElement>(null);
   useEffect(() => onFrame(() => {
     const text = words.time.s(playheadNow());
@@ -50,7 +52,7 @@ function Transport({ hasPlan }: { hasPlan: boolean }) {
       {checking !== null && <span className="row-flex small muted" role="status"><span className="progress checking-bar"><i style={{ width: `${checking * 100}%` }} /></span>{words.check.percent(Math.round(checking * 100))}<button className="btn quiet tight" onClick={() => runCommand("check.cancel")}>{words.common.cancel}</button></span>}
       <Tip words={words.time.plots}><button className="btn quiet" aria-pressed={plots} onClick={() => runCommand("view.plots")}><ChartSpline />{words.time.plots}</button></Tip>
       {repairs > 0 && <button className="btn" onClick={() => runCommand("check.repair-all")}>{words.check.repairAll(repairs)}</button>}
-      <button className="btn" onClick={() => runCommand("export.open")}>{words.commands.export}</button>
+      <button className="btn" onClick={() => runCommand("export.open")}>{words.export.button(language)}</button>
     </div>
   );
 }

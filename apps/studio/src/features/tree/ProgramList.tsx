@@ -10,7 +10,7 @@ import { copySteps, deleteSteps, placeSteps, stepWords } from "../../stores/prog
 import { select, selectionStore } from "../../stores/selection.ts";
 import { seekStep } from "../../stores/seek.ts";
 import { words } from "../../words/index.ts";
-import { AddStep } from "./AddStep.tsx";
+import { ProgramSwitch } from "./ProgramSwitch.tsx";
 import { ProgramRowView } from "./ProgramRowView.tsx";
 import { anchorOf, behind, idsOf, programRows, type ProgramRow } from "./rows.ts";
 
@@ -90,7 +90,7 @@ export function ProgramList() {
 
   return (
     <section className="program" aria-label={words.tree.program} id="program">
-      <h2 className="heading"><span className="grow">{words.tree.program}{program && ` · ${program.name}`}</span><AddStep /></h2>
+      <ProgramSwitch />
       {program && program.steps.length === 0 && <p className="empty">{words.tree.empty}</p>}
       <DndContext sensors={sensors} collisionDetection={closestCenter} onDragEnd={onDragEnd}>
         <SortableContext items={rows.map(row => row.key)} strategy={verticalListSortingStrategy}>

@@ -6,7 +6,7 @@ const point = (id: string, group?: string): Step => ({ id, type: "move", path: "
 const program = { ...emptyProgram("staubli_rx90l"), groups: { e1: { name: "Edge 1" } }, steps: [point("a"), point("b", "e1"), point("c", "e1"), { id: "w", type: "wait" as const, s: 0.5 }, point("d", "e1")] };
 
 test("a run of one group is one line with the worst verdict of its steps", () => {
-  const rows = programRows(program, { ok: false, duration_s: 1, clearance_m: null, assumptions: [], steps: [{ id: "b", verdict: "ok", findings: [] }, { id: "c", verdict: "bad", findings: [] }] }, new Set());
+  const rows = programRows(program, { ok: false, duration_s: 1, clearance_m: null, torque: { kind: "unknown", sentence: "" }, assumptions: [], steps: [{ id: "b", verdict: "ok", findings: [] }, { id: "c", verdict: "bad", findings: [] }] }, new Set());
   expect(rows.map(row => row.key)).toEqual(["a", "group e1 b", "w", "group e1 d"]);
   expect(rows[1]).toMatchObject({ name: "Edge 1", verdict: "bad" });
   expect(idsOf(rows[1]!)).toEqual(["b", "c"]);

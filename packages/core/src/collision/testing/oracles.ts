@@ -29,7 +29,7 @@ export const meetInGeneral = (p: Triangle, q: Triangle): boolean => [0, 1, 2].so
   pierces(p[i]!, p[(i + 1) % 3]!, q) || pierces(q[i]!, q[(i + 1) % 3]!, p));
 
 /** Closest point of a triangle by the regions around it (Ericson 5.1.5). */
-function closestOn(point: Vector3, [a, b, c]: Triangle): Vector3 {
+export function closestOn(point: Vector3, [a, b, c]: Triangle): Vector3 {
   const along = (from: Vector3, to: Vector3, t: number): Vector3 => [from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]), from[2] + t * (to[2] - from[2])];
   const ab = minus(b, a), ac = minus(c, a), ap = minus(point, a), bp = minus(point, b), cp = minus(point, c);
   const d1 = dotOf(ab, ap), d2 = dotOf(ac, ap), d3 = dotOf(ab, bp), d4 = dotOf(ac, bp), d5 = dotOf(ab, cp), d6 = dotOf(ac, cp);

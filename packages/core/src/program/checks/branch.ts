@@ -63,7 +63,8 @@ export function checkImpasses(scene: CheckScene): void {
     const id = impasse.move.step.id, at_s = startOf(scene, id);
     if ("broken" in impasse) {
       const { best, tried, share } = impasse.broken;
-      if (best === undefined || !troubled.has(id)) continue;
+      // What cannot be reached at all is said by `checkReach`.
+      if (best === undefined || best.lost.kind === "out-of-reach" || !troubled.has(id)) continue;
       stuck = true;
       const how = tried.length === 1 ? "The arm gets" : `Of ${tried.length} postures of the arm none gets through; the best${best.branch === undefined ? "" : `, ${words(best.branch)},`} gets`;
       scene.add(id, "bad", { code: "branch.no-way", ...("joint" in best.lost ? { joint: best.lost.joint } : {}), value: share, limit: 1, unit: "1", at_s, sentence: `${how} to ${(100 * share).toFixed(0)} % of the path, ${because(best.lost)}`, repairs: asJointMove(scene, id) });

@@ -17,6 +17,8 @@ export interface Obstacle { readonly move: Move; readonly stop: RunStop; readonl
 /** A move that no posture of its path gets through, with how far the best gets, or before which the arm would have to turn over. */
 export type Impasse = { readonly move: Move; readonly broken: Break } | { readonly move: Move; readonly flip: Flip };
 
+export interface Ends { readonly from_rad: Float64Array; readonly to_rad: Float64Array }
+
 /** One carrying out of a step that is carried out more than once, or at the place of a pallet. */
 export interface Turn { readonly written: Step; readonly visits: readonly Visit[] }
 
@@ -29,6 +31,8 @@ export interface Layout {
   readonly notes: readonly PlanNote[];
   readonly obstacles: readonly Obstacle[];
   readonly impasses: readonly Impasse[];
+  /** The postures at both ends of a taught move, before blending, by id; only of paths with something to choose or to follow. */
+  readonly ends: ReadonlyMap<string, Ends>;
   /** The moves by id. */
   readonly moves: ReadonlyMap<string, Move>;
   /** Posture in which each move begins. */
@@ -99,6 +103,7 @@ class Sheet {
   private readonly solver: ContinuitySolver;
   private readonly obstacles: Obstacle[] = [];
   private readonly impasses: Impasse[] = [];
+  private readonly ends = new Map<string, Ends>();
   private readonly moves = new Map<string, Move>();
   private readonly starts = new Map<string, Float64Array>();
   private readonly unjudged = new Set<string>();
@@ -170,7 +175,7 @@ class Sheet {
       this.writer.jumpTo(q);
       const moves = run.map((happening, i) => this.own(happening, resolved[i]!)), chosen = choice === undefined ? moves : withChoice(moves, choice, first);
       for (const move of chosen) this.moves.set(move.step.id, move);
-      if (choice !== undefined) this.noteImpasses(choice, chosen, first);
+      if (choice !== undefined) { this.noteImpasses(choice, chosen, first); this.noteEnds(choice, chosen, first, q); }
       this.lay(chosen);
       ends.push({ q: this.writer.q.slice(), choice });
     }
@@ -180,14 +185,21 @@ class Sheet {
     return after;
   }
 
-  private noteImpasses({ way, broken }: Choice, moves: readonly Move[], first: number): void {
+  private noteEnds({ way }: Choice, moves: readonly Move[], first: number, q: Float64Array): void {
+    for (let i = 0; i < moves.length; i++) {
+      const from_rad = first + i === 0 ? q : way.ends[first + i - 1], to_rad = way.ends[first + i];
+      if (from_rad !== undefined && to_rad !== undefined) this.ends.set(moves[i]!.step.id, { from_rad, to_rad });
+    }
+  }
+
+  private noteImpasses({ turning, broken }: Choice, moves: readonly Move[], first: number): void {
     for (const one of broken) { const move = moves[one.move - first]; if (move !== undefined) this.impasses.push({ move, broken: one }); }
-    for (const flip of way.flips) { const move = moves[flip.move - first]; if (move !== undefined && flip.kind === "standstill") this.impasses.push({ move, flip }); }
+    for (const flip of turning) { const move = moves[flip.move - first]; if (move !== undefined) this.impasses.push({ move, flip }); }
   }
 
   finish(complete: boolean): Layout {
-    const { writer, obstacles, impasses, moves, starts, turns, evaluated, unjudged } = this;
-    return { plan: writer.plan(this.program.robot), notes: writer.notes, obstacles, impasses, moves, starts, turns, evaluated, unjudged, complete, cut: this.made > MOST_LAID_OUT ? MOST_LAID_OUT : undefined };
+    const { writer, obstacles, impasses, ends, moves, starts, turns, evaluated, unjudged } = this;
+    return { plan: writer.plan(this.program.robot), notes: writer.notes, obstacles, impasses, ends, moves, starts, turns, evaluated, unjudged, complete, cut: this.made > MOST_LAID_OUT ? MOST_LAID_OUT : undefined };
   }
 
   private stand(postures: readonly Float64Array[]): void {

@@ -1,7 +1,7 @@
 import type { Reach } from "../../kinematics/reach.ts";
 import { nearestSolution, solveAll, solverScratch } from "../../kinematics/inverse.ts";
 import { isInsideWorkspace } from "../../kinematics/workspace.ts";
-import { sameBranch } from "../../kinematics/branch.ts";
+import { branchOf, sameBranch } from "../../kinematics/branch.ts";
 import { compose, copyPose, inverse, type Pose } from "../../spatial/pose.ts";
 import { fromAxisAngle, multiply } from "../../spatial/quaternion.ts";
 import { radians } from "../../spatial/units.ts";
@@ -12,9 +12,10 @@ import type { Repair } from "../verdict.ts";
 import type { CheckScene } from "./scene.ts";
 
 const TILTS_DEG = [5, 10, 15, 20, 30, 45], SPINS_DEG = [15, 30, 45, 90, 135, 180], SHIFTS_M = [0.01, 0.02, 0.05, 0.1, 0.2];
+const MOST_REPAIRS = 3;
 type PoseTarget = Extract<Target, { pose: unknown }>;
 
-/** Steps like this one that can be reached: the tool tilted, turned about itself, the target shifted; the least change of each kind. */
+/** Steps like this one that can be reached, three at most: another posture, the tool tilted, turned about itself, the target shifted; the least change of each kind. */
 export function reachRepairs(scene: CheckScene, move: Move, reach?: Reach): Repair[] {
   const target = move.step.target;
   if (!("pose" in target)) return [];
@@ -28,6 +29,10 @@ export function reachRepairs(scene: CheckScene, move: Move, reach?: Reach): Repa
     return true;
   };
   const base = move.baseFromTcp;
+  if (target.branch !== undefined && reachable(base)) {
+    const other = branchOf(scene.robot, out);
+    if (other !== undefined) found.push({ sentence: `Take the posture with shoulder ${other.shoulder}, elbow ${other.elbow}, wrist ${other.wrist}.`, replace: withTarget(move.step, { ...withoutBranch(target), branch: other }) });
+  }
   tilt: for (const angle of TILTS_DEG) {
     for (const [name, axis] of [["x", [1, 0, 0]], ["y", [0, 1, 0]]] as const) {
       for (const sign of [1, -1]) if (offer(turnTool(base, [...axis], radians(sign * angle)), `Tilt the tool by ${sign * angle}° about its ${name} axis.`)) break tilt;
@@ -39,7 +44,7 @@ export function reachRepairs(scene: CheckScene, move: Move, reach?: Reach): Repa
   const shifts = SHIFTS_M.map(shift => Math.ceil((missing + shift) * 1000) / 1000);
   for (const shift of shifts) if (offer(towardsBase(base, shift), `Move the target ${Math.round(shift * 1000)} mm towards the robot.`)) break;
   for (const shift of shifts) if (offer(towardsBase(base, -shift), `Move the target ${Math.round(shift * 1000)} mm away from the robot.`)) break;
-  return found;
+  return found.slice(0, MOST_REPAIRS);
 }
 
 /** The same pose in other postures, as joint moves to them. */

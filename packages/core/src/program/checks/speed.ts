@@ -1,9 +1,9 @@
 import type { Joint } from "../../robots/arm.ts";
 import { isSlide, jointRateText } from "../../robots/slide.ts";
 import type { Slowed } from "../../trajectory/run-timing.ts";
-import type { MoveStep, Speed } from "../program.ts";
-import type { Finding, Repair } from "../verdict.ts";
-import { metresPerSecond, motions, seconds, type CheckScene } from "./scene.ts";
+import type { Finding } from "../verdict.ts";
+import { motions, type CheckScene } from "./scene.ts";
+import { slower } from "./slower.ts";
 
 /** Commanded speeds that a joint cannot follow (rows L-26, L-56), and joint speeds of the plan itself. */
 export function checkSpeed(scene: CheckScene): void {
@@ -39,28 +39,4 @@ function saidOf(of: Joint, { joint, wanted, limit, unit }: Pick<Slowed, "joint" 
     case "rad/s2": return { code: "speed.acceleration", unit: slides ? "m/s2" : unit, sentence: `Joint ${joint} would accelerate at ${rate(wanted)}²; its limit is ${rate(limit)}².` };
     case "rad/s": return { code: "speed.joint", unit: slides ? "m/s" : unit, sentence: `Joint ${joint} would ${slides ? "slide" : "turn"} at ${rate(wanted)}; its limit is ${rate(limit)}.` };
   }
-}
-
-/** The step with a speed that every joint can follow, and a little to spare. */
-function slower(scene: CheckScene, step: MoveStep, factor: number): Repair[] {
-  const spare = 1.02, speed = step.speed;
-  const replace = (next: Speed, sentence: string): Repair[] => [{ sentence, replace: { ...step, speed: next } }];
-  if ("mps" in speed) {
-    const mps = floored(speed.mps / (factor * spare));
-    return replace({ mps }, `Lower the speed to ${metresPerSecond(mps)}.`);
-  }
-  if ("ratio" in speed) {
-    const ratio = floored(speed.ratio / (factor * spare));
-    return replace({ ratio }, `Lower the speed to ${(ratio * 100).toPrecision(2)} %.`);
-  }
-  // A duration that was too short was not kept: the plan's own is the shortest there is.
-  const least_s = scene.layout.plan.segments.filter(segment => segment.step === step.id).reduce((sum, segment) => sum + segment.duration_s, 0);
-  const time_s = Math.ceil(least_s * spare * 100) / 100;
-  return replace({ time_s }, `Give it ${seconds(time_s)}.`);
-}
-
-/** Rounded down to two digits. */
-function floored(x: number): number {
-  const unit = 10 ** (Math.floor(Math.log10(x)) - 1);
-  return Number((Math.floor(x / unit) * unit).toPrecision(2));
 }

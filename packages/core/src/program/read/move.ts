@@ -101,13 +101,16 @@ function known(
 function readBranch(reader: Reader, value: unknown, path: string, what: string): Branch | undefined {
   const fields = reader.object(value, path, `the branch of ${what}`);
   if (fields === undefined) return undefined;
-  reader.onlyKeys(fields, path, `the branch of ${what}`, keys<Branch>()("shoulder", "elbow", "wrist"));
+  reader.onlyKeys(fields, path, `the branch of ${what}`, keys<Branch>()("shoulder", "elbow", "wrist", "determinant", "elbow_rad"));
   const oneOf = <T extends string>(key: keyof Branch, a: T, b: T): T | undefined => {
     const word = fields[key];
     return word === a ? a : word === b ? b : reader.fault(`${path}.${key}`, `the ${key} of ${what} is "${a}" or "${b}"; here it is ${reader.shown(word)}.`);
   };
   const shoulder = oneOf("shoulder", "front", "back"), elbow = oneOf("elbow", "up", "down"), wrist = oneOf("wrist", "positive", "negative");
-  return shoulder === undefined || elbow === undefined || wrist === undefined ? undefined : { shoulder, elbow, wrist };
+  const determinant = fields.determinant === undefined ? undefined : oneOf("determinant", "positive", "negative");
+  const elbow_rad = fields.elbow_rad === undefined ? undefined : reader.number(fields.elbow_rad, `${path}.elbow_rad`, `the elbow angle of ${what}`, "rad");
+  if (shoulder === undefined || elbow === undefined || wrist === undefined) return undefined;
+  return { shoulder, elbow, wrist, ...(determinant === undefined ? {} : { determinant }), ...(elbow_rad === undefined ? {} : { elbow_rad }) };
 }
 
 function readSpeed(reader: Reader, value: unknown, path: string, what: string): Speed | undefined {

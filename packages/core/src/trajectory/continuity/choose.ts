@@ -1,15 +1,17 @@
 import type { Robot } from "../../robots/robot.ts";
 import type { Move } from "../moves.ts";
-import { ContinuitySolver, type Break, type Continuity } from "./continuity.ts";
+import { ContinuitySolver, type Break, type Continuity, type Flip } from "./continuity.ts";
 
 /** Which postures a path is driven in. */
 export interface Choice {
-  /** The least costly way there is, or the nearest one where that is without fault. */
+  /** How the arm goes. */
   readonly way: Continuity;
-  /** Whether postures have to be chosen: a controller that takes the nearest one at every target would not go this way. */
+  /** Whether postures had to be chosen: a controller that takes the nearest one at every target would not go this way. */
   readonly chosen: boolean;
-  /** Moves that no posture gets through unless the arm turns over somewhere before them. */
+  /** Moves that no posture gets through unless the arm turns over somewhere before them, */
   readonly broken: readonly Break[];
+  /** and where it would have to, at a standstill. */
+  readonly turning: readonly Flip[];
 }
 
 /** Whether a move's posture is for the arm to choose: a joint move to a pose taught without a branch. */
@@ -35,10 +37,11 @@ function fewer(a: Continuity, b: Continuity): boolean {
 export function chooseBranches(runs: readonly (readonly Move[])[], robot: Robot, start_rad: Float64Array, solver = new ContinuitySolver(robot)): Choice | undefined {
   if (!runs.some(run => run.some(move => isFree(move) || move.step.path !== "ptp"))) return undefined;
   const nearest = solver.solve(runs, start_rad, { nearest: true });
-  if (faults(nearest).every(count => count === 0)) return { way: nearest, chosen: false, broken: [] };
+  if (faults(nearest).every(count => count === 0)) return { way: nearest, chosen: false, broken: [], turning: [] };
   const best = solver.solve(runs, start_rad), broken = best.breaks;
-  const turning = broken.length > 0 ? solver.solve(runs, start_rad, { standstill: true }) : best, way = fewer(turning, best) ? turning : best;
-  return { way, chosen: fewer(way, nearest), broken };
+  const turned = broken.length > 0 ? solver.solve(runs, start_rad, { standstill: true }) : best, turning = turned.flips.filter(({ kind }) => kind === "standstill");
+  const way = fewer(turned, best) ? turned : best, chosen = fewer(way, nearest);
+  return { way: chosen ? way : nearest, chosen, broken, turning };
 }
 
 /** The same moves, with the posture that was chosen for each that is free. */

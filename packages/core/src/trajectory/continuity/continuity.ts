@@ -1,10 +1,10 @@
 import { branchOf, sameBranch, type Branch } from "../../kinematics/branch.ts";
-import { flangePose } from "../../kinematics/forward.ts";
+import { armScratch, flangePose } from "../../kinematics/forward.ts";
 import type { Reach } from "../../kinematics/reach.ts";
 import { turns } from "../../kinematics/turns.ts";
 import type { Robot } from "../../robots/robot.ts";
-import type { Pose } from "../../spatial/pose.ts";
-import { radians } from "../../spatial/units.ts";
+import { identity, type Pose } from "../../spatial/pose.ts";
+import { radians, wrapAngle } from "../../spatial/units.ts";
 import { Follower } from "../follow.ts";
 import type { PosePath } from "../geometry.ts";
 import { GoalFinder } from "../goal.ts";
@@ -87,11 +87,13 @@ export class ContinuitySolver {
   private readonly goals: GoalFinder;
   private readonly postures: PostureFinder;
   private readonly q: Float64Array;
+  private readonly arm = armScratch();
   private stages: Stage[] = [];
   /** Stage in which each move ends. */
   private endOf: number[] = [];
   private breaks: Break[] = [];
   private fault = PLAIN;
+  private readonly asked = new Map<Move, readonly { readonly q_rad: Float64Array; readonly lost: Lost | undefined }[]>();
 
   constructor(robot: Robot) {
     const newton = new Follower(robot.arm);
@@ -111,7 +113,7 @@ export class ContinuitySolver {
     pool.add(start_rad, 0, 0, -1, 0, this.code(start_rad), PLAIN);
     let stage = this.close(0, false);
     for (const run of runs) {
-      const begin = flangePose(this.robot.arm, pool.posture(stage.first));
+      const begin = flangePose(this.robot.arm, pool.posture(stage.first), identity(), this.arm);
       for (let i = 0; i < run.length; i++) {
         const move = run[i]!;
         if (move.step.path === "ptp" || stage.nowhere) stage = this.arrive(stage, move, options.nearest === true);
@@ -172,7 +174,7 @@ export class ContinuitySolver {
       const leader = pool.group[p]!;
       if (this.metBefore(before.first, p, leader)) continue;
       this.load(p, q);
-      if (follower.follow(path, move.tcpFromFlange, q, false) !== undefined) continue;
+      if (follower.follow(path, move.tcpFromFlange, q, false) !== undefined || this.refused(move, path, p) !== undefined) continue;
       for (let j = 0; j < n; j++) moved[j] = q[j]! - pool.q[p * n + j]!;
       const code = this.code(q), { seconds } = follower;
       for (let c = p; c < last; c++) {
@@ -186,6 +188,17 @@ export class ContinuitySolver {
     return pool.count > first ? this.close(first, false) : this.broken(before, move, path);
   }
 
+  /** Whether the planner itself does not get along where the follower did; asked once for each posture. */
+  private refused(move: Move, path: PosePath, p: number): Lost | undefined {
+    if (!this.follower.doubtful) return undefined;
+    const q_rad = this.pool.posture(p), asked = this.asked.get(move) ?? [];
+    const known = asked.find(one => one.q_rad.every((angle, j) => Math.abs(wrapAngle(angle - q_rad[j]!)) < SAME_RAD));
+    if (known !== undefined) return known.lost;
+    const lost = this.follower.confirm(path, move.tcpFromFlange, q_rad);
+    this.asked.set(move, [...asked, { q_rad, lost }]);
+    return lost;
+  }
+
   private metBefore(first: number, p: number, group: number): boolean {
     for (let c = first; c < p; c++) if (this.pool.group[c] === group) return true;
     return false;
@@ -196,7 +209,7 @@ export class ContinuitySolver {
     const { pool } = this, first = pool.count, tried: Tried[] = [];
     let best = this.best(before), farthest: Tried | undefined;
     for (let p = before.first; p < before.first + before.count && path !== undefined; p++) {
-      const q_rad = pool.posture(p), lost = this.follower.follow(path, move.tcpFromFlange, q_rad.slice(), true);
+      const q_rad = pool.posture(p), lost = this.follower.follow(path, move.tcpFromFlange, q_rad.slice(), true) ?? this.refused(move, path, p);
       if (lost === undefined) continue;
       const one = { q_rad, branch: branchOf(this.robot, q_rad), lost };
       tried.push(one);

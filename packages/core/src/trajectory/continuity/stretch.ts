@@ -5,7 +5,9 @@ import type { Robot } from "../../robots/robot.ts";
 import { compose, identity, type Pose } from "../../spatial/pose.ts";
 import { Follower } from "../follow.ts";
 import { geometryScratch, posePoint, type PosePath } from "../geometry.ts";
+import { HermitePath } from "../hermite-path.ts";
 import { SHORTEST_M } from "../pose-paths.ts";
+import { PATH_TOLERANCE_M } from "../run.ts";
 
 /** Why a posture cannot be kept any further along a path. Joint counts from 1. */
 export type Lost =
@@ -19,7 +21,9 @@ export const CONTINUITY_RAD = 0.1;
 /** Places that are looked at are no farther apart than this [m], */
 const LOOK_M = 0.05;
 /** and when this part of the path is still too far for the joints, they jump. */
-const SHORTEST_SHARE = 1 / 1024;
+const SHORTEST_SHARE = 1 / 4096;
+/** Where a joint turns faster than this many radians per whole path, the path is laid out as the planner does it, to see whether it can. */
+const STEEP_RAD = 3;
 
 /**
  * Keeps one posture along a TCP path in steps small enough that it cannot be mistaken for another one: a step that moves
@@ -38,14 +42,20 @@ export class StretchFollower {
   private readonly goal: Pose<"base", "flange"> = identity();
   private readonly trial: Float64Array;
   private readonly start: Float64Array;
+  private readonly exact: HermitePath;
+  private steep = false;
 
   constructor(robot: Robot, follower = new Follower(robot.arm)) {
     const n = robot.arm.joints.length;
     this.robot = robot;
     this.follower = follower;
+    this.exact = new HermitePath(follower, PATH_TOLERANCE_M);
     this.below = new Float64Array(n); this.above = new Float64Array(n);
     this.trial = new Float64Array(n); this.start = new Float64Array(n);
   }
+
+  /** Whether the last path goes so close by a singularity that only laying it out can tell. */
+  get doubtful(): boolean { return this.steep; }
 
   /**
    * @param q       posture at the start of the path; receives the one at its end, or the last one that was kept.
@@ -54,10 +64,11 @@ export class StretchFollower {
   follow(path: PosePath, tcpFromFlange: Pose<"tcp", "flange">, q: Float64Array, within: boolean): Lost | undefined {
     const { trial, start, below, above, robot: { arm: { joints } } } = this, n = q.length, { length } = path;
     this.seconds = 0;
+    this.steep = false;
     below.fill(0); above.fill(0); start.set(q);
     if (length < SHORTEST_M) return undefined;
     const least = length * SHORTEST_SHARE;
-    let h = Math.min(length, LOOK_M);
+    let h = Math.min(length, LOOK_M), steepest = 0;
     for (let s = 0; s < length;) {
       const to = length - s < h + least ? length : s + h;
       posePoint(path, to, this.tcp, this.scratch);
@@ -76,6 +87,7 @@ export class StretchFollower {
         if (h < least) return this.lost(q, s / length);
         continue;
       }
+      steepest = Math.max(steepest, longest * length / (to - s));
       s = to;
       this.seconds += seconds;
       for (let j = 0; j < n; j++) {
@@ -87,7 +99,17 @@ export class StretchFollower {
       q.set(trial);
       if (longest < CONTINUITY_RAD / 4) h = Math.min(2 * h, LOOK_M);
     }
+    this.steep = steepest > STEEP_RAD;
     return undefined;
+  }
+
+  /** Whether the planner gets along the path that was followed last, where that is in doubt. @param q  posture at its start. */
+  confirm(path: PosePath, tcpFromFlange: Pose<"tcp", "flange">, q: ArrayLike<number>): Lost | undefined {
+    if (!this.steep) return undefined;
+    this.trial.set(q);
+    this.exact.clear();
+    const stop = this.exact.addPoses(path, tcpFromFlange, 0, path.length, this.trial, 0, 0);
+    return stop === undefined ? undefined : { kind: "singular", share: stop.s / path.length, near: nearestSingularity(this.robot, this.trial)?.sentence };
   }
 
   /** Whether another posture that is the same up to whole turns keeps inside its limits where the last one went. */

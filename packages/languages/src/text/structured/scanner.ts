@@ -17,6 +17,8 @@ export interface Lexicon {
   readonly signs: readonly string[];
   /** Whether the end of a line ends a statement; inside brackets it never does. */
   readonly lineEnds: boolean;
+  /** A word, with the flag `y`, where it is more than letters, digits and `_`. */
+  readonly word?: RegExp;
 }
 
 /** A line longer than this is nobody's program; it also bounds how much a statement can hold. */
@@ -73,6 +75,11 @@ export class Scanner {
       if (from >= length) return this.found("end", "");
       const code = text.charCodeAt(from), sort = code < 128 ? SORTS[code]! : 0;
       if (column > LINE_LENGTH && sort !== LINE_END) { this.skipLine(); throw new TextError({ line, column }, `a line of at most ${LINE_LENGTH} characters`, `Line ${line} has more than ${LINE_LENGTH} characters.`); }
+      if (lexicon.word !== undefined && sort !== DIGIT && sort !== LINE_END) {
+        lexicon.word.lastIndex = from;
+        const word = lexicon.word.exec(text)?.[0];
+        if (word !== undefined) { this.at += word.length; return this.found("word", word); }
+      }
       if (sort === LETTER) {
         while (this.at < length && isWordCode(text.charCodeAt(this.at))) this.at++;
         return this.found("word", text.slice(from, this.at));

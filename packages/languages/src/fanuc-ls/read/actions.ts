@@ -1,0 +1,38 @@
+import type { Expression, Statement } from "../../text/structured/index.ts";
+
+/** Where a motion goes: P[n], or PR[n]. */
+export interface Point { readonly register: "p" | "pr"; readonly number: Expression }
+/** What happens behind a jump that is not taken by itself: the program goes on, is aborted, or goes elsewhere. */
+export type Fate = "on" | "abort" | "elsewhere";
+export interface Motion {
+  readonly kind: "motion";
+  readonly path: "J" | "L" | "C";
+  readonly via?: Point;
+  readonly goal: Point;
+  readonly speed: Expression;
+  readonly unit: "%" | "mm/sec" | "cm/min" | "inch/min" | "sec" | "msec";
+  /** Share of the deceleration that is passed, 0 … 100; undefined stands. */
+  readonly cnt?: Expression;
+  readonly acceleration?: Expression;
+  readonly offset?: { readonly register: Expression | undefined };
+  /** A label of the search that it is. */
+  readonly skip?: number;
+}
+
+/** What an instruction does, apart from loops, decisions, calls and assignments to registers. */
+export type Action =
+  | Motion
+  | { readonly kind: "set"; readonly word: string; readonly number: Expression; readonly value: Expression; readonly pulse?: Expression }
+  | { readonly kind: "wait"; readonly s: Expression }
+  | { readonly kind: "wait-for"; readonly when: Expression; readonly label?: number }
+  | { readonly kind: "skip-condition"; readonly when: Expression }
+  | { readonly kind: "offset-condition"; readonly register: Expression }
+  | { readonly kind: "message"; readonly text: string }
+  | { readonly kind: "select"; readonly what: "uframe" | "utool"; readonly number: Expression }
+  | { readonly kind: "define"; readonly what: "uframe" | "utool"; readonly number: Expression; readonly value: Expression; readonly spelling: string }
+  | { readonly kind: "timeout"; readonly value: Expression }
+  | { readonly kind: "jump"; readonly label: number }
+  | { readonly kind: "label"; readonly label: number }
+  | { readonly kind: "nothing" };
+
+export type Actions = ReadonlyMap<Statement, Action>;

@@ -1,0 +1,301 @@
+import {
+  branchOf, compose, everyStep, inverse, palletPitch, pose, rotate, type Condition, type EmittedFile, type MoveStep, type Pallet, type PalletStep, type Pose, type SignalLine, type Step, type Target, type Vector3,
+} from "@twincell/core";
+import { asciiText } from "../../text/index.ts";
+import { CannotSay, Names, called, fixed, remark, type Place } from "../../writing/index.ts";
+import { GRIPPER_OUTPUT, type PendantConvention } from "../robots.ts";
+import { Listing } from "./listing.ts";
+import { configOf, pendantJoints, xyzwpr, type Position } from "./positions.ts";
+import { Registers } from "./registers.ts";
+import { RESERVED, labelled } from "./words.ts";
+
+const NAME_LENGTH = 36, REMARK_LENGTH = 32, MESSAGE_LENGTH = 23, LONGEST_WAIT_S = 327.67;
+const SHORT: Readonly<Record<SignalLine["kind"], string>> = { "digital-in": "DI", "digital-out": "DO", "analogue-in": "AI", "analogue-out": "AO" };
+
+/** A pallet being visited: its first place in the frame in use, and the register that holds how far off the present one is. */
+interface Visit { readonly first: Pose<"frame", "place">; readonly frame: string; readonly offset: string }
+
+/** Writes the programs; each says what changes from one step to the next, and everything anew where it may be entered another way. */
+export class ProgramWriter {
+  readonly warnings = new Set<string>();
+  private readonly place: Place;
+  private readonly convention: PendantConvention;
+  private readonly fastest_mmps: number;
+  private readonly names = new Names({ most: NAME_LENGTH, reserved: RESERVED, first: "P_", foldsCase: true });
+  private readonly registers: Registers;
+  private readonly visits = new Map<string, Visit>();
+  private out = new Listing("", "");
+  private tool: number | undefined;
+  private frame: number | undefined;
+  private group = "";
+  private near: readonly number[] | undefined;
+  private before: MoveStep | undefined;
+
+  constructor(place: Place, convention: PendantConvention, fastest_mmps: number) {
+    this.place = place;
+    this.convention = convention;
+    this.fastest_mmps = fastest_mmps;
+    this.near = place.robot.home_rad;
+    this.registers = new Registers(place);
+  }
+
+  write(): readonly EmittedFile[] {
+    const { program } = this.place, name = this.names.of("program", program.name).toUpperCase(), main = new Listing(name, program.name), files: Listing[] = [];
+    for (const routine of Object.keys(program.routines)) this.names.of("routine", routine);
+    for (const step of everyStep(program)) if (step.type === "move") this.registers.note(step);
+    for (const [routine, steps] of Object.entries(program.routines)) files.push(this.program(new Listing(this.routineName(routine), routine), steps));
+    main.add(`!* ${asciiText(program.name)}`.slice(0, REMARK_LENGTH + 1).trimEnd());
+    this.registers.declare(main);
+    this.program(main, program.steps);
+    return [main, ...files].map(listing => listing.file());
+  }
+
+  private routineName(routine: string): string { return this.names.of("routine", routine).toUpperCase(); }
+
+  private program(listing: Listing, steps: readonly Step[]): Listing {
+    this.out = listing;
+    this.begin();
+    this.steps(steps);
+    return listing;
+  }
+
+  /** What is said at one place holds nowhere else. */
+  private begin(): void {
+    this.tool = undefined;
+    this.frame = undefined;
+    this.before = undefined;
+  }
+
+  private steps(steps: readonly Step[]): void {
+    const outer = this.group;
+    for (const [i, step] of steps.entries()) {
+      this.heading(step);
+      this.step(step, steps.slice(i + 1).find(({ type }) => type !== "comment"));
+      if (step.type !== "comment" && step.type !== "wait") this.before = step.type === "move" ? step : undefined;
+    }
+    this.group = outer;
+  }
+
+  private heading(step: Step): void {
+    const { groups } = this.place.program, add = (line: string): void => { this.out.add(line.slice(0, REMARK_LENGTH + 1).trimEnd(), step.id); };
+    const group = step.group === undefined ? "" : remark(groups[step.group]?.name ?? step.group);
+    if (group !== this.group) add(`!== ${group}`);
+    this.group = group;
+    const name = remark(step.name ?? "");
+    if (name !== "" && step.type !== "comment") add(`!${name}`);
+  }
+
+  private step(step: Step, next: Step | undefined): void {
+    const add = (line: string): void => { this.out.add(line, step.id); };
+    switch (step.type) {
+      case "move": return this.move(step, next);
+      case "wait": return add(`WAIT ${this.seconds(step, step.s)}(sec)`);
+      case "gripper": return add(`${GRIPPER_OUTPUT}=${step.closed ? "ON" : "OFF"}`);
+      case "set": return this.set(step, add);
+      case "wait-for": return this.waitFor(step, add);
+      case "message": {
+        const text = asciiText(step.text).replace(/[[\]]/g, "'");
+        if (text.length > MESSAGE_LENGTH) throw new CannotSay(step.id, `${called(step)} says ${text.length} characters; MESSAGE shows ${MESSAGE_LENGTH}.`, "Say it in fewer words.");
+        return add(`MESSAGE[${text}]`);
+      }
+      case "stop": return add("ABORT");
+      case "comment": for (const line of inLines(asciiText(step.text), REMARK_LENGTH - 2)) add(`!- ${line}`.trimEnd()); return;
+      case "call": add(`CALL ${this.routineName(step.routine)}`); return this.begin();
+      case "repeat": return this.repeat(step, add);
+      case "if": return this.decision(step, add);
+      case "pallet": return this.pallet(step, add);
+      // Declared under `cannot`.
+      case "payload": throw new CannotSay(step.id, `${called(step)} says a load.`, "Choose a payload schedule at the controller.");
+    }
+  }
+
+  // --- blocks -----------------------------------------------------------------------------------------------------
+
+  private block(steps: readonly Step[]): void { this.begin(); this.steps(steps); }
+
+  private repeat(step: Extract<Step, { type: "repeat" }>, add: (line: string) => void): void {
+    const label = step.times === "forever" ? this.out.label() : 0;
+    add(step.times === "forever" ? `LBL[${label}]` : `FOR ${this.registers.number("count")}=1 TO ${step.times}`);
+    this.block(step.steps);
+    add(step.times === "forever" ? `JMP LBL[${label}]` : "ENDFOR");
+    this.begin();
+  }
+
+  private decision(step: Extract<Step, { type: "if" }>, add: (line: string) => void): void {
+    add(`IF (${this.condition(step.when, step)}) THEN`);
+    this.block(step.then);
+    if (step.else !== undefined) { add("ELSE"); this.block(step.else); }
+    add("ENDIF");
+    this.begin();
+  }
+
+  /** Loops over layers, lines and places: the present place is worked out, and its distance from the first shifts the taught points. */
+  private pallet(step: PalletStep, add: (line: string) => void): void {
+    const { program: { pallets }, baseFromWorld, robot } = this.place, { registers } = this, pallet = Object.hasOwn(pallets, step.pallet) ? pallets[step.pallet] : undefined;
+    if (pallet === undefined) throw new CannotSay(step.id, `${called(step)} works on the pallet ${step.pallet}, which the program does not have.`, "Choose another pallet.");
+    const order = pallet.order ?? "rows", byRows = order.startsWith("rows"), isShifted = pallet.interleave === "odd-rows-shifted";
+    if (isShifted && !byRows) throw new CannotSay(step.id, `${called(step)} visits the interleaved pallet ${step.pallet} by columns, which no plain loop does.`, "Visit it by rows.");
+    const vendorFromFrame: Pose<"frame", "frame"> = pallet.frame === "world" ? compose(compose(pose<"frame", "base">(), compose(inverse(robot.baseFromVendorWorld as Pose as Pose<"base", "base">), baseFromWorld)), pose<"world", "frame">()) : pose();
+    const first = compose(vendorFromFrame, pallet.origin), seen = (v: Vector3): Vector3 => rotate(vendorFromFrame.quaternion, v);
+    const origin = registers.position(`${step.pallet} 1`), present = registers.position(`${step.pallet} now`), offset = registers.position(step.pallet);
+    const [layer, line, along, at, last] = ["layer", "line", "along", "at", "last"].map(word => registers.number(word)) as [string, string, string, string, string];
+    this.useFrame(registers.frameNumber(pallet.frame, step), step.id);
+    for (const own of [origin, present]) for (const each of registers.values(own, xyzwpr(first))) add(each);
+    const lines = byRows ? pallet.rows : pallet.columns, inLine = byRows ? pallet.columns : pallet.rows;
+    add(`FOR ${layer}=0 TO ${pallet.layers - 1}`);
+    add(`FOR ${line}=0 TO ${lines - 1}`);
+    add(isShifted ? `${last}=(${inLine - 1}-${line} MOD 2)` : `${last}=${inLine - 1}`);
+    add(`FOR ${along}=0 TO ${last}`);
+    add(`${at}=${along}`);
+    if (order.endsWith("zigzag")) for (const each of [`IF (${line} MOD 2=1) THEN`, `${at}=(${last}-${along})`, "ENDIF"]) add(each);
+    for (const each of this.placeLines(pallet, present, xyzwpr(first), seen, [layer, line, at], byRows, isShifted)) add(each);
+    add(`${offset}=${present}-${origin}`);
+    this.visits.set(step.pallet, { first, frame: pallet.frame, offset });
+    this.block(step.steps);
+    this.visits.delete(step.pallet);
+    for (let i = 0; i < 3; i++) add("ENDFOR");
+    this.begin();
+  }
+
+  private placeLines(pallet: Pallet, present: string, first: readonly string[], seen: (v: Vector3) => Vector3, [layer, line, at]: readonly [string, string, string], byRows: boolean, isShifted: boolean): string[] {
+    const pitch = palletPitch(pallet), along = seen(byRows ? pitch.column : pitch.row), away = seen(byRows ? pitch.row : pitch.column), up = seen(pallet.layers > 1 ? pitch.layer : [0, 0, 0]);
+    const fine = (pitch_m: number): string => fixed(pitch_m * 1000, 5);
+    const term = (pitch_m: number, factor: string): string => fine(pitch_m) === "0" ? "" : `${pitch_m < 0 ? "-" : "+"}${fine(Math.abs(pitch_m))}*${factor}`;
+    return ([0, 1, 2] as const).map(i => {
+      // Packed rows count in half pitches, so that both are the same number.
+      const inLine = isShifted ? term(along[i] / 2, `(2*${at}+${line} MOD 2)`) : term(along[i], at);
+      return `${element(present, i + 1)}=(${first[i]!}${inLine}${term(away[i], line)}${term(up[i], layer)})`;
+    });
+  }
+
+  // --- lines ------------------------------------------------------------------------------------------------------
+
+  private lineOf(signal: string, step: Step): { readonly text: string; readonly kind: SignalLine["kind"] } {
+    const { signals } = this.place.program;
+    if (!Object.hasOwn(signals, signal)) throw new CannotSay(step.id, `${called(step)} uses the line ${signal}, which is not in the list of signals.`, "Add it to the list.");
+    const { kind, address } = signals[signal]!;
+    if (address === undefined && /^(RI|RO|UI|UO|SI|SO)\[[0-9]+\]$/.test(signal)) return { text: signal, kind };
+    if (address === undefined || address < 1) throw new CannotSay(step.id, `${called(step)} uses the line ${signal}, whose number on the controller is not given.`, "Give it its number: lines of FANUC count from 1.");
+    return { text: labelled(SHORT[kind], address, signal), kind };
+  }
+
+  private set(step: Extract<Step, { type: "set" }>, add: (line: string) => void): void {
+    const { text, kind } = this.lineOf(step.signal, step), { to } = step;
+    if (kind.endsWith("in")) throw new CannotSay(step.id, `${called(step)} writes the line ${step.signal}, which is an input.`, "Choose an output.");
+    if (kind.startsWith("digital") !== (typeof to === "boolean")) throw new CannotSay(step.id, `${called(step)} writes ${String(to)} to the line ${step.signal}, which is ${kind}.`, "Choose a value of that line.");
+    if (typeof to === "number") return add(`${text}=${fixed(to, 6)}`);
+    if (step.pulse_s === undefined) return add(`${text}=${to ? "ON" : "OFF"}`);
+    if (!to) throw new CannotSay(step.id, `${called(step)} is a pulse that goes off; PULSE goes on.`, "Turn the sense of the line in the controller.");
+    add(`${text}=PULSE,${fixed(step.pulse_s, 2)}sec`);
+  }
+
+  private waitFor(step: Extract<Step, { type: "wait-for" }>, add: (line: string) => void): void {
+    const when = this.condition(step.when, step);
+    if (step.timeout_s === undefined) return add(`WAIT ${when}`);
+    // Hundredths of a second.
+    add(`$WAITTMOUT=${Math.round(step.timeout_s * 100)}`);
+    add(`WAIT ${when} TIMEOUT,LBL[${this.out.abortLabel()}]`);
+  }
+
+  private condition(when: Condition, step: Step): string {
+    const { text, kind } = this.lineOf(when.signal, step);
+    if ("is" in when !== kind.startsWith("digital")) throw new CannotSay(step.id, `${called(step)} asks the line ${when.signal} for what it cannot answer.`, "Ask a digital line whether it is on, an analogue one for a limit.");
+    if ("is" in when) return `${text}=${when.is ? "ON" : "OFF"}`;
+    return "above" in when ? `${text}>${fixed(when.above, 6)}` : `${text}<${fixed(when.below, 6)}`;
+  }
+
+  private seconds(step: Step, s: number): string {
+    if (s > LONGEST_WAIT_S) throw new CannotSay(step.id, `${called(step)} waits ${s} s; WAIT goes up to ${LONGEST_WAIT_S} s.`, "Wait twice, or for a signal.");
+    return s.toFixed(2).padStart(6);
+  }
+
+  // --- moves ------------------------------------------------------------------------------------------------------
+
+  private useFrame(number: number, step: string): void {
+    if (number !== this.frame) this.out.add(`UFRAME_NUM=${number}`, step);
+    this.frame = number;
+  }
+  private useTool(number: number, step: string): void {
+    if (number !== this.tool) this.out.add(`UTOOL_NUM=${number}`, step);
+    this.tool = number;
+  }
+
+  private move(step: MoveStep, next: Step | undefined): void {
+    const { target, path, id } = step, isAngles = path === "ptp" && "q" in target, { registers } = this;
+    const posture = this.place.posture(step, isAngles ? target : this.reached(target), this.near);
+    this.near = posture ?? this.near;
+    const frame = "q" in target ? "world" : target.frame, visit = this.visits.get(frame);
+    this.useFrame(registers.frameNumber(visit?.frame ?? frame, step), id);
+    this.useTool(isAngles && target.tool === undefined && this.tool !== undefined ? this.tool : registers.toolNumber(target.tool ?? "flange", step), id);
+    const record = (values: readonly string[], config?: string): string =>
+      `P[${this.out.position({ uf: this.frame!, ut: this.tool!, step: id, values, ...(config === undefined ? {} : { config }) } satisfies Position)}]`;
+    const options = `${this.term(step, next)}${this.acceleration(step)}${visit === undefined ? "" : ` Offset,${visit.offset}`}`;
+    if (isAngles) return this.out.motion(`J ${record(pendantJoints(target.q, this.convention))} ${this.percent(step)} ${options}`, id);
+    const config = configOf(this.place.robot, posture ?? this.place.robot.home_rad), goal = record(xyzwpr(this.inFrame(target, frame)), config);
+    const search = this.search(step);
+    if (path === "ptp") this.out.motion(`J ${goal} ${this.percent(step)} ${options}${search}`, id);
+    else if (path === "lin") this.out.motion(`L ${goal} ${this.path(step)} ${options}${search}`, id);
+    else {
+      if (step.via === undefined) throw new CannotSay(id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
+      const via = record(xyzwpr(this.inFrame(step.via, frame)), config);
+      this.out.motion(`C ${via}${visit === undefined ? "" : ` Offset,${visit.offset}`}\n${goal} ${this.path(step)} ${options}${search}`, id);
+    }
+    if (search !== "" && step.until!.missing === "continue") this.out.add(`LBL[${/LBL\[(\d+)/.exec(search)![1]!}]`, id);
+  }
+
+  /** Off a joint move only the tool's pose is written: of taught angles the posture is kept. */
+  private reached(target: Target): Target {
+    const branch = "q" in target ? branchOf(this.place.robot, target.q) : undefined;
+    if (!("q" in target) || branch === undefined) return target;
+    return { pose: compose(compose(pose<"frame", "world">(), this.place.worldFromBase), this.place.tip(target)), frame: "world", tool: target.tool ?? "flange", branch };
+  }
+
+  /** A target as it is seen from the frame whose digits are written. */
+  private inFrame(target: Target, frame: string): Pose<"frame", "tcp"> {
+    const visit = this.visits.get(frame), { registers, place } = this;
+    if (visit !== undefined && "pose" in target && target.frame === frame) return compose(visit.first, compose(pose<"place", "frame">(), target.pose));
+    return compose(inverse(registers.baseFromFrame(visit?.frame ?? frame)), place.tip(target));
+  }
+
+  private percent({ speed }: MoveStep): string {
+    const ratio = "ratio" in speed ? speed.ratio : "mps" in speed ? speed.mps / this.place.robot.maxTcpSpeed_mps : 1;
+    return `${Math.min(100, Math.max(1, Math.round(100 * ratio)))}%`;
+  }
+
+  private path({ speed }: MoveStep): string {
+    const v_mmps = 1000 * ("mps" in speed ? speed.mps : "ratio" in speed ? speed.ratio * this.place.robot.maxTcpSpeed_mps : 0);
+    if (v_mmps > this.fastest_mmps) this.warnings.add(`Speeds of paths end at ${this.fastest_mmps} mm/s.`);
+    return `${Math.min(this.fastest_mmps, Math.max(1, Math.round(v_mmps)))}mm/sec`;
+  }
+
+  private acceleration(step: MoveStep): string {
+    const ratio = step.acceleration?.ratio ?? 1;
+    return ratio === 1 ? "" : ` ACC${Math.max(1, Math.round(100 * ratio))}`;
+  }
+
+  /** CNT as a share of the shorter neighbouring half path. Before anything that is not a motion the robot stands. */
+  private term(step: MoveStep, next: Step | undefined): string {
+    const { blend_m, blend_ratio = 0 } = step;
+    if (step.until !== undefined || next?.type !== "move" || !(blend_m > 0 || blend_ratio > 0)) return "FINE";
+    const whole_m = this.place.blend_m({ ...step, blend_m: 0, blend_ratio: 1 }, this.before, next), share = blend_ratio > 0 ? blend_ratio : whole_m > 0 ? blend_m / whole_m : 1;
+    return `CNT${Math.min(100, Math.max(1, Math.round(100 * share)))}`;
+  }
+
+  private search(step: MoveStep): string {
+    if (step.until === undefined) return "";
+    this.out.add(`SKIP CONDITION ${this.condition(step.until.when, step)}`, step.id);
+    return ` Skip,LBL[${step.until.missing === "fault" ? this.out.abortLabel() : this.out.label()}]`;
+  }
+}
+
+const element = (register: string, i: number): string => register.replace(/(?=[:\]])/, `,${i}`).replace(/:[^\]]*/, "");
+/** A text in lines of at most so many characters, broken between words where that goes. */
+function inLines(text: string, most: number): string[] {
+  const lines: string[] = [];
+  for (let rest = text; rest !== "" || lines.length === 0;) {
+    const cut = rest.length <= most ? rest.length : rest.lastIndexOf(" ", most) > 0 ? rest.lastIndexOf(" ", most) : most;
+    lines.push(rest.slice(0, cut).trim());
+    rest = rest.slice(cut).trim();
+  }
+  return lines;
+}

@@ -1,0 +1,45 @@
+import type { Executed, Interpreted, Pose, Robot, Signals } from "@twincell/core";
+import { TextError, textFault } from "../text/index.ts";
+import { constantsOf } from "../text/structured/index.ts";
+import { readSource, type Source } from "./read/grammar.ts";
+import { Machine, speaksAs, type Surroundings } from "./run/machine.ts";
+
+/**
+ * How far a program is run beforehand to meet its tools, frames and faults: enough to see that it runs on the spot.
+ * A program that moves for ever goes on longer.
+ */
+const BEFOREHAND = { steps: 5_000, statements: 150_000 } as const;
+
+/** A program that was read, with what its runs have in common. */
+export interface Loaded { readonly source: Source; readonly machine: (surroundings: Surroundings, signals?: Signals) => Machine }
+
+export function load(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): { readonly kind: "loaded"; readonly loaded: Loaded } | Extract<Interpreted, { kind: "not-understood" }> {
+  if (!speaksAs(robot)) {
+    return { kind: "not-understood", faults: [textFault({ line: 1, column: 1 }, "a robot whose controller speaks AS", `The controller of the ${robot.name} does not speak AS.`)] };
+  }
+  const read = readSource(text);
+  if (read.kind === "not-understood") return read;
+  const { source } = read, constants = constantsOf(source.main, source.routines.values());
+  return { kind: "loaded", loaded: { source, machine: (surroundings, signals) => new Machine(source, constants, robot, worldFromBase, surroundings, signals) } };
+}
+
+export const newSurroundings = (): Surroundings => ({ tools: {}, frames: {}, signals: {} });
+
+/** Executes AS: the first program of the text that no other one calls, with the locations that stand in the text's own lists. */
+export function interpretAs(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Interpreted {
+  const answer = load(text, robot, worldFromBase);
+  if (answer.kind === "not-understood") return answer;
+  const { source, machine } = answer.loaded, surroundings = newSurroundings();
+  const run = function* (signals?: Signals): Generator<Executed, void> { yield* machine(surroundings, signals).block(source.main); };
+  try {
+    let steps = 0, statements = 0;
+    for (const { step } of run()) {
+      if (step !== undefined) steps++;
+      if (steps >= BEFOREHAND.steps || ++statements >= BEFOREHAND.statements) break;
+    }
+  } catch (cause) {
+    if (!(cause instanceof TextError)) throw cause;
+    return { kind: "not-understood", faults: [cause.fault] };
+  }
+  return { kind: "ready", run, context: { tools: surroundings.tools, frames: surroundings.frames, signals: surroundings.signals } };
+}

@@ -1,0 +1,246 @@
+import {
+  branchOf, compose, identity, inverse, rotate, palletPitch, type Branch, type Condition, type EmittedFile, type MoveStep, type Pallet, type Pose, type Robot, type Step, type Target, type Vector3,
+} from "@twincell/core";
+import { asciiText } from "../../text/index.ts";
+import { BlockWriter, CannotSay, Names, Place, called, remark } from "../../writing/index.ts";
+import { LINES, type Spoken } from "../robots.ts";
+import { jointsText, mm, num, oatText, transText } from "./pose.ts";
+import { RESERVED } from "./reserved.ts";
+import { usedNames } from "./used.ts";
+
+/** Names longer than this are cut; a name of one call has a dot before it. */
+const LONGEST_NAME = 15;
+
+/** The file: one program and those that it calls; says only what changes from one step to the next. */
+export class ProgramWriter {
+  private readonly place: Place;
+  private readonly robot: Robot;
+  private readonly spoken: Spoken;
+  private readonly out = new BlockWriter();
+  private readonly names = new Names({ most: LONGEST_NAME - 1, reserved: RESERVED, first: "p_", foldsCase: true });
+  private readonly saysAcceleration: boolean;
+  private tool = "";
+  private speed = "";
+  private accuracy = "";
+  private acceleration = "";
+  private group = "";
+  private near: readonly number[] | undefined;
+  private before: MoveStep | undefined;
+
+  constructor(place: Place, spoken: Spoken) {
+    this.place = place;
+    this.robot = place.robot;
+    this.spoken = spoken;
+    this.near = place.robot.home_rad;
+    this.saysAcceleration = usedNames(place.program).accelerates;
+  }
+
+  write(): EmittedFile {
+    const { program } = this.place, { out } = this, name = this.named("program", program.name);
+    this.part(name, program.steps, () => {
+      out.add(`;* ${asciiText(program.name)}`.trimEnd());
+      out.add(`;* ${asciiText(this.robot.name)}. Lengths in mm, angles in degrees, locations in the base of the robot.`);
+      this.declarations();
+    });
+    for (const [routine, steps] of Object.entries(program.routines)) this.part(this.named("routine", routine), steps, () => { /* nothing before the steps */ });
+    return out.file(`${name}.as`, "\r\n");
+  }
+
+  private named(sort: string, name: string): string { return this.names.of(sort, name.toLowerCase()); }
+
+  private part(name: string, steps: readonly Step[], before: () => void): void {
+    this.out.add(`.PROGRAM ${name}()`);
+    this.out.indented(() => {
+      before();
+      this.begin();
+      this.steps(steps);
+    });
+    this.out.add(".END");
+  }
+
+  /** What the controller would keep from before, and tools, frames and lines under the names that they have in the program. */
+  private declarations(): void {
+    const { place, out } = this, { program } = place, used = usedNames(program);
+    for (const line of ["BASE NULL", "CP ON", "ACCEL 100 ALWAYS", "DECEL 100 ALWAYS"]) out.add(line);
+    for (const tool of used.tools) out.add(`POINT ${this.named("tool", tool)} = ${transText(place.tool(tool))}`);
+    for (const frame of used.frames) out.add(`POINT ${this.named("frame", frame)} = ${this.inBase(place.frame(frame))}`);
+    for (const [signal, step] of used.signals) out.add(`${this.named("signal", signal)} = ${this.numberOf(signal, step)}`);
+  }
+
+  private inBase<From extends string>(pose: Pose<"world", From>): string { return transText(compose(this.place.baseFromWorld, pose)); }
+
+  /** What is said at one place holds nowhere else: routines and blocks say it anew. */
+  private begin(): void {
+    this.tool = "";
+    this.speed = "";
+    this.accuracy = "";
+    this.acceleration = "";
+    this.before = undefined;
+  }
+
+  private steps(steps: readonly Step[]): void {
+    const outer = this.group;
+    for (const [i, step] of steps.entries()) {
+      this.heading(step);
+      this.step(step, steps[i + 1]);
+      if (step.type !== "comment" && step.type !== "wait") this.before = step.type === "move" ? step : undefined;
+    }
+    this.group = outer;
+  }
+
+  private heading(step: Step): void {
+    const { groups } = this.place.program, add = (line: string): void => { this.out.add(line.trimEnd(), step.id); };
+    const group = step.group === undefined ? "" : remark(groups[step.group]?.name ?? step.group);
+    if (group !== this.group) add(`;== ${group}`);
+    this.group = group;
+    const name = remark(step.name ?? "");
+    if (name !== "" && step.type !== "comment") add(`; ${name}`);
+  }
+
+  private step(step: Step, next: Step | undefined): void {
+    const add = (line: string): void => { this.out.add(line, step.id); };
+    switch (step.type) {
+      case "move": return this.move(step, next, add);
+      case "wait": return add(`TWAIT ${num(step.s)}`);
+      case "gripper": return add(step.closed ? "CLOSEI 1" : "OPENI 1");
+      case "set": return this.set(step, add);
+      case "wait-for": return add(`SWAIT ${this.line(step.when, step)}`);
+      case "payload": return add(`WEIGHT ${this.load(step)}`);
+      case "message": return add(`PRINT "${asciiText(step.text).replace(/"/g, "'")}"`);
+      case "stop": return add("HALT");
+      case "comment": return add(`;- ${asciiText(step.text)}`.trimEnd());
+      case "call": add(`CALL ${this.named("routine", step.routine)}`); return this.begin();
+      case "repeat": return this.repeat(step);
+      case "if": return this.decision(step);
+      case "pallet": return this.pallet(step);
+    }
+  }
+
+  private load({ id, name, mass_kg, center_m, inertia_kgm2 }: Extract<Step, { type: "payload" }>): string {
+    const [ixx = 0, iyy = 0, izz = 0, ...products] = inertia_kgm2 ?? [];
+    if (products.some(product => product !== 0)) throw new CannotSay(id, `${called({ id, ...(name === undefined ? {} : { name }) })} gives products of inertia; WEIGHT takes three moments.`, "Give the load in its main axes.");
+    return [num(mass_kg), ...center_m.map(mm), ...(inertia_kgm2 === undefined ? [] : [ixx, iyy, izz].map(num))].join(",");
+  }
+
+  private repeat(step: Extract<Step, { type: "repeat" }>): void {
+    const inside = (): void => { this.begin(); this.steps(step.steps); };
+    if (step.times === "forever") this.out.block("WHILE TRUE DO", "END", step.id, inside);
+    else this.out.block(`FOR .${this.names.fresh("count")} = 1 TO ${step.times}`, "END", step.id, inside);
+    this.begin();
+  }
+
+  private decision(step: Extract<Step, { type: "if" }>): void {
+    const { out } = this, inside = (steps: readonly Step[]) => (): void => { this.begin(); this.steps(steps); };
+    out.add(`IF SIG(${this.line(step.when, step)}) THEN`, step.id);
+    out.indented(inside(step.then));
+    if (step.else !== undefined) {
+      out.add("ELSE", step.id);
+      out.indented(inside(step.else));
+    }
+    out.add("END", step.id);
+    this.begin();
+  }
+
+  /** A loop over layers, lines and places; the place is a location that changes with them. */
+  private pallet(step: Extract<Step, { type: "pallet" }>): void {
+    const { program } = this.place, pallet = Object.hasOwn(program.pallets, step.pallet) ? program.pallets[step.pallet] : undefined;
+    if (pallet === undefined) throw new CannotSay(step.id, `${called(step)} works on the pallet ${step.pallet}, which the program does not have.`, "Choose another pallet.");
+    const order = pallet.order ?? "rows", byRows = order.startsWith("rows"), isShifted = pallet.interleave === "odd-rows-shifted" && pallet.rows > 1;
+    if (isShifted && !byRows) throw new CannotSay(step.id, `${called(step)} visits the interleaved pallet ${step.pallet} by columns, which no plain loop does.`, "Visit it by rows.");
+    const { out } = this, variable = this.named("frame", step.pallet), local = (name: string): string => `.${this.names.fresh(name)}`;
+    const layer = local("layer"), line = local("line"), along = local("along"), at = local("at");
+    const lines = byRows ? pallet.rows : pallet.columns, inLine = byRows ? pallet.columns : pallet.rows;
+    const loop = (name: string, last: string, inside: () => void): void => { out.block(`FOR ${name} = 0 TO ${last}`, "END", step.id, inside); };
+    const last = isShifted ? `${inLine - 1}-${line} MOD 2` : `${inLine - 1}`;
+    const visit = (): void => {
+      out.add(`${at} = ${along}`, step.id);
+      if (order.endsWith("zigzag")) {
+        out.block(`IF ${line} MOD 2 == 1 THEN`, "END", step.id, () => { out.add(`${at} = ${isShifted ? inLine - 2 : inLine - 1}-${along}`, step.id); });
+      }
+      out.add(`POINT ${variable} = ${this.placeText(pallet, isShifted ? `(${at}+(${line} MOD 2)/2)` : at, line, layer)}`, step.id);
+      this.begin();
+      this.steps(step.steps);
+    };
+    loop(layer, `${pallet.layers - 1}`, () => { loop(line, `${lines - 1}`, () => { loop(along, last, visit); }); });
+    this.begin();
+  }
+
+  /** A pallet of the world is counted in the base of the robot, which turns its pitches. */
+  private placeText(pallet: Pallet, along: string, line: string, layer: string): string {
+    const inWorld = pallet.frame === "world", byRows = (pallet.order ?? "rows").startsWith("rows"), { baseFromWorld } = this.place, pitch = palletPitch(pallet);
+    const origin: Pose = inWorld ? compose(baseFromWorld, pallet.origin as Pose as Pose<"world", "place">) : pallet.origin;
+    const turned = (v: Vector3): Vector3 => inWorld ? rotate(baseFromWorld.quaternion, v) : v;
+    const alongPitch = turned(byRows ? pitch.column : pitch.row), linePitch = turned(byRows ? pitch.row : pitch.column), layerPitch = turned(pallet.layers > 1 ? pitch.layer : [0, 0, 0]);
+    const term = (step_m: number, factor: string): string => mm(step_m) === "0" ? "" : `${step_m < 0 ? "-" : "+"}${mm(Math.abs(step_m))}*${factor}`;
+    const place = ([0, 1, 2] as const).map(i => `${mm(origin.position[i])}${term(alongPitch[i], along)}${term(linePitch[i], line)}${term(layerPitch[i], layer)}`);
+    return `${inWorld ? "" : `${this.named("frame", pallet.frame)}+`}TRANS(${place.join(",")},${oatText(origin.quaternion)})`;
+  }
+
+  private set(step: Extract<Step, { type: "set" }>, add: (line: string) => void): void {
+    const { to, signal } = step, name = this.named("signal", signal);
+    if (this.place.program.signals[signal]?.kind !== "digital-out" || typeof to !== "boolean") throw new CannotSay(step.id, `${called(step)} writes ${String(to)} to the line ${signal}, which is no digital output.`, "Choose a digital output.");
+    if (step.pulse_s === undefined) return add(`SIGNAL ${to ? "" : "-"}${name}`);
+    add(`PULSE ${to ? "" : "-"}${name},${num(step.pulse_s)}`);
+  }
+
+  /** The line of a condition, with a minus where it shall be off. */
+  private line(when: Condition, step: Step): string {
+    if (!("is" in when)) throw new CannotSay(step.id, `${called(step)} compares the line ${when.signal} with a number.`, "Decide by a digital line.");
+    return `${when.is ? "" : "-"}${this.named("signal", when.signal)}`;
+  }
+
+  private numberOf(signal: string, step: Step): number {
+    const { signals } = this.place.program, line = Object.hasOwn(signals, signal) ? signals[signal] : undefined;
+    if (line?.address === undefined) throw new CannotSay(step.id, `${called(step)} uses the line ${signal}, whose number is not known.`, "Give the line its number in the list of signals.");
+    const [first, last] = line.kind === "digital-in" ? LINES.inputs : LINES.outputs;
+    if (Number.isInteger(line.address) && line.address >= first && line.address <= last) return line.address;
+    throw new CannotSay(step.id, `${called(step)} uses the line ${signal} with the number ${line.address}; AS counts ${line.kind === "digital-in" ? "inputs" : "outputs"} from ${first} to ${last}.`, "Give the line a number of the controller.");
+  }
+
+  private move(step: MoveStep, next: Step | undefined, add: (line: string) => void): void {
+    const { target } = step, tool = target.tool ?? (step.path === "ptp" && "q" in target ? undefined : "flange");
+    if (tool !== undefined && tool !== this.tool) {
+      add(tool === "flange" ? "TOOL NULL" : `TOOL ${this.named("tool", tool)}`);
+      this.tool = tool;
+    }
+    const posture = this.place.posture(step, target, this.near), blend = mm(this.place.blend_m(step, this.before, next));
+    this.settings(step, blend, add);
+    if (step.path === "ptp") {
+      if (!("q" in target)) for (const word of this.postureWords(target.branch, posture)) add(word);
+      add(`JMOVE ${this.goal(target)}`);
+    } else if (step.path === "lin") add(`LMOVE ${this.goal(target)}`);
+    else {
+      if (step.via === undefined) throw new CannotSay(step.id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
+      add(`C1MOVE ${this.goal(step.via)}`);
+      add(`C2MOVE ${this.goal(target)}`);
+    }
+    if (blend === "0") add("BREAK");
+    this.near = posture ?? this.near;
+  }
+
+  private settings(step: MoveStep, blend: string, add: (line: string) => void): void {
+    const { speed, acceleration } = step, say = (line: string, said: string): string => { if (line !== said) add(line); return line; };
+    if (this.saysAcceleration) {
+      const percent = num((acceleration?.ratio ?? 1) * 100);
+      if (percent !== this.acceleration) { add(`ACCEL ${percent} ALWAYS`); add(`DECEL ${percent} ALWAYS`); }
+      this.acceleration = percent;
+    }
+    if (blend !== "0") this.accuracy = say(`ACCURACY ${blend} ALWAYS`, this.accuracy);
+    // A duration holds for the one motion.
+    if ("time_s" in speed) add(`SPEED ${num(speed.time_s)} S`);
+    else this.speed = say(`SPEED ${"mps" in speed ? `${mm(speed.mps)} MM/S` : num(speed.ratio * 100)} ALWAYS`, this.speed);
+  }
+
+  private goal(target: Target): string {
+    if ("q" in target) return jointsText(target.q);
+    if (target.frame === "world") return transText(compose(inverse(this.place.worldFromBase), compose(identity<"world", "frame">(), target.pose)));
+    return `${this.named("frame", target.frame)}+${transText(target.pose)}`;
+  }
+
+  /** A place alone is reached in the posture that the arm is in; one that was taught is asked for by its words. */
+  private postureWords(branch: Branch | undefined, posture: readonly number[] | undefined): readonly string[] {
+    const named = branch === undefined || posture === undefined ? undefined : branchOf(this.robot, posture);
+    if (named === undefined) return [];
+    return [named.shoulder === "front" ? "RIGHTY" : "LEFTY", named.elbow === "up" ? "ABOVE" : "BELOW", named.wrist === this.spoken.upWrist ? "UWRIST" : "DWRIST"];
+  }
+}
