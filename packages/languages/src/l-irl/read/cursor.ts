@@ -5,7 +5,8 @@ import { TextError } from "../../text/index.ts";
 const LINE_LENGTH = 4096;
 /** Larger than any length, angle or time that means something. */
 const MOST = 1e9;
-const BLANK = /[ ,;]+/y, WORD = /[A-Za-z_][A-Za-z0-9_]*/y, NUMBER = /[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[Ee][-+]?[0-9]+)?/y;
+const BLANK = 32, COMMA = 44, SEMICOLON = 59;
+const WORD = /[A-Za-z_][A-Za-z0-9_]*/y, NUMBER = /[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[Ee][-+]?[0-9]+)?/y;
 const TEXT = /"((?:[^"]|"")*)"/y, COMMENT = /\{([^}]*)\}/y;
 
 /** Walks over one line. Blanks, commas and semicolons only part what stands beside them; words compare without regard to case. */
@@ -13,13 +14,16 @@ export class Cursor {
   private readonly text: string;
   private readonly line: number;
   private at = 0;
+  /** The word that was looked at last, in upper case, and where: a line asks for many words before the one it has. */
+  private seenAt = -1;
+  private seen = "";
 
   /** @throws {TextError} when the line is too long for anybody. */
   constructor(text: string, line: number) {
     if (text.length > LINE_LENGTH) throw new TextError({ line, column: LINE_LENGTH + 1 }, `a line of at most ${LINE_LENGTH} characters`, `Line ${line} has ${text.length} characters.`);
     this.text = text;
     this.line = line;
-    this.match(BLANK);
+    this.skipBlanks();
   }
 
   get here(): TextPlace { return { line: this.line, column: this.at + 1 }; }
@@ -28,12 +32,18 @@ export class Cursor {
   get atNumber(): boolean { return this.peek(NUMBER) !== undefined; }
   get atComment(): boolean { return this.text[this.at] === "{"; }
   /** The word that stands here in upper case, or "". */
-  get word(): string { return this.peek(WORD)?.toUpperCase() ?? ""; }
+  get word(): string {
+    if (this.seenAt !== this.at) {
+      this.seenAt = this.at;
+      this.seen = this.done ? "" : this.peek(WORD)?.toUpperCase() ?? "";
+    }
+    return this.seen;
+  }
 
   /** Goes past the word when it is that one. */
   accept(word: string): boolean {
     if (this.word !== word) return false;
-    this.match(WORD);
+    this.pass(word.length);
     return true;
   }
 
@@ -45,21 +55,21 @@ export class Cursor {
   oneOf<W extends string>(words: readonly W[]): W {
     const { word } = this, found = words.find(each => each === word);
     if (found === undefined) throw this.unexpected(words.join(" or "));
-    this.match(WORD);
+    this.pass(found.length);
     return found;
   }
 
-  number(what: string): number {
-    const { here } = this, text = this.match(NUMBER);
-    if (text === undefined) throw this.unexpected(what);
+  number(what: string, nth = 1, count = 1): number {
+    const { at } = this, text = this.match(NUMBER);
+    if (text === undefined) throw this.unexpected(count === 1 ? what : `${what} ${nth} of ${count}`);
     const value = Number(text);
-    if (!(Math.abs(value) <= MOST)) throw new TextError(here, `${what} of at most ${MOST}`, `The number ${text} is larger than anything a robot reaches.`);
+    if (!(Math.abs(value) <= MOST)) throw new TextError({ line: this.line, column: at + 1 }, `${what} of at most ${MOST}`, `The number ${text} is larger than anything a robot reaches.`);
     return value;
   }
 
   numbers(count: number, what: string): number[] {
     const values: number[] = [];
-    for (let i = 1; i <= count; i++) values.push(this.number(`${what} ${i} of ${count}`));
+    for (let i = 1; i <= count; i++) values.push(this.number(what, i, count));
     return values;
   }
 
@@ -80,8 +90,7 @@ export class Cursor {
 
   percent(): boolean {
     if (this.text[this.at] !== "%") return false;
-    this.at++;
-    this.match(BLANK);
+    this.pass(1);
     return true;
   }
 
@@ -106,9 +115,16 @@ export class Cursor {
   private match(pattern: RegExp): string | undefined {
     const found = this.peek(pattern);
     if (found === undefined) return undefined;
-    this.at += found.length;
-    BLANK.lastIndex = this.at;
-    this.at += BLANK.exec(this.text)?.[0].length ?? 0;
+    this.pass(found.length);
     return found;
+  }
+
+  private pass(length: number): void {
+    this.at += length;
+    this.skipBlanks();
+  }
+
+  private skipBlanks(): void {
+    for (let code = this.text.charCodeAt(this.at); code === BLANK || code === COMMA || code === SEMICOLON; code = this.text.charCodeAt(this.at)) this.at++;
   }
 }

@@ -20,6 +20,8 @@ export type ReadList = { readonly kind: "list"; readonly list: PoseList } | { re
 
 /** More faults than this are not told at once. */
 const MOST_FAULTS = 50;
+/** Most lines hold nothing that would have to be replaced. */
+const PLAIN = /^[ -~]*$/;
 const STATEMENTS = "MOVE, WAIT, GRIPPER, POSE, TOOL, FRAME, GROUP, ROBOT, PROGRAM, a comment or six numbers";
 
 /**
@@ -31,7 +33,7 @@ export function readPoseList(text: string, robot: Robot | undefined, worldFromBa
   const reader = new ListReader(robot, worldFromBase), faults: TextFault[] = [];
   for (const [i, raw] of textLines(text).entries()) {
     try {
-      reader.line(plainText(raw), i + 1);
+      reader.line(PLAIN.test(raw) ? raw : plainText(raw), i + 1);
     } catch (cause) {
       if (!(cause instanceof TextError)) throw cause;
       faults.push(cause.fault);
