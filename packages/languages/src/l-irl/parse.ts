@@ -1,6 +1,7 @@
 import { emptyProgram, type Parsed, type Pose, type Robot, type Step } from "@twincell/core";
 import { textFault } from "../text/index.ts";
-import { readPoseList, type PoseList } from "./read/list.ts";
+import { readPoseList } from "./read/list.ts";
+import type { PoseList } from "./read/pose-list.ts";
 
 /** Share of the full speed at which poses are visited of which the list says only where they are. */
 const VISITING_RATIO = 0.2;

@@ -3,19 +3,8 @@ import { TextError, plainText, textFault, textLines } from "../../text/index.ts"
 import { Cursor } from "./cursor.ts";
 import { poseOf, readHeader, type Header } from "./header.ts";
 import { readMove } from "./move.ts";
+import type { NamedPose, PoseList } from "./pose-list.ts";
 
-/** A pose that the list names. */
-export interface NamedPose { readonly worldFromTcp: Pose<"world", "tcp">; readonly line: number }
-
-/** A list as it was read. Names are as they stand in the text. */
-export interface PoseList {
-  readonly program: string;
-  readonly tools: ReadonlyMap<string, Pose<"flange", "tcp">>;
-  readonly frames: ReadonlyMap<string, Pose<"world", "frame">>;
-  readonly groups: ReadonlyMap<string, Group>;
-  readonly poses: ReadonlyMap<string, NamedPose>;
-  readonly steps: readonly { readonly line: number; readonly step: Step }[];
-}
 export type ReadList = { readonly kind: "list"; readonly list: PoseList } | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 /** More faults than this are not told at once. */

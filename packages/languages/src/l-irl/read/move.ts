@@ -2,7 +2,7 @@ import { compose, identity, isSlide, type Branch, type MoveStep, type Pose, type
 import { TextError } from "../../text/index.ts";
 import type { Cursor } from "./cursor.ts";
 import { poseOf, type Header } from "./header.ts";
-import type { PoseList } from "./list.ts";
+import type { PoseList } from "./pose-list.ts";
 
 const PATHS = { PTP: "ptp", LIN: "lin", CIRCLE: "circ", SPLINE: "spline" } as const satisfies Record<string, MoveStep["path"]>;
 
