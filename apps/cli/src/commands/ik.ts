@@ -51,6 +51,6 @@ Every distinct branch, angles in (−π, π]. An unreachable pose is an answer: 
 /** The reason with its numbers and its sentence; the solutions stand beside it. */
 function said(reach: Reach): Record<string, unknown> {
   const sentence = explainReach(reach);
-  if (reach.kind === "reached") return { kind: reach.kind, singular: reach.singular, considered: reach.considered, sentence };
+  if (reach.kind === "reached") return { kind: reach.kind, ...(reach.method === undefined ? {} : { method: reach.method }), singular: reach.singular, considered: reach.considered, sentence };
   return { ...reach, sentence };
 }
