@@ -12,7 +12,7 @@ import { vPlus } from "./v-plus/index.ts";
 export { EXAMPLE_PULSES, inform, informDialect, informExamplePulses, type InformOptions, type PulseData } from "./inform/index.ts";
 export { fanucLs } from "./fanuc-ls/index.ts";
 export { kawasakiAs } from "./kawasaki-as/index.ts";
-export { loadPoses, poseList, savePoses, type LoadedPoses } from "./l-irl/index.ts";
+export { loadPoses, poseList, savePoses, type LoadedPoses, type SavedPose } from "./l-irl/index.ts";
 export { rapid } from "./rapid/index.ts";
 export { urScript } from "./urscript/index.ts";
 export { emitPtpAxis, krl } from "./krl/index.ts";

@@ -6,4 +6,3 @@ export * from "./coords.ts";
 export * from "./history.ts";
 export * from "./mesh/index.ts";
 export * from "./example/index.ts";
-export * from "./saved-poses.ts";

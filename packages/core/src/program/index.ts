@@ -14,4 +14,3 @@ export { standOf } from "./checks/stand.ts";
 export * from "./with-branches.ts";
 export { NEAR_LIMIT_RAD } from "./checks/limits.ts";
 export { NEAR_SINGULAR_RAD } from "./checks/singular.ts";
-export * from "./coords.ts";

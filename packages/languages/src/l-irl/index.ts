@@ -4,7 +4,7 @@ import { interpretPoseList } from "./interpret.ts";
 import { parsePoseList } from "./parse.ts";
 import { CANNOT } from "./words.ts";
 
-export { loadPoses, savePoses, type LoadedPoses } from "./poses.ts";
+export { loadPoses, savePoses, type LoadedPoses, type SavedPose } from "./poses.ts";
 
 /**
  * The neutral pose list, in words after the Industrial Robot Language (DIN 66312). The grammar is ours (docs/languages/l-irl.md):

@@ -1,6 +1,9 @@
-import { identity, type Pose, type SavedPose, type TextFault } from "@twincell/core";
+import { identity, type Pose, type TextFault } from "@twincell/core";
 import { readPoseList } from "./read/list.ts";
 import { headerLine, poseNumbers, quoted } from "./write.ts";
+
+/** A pose of the tool tip that a person keeps under a name. Nothing asks whether a robot reaches it. */
+export interface SavedPose { readonly name: string; readonly worldFromTcp: Pose<"world", "tcp"> }
 
 export type LoadedPoses = { readonly kind: "poses"; readonly poses: readonly SavedPose[] } | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
