@@ -76,6 +76,18 @@ describe("a library robot as URDF and as D-H table", () => {
     expect(largestGap(ends[0]!.position, ends[1]!.position)).toBeLessThan(1e-9);
   });
 
+  test("a program is written for it as well, and proven by its own text", () => {
+    const program = file("taught.json", JSON.stringify({
+      format: "twincell.program", version: 1, name: "Taught", robot: "small_arm", tools: {}, frames: {}, groups: {},
+      steps: [{ id: "a", type: "move", path: "ptp", target: { q: [0.1, 0.2, 0.3, 0.1, 0.5, 0.2] }, speed: { ratio: 0.3 }, blend_m: 0 }],
+    }));
+    const out = join(folder, "posted"), { code, lines } = twincell(["post", program, "--to", "l-irl", "-o", out, "--robot", "examples/robots/small-arm.json"]);
+    expect(code).toBe(0);
+    expect(lines<{ proof: { worst_m: number }[] }>()[0]!.proof[0]!.worst_m).toBeLessThan(1e-5);
+    expect(readFileSync(join(out, "Taught.poses.txt"), "utf8")).toMatch(/^ROBOT "?small_arm"?\r?$/m);
+    expect(twincell(["post", program, "--to", "l-irl", "-o", out]).err).toContain('there is no robot "small_arm" in the library');
+  });
+
   test("check on a robot of other joints says so", () => {
     expect(twincell(["check", "examples/01-edge-trace/program.json", "--robot", XACRO])).toMatchObject({ code: 2 });
   });

@@ -4,23 +4,27 @@ import { given } from "../io/arguments.ts";
 import { dialectOf } from "../io/dialect.ts";
 import { writeWhole } from "../io/output.ts";
 import { readCell, readProgram } from "../io/program.ts";
+import { programRobot, ROBOT_HELP, ROBOT_OPTIONS } from "../io/robot.ts";
 import { UseFault, type Command } from "../io/usage.ts";
 
 export const postCommand: Command = {
   name: "post",
   summary: "a program in a controller's own language",
-  usage: `twincell post PROGRAM --to DIALECT -o DIR [--cell CELL]
+  usage: `twincell post PROGRAM --to DIALECT -o DIR [--robot R] [--cell CELL]
 
 Writes the files into DIR, all of them or none, and tells on standard output what they are. The program text is executed by the
 dialect's own interpreter and compared with the plan first; text that does not say the same is not written (exit 1).
 
-  --cell CELL     where the robot stands (default: in the origin)`,
+  --robot R       the robot to write it for; the one the program names when absent
+  --cell CELL     where the robot stands (default: in the origin)
+
+${ROBOT_HELP}`,
   async run(args) {
-    const options = given(args, { to: { type: "string" }, out: { type: "string", short: "o" }, cell: { type: "string" }, json: { type: "boolean" } });
+    const options = given(args, { ...ROBOT_OPTIONS, to: { type: "string" }, out: { type: "string", short: "o" }, cell: { type: "string" }, json: { type: "boolean" } });
     const [path] = options.positionals, folder = options.text("out"), cellPath = options.text("cell");
     if (path === undefined) throw new UseFault("PROGRAM is missing.", "Give the path of a program file.");
     if (folder === undefined) throw new UseFault("-o DIR is missing.", "Give the folder to write to.");
-    const dialect = dialectOf("to", options.text("to")), { program: taught, robot } = await readProgram(path);
+    const dialect = dialectOf("to", options.text("to")), { program: taught, robot } = await readProgram(path, await programRobot(options));
     const worldFromBase = cellPath === undefined ? pose<"world", "base">() : (await readCell(cellPath)).robot.worldFromBase;
 
     // A controller takes the nearest posture: where the checked plan takes another one, the text says so.
