@@ -1,11 +1,8 @@
 import type { Executed, Interpreted, Pose, Robot, Signals, TextFault } from "@twincell/core";
-import { TextError, textFault } from "../text/index.ts";
+import { rehearse, textFault } from "../text/index.ts";
 import { readSource, type Source } from "./read/source.ts";
 import { hasPendant } from "./run/arm.ts";
 import { Machine, type Surroundings } from "./run/machine.ts";
-
-/** How far a program is run beforehand to meet its tools, frames and faults; one that moves for ever goes on longer. */
-const BEFOREHAND = { steps: 5_000, statements: 150_000 } as const;
 
 export interface Loaded { readonly source: Source; readonly machine: (surroundings: Surroundings, signals?: Signals, writesDown?: boolean) => Machine }
 
@@ -26,15 +23,7 @@ export function interpretFanucLs(text: string, robot: Robot, worldFromBase: Pose
   if (answer.kind === "not-understood") return answer;
   const { machine } = answer.loaded, surroundings = newSurroundings();
   const run = function* (signals?: Signals): Generator<Executed, void> { yield* machine(surroundings, signals).main(); };
-  try {
-    let steps = 0, statements = 0;
-    for (const { step } of run()) {
-      if (step !== undefined) steps++;
-      if (steps >= BEFOREHAND.steps || ++statements >= BEFOREHAND.statements) break;
-    }
-  } catch (cause) {
-    if (!(cause instanceof TextError)) throw cause;
-    return { kind: "not-understood", faults: [cause.fault] };
-  }
+  const fault = rehearse(run());
+  if (fault !== undefined) return { kind: "not-understood", faults: [fault] };
   return { kind: "ready", run, context: surroundings };
 }

@@ -1,8 +1,7 @@
 import { emptyProgram, type Group, type Parsed, type Pose, type Program, type Robot, type Step, type TextFault } from "@twincell/core";
-import { TextError, plainText, textFault, textLines } from "../text/index.ts";
+import { TextError, WaitsOutside, plainText, textFault, textLines } from "../text/index.ts";
 import { openInform } from "./interpret.ts";
 import type { PulseData } from "./robots.ts";
-import { WaitsOutside } from "./run/machine.ts";
 
 /** A job with more steps than this is taken to repeat itself for ever. */
 const MOST_STEPS = 200_000;

@@ -1,17 +1,10 @@
 import type { Executed, Interpreted, Pose, Robot, Signals, TextFault, TextPlace } from "@twincell/core";
-import { TextError, textFault } from "../text/index.ts";
+import { rehearse, textFault } from "../text/index.ts";
 import { readSource } from "./read/source.ts";
 import type { Source } from "./read/syntax.ts";
 import { Axes } from "./run/axes.ts";
-import { WaitsOutside } from "./run/frame.ts";
 import { Machine } from "./run/machine.ts";
 import { ControllerState, type Context } from "./run/state.ts";
-
-/**
- * How far a program is run beforehand to meet its tools and its faults: enough to see that it runs on the spot.
- * A program that moves for ever goes on longer.
- */
-const BEFOREHAND = { steps: 5_000, statements: 150_000 } as const;
 
 /** A module ready to be executed, with what only its reader wants to know. */
 export type Opened =
@@ -45,16 +38,7 @@ export function openKrl(text: string, robot: Robot, worldFromBase: Pose<"world",
 export function interpretKrl(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Interpreted {
   const opened = openKrl(text, robot, worldFromBase);
   if (opened.kind === "not-understood") return opened;
-  try {
-    let steps = 0, statements = 0;
-    for (const { step } of opened.start().steps) {
-      if (step !== undefined) steps++;
-      if (steps >= BEFOREHAND.steps || ++statements >= BEFOREHAND.statements) break;
-    }
-  } catch (cause) {
-    // What hangs on a line from outside shows only when the program runs.
-    if (cause instanceof TextError) return { kind: "not-understood", faults: [cause.fault] };
-    if (!(cause instanceof WaitsOutside)) throw cause;
-  }
+  const fault = rehearse(opened.start().steps);
+  if (fault !== undefined) return { kind: "not-understood", faults: [fault] };
   return { kind: "ready", run: signals => opened.start(signals).steps, context: opened.context };
 }

@@ -1,7 +1,6 @@
 import { emptyProgram, type Group, type Parsed, type Pose, type Program, type Robot, type Step, type TextFault } from "@twincell/core";
-import { TextError, plainText, textFault, textLines } from "../text/index.ts";
+import { TextError, WaitsOutside, plainText, textFault, textLines } from "../text/index.ts";
 import { openKrl } from "./interpret.ts";
-import { WaitsOutside } from "./run/frame.ts";
 
 /** A program with more steps than this is taken to repeat itself for ever. */
 const MOST_STEPS = 200_000;

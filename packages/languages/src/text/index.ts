@@ -2,3 +2,5 @@ export * from "./faults.ts";
 export * from "./lines.ts";
 export * from "./numbers.ts";
 export * from "./tokens.ts";
+export * from "./waits-outside.ts";
+export * from "./rehearse.ts";

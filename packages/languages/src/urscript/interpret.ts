@@ -1,14 +1,8 @@
 import type { Executed, Interpreted, Pose, Robot, Signals } from "@twincell/core";
-import { TextError, textFault } from "../text/index.ts";
+import { rehearse, textFault } from "../text/index.ts";
 import { constantsOf } from "../text/structured/index.ts";
 import { readSource, type Source } from "./read/grammar.ts";
 import { Machine, speaksUrScript, type Surroundings } from "./run/machine.ts";
-
-/**
- * How far a program is run beforehand to meet its tools, frames and faults: enough to see that it runs on the spot.
- * A program that moves for ever goes on longer.
- */
-const BEFOREHAND = { steps: 5_000, statements: 150_000 } as const;
 
 /** A program that was read, with what its runs have in common. */
 export interface Loaded { readonly source: Source; readonly machine: (surroundings: Surroundings, signals?: Signals) => Machine }
@@ -31,15 +25,7 @@ export function interpretUrScript(text: string, robot: Robot, worldFromBase: Pos
   if (answer.kind === "not-understood") return answer;
   const { source, machine } = answer.loaded, surroundings = newSurroundings();
   const run = function* (signals?: Signals): Generator<Executed, void> { yield* machine(surroundings, signals).block(source.main); };
-  try {
-    let steps = 0, statements = 0;
-    for (const { step } of run()) {
-      if (step !== undefined) steps++;
-      if (steps >= BEFOREHAND.steps || ++statements >= BEFOREHAND.statements) break;
-    }
-  } catch (cause) {
-    if (!(cause instanceof TextError)) throw cause;
-    return { kind: "not-understood", faults: [cause.fault] };
-  }
+  const fault = rehearse(run());
+  if (fault !== undefined) return { kind: "not-understood", faults: [fault] };
   return { kind: "ready", run, context: surroundings };
 }

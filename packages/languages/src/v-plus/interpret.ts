@@ -1,15 +1,9 @@
 import type { Executed, Interpreted, Pose, Robot, Signals } from "@twincell/core";
-import { TextError, textFault } from "../text/index.ts";
+import { rehearse, textFault } from "../text/index.ts";
 import { readSource } from "./read/source.ts";
 import { jointConvention } from "./robots.ts";
 import { Machine } from "./run/machine.ts";
 import type { Met } from "./run/state.ts";
-
-/**
- * How far a program is run beforehand to meet its tools and its faults: enough to see that it runs on the spot.
- * A program that moves for ever goes on longer.
- */
-const BEFOREHAND = { steps: 5_000, statements: 150_000 } as const;
 
 /**
  * Executes V+ text: a disk file (its first program) or a list of terminal commands. Locations count from the shoulder of
@@ -24,15 +18,7 @@ export function interpretVPlus(text: string, robot: Robot, worldFromBase: Pose<"
   if (read.kind === "not-understood") return read;
   const met: Met = { tools: {}, lines: {} };
   const run = (signals?: Signals): Generator<Executed, void> => new Machine(read.source, robot, convention, worldFromBase, met, signals).run();
-  try {
-    let steps = 0, statements = 0;
-    for (const { step } of run()) {
-      if (step !== undefined) steps++;
-      if (steps >= BEFOREHAND.steps || ++statements >= BEFOREHAND.statements) break;
-    }
-  } catch (cause) {
-    if (!(cause instanceof TextError)) throw cause;
-    return { kind: "not-understood", faults: [cause.fault] };
-  }
+  const fault = rehearse(run());
+  if (fault !== undefined) return { kind: "not-understood", faults: [fault] };
   return { kind: "ready", run, context: { tools: met.tools, frames: {}, signals: met.lines } };
 }

@@ -1,5 +1,5 @@
-import { Fault, type Executed, type MoveStep, type Pose, type Signals, type Step, type TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import type { Executed, MoveStep, Pose, Signals, Step, TextPlace } from "@twincell/core";
+import { TextError, WaitsOutside } from "../../text/index.ts";
 import type { Condition, Instruction, Job, Move, Position, Source, Statement } from "../read/syntax.ts";
 import { poseOf } from "./arm.ts";
 import { Memory, looksOutside } from "./memory.ts";
@@ -278,18 +278,8 @@ export class Machine {
 
   private spend(at: TextPlace): void {
     if (++this.idle <= INSTRUCTIONS_WITHOUT_MOTION) return;
-    if (this.memory.asked) throw new WaitsOutside(at);
+    if (this.memory.asked) throw new WaitsOutside(at, "job");
     throw new TextError(at, "a motion, a wait or an end", `The job has executed ${INSTRUCTIONS_WITHOUT_MOTION} instructions without a motion: it runs on the spot for ever.`);
-  }
-}
-
-/** The job turns in a circle until something outside changes. */
-export class WaitsOutside extends Fault {
-  readonly code = "language.waits-outside";
-  readonly hint: string;
-  constructor({ line, column }: TextPlace) {
-    super("The job turns in a circle until a line from outside changes.");
-    this.hint = `Line ${line}, column ${column}: set the line that it looks at.`;
   }
 }
 

@@ -1,4 +1,3 @@
-import { Fault, type TextPlace } from "@twincell/core";
 import type { Routine, Variable } from "../read/syntax.ts";
 import { real, whole, type Structure, type Value } from "./values.ts";
 
@@ -15,16 +14,6 @@ export interface Frame {
   /** Where the values of parameters go that are handed back. */
   readonly back: readonly { readonly from: string; readonly to: Variable; readonly frame: Frame | undefined }[];
   result: Value | undefined;
-}
-
-/** The program turns in a circle until something outside changes. */
-export class WaitsOutside extends Fault {
-  readonly code = "language.waits-outside";
-  readonly hint: string;
-  constructor({ line, column }: TextPlace) {
-    super("The program turns in a circle until a line from outside changes.");
-    this.hint = `Line ${line}, column ${column}: set the line that it looks at.`;
-  }
 }
 
 /** Axis values as a structure. */

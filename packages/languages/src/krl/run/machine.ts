@@ -1,8 +1,8 @@
 import type { Executed, MoveStep, Search, Signals, Step, TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError, WaitsOutside } from "../../text/index.ts";
 import type { Declaration, Expression, Instruction, Motion, Routine, Source, Statement, Variable } from "../read/syntax.ts";
 import { BAS } from "./bas.ts";
-import { WaitsOutside, axesOf, typed, within, type Frame } from "./frame.ts";
+import { axesOf, typed, within, type Frame } from "./frame.ts";
 import { Lines } from "./signals.ts";
 import type { Context, ControllerState } from "./state.ts";
 import { spelling } from "./system.ts";

@@ -4,4 +4,5 @@ export * from "./cursor.ts";
 export * from "./expression.ts";
 export * from "./machine.ts";
 export * from "./constants.ts";
+export * from "./changes.ts";
 export * from "./outline.ts";
