@@ -44,12 +44,13 @@ export default {
     {
       name: "vendors-are-strangers", severity: "error",
       comment: "brands and dialects meet only in the port above them and in the shared folders named here",
-      from: { path: "^packages/(controllers|languages)/src/([^/]+)/", pathNot: "/src/(text|writing|transport|guard|twin|testing)/" },
-      to: { path: "^packages/(controllers|languages)/src/[^/]+/", pathNot: "^packages/[^/]+/src/($2|text|writing|transport|guard|twin|testing)/" },
+      from: { path: "^packages/(controllers|languages)/src/([^/]+)/", pathNot: "/testing/" },
+      to: { path: "^packages/(controllers|languages)/src/[^/]+/", pathNot: "^packages/[^/]+/src/($2|text|writing|transport|guard|twin|virtual|real|testing)/" },
     },
     {
       name: "driver-and-virtual-are-strangers", severity: "error", comment: "they share the codec and nothing else",
-      from: { path: "/(driver|virtual)[.]ts$" }, to: { path: "/(driver|virtual)[.]ts$", pathNot: "index[.]ts$" },
+      from: { path: "^packages/controllers/src/([^/]+)/(driver|virtual)(/|[.]ts$)", pathNot: "[.]test[.]ts$" },
+      to: { path: "^packages/controllers/src/$1/(driver|virtual)(/|[.]ts$)", pathNot: "^packages/controllers/src/$1/$2(/|[.]ts$)" },
     },
     {
       name: "features-are-strangers", severity: "error", comment: "features meet in stores/ or in packages/",

@@ -101,6 +101,40 @@ export interface RobotController extends StateSource {
   readonly jumpTo?: (q_rad: ArrayLike<number>) => CommandOutcome;
 }
 
+/** How the connection to a real robot is: connecting tries again by itself, with growing pauses; only a person closes it. */
+export type LinkState = "closed" | "connecting" | "open" | "lost";
+export interface LinkReport {
+  readonly state: LinkState;
+  /** Why it is as it is, in words; "" while it is open. */
+  readonly sentence: string;
+  /** Tries since it was last open. */
+  readonly attempts: number;
+  /** Samples that came per second, over the last second. */
+  readonly rate_Hz: number;
+  /** How much later than the fastest one the last sample came [s]; with `roundTrip_s` the age of what is shown. */
+  readonly late_s: number;
+  /** From a question to its answer [s]; NaN where the protocol asks nothing. */
+  readonly roundTrip_s: number;
+  /** Samples that the controller's own count or clock says are missing, since it was last opened. */
+  readonly missing: number;
+}
+/** What stops the robot when nobody commands it any more: its own controller, or nothing on its side. */
+export type Watchdog = { readonly kind: "robot"; readonly within_s: number } | { readonly kind: "none"; readonly because: string };
+
+/** A robot on a wire (rows T-19 … T-22). Its commands are refused while the link is not open; nothing here waits for the wire. */
+export interface RealController extends RobotController {
+  readonly kind: "real";
+  readonly isConnected: boolean;
+  readonly link: LinkReport;
+  readonly watchdog: Watchdog;
+  /** Resolves with the first answer: open, or why not. A lost link is opened again without being asked; motion is not. */
+  connect(): Promise<CommandOutcome>;
+  disconnect(): void;
+  onLink(listen: (report: LinkReport) => void): () => void;
+  /** Hands the controller a program in its own language and runs it there to its end. */
+  readonly runText?: (files: readonly EmittedFile[]) => Promise<CommandOutcome>;
+}
+
 /** A place in a text, counted from 1. */
 export interface TextPlace { readonly line: number; readonly column: number }
 export interface TextFault extends TextPlace { readonly expected: string; readonly sentence: string }
