@@ -1,1 +1,3 @@
 export * from "./face.ts";
+export { Meter, type Metered } from "./meter.ts";
+export { createRealController, type RealOptions } from "./controller.ts";
