@@ -13,6 +13,7 @@ import { onStop } from "../stores/stop.ts";
 import { viewStore } from "../stores/view.ts";
 import { words } from "../words/index.ts";
 import { browserShelf } from "./archive.ts";
+import { writtenProgram } from "./posting.ts";
 import { leaveRobot, takeRobot } from "./owner.ts";
 import { readInWorker } from "./recording-reader.ts";
 import { controlCell, type CellControl } from "./run.ts";
@@ -41,7 +42,7 @@ export function theControl(): CellControl | null {
   control?.close();
   made = document;
   control = controlCell(
-    { dialect: theLanguage, scheduler: pageScheduler, shelf, clock_ms: () => Date.now() },
+    { dialect: theLanguage, write: program => writtenProgram(program, document), scheduler: pageScheduler, shelf, clock_ms: () => Date.now() },
     { robot, worldFromBase: document.robot.worldFromBase, flangeFromTcp: flangeFromTcpOf(document), isSafe: contactTest(document, robot) },
   );
   control.setOverride(playStore.getState().speed);
