@@ -4,4 +4,5 @@ export * from "./twin/index.ts";
 export * from "./guard/index.ts";
 export * from "./runner/index.ts";
 export * from "./real/index.ts";
+export * from "./station/index.ts";
 export * from "./transport/index.ts";

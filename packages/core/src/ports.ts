@@ -29,6 +29,8 @@ export interface JointSample {
   /** The controller's own time [s]. */
   readonly time_s: number;
   readonly q_rad: Float64Array;
+  /** What the controller commands at that time, where it says so. Lent like the rest. */
+  readonly target_rad?: Float64Array;
   readonly moving: boolean;
   readonly mode: OperatingMode;
   readonly safety: SafetyState;

@@ -45,6 +45,7 @@ export function createRealController(options: RealOptions): RealController {
       lent.sequence = sample.sequence; lent.time_s = sample.time_s; lent.mode = sample.mode; lent.safety = sample.safety;
       lent.override = sample.override; lent.gripperClosed = sample.gripperClosed;
       if (sample.signals) lent.signals = sample.signals;
+      if (sample.target_rad) lent.target_rad = sample.target_rad;
       lent.message = sample.message === "" ? said : sample.message;
       lent.step = command?.step ?? "";
       if (command && sample.moving) command.seenMoving = true;
