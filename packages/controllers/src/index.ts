@@ -1,4 +1,5 @@
 export * from "./refusals.ts";
+export * from "./brands.ts";
 export * from "./virtual/index.ts";
 export * from "./twin/index.ts";
 export * from "./guard/index.ts";

@@ -1,0 +1,7 @@
+import type { Brand } from "./real/index.ts";
+
+/** Every brand there is a driver and a virtual controller for. */
+export const BRANDS: readonly Brand[] = [];
+export const brandById = (id: string): Brand | undefined => BRANDS.find(brand => brand.id === id);
+/** Brands whose robots that one is. */
+export const brandsFor = (vendor: string): readonly Brand[] => BRANDS.filter(brand => brand.vendor === vendor);
