@@ -2,7 +2,7 @@
  * Who may use what. Three floors: core knows nobody, the middle floor knows core and none of its neighbours,
  * apps join things. This table is the whole truth; there is no list of exceptions.
  */
-const middle = ["languages", "controllers", "formats", "recording", "project"];
+const middle = ["languages", "controllers", "formats", "recording", "project", "messages"];
 const packages = ["core", ...middle];
 const mayUse = { core: [], ...Object.fromEntries(middle.map(name => [name, ["core"]])) };
 
@@ -14,6 +14,7 @@ const mayInstall = {
   formats: ["saxes", "xmlchars", "yaml"],
   recording: ["@mcap/", "@foxglove/"],
   project: ["zod"],
+  messages: ["zod"],
 };
 const any = names => names.join("|");
 const test = "[.]test[.]tsx?$|/testing/";

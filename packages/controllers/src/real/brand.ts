@@ -45,7 +45,7 @@ export interface BrandVirtual {
   /** The joint angles now [rad]. */
   jointAngles(out?: Float64Array): Float64Array;
   /** Off and on again: connections end, clocks and counters begin anew, drives are off as after power-on. */
-  reboot(): void;
+  readonly reboot: () => void;
   close(): void;
 }
 export type BrandStarted = { readonly kind: "started"; readonly virtual: BrandVirtual } | { readonly kind: "taken"; readonly sentence: string };

@@ -1,1 +1,2 @@
 export * from "./station.ts";
+export * from "./open.ts";

@@ -29,7 +29,7 @@ const planned = () => {
 describe("a station", () => {
   test("T-24 T-25 runs a program through its guard, its twin follows, and it stays on its plan at any override", async () => {
     const { scheduler, station, seat } = await bench();
-    const running = station.run(seat, { program, steps: () => program.steps, plan: planned() });
+    const running = station.carryOut(seat, { program, steps: () => program.steps, plan: planned() });
     let worst_rad = 0;
     station.onSample(() => { worst_rad = Math.max(worst_rad, station.deviation.plan_rad || 0); });
     await scheduler.elapse(0.5);
@@ -45,7 +45,7 @@ describe("a station", () => {
   test("a robot that leaves its plan is said aloud, once", async () => {
     const { scheduler, face, station, seat, notices } = await bench();
     const other = [move("there", shifted(0.4).map((q, i) => i === 2 ? q - 0.3 : q))];
-    const running = station.run(seat, { program, steps: () => other, plan: planned() });
+    const running = station.carryOut(seat, { program, steps: () => other, plan: planned() });
     await scheduler.elapse(10);
     await running;
     expect(notices).toEqual(["twin.deviation"]);
@@ -54,7 +54,7 @@ describe("a station", () => {
 
   test("X-41 the plug is pulled: the guard lets nothing move until a person says so, though the link is back", async () => {
     const { scheduler, face, station, seat } = await bench();
-    const running = station.run(seat, { program, steps: () => program.steps });
+    const running = station.carryOut(seat, { program, steps: () => program.steps });
     await scheduler.elapse(0.3);
     face.silent = true;
     await scheduler.elapse(0.1);

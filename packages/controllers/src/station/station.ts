@@ -42,7 +42,7 @@ export interface Station {
   connect(): Promise<CommandOutcome>;
   disconnect(): void;
   /** Runs a program from that seat: as the controller's own text where it takes one. */
-  run(seat: Seat, job: StationJob): Promise<CommandOutcome>;
+  carryOut(seat: Seat, job: StationJob): Promise<CommandOutcome>;
   onSample(listen: (lent: JointSample) => void): () => void;
   onLink(listen: (report: LinkReport) => void): () => void;
   onGuard(listen: (state: GuardState) => void): () => void;
@@ -99,7 +99,7 @@ export function createStation(options: StationOptions): Station {
     seat: who => guard.seat(who),
     connect: () => real?.connect() ?? Promise.resolve(DONE),
     disconnect() { real?.disconnect(); },
-    async run(seat, job) {
+    async carryOut(seat, job) {
       const program = withBranches(job.program, robot, { where: "needed", ...(options.worldFromBase ? { worldFromBase: options.worldFromBase } : {}) });
       const written = real?.runText && job.dialect ? job.dialect.emit(program, robot, options.worldFromBase) : null;
       if (written?.kind === "cannot") return { kind: "refused", why: notEmitted(job.dialect!.name, written.sentence, written.hint) };
