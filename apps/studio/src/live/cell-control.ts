@@ -18,6 +18,7 @@ import { leaveRobot, takeRobot } from "./owner.ts";
 import { readInWorker } from "./recording-reader.ts";
 import { controlCell, type CellControl } from "./run.ts";
 import { pageScheduler } from "./scheduler.ts";
+import { startStations } from "./stations.ts";
 import { travelBack, type TravelBack } from "./travel-back.ts";
 
 const shelf = browserShelf();
@@ -73,6 +74,7 @@ export async function startRun(): Promise<void> {
 export function startCellControl(): void {
   theControl();
   void theHistory.refresh();
+  startStations();
   // Another robot is another controller, as the chip says at once.
   cellStore.subscribe((state, before) => { if (state.document?.robot.id !== before.document?.robot.id) theControl(); });
   onStop(() => { control?.stop(); theHistory.pause(); });
