@@ -1,5 +1,10 @@
 export * from "./sink.ts";
-export { createRunRecorder, type RunHeader, type RunRecorder } from "./recorder.ts";
+export { createRunRecorder, QUANTUM, type Compact, type RunHeader, type RunRecorder } from "./recorder.ts";
 export { readRecording, type Read, type RecordingData } from "./read.ts";
 export { openRecording, playable, type OpenOptions, type Opened, type RecordedRun } from "./run.ts";
-export type { EventLevel, RobotState, RunEvent } from "./state.ts";
+export type { RunFacts, Samples } from "./decode.ts";
+export type { Note, NoteKind, Notes } from "./notes.ts";
+export type { Packing } from "./packing.ts";
+export { copyState, sameState, type EventLevel, type RobotState, type RunEvent } from "./state.ts";
+export { TOPICS, type Topic } from "./topics.ts";
+export { createDigester, type Cycle, type Digest, type Digester, type Mark, type Minute, type OpenCycle } from "./digest.ts";
