@@ -1,11 +1,12 @@
 import { crc32 } from "@foxglove/crc";
 import { McapStreamReader, Opcode } from "@mcap/core";
+import { openCycleFrom, type OpenCycle } from "./digest.ts";
 import { positionsOffset } from "./joint-state.ts";
 import { RECORD_HEAD, type ChunkShape } from "./layout.ts";
 import { noteFrom, type Note, type NoteKind } from "./notes.ts";
 import type { Packing } from "./packing.ts";
 import { eventFrom, sameState, stateFrom, type RobotState, type RunEvent } from "./state.ts";
-import { utf8Text } from "./text.ts";
+import { utf8Bytes, utf8Text } from "./text.ts";
 import { CHANNEL, TOPICS } from "./topics.ts";
 
 /** What a recording says of itself. */
@@ -18,6 +19,8 @@ export interface RunFacts {
   /** Wall clock at time 0, nanoseconds since 1970. */
   readonly startedAt_ns: bigint;
   readonly joints: number;
+  /** The cycle that was under way when the file before this one ended. */
+  readonly cycle: OpenCycle | null;
 }
 /** Samples laid out for scrubbing. Plain data: it crosses a worker's border by structured clone. */
 export interface Samples {
@@ -48,6 +51,7 @@ export function factsFrom(metadata: ReadonlyMap<string, string>): RunFacts | nul
   return {
     robot, robotName: metadata.get("robot_name") ?? "", program: metadata.get("program") ?? "", cell: metadata.get("cell") ?? "",
     startedAt_ns: /^\d{1,19}$/.test(started) ? BigInt(started) : 0n, joints: names.length,
+    cycle: openCycleFrom(json(utf8Bytes(metadata.get("cycle") ?? ""))),
   };
 }
 

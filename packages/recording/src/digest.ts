@@ -142,6 +142,12 @@ const finite = (value: unknown): number => (typeof value === "number" && Number.
 const text = (value: unknown): string => (typeof value === "string" ? value : "");
 const oneOf = <T extends string>(value: unknown, all: readonly T[], otherwise: T): T => all.find(known => known === value) ?? otherwise;
 
+/** The cycle that was under way where a file begins, as it stands in its metadata. */
+export function openCycleFrom(json: unknown): OpenCycle | null {
+  if (!isRecord(json) || typeof json["from_s"] !== "number") return null;
+  return { from_s: finite(json["from_s"]), firstStep: text(json["firstStep"]), lastStep: text(json["lastStep"]), byStep: json["byStep"] === true };
+}
+
 /** A digest as it stands in a file; null when it is none. */
 export function digestFrom(json: unknown): Digest | null {
   if (!isRecord(json) || !Array.isArray(json["marks"]) || !Array.isArray(json["cycles"]) || !Array.isArray(json["minutes"])) return null;

@@ -8,3 +8,7 @@ export type { Packing } from "./packing.ts";
 export { copyState, sameState, type EventLevel, type RobotState, type RunEvent } from "./state.ts";
 export { TOPICS, type Topic } from "./topics.ts";
 export { createDigester, type Cycle, type Digest, type Digester, type Mark, type Minute, type OpenCycle } from "./digest.ts";
+export { memoryFiles, type ArchivePort, type FilePort, type FileSink, type StoredFile } from "./history/port.ts";
+export { expired, fileName, fileTime_ms, KEEPING, type Keeping } from "./history/keeping.ts";
+export { createArchive, type Archive, type ArchiveOptions } from "./history/archive.ts";
+export { openHistory, type History, type HistoryOptions, type Moment, type OpenedHistory, type Stretch } from "./history/history.ts";

@@ -73,6 +73,7 @@ export function createRunRecorder(sink: ByteSink, header: RunHeader): RunRecorde
   const run = new Map([
     ["version", "2"], ["robot", robot.id], ["robot_name", robot.name], ["program", header.program], ["cell", header.cell],
     ["started_at_ns", startedAt_ns.toString()], ["joints", JSON.stringify(names)],
+    ...(header.cycle ? [["cycle", JSON.stringify(header.cycle)] as const] : []),
   ]);
   const schemas: Schema[] = TOPICS.map(({ schema }, i) => ({ id: i + 1, name: schema.name, encoding: schema.encoding, data: utf8Bytes(schema.text) }));
   const channels: Channel[] = TOPICS.map(({ topic, messageEncoding }, id) => ({ id, schemaId: id + 1, topic, messageEncoding, metadata: run }));
