@@ -12,3 +12,7 @@ export { memoryFiles, type ArchivePort, type FilePort, type FileSink, type Store
 export { expired, fileName, fileTime_ms, KEEPING, type Keeping } from "./history/keeping.ts";
 export { createArchive, type Archive, type ArchiveOptions } from "./history/archive.ts";
 export { openHistory, type History, type HistoryOptions, type Moment, type OpenedHistory, type Stretch } from "./history/history.ts";
+export { catalogue, type Catalogued, type CatalogueFile } from "./history/catalogue.ts";
+export { dashboardOf, type AlarmCount, type Dashboard, type DashboardOptions, type Hint, type JointTravel, type Reported, type TrendPoint } from "./history/dashboard.ts";
+export { compareTraces, traceOf, type Comparison, type Trace } from "./history/compare.ts";
+export { playHistory, type HistoryPlayer } from "./history/player.ts";

@@ -4,8 +4,8 @@ import type { Cycle, Mark, Minute } from "../digest.ts";
 import { chunkShape } from "../layout.ts";
 import type { Packing } from "../packing.ts";
 import type { RobotState } from "../state.ts";
-import { catalogue, type CatalogueFile } from "./catalogue.ts";
-import type { FilePort } from "./port.ts";
+import { catalogue, type Catalogued, type CatalogueFile } from "./catalogue.ts";
+import type { FilePort, StoredFile } from "./port.ts";
 
 /** Everything about one instant: enough to look at it, or to go on from it. */
 export interface Moment {
@@ -46,6 +46,8 @@ export type OpenedHistory = { readonly kind: "history"; readonly history: Histor
 
 export interface HistoryOptions {
   readonly packing?: Packing;
+  /** Opens one file by its index; somebody may do it elsewhere, in a worker. */
+  readonly catalogue?: (file: StoredFile) => Promise<Catalogued>;
   /** Id of the robot that is meant where several were recorded; the one of the newest file when left out. */
   readonly robot?: string;
 }
@@ -59,7 +61,7 @@ const GAP_S = 1.5;
 export async function openHistory(port: FilePort, options: HistoryOptions = {}): Promise<OpenedHistory> {
   const files: CatalogueFile[] = [], troubles: string[] = [];
   for (const stored of await port.list()) {
-    const read = await catalogue(port, stored, options.packing);
+    const read = await (options.catalogue?.(stored) ?? catalogue(port, stored, options.packing));
     if (read.kind === "file") files.push(read.file); else troubles.push(`${stored.name}: ${read.sentence}`);
   }
   files.sort((a, b) => (a.facts.startedAt_ns < b.facts.startedAt_ns ? -1 : a.facts.startedAt_ns > b.facts.startedAt_ns ? 1 : 0));
