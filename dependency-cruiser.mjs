@@ -12,7 +12,7 @@ const mayInstall = {
   languages: [],
   controllers: [],
   formats: ["saxes", "xmlchars", "yaml"],
-  recording: ["@mcap/", "@foxglove/"],
+  recording: ["@mcap/", "@foxglove/", "@bokuweb/zstd-wasm"],
   project: ["zod"],
   messages: ["zod"],
 };

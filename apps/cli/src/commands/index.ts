@@ -7,11 +7,13 @@ import { fkCommand } from "./fk.ts";
 import { ikCommand } from "./ik.ts";
 import { parseCommand } from "./parse.ts";
 import { postCommand } from "./post.ts";
+import { recordCommand } from "./record.ts";
+import { replayCommand } from "./replay.ts";
 import { robotsCommand } from "./robots.ts";
 import { runCommand } from "./run.ts";
 import { serveCommand } from "./serve.ts";
 import { simulateCommand } from "./simulate.ts";
 
 export const COMMANDS: readonly Command[] = [
-  robotsCommand, dialectsCommand, fkCommand, ikCommand, checkCommand, simulateCommand, postCommand, parseCommand, runCommand, serveCommand, calibrateCommand, benchCommand,
+  robotsCommand, dialectsCommand, fkCommand, ikCommand, checkCommand, simulateCommand, postCommand, parseCommand, runCommand, serveCommand, recordCommand, replayCommand, calibrateCommand, benchCommand,
 ];
