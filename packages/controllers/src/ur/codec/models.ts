@@ -30,3 +30,13 @@ export const leadingJoint = (robot: Robot): { readonly speed_rad_s: number; read
   speed_rad_s: Math.min(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s)),
   acceleration_rad_s2: Math.min(...robot.arm.joints.map(({ limits }) => limits.acceleration_rad_s2)),
 });
+
+/** Lines of the control box by name: digital 0 … 7 standard, 8 … 15 configurable, 16 and 17 at the tool; analogue 0 and 1. */
+export interface UrLine { readonly kind: "digital-in" | "digital-out" | "analogue-in" | "analogue-out"; readonly number: number }
+const LINE = /^(digital|analog)_(in|out)_(\d{1,2})$/;
+export function lineNumber(signal: string): UrLine | null {
+  const [, sort, side, digits] = LINE.exec(signal) ?? [], number = Number(digits);
+  if (sort === undefined || number >= (sort === "digital" ? DIGITAL_LINES : ANALOGUE_LINES)) return null;
+  return { kind: `${sort === "digital" ? "digital" : "analogue"}-${side === "in" ? "in" : "out"}`, number };
+}
+export const DIGITAL_LINES = 18, ANALOGUE_LINES = 2;

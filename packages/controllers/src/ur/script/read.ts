@@ -146,6 +146,8 @@ class Reader {
   }
 
   private unary(): Expression {
+    // A value may stand on the next line: "x =" goes on there.
+    this.blankLines();
     const { line, column, text } = this.token;
     if (this.is("-") || this.is("+") || this.is("not")) {
       this.at++;

@@ -1,8 +1,9 @@
-import type { CommandOutcome, Interpreted, Pose, Robot, Scheduler } from "@twincell/core";
+import type { Pose } from "@twincell/core";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
-import type { ByteStream, Listening, Network } from "../../transport/index.ts";
+import type { ByteStream, Listening } from "../../transport/index.ts";
+import type { BrandStarted, BrandVirtual, BrandVirtualOptions, Pendant } from "../../real/index.ts";
 import { jointRefusal } from "../../refusals.ts";
-import { JOINTS, modelOf, typeOf, UR_PORTS, type UrPorts } from "../codec/models.ts";
+import { JOINTS, lineNumber, modelOf, typeOf, UR_PORTS, type UrPorts } from "../codec/models.ts";
 import { EMERGENCY_STOPS, JOINT_MODE, ROBOT_MODE, RUNTIME, SAFETY_MODE } from "../codec/modes.ts";
 import { errorMessage, exceptionMessage, keyMessage, safetyModeMessage, statePackage, textMessage, versionMessage, type PrimaryArm } from "../codec/primary.ts";
 import type { Version } from "../codec/rtde.ts";
@@ -19,17 +20,8 @@ import { ScriptServer } from "./script-server.ts";
 import { stateFiller } from "./state-filler.ts";
 import { States } from "./states.ts";
 
-export interface VirtualUrOptions {
-  readonly robot: Robot;
-  readonly scheduler: Scheduler;
-  readonly network: Network;
-  /** Runs the text of motion programs: the language's interpreter for that robot, which the app hands in. */
-  readonly interpret: (text: string) => Interpreted;
+export interface VirtualUrOptions extends Omit<BrandVirtualOptions, "host"> {
   readonly host?: string;
-  readonly ports?: Partial<UrPorts>;
-  readonly start_rad?: ArrayLike<number>;
-  /** Part of the joint speeds that 100 % stands for. */
-  readonly maxSpeed?: number;
   readonly worldFromBase?: Pose<"world", "base">;
   /** What it says it is, where that is not the robot it has. */
   readonly model?: string;
@@ -48,26 +40,16 @@ export interface VirtualUrOptions {
   readonly log?: (sentence: string) => void;
 }
 
-/** What a person does at the teach pendant and at the robot. */
-export interface UrPendant {
-  /** Local control: whoever is on the wire may look and not command. A running program ends with the change. */
-  setRemote(remote: boolean): void;
+/** What a person does at the teach pendant and at the robot, beside what every brand has. Manual mode is local control. */
+export interface UrPendant extends Pendant {
   setOperationalMode(mode: "NONE" | "MANUAL" | "AUTOMATIC"): void;
-  /** A joint move by hand, in local control only. */
-  jog(q_rad: ArrayLike<number>): Promise<CommandOutcome>;
   setSpeed(fraction: number): void;
-  pressEmergencyStop(pressed: boolean): void;
-  /** A gate, a light curtain or a proximity sensor. */
-  openSafeguard(open: boolean): void;
-  protectiveStop(because: string): void;
   fault(because: string): void;
   /** Powers on and releases the brakes. */
   switchOn(): void;
   switchOff(): void;
   unlock(): "unlocked" | "too-soon" | "nothing";
   stopProgram(): void;
-  /** A digital input of the control box: 0 … 7 standard, 8 … 15 configurable, 16 and 17 at the tool. */
-  setInput(bit: number, on: boolean): void;
 }
 
 export interface UrState {
@@ -82,19 +64,14 @@ export interface UrState {
   readonly cycles: number;
 }
 
-export interface VirtualUr {
-  readonly robot: Robot;
+export interface VirtualUr extends BrandVirtual {
   readonly faults: UrFaults;
   readonly pendant: UrPendant;
-  readonly ports: UrPorts;
   readonly state: UrState;
   readonly memory: Memory;
   digitalOut(bit: number): boolean;
-  /** The controller is switched off and on: every connection ends, its clock begins again, its drives are off. */
-  reboot(): void;
-  close(): void;
 }
-export type UrOpened = { readonly kind: "listening"; readonly controller: VirtualUr } | { readonly kind: "taken"; readonly sentence: string };
+export type UrStarted = { readonly kind: "started"; readonly virtual: VirtualUr } | Extract<BrandStarted, { kind: "taken" }>;
 
 const CYCLE_S = 0.002;
 /** The primary interface tells its state ten times a second. */
@@ -104,7 +81,7 @@ const DEFAULTS = { version: [5, 12, 0, 1_101_319] as Version, serial: "202255000
 const READ_ONLY = 210, VIOLATION = 2;
 
 /** A controller of Universal Robots made of numbers: its ports, its states, its programs, in front of the neutral virtual robot that moves. */
-export async function createVirtualUr(options: VirtualUrOptions): Promise<UrOpened> {
+export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStarted> {
   const { robot, network, scheduler } = options, version = options.version ?? DEFAULTS.version, host = options.host ?? DEFAULTS.host, log = options.log ?? (() => { /* Nobody listens. */ });
   if (robot.arm.joints.length !== JOINTS) return { kind: "taken", sentence: `${robot.name} has ${robot.arm.joints.length} joints; robots of Universal Robots have ${JOINTS}.` };
   const neutral: VirtualController = createVirtualController({
@@ -237,15 +214,19 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrOpen
     doors.push(door);
   }
 
-  const controller: VirtualUr = {
-    robot, faults, ports, memory,
+  const virtual: VirtualUr = {
+    name: `Virtual ${robot.name}`, robot, faults, ports, memory, brakingTime_s: neutral.brakingTime_s,
+    jointAngles: out => neutral.jointAngles(out),
     state: {
       get q_rad() { return neutral.jointAngles(); }, get robotMode() { return states.robotMode; }, get safetyMode() { return states.safetyMode; }, get runtime() { return programs.runtime; },
       get moving() { return mover.isMoving; }, get remote() { return remote; }, get speedFraction() { return fraction; }, get cycles() { return cycles; },
     },
     digitalOut: bit => memory.digital("output", bit),
     pendant: {
-      setRemote(to) { if (to !== remote) { remote = to; programs.end(); } },
+      setMode(mode) {
+        const to = mode !== "manual";
+        if (to !== remote) { remote = to; programs.end(); }
+      },
       setOperationalMode(mode) { operational = mode; },
       async jog(q_rad) {
         const why = jointRefusal(robot, q_rad) ?? (remote ? { code: "controller.not-manual", sentence: `${robot.name} is in remote control; its pendant jogs in local control only.`, hint: "Switch it to local control." } : null)
@@ -262,15 +243,19 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrOpen
         });
       },
       setSpeed,
-      pressEmergencyStop(pressed) { states.emergencyStop(pressed); },
-      openSafeguard(open) { states.safeguard(open); },
+      emergencyStop(pressed) { states.emergencyStop(pressed); },
+      setGuardOpen(open) { states.safeguard(open); },
       protectiveStop,
       fault(because) { states.fault(because); },
       switchOn() { states.powerOn(now_s(), ROBOT_MODE.RUNNING); },
       switchOff() { states.powerOff(); },
       unlock: () => states.unlock(now_s()),
       stopProgram() { programs.end(); },
-      setInput(bit, on) { memory.setDigital("input", bit, on); },
+      setInput(signal, value) {
+        const line = lineNumber(signal);
+        if (line?.kind === "digital-in") memory.setDigital("input", line.number, value === true || (typeof value === "number" && value !== 0));
+        if (line?.kind === "analogue-in" && line.number < 2) memory.set(`standard_analog_input${line.number}`, Number(value));
+      },
     },
     reboot() {
       programs.end();
@@ -289,5 +274,5 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrOpen
       neutral.close();
     },
   };
-  return { kind: "listening", controller };
+  return { kind: "started", virtual };
 }

@@ -125,7 +125,6 @@ export class RtdeServer {
   private setData(connection: Connection, payload: Uint8Array): void {
     const recipe = connection.inputs.get(payload[0] ?? 0), { memory } = this.options;
     if (!recipe) { this.warn(connection, `There is no input recipe ${payload[0] ?? 0}.`); return; }
-    if (!connection.started) return;
     if (!unpackData(recipe, payload.subarray(1), memory.slots)) { this.reset(connection, `a package of recipe ${recipe.id} has ${payload.length - 1} bytes instead of ${recipe.bytes}.`); return; }
     memory.touch(recipe.fields, this.options.now_s());
     this.options.onInputs(recipe.fields);
