@@ -1,5 +1,4 @@
 import { ScriptError, type At } from "./fault.ts";
-import type { Machine } from "./machine.ts";
 import { inverted, matrixOf, sixOf, times } from "./pose.ts";
 import { asNumber, asNumbers, asPose, asText, isList, type Value } from "./values.ts";
 
@@ -29,7 +28,7 @@ export class Arguments {
 }
 
 /** One that takes time goes on with the next cycle of the controller at every `yield`. */
-export type ScriptFunction = (args: Arguments, machine: Machine, thread: number) => Value | Generator<void, Value>;
+export type ScriptFunction = (args: Arguments, thread: number) => Value | Generator<void, Value>;
 
 const one = (f: (x: number) => number): ScriptFunction => args => {
   const value = f(args.number(0, "f"));

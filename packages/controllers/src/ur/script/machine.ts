@@ -52,7 +52,8 @@ export class Machine {
   cycle(): MachineState {
     if (this.state.kind !== "running") return this.state;
     try {
-      for (const thread of [...this.threads.values()]) {
+      // A thread that is begun in this cycle has its turn in it as well.
+      for (const thread of this.threads.values()) {
         if (this.alone !== 0 && this.alone !== thread.id) continue;
         if (thread.done || !this.threads.has(thread.id)) continue;
         this.current = thread.id;
@@ -203,7 +204,7 @@ export class Machine {
     }
     const known = Object.hasOwn(this.functions, name) ? this.functions[name] : Object.hasOwn(PURE, name) ? PURE[name] : undefined;
     if (!known) throw new ScriptError(at, `"${name}" is no function of this controller.`);
-    const answer = known(given, this, this.current);
+    const answer = known(given, this.current);
     return isRunning(answer) ? yield* answer : answer;
   }
 

@@ -186,7 +186,7 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStar
     if (frozen) return;
     cycles++;
     if (sample.gripperClosed !== gripper) { gripper = sample.gripperClosed; memory.setDigital("output", GRIPPER_BIT, gripper); }
-    const q = mover.cycle();
+    const q = mover.cycle(sample);
     fill(booted_s + now_s(), q, fraction);
     states.cycle(now_s());
     const ended = programs.cycle();

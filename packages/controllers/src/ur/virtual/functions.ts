@@ -131,29 +131,29 @@ export function robotFunctions(host: ScriptHost, mayMove: boolean): Readonly<Rec
   const nothing: ScriptFunction = () => null;
 
   return {
-    movej: (args, _, thread) => travel(joint(args, args.value(0, "q")), thread),
-    movel: (args, _, thread) => travel(tool(args, "lin", args.value(0, "pose"), 1), thread),
-    movep: (args, _, thread) => travel(tool(args, "lin", args.value(0, "pose"), 1), thread),
-    movec: (args, _, thread) => travel(tool(args, "circ", args.value(1, "pose_to"), 2, args.value(0, "pose_via")), thread),
-    servoj: (args, _, thread) => {
+    movej: (args, thread) => travel(joint(args, args.value(0, "q")), thread),
+    movel: (args, thread) => travel(tool(args, "lin", args.value(0, "pose"), 1), thread),
+    movep: (args, thread) => travel(tool(args, "lin", args.value(0, "pose"), 1), thread),
+    movec: (args, thread) => travel(tool(args, "circ", args.value(1, "pose_to"), 2, args.value(0, "pose_via")), thread),
+    servoj: (args, thread) => {
       const goal = args.numbers(0, "q", arm.joints.length), t = args.number(3, "t", DEFAULT.step_s), lookahead = args.number(4, "lookahead_time", DEFAULT.lookahead_s);
       return streaming(thread, () => { mover.stream.servo(goal, Math.max(0.03, Math.min(0.2, lookahead))); }, t);
     },
-    servoc: (args, _, thread) => {
+    servoc: (args, thread) => {
       const joints = solved(six(args, args.value(0, "pose")), q());
       if (!joints) throw new ScriptError(args.at, "No posture reaches that pose.");
       return streaming(thread, () => { mover.stream.servo(joints, DEFAULT.lookahead_s); }, host.cycle_s);
     },
-    speedj: (args, _, thread) => {
+    speedj: (args, thread) => {
       const speeds = args.numbers(0, "qd", arm.joints.length), a = args.number(1, "a", DEFAULT.jointAcceleration_rad_s2), t = args.maybe(2, "t");
       return streaming(thread, () => { mover.stream.speed(speeds, a); }, t === undefined ? undefined : args.number(2, "t"));
     },
-    speedl: (args, _, thread) => {
+    speedl: (args, thread) => {
       const twist = turned(args.numbers(0, "xd", 6)), a = args.number(1, "a", DEFAULT.toolAcceleration_mps2), t = args.maybe(2, "t");
       return streaming(thread, () => { mover.stream.moveTool(twist, a); }, t === undefined ? undefined : args.number(2, "t"));
     },
-    stopj: (args, _, thread) => stop(args.number(0, "a", 2), thread),
-    stopl: (args, _, thread) => stop(args.number(0, "a", 10), thread),
+    stopj: (args, thread) => stop(args.number(0, "a", 2), thread),
+    stopl: (args, thread) => stop(args.number(0, "a", 10), thread),
     sync: function* () { yield; return null; },
     sleep: args => rest(args.number(0, "t")),
     get_steptime: () => host.cycle_s,

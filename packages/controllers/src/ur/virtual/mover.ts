@@ -1,9 +1,9 @@
-import type { Program, Robot, Step } from "@twincell/core";
+import type { JointSample, Program, Robot, Step } from "@twincell/core";
 import type { VirtualController } from "../../virtual/index.ts";
 import { Stream } from "./stream.ts";
 
 /** A motion that was begun: over when the arm stands again, with a sentence when it did not come to its end. */
-export interface Moving { over: boolean; sentence: string }
+export interface Moving { over: boolean; sentence: string; begun: boolean }
 
 /** Everything that moves the arm: whole motions through the neutral virtual robot, and streams of targets. One at a time. */
 export class Mover {
@@ -35,14 +35,16 @@ export class Mover {
 
   /** Begins steps from standstill. */
   run(steps: Iterable<Step>, context: Pick<Program, "tools" | "frames">): Moving {
-    const mine: Moving = { over: false, sentence: "" };
+    const mine: Moving = { over: false, sentence: "", begun: false };
     this.moving = mine;
-    void this.neutral.run(steps, context).then(outcome => {
-      mine.over = true;
-      if (outcome.kind !== "done") mine.sentence = outcome.why.sentence;
-      if (this.moving === mine) this.moving = null;
-    });
+    void this.neutral.run(steps, context).then(outcome => { this.end(mine, outcome.kind === "done" ? "" : outcome.why.sentence); });
     return mine;
+  }
+  private end(moving: Moving, sentence: string): void {
+    if (moving.over) return;
+    moving.over = true;
+    moving.sentence = sentence;
+    if (this.moving === moving) this.moving = null;
   }
 
   /** Everything comes to rest, as fast as the accelerations allow. */
@@ -60,9 +62,15 @@ export class Mover {
     this.setRate(this.rate);
   }
 
-  /** One cycle, after the neutral robot has made its own; the posture is lent. */
-  cycle(): Float64Array {
+  /**
+   * One cycle, after the neutral robot has made its own; the posture is lent.
+   *
+   * @param sample  of the neutral robot: that it executes no step any more is known here a cycle before its promise resolves.
+   */
+  cycle(sample: JointSample): Float64Array {
     this.neutral.jointAngles(this.q);
+    if (this.moving && sample.step !== "") this.moving.begun = true;
+    else if (this.moving?.begun) this.end(this.moving, sample.message);
     const next = this.moving === null ? this.stream.advance(this.q) : null;
     if (next && this.neutral.jumpTo(next).kind === "done") this.q.set(next);
     for (let i = 0; i < this.q.length; i++) {
