@@ -13,7 +13,8 @@ import { robotsCommand } from "./robots.ts";
 import { runCommand } from "./run.ts";
 import { serveCommand } from "./serve.ts";
 import { simulateCommand } from "./simulate.ts";
+import { virtualCommand } from "./virtual.ts";
 
 export const COMMANDS: readonly Command[] = [
-  robotsCommand, dialectsCommand, fkCommand, ikCommand, checkCommand, simulateCommand, postCommand, parseCommand, runCommand, serveCommand, recordCommand, replayCommand, calibrateCommand, benchCommand,
+  robotsCommand, dialectsCommand, fkCommand, ikCommand, checkCommand, simulateCommand, postCommand, parseCommand, runCommand, serveCommand, virtualCommand, recordCommand, replayCommand, calibrateCommand, benchCommand,
 ];

@@ -18,6 +18,11 @@ export interface Contract {
   readonly scheduler: () => ManualScheduler;
   /** One that is on a wire may take its time: it moves the clock on itself until it is connected. */
   readonly make: (options: BenchOptions) => RobotController | Promise<RobotController>;
+  /**
+   * At most so long from a command to its motion and from its end to the answer, together: what a wire and a controller's cycle add to
+   * the duration of every move. 0 when left out.
+   */
+  readonly answer_s?: number;
   /** Rows that this controller cannot meet, with the reason; printed in the table of capabilities. */
   readonly cannot?: readonly { readonly test: string; readonly because: string }[];
 }
@@ -27,7 +32,7 @@ const ACCURACY_RAD = 0.001 * Math.PI / 180;
 
 /** One suite for every controller: rows T-01 … T-18. */
 export function describeController(name: string, contract: Contract): void {
-  const { robot } = contract, n = robot.arm.joints.length;
+  const { robot, answer_s = 0 } = contract, n = robot.arm.joints.length;
   const open: RobotController[] = [];
   const row = (title: string, body: () => Promise<void>): void => {
     const exception = contract.cannot?.find(entry => title.startsWith(entry.test));
@@ -99,7 +104,8 @@ export function describeController(name: string, contract: Contract): void {
       const full = await carryOut(controller.moveJoints(at(0.8)));
       controller.setSpeed(50);
       const half = await carryOut(controller.moveJoints(at(0.5)));
-      expect(Math.abs(half.took_s - 2 * full.took_s)).toBeLessThanOrEqual(FRAME_S);
+      // took = duration + answer, so that twice the one is an answer more than the other.
+      expect(Math.abs(half.took_s - 2 * full.took_s)).toBeLessThanOrEqual(FRAME_S + answer_s);
       for (const wrong of [-1, 100.5, NaN]) expect(controller.setSpeed(wrong).kind).toBe("refused");
     });
 
@@ -263,7 +269,7 @@ export function describeController(name: string, contract: Contract): void {
       const full = await bench({ maxSpeed: 1 }), quarter = await bench({ maxSpeed: 0.25 });
       const fast = await full.carryOut(full.controller.moveJoints(at(0.8)));
       const slow = await quarter.carryOut(quarter.controller.moveJoints(at(0.8)));
-      expect(Math.abs(slow.took_s - 4 * fast.took_s)).toBeLessThanOrEqual(FRAME_S);
+      expect(Math.abs(slow.took_s - 4 * fast.took_s)).toBeLessThanOrEqual(FRAME_S + 3 * answer_s);
     });
 
     row("T-18 an override of 0 holds; only virtual robots jump", async () => {
