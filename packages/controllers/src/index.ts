@@ -7,3 +7,4 @@ export * from "./runner/index.ts";
 export * from "./real/index.ts";
 export * from "./station/index.ts";
 export * from "./transport/index.ts";
+export * from "./kuka/index.ts";
