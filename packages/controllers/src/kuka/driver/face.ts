@@ -39,6 +39,8 @@ const OUTPUT = /^\$(OUT|ANOUT)\[([0-9]{1,4})\]$/;
 const DIGITS = 12;
 /** So often is the robot's own watchdog set back in its time. */
 const FEEDS = 5;
+/** The controller reaches the path of a program that begins where it stands within this time [s]. */
+const ON_PATH_S = 0.3;
 
 /**
  * A KUKA controller over the variables of its proxy: states by one question for all of them, motions by the globals of the
@@ -139,6 +141,10 @@ export function createKukaFace(options: KukaFaceOptions): Face {
     return { kind: "open" };
   }
 
+  const pause = (seconds: number): Promise<void> => new Promise(resolve => {
+    const stop = scheduler.every(seconds, () => { stop(); resolve(); });
+  });
+
   const hindrance = (): Refusal | null => loop ?? (!state?.ready ? say.drivesOff : state.loopRuns ? null : say.loopRests(state.programState, state.program));
 
   /** Everything the loop needs for a motion but the number that starts it. */
@@ -183,7 +189,14 @@ export function createKukaFace(options: KukaFaceOptions): Face {
     const ours = now.program === LOOP_NAME, free = now.programState === "P_FREE" || now.programState === "P_END";
     if (!ours && !free) return refused(say.loopRests(now.programState, now.program));
     if (!ours && !await own.order({ kind: "select", run: false, name: LOOP_NAME, parameters: "", force: false })) return refused(say.startRefused(now.programState));
-    return await own.order({ kind: "control", command: C3_COMMAND.start, interpreter: 1 }) ? DONE : refused(say.startRefused(now.programState));
+    // From its first line: what it was stopped in is forgotten, and its first motion is none.
+    else if (ours) await own.order({ kind: "control", command: C3_COMMAND.reset, interpreter: 1 });
+    const start = (): Promise<boolean> => own.order({ kind: "control", command: C3_COMMAND.start, interpreter: 1 });
+    if (!await start()) return refused(say.startRefused(now.programState));
+    if (now.mode === "EX") return DONE;
+    // Outside EXT the controller rests on the path and asks for the start key once more.
+    await pause(ON_PATH_S);
+    return now.loopRuns || await start() ? DONE : refused(say.startRefused(now.programState));
   }
 
   return {

@@ -155,10 +155,12 @@ export async function createVirtualKuka(options: VirtualKukaOptions): Promise<Vi
 }
 
 /** What a person does in the morning: messages confirmed, drives on, the loop selected and started. Null, or what stands in the way. */
-export function startLoop({ pendant, program }: VirtualKuka): string | null {
+export function startLoop(kuka: VirtualKuka): string | null {
+  const { pendant, program } = kuka;
   pendant.confirm();
-  const why = pendant.setDrives(true) ?? (program.name === LOOP_NAME ? null : pendant.select(LOOP_NAME));
-  return why ?? pendant.start();
+  const why = pendant.setDrives(true) ?? (program.name === LOOP_NAME ? null : pendant.select(LOOP_NAME)) ?? pendant.start();
+  // On the path a person starts once more; EXT goes on by itself.
+  return why ?? (kuka.mode === "EX" ? null : pendant.start());
 }
 
 /** On the port of the variables and on the old one; a port that is taken is left to who has it. */

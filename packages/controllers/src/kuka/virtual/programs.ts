@@ -111,7 +111,9 @@ export class Programs {
     this.isState = "ACTIVE";
     if (!this.job) {
       if (this.begun) this.loop.goOn();
-      else { this.begun = this.onPath = true; this.loop.begin(); }
+      else { this.begun = true; this.loop.begin(); }
+      // Its first motion is none: it is on its path at once.
+      if (!this.onPath) this.reachedPath();
       return null;
     }
     if (!this.onPath) this.carryOut(this.job.toThePath(true), () => { this.reachedPath(); });
