@@ -5,3 +5,4 @@ export { createVirtualKuka, startLoop, type KukaPendant, type VirtualKuka, type 
 export { createKukaFace, type KukaFaceOptions } from "./driver/face.ts";
 export type { KukaFaults } from "./virtual/faults.ts";
 export type { KukaMode } from "./virtual/machine.ts";
+export { kuka } from "./brand.ts";

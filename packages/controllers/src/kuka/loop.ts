@@ -7,12 +7,16 @@ import type { EmittedFile } from "@twincell/core";
  *
  * While a motion is under way $TIMER[10] counts up from −TWC_WATCH ms and the client sets it back; when it reaches 0 the
  * robot brakes: a watchdog on the robot's side, which the protocol itself does not have.
+ *
+ * The protocol has no way to the drives either. Where a cell wires outputs to the inputs $DRIVES_ON and (inverted)
+ * $DRIVES_OFF of Automatic External, TWC_ON and TWC_OFF in the data list are their numbers; 0 says there is no such wire.
  */
 export const LOOP_NAME = "TWINCELL";
 export const LOOP_VERSION = 1;
 export const TWC = {
   version: "TWC_VERSION", kind: "TWC_KIND", axis: "TWC_AXIS", position: "TWC_POS", via: "TWC_VIA", ratio: "TWC_RATIO", acceleration: "TWC_ACC", speed: "TWC_SPEED",
   command: "TWC_CMD", done: "TWC_DONE", result: "TWC_RESULT", stop: "TWC_STOP", lock: "TWC_LOCK", watch: "TWC_WATCH",
+  drivesOn: "TWC_ON", drivesOff: "TWC_OFF",
 } as const;
 export const TWC_KIND = { joints: 1, line: 2, arc: 3, rsi: 4 } as const;
 export const TWC_RESULT = { running: 0, done: 1, stopped: 2, refused: 3, silent: 4 } as const;
@@ -113,6 +117,7 @@ export const LOOP_GLOBALS: readonly (readonly [string, "INT" | "REAL" | "BOOL" |
   [TWC.version, "INT", String(LOOP_VERSION)], [TWC.kind, "INT", "0"], [TWC.axis, "E6AXIS", `{${NO_AXES}}`], [TWC.position, "E6POS", `{${NO_PLACE}}`], [TWC.via, "E6POS", `{${NO_PLACE}}`],
   [TWC.ratio, "INT", "10"], [TWC.acceleration, "INT", "100"], [TWC.speed, "REAL", "0.1"], [TWC.command, "INT", "0"], ["TWC_NOW", "INT", "0"], [TWC.done, "INT", "0"], [TWC.result, "INT", "0"],
   [TWC.stop, "BOOL", "FALSE"], [TWC.lock, "BOOL", "FALSE"], [TWC.watch, "INT", "500"],
+  [TWC.drivesOn, "INT", "0"], [TWC.drivesOff, "INT", "0"],
 ];
 const DAT = [...HEADER, "DEFDAT TWINCELL PUBLIC", "EXT BAS(BAS_COMMAND :IN,REAL :IN)", ...LOOP_GLOBALS.map(([name, type, value]) => `DECL GLOBAL ${type} ${name}=${value}`), "ENDDAT"];
 

@@ -3,7 +3,7 @@ import type { Face, FaceEvents, FaceMotion, Opened } from "../../real/index.ts";
 import type { Network } from "../../transport/index.ts";
 import { AXES, axesOf, e6axis, e6pos, kukaAxes, type KukaAxes } from "../axes.ts";
 import { C3_COMMAND, C3_PORT, C3_TYPE } from "../codec-c3.ts";
-import { krlReal, textIn } from "../codec-values.ts";
+import { krlReal, numberIn, textIn } from "../codec-values.ts";
 import { LOOP_NAME, LOOP_VERSION, TWC, TWC_KIND, TWC_RESULT, WATCH_TIMER } from "../loop.ts";
 import { isKukaModel } from "../models.ts";
 import { C3Client } from "./client.ts";
@@ -39,20 +39,25 @@ const OUTPUT = /^\$(OUT|ANOUT)\[([0-9]{1,4})\]$/;
 const DIGITS = 12;
 /** So often is the robot's own watchdog set back in its time. */
 const FEEDS = 5;
+/** Asked for once, in front of the state. */
+const HEAD = ["$MODEL_NAME[]", TWC.version, TWC.drivesOn, TWC.drivesOff] as const;
+/** Drives that do not come on within this time do not come [s]. */
+const DRIVES_S = 3, LOOK_S = 0.02;
 /** The controller reaches the path of a program that begins where it stands within this time [s]. */
 const ON_PATH_S = 0.3;
 
 /**
  * A KUKA controller over the variables of its proxy: states by one question for all of them, motions by the globals of the
  * program TWINCELL. The protocol knows no stop, no drives and no watchdog: stop and lock are globals of that program, which
- * brakes by interrupt and whose timer is the watchdog. An emergency stop locks the program and leaves the drives on.
+ * brakes by interrupt and whose timer is the watchdog. An emergency stop locks the program; it takes the drives off where the
+ * cell has wired an output for that, and says nothing to them elsewhere.
  */
 export function createKukaFace(options: KukaFaceOptions): Face {
   const { robot, scheduler, network, host } = options, axes = options.axes ?? kukaAxes(robot), port = options.port ?? C3_PORT;
   const period_s = options.period_s ?? 0.012, watch_s = options.watch_s ?? 0.5, gripper = options.gripperOutput === undefined ? "" : `$OUT[${options.gripperOutput}]`;
   const lines = [...new Set([...options.signals ?? [], ...gripper === "" ? [] : [gripper]])], names = [...POLLED, ...lines];
   let client: C3Client | null = null, state: KukaState | null = null, stopPolling: (() => void) | null = null, waiting: Waiting | null = null;
-  let types: readonly number[] = [], loop: Refusal | null = say.noLoop, polling = false, fed_s = 0, life = 0;
+  let types: readonly number[] = [], loop: Refusal | null = say.noLoop, polling = false, fed_s = 0, life = 0, drives = { on: 0, off: 0 };
   let text: { stop: () => void } | null = null;
 
   function settle(outcome: CommandOutcome): void {
@@ -98,6 +103,7 @@ export function createKukaFace(options: KukaFaceOptions): Face {
   function brake(emergency: boolean): void {
     const pairs: (readonly [string, string])[] = [[TWC.stop, "TRUE"]];
     if (emergency) pairs.unshift([TWC.lock, "TRUE"]);
+    if (emergency && drives.off > 0) pairs.push([`$OUT[${drives.off}]`, "TRUE"]);
     void client?.write(pairs);
   }
 
@@ -125,13 +131,18 @@ export function createKukaFace(options: KukaFaceOptions): Face {
       brokeBy = sentence;
       if (client === own) { close(); if (isOpen) events.lost(sentence); }
     }, seconds => { events.roundTrip(seconds); });
-    const first = await own.ask({ kind: "read-many", names: ["$MODEL_NAME[]", TWC.version, ...names] });
+    const first = await own.ask({ kind: "read-many", names: [...HEAD, ...names] });
     if (first === null) return fail(say.noProxy(brokeBy === "" ? "The connection was closed." : brokeBy), true);
     if (first.kind !== "values") return fail(say.oldProxy, false);
     const model = textIn(first.items[0]?.value ?? ""), version = first.items[1]!;
-    if (options.model === undefined ? !isKukaModel(robot, model) : options.model !== model) return fail(say.otherRobot(robot, model === "" ? "robot without a name" : model), false);
-    const now = state = new KukaState(axes, lines, gripper);
-    if (now.take(first.items.slice(2), scheduler.now_s()) !== true) return fail(say.unreadable, true);
+    if (options.model === undefined ? !isKukaModel(robot, model) : options.model !== model) {
+      // Told twice: a name that was spoilt on its way is no other robot.
+      const again = await own.ask({ kind: "read", wide: true, name: "$MODEL_NAME[]" });
+      return fail(say.otherRobot(robot, model === "" ? "robot without a name" : model), again?.kind !== "value" || textIn(again.value) !== model);
+    }
+    const now = state = new KukaState(axes, lines, gripper), wired = (i: number): number => { const n = numberIn(first.items[i]?.value ?? ""); return n > 0 ? n : 0; };
+    drives = { on: wired(2), off: wired(3) };
+    if (now.take(first.items.slice(HEAD.length), scheduler.now_s()) !== true) return fail(say.unreadable, true);
     loop = version.error !== 1 ? say.noLoop : version.value === String(LOOP_VERSION) ? null : say.otherLoop(version.value);
     const features = await own.ask({ kind: "features" });
     types = features?.kind === "features" ? features.types : [];
@@ -179,9 +190,24 @@ export function createKukaFace(options: KukaFaceOptions): Face {
     const own = client, now = state;
     if (!own || !now) return refused(say.closedHere);
     if (loop) return refused(loop);
-    if (!await own.write([[TWC.stop, "TRUE"], [TWC.lock, "FALSE"]])) return refused(say.notTaken);
+    if (!await own.write([[TWC.stop, "TRUE"]])) return refused(say.notTaken);
+    if (!now.ready) await switchOn(own, now);
+    if (!now.ready) return refused(say.drivesOff);
     if (types.includes(C3_TYPE.confirmAll)) await own.order({ kind: "confirm-all" });
-    return now.loopRuns ? DONE : startLoop(own, now);
+    const started = now.loopRuns ? DONE : await startLoop(own, now);
+    if (started.kind !== "done") return started;
+    return await own.write([[TWC.lock, "FALSE"]]) ? DONE : refused(say.notTaken);
+  }
+  /** Over the wires of the cell, where there are any: heard in EXT only. */
+  async function switchOn(own: C3Client, now: KukaState): Promise<void> {
+    if (drives.on === 0 || now.mode !== "EX") return;
+    const out = (n: number, value: string): (readonly [string, string])[] => n > 0 ? [[`$OUT[${n}]`, value]] : [];
+    const until_s = scheduler.now_s() + DRIVES_S;
+    // What still brakes does not hear it: it is said until the drives are on.
+    for (await own.write(out(drives.off, "FALSE")); !now.ready && client === own && scheduler.now_s() < until_s; await pause(LOOK_S)) {
+      await own.write([...out(drives.on, "FALSE"), ...out(drives.on, "TRUE")]);
+    }
+    await own.write(out(drives.on, "FALSE"));
   }
   async function startLoop(own: C3Client, now: KukaState): Promise<CommandOutcome> {
     if (!types.includes(C3_TYPE.control)) return refused(say.noProgramControl);

@@ -4,7 +4,7 @@ import { createVirtualController, type VirtualController } from "../../virtual/i
 import { kukaAxes, type KukaAxes } from "../axes.ts";
 import { C3_PORT } from "../codec-c3.ts";
 import { hereIAmText, OLD_ANSWER_PORT, OLD_DISCOVERY_PORT, WHERE_ARE_YOU } from "../codec-discovery.ts";
-import { LOOP_GLOBALS, LOOP_NAME } from "../loop.ts";
+import { LOOP_GLOBALS, LOOP_NAME, TWC } from "../loop.ts";
 import { kukaModel } from "../models.ts";
 import { C3_TYPES, serveC3, type C3Server } from "./c3-server.ts";
 import { noFaults, type KukaFaults } from "./faults.ts";
@@ -37,8 +37,12 @@ export interface VirtualKukaOptions {
   readonly digits?: number;
   /** Further global variables: name, type, value. */
   readonly globals?: readonly (readonly [string, GlobalType, string])[];
+  /** Outputs that the cell has wired to $DRIVES_ON and, inverted, to $DRIVES_OFF; those of the example when left out, null for none. */
+  readonly wiring?: { readonly drivesOn: number; readonly drivesOff: number } | null;
   readonly log?: (sentence: string) => void;
 }
+/** The wiring of the example cell. */
+export const EXAMPLE_WIRING = { drivesOn: 997, drivesOff: 998 } as const;
 
 /** What a person does at the robot. Why it cannot be is a sentence; null when it was done. */
 export interface KukaPendant {
@@ -58,6 +62,8 @@ export interface KukaPendant {
   setEmergencyStop(pressed: boolean): void;
   /** The gate, or a proximity sensor wired to the operator safety (row T-27). */
   setGuardOpen(open: boolean): void;
+  /** The robot stops by itself (STOP 2); the message waits to be confirmed. */
+  fail(because: string): void;
   setInput(n: number, value: boolean): void;
   write(name: string, text: string): string | null;
 }
@@ -102,7 +108,19 @@ export async function createVirtualKuka(options: VirtualKukaOptions): Promise<Vi
     ["PING", "PONG"], ["@PROXY_TYPE", "C3 BRIDGE INTERFACE"], ["@PROXY_VERSION", "1.5.0"], ["@PROXY_HOSTNAME", identity.name], ["@PROXY_ADDRESS", host], ["@PROXY_ENABLED", "TRUE"],
     ["@PROXY_FEATURES", Array.from({ length: C3_TYPES.at(-1)! + 1 }, (_, i) => C3_TYPES.includes(C3_TYPES.at(-1)! - i) ? "1" : "0").join("")],
   ]);
-  const variables = kukaVariables({ robot, axes, identity, machine, programs, globals, timers, arm, now, proxy, ...(options.digits === undefined ? {} : { digits: options.digits }) });
+  const wiring = options.wiring === undefined ? EXAMPLE_WIRING : options.wiring;
+  const wire = (): void => {
+    globals.set(TWC.drivesOn, wiring?.drivesOn ?? 0);
+    globals.set(TWC.drivesOff, wiring?.drivesOff ?? 0);
+  };
+  wire();
+  /** Automatic External: heard in EXT only, but off is off. */
+  const onOutput = (n: number, value: boolean): void => {
+    if (!value) return;
+    if (n === wiring?.drivesOff) machine.setDrives(false);
+    if (n === wiring?.drivesOn && machine.mode === "EX") machine.setDrives(true);
+  };
+  const variables = kukaVariables({ robot, axes, identity, machine, programs, globals, timers, arm, now, proxy, onOutput, ...(options.digits === undefined ? {} : { digits: options.digits }) });
 
   arm.onSample(sample => {
     last_s = sample.time_s;
@@ -136,6 +154,7 @@ export async function createVirtualKuka(options: VirtualKukaOptions): Promise<Vi
         return arm.run([slow(step)], { tools: {}, frames: {} });
       },
       setEmergencyStop(pressed) { machine.setEmergency(pressed); }, setGuardOpen(open) { machine.setSafety(!open); },
+      fail(because) { machine.stop(2, because); },
       setInput(n, value) { arm.signals.write(`$IN[${n}]`, value); }, write: (name, text) => programs.write(name, text),
     },
     reboot() {
@@ -145,6 +164,7 @@ export async function createVirtualKuka(options: VirtualKukaOptions): Promise<Vi
       booted_s = last_s;
       now.time_s = 0;
       for (const [name, , value] of LOOP_GLOBALS) globals.write(name, value);
+      wire();
     },
     close() {
       server.close();

@@ -6,7 +6,9 @@ import { TWC, TWC_KIND, TWC_RESULT, WATCH_TIMER } from "../loop.ts";
 import type { Globals, Timers } from "./globals.ts";
 import type { Machine } from "./machine.ts";
 
-/** How long `CIRC` and `LIN` may take no speed at all: $VEL.CP below this is an error of the controller [m/s]. */
+/** Why the arm was stopped when the machine in front of it did it. */
+export const BY_MACHINE: readonly string[] = ["controller.stopped", "safety.emergency-stop", "controller.closed"];
+/** $VEL.CP below this is none [m/s]. */
 const LEAST_MPS = 1e-6;
 
 /**
@@ -35,10 +37,16 @@ export class LoopRun {
     this.slow = slow;
   }
 
+  /** Deselected: what was under way is forgotten. */
+  abandon(): void {
+    this.running++;
+    this.motion = null;
+    this.braking = 0;
+  }
   /** From the first line. */
   begin(): void {
     const { globals, timers } = this;
-    this.motion = null;
+    this.abandon();
     timers.stop(WATCH_TIMER, true);
     timers.write(WATCH_TIMER, -1000);
     globals.set(TWC.done, globals.number(TWC.command));
@@ -100,7 +108,7 @@ export class LoopRun {
       if (this.braking !== 0) this.end(this.braking);
       else if (outcome.kind === "done") this.end(TWC_RESULT.done);
       // A target that cannot be reached stops the program with a message, as the controller does; what the machine stopped waits.
-      else if (outcome.kind === "refused" || outcome.why.code !== "controller.stopped") this.machine.stop(2, outcome.why.sentence);
+      else if (outcome.kind === "refused" || !BY_MACHINE.includes(outcome.why.code)) this.machine.stop(2, outcome.why.sentence);
     });
   }
   private brake(result: number): void {

@@ -3,7 +3,7 @@ import type { VirtualController } from "../../virtual/index.ts";
 
 import { LOOP_FILES, LOOP_NAME } from "../loop.ts";
 import { Job } from "./job.ts";
-import type { LoopRun } from "./loop-run.ts";
+import { BY_MACHINE, type LoopRun } from "./loop-run.ts";
 import type { Machine } from "./machine.ts";
 
 /** $PRO_STATE1 without its #P_. */
@@ -81,6 +81,7 @@ export class Programs {
   }
   private rewind(): void {
     this.run++;
+    this.loop.abandon();
     this.isState = "RESET";
     this.onPath = this.begun = false;
     this.machine.hold(false);
@@ -94,6 +95,7 @@ export class Programs {
     if (this.isState === "FREE") return null;
     this.arm.stop();
     this.run++;
+    this.loop.abandon();
     this.isState = "FREE";
     this.isName = "";
     this.job = null;
@@ -146,7 +148,7 @@ export class Programs {
       if (mine !== this.run) return;
       if (outcome.kind === "done") { then(); return; }
       job!.takeUp(this.step);
-      if (outcome.why.code !== "controller.stopped" && outcome.why.code !== "safety.emergency-stop") this.machine.stop(2, outcome.why.sentence);
+      if (!BY_MACHINE.includes(outcome.why.code)) this.machine.stop(2, outcome.why.sentence);
       this.isState = "STOP";
     });
   }

@@ -15,6 +15,8 @@ export interface VariableSources {
   readonly globals: Globals; readonly timers: Timers; readonly arm: VirtualController; readonly now: Now; readonly digits?: number;
   /** Names of the proxy itself, `@PROXY_PORT`. */
   readonly proxy: ReadonlyMap<string, string>;
+  /** An output was written from outside. */
+  readonly onOutput: (n: number, value: boolean) => void;
 }
 export interface Variables { read(name: string): string | undefined; write(name: string, value: string): boolean }
 
@@ -66,6 +68,7 @@ export function kukaVariables(from: VariableSources): Variables {
         case "$OUT":
           if (!wire("$OUT", n) || bool === undefined) return false;
           arm.signals.write(`$OUT[${n}]`, bool);
+          from.onOutput(n, bool);
           return true;
         case "$ANOUT":
           if (!wire("$ANOUT", n) || !(Math.abs(number) <= 1)) return false;
