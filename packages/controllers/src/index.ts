@@ -8,3 +8,4 @@ export * from "./real/index.ts";
 export * from "./station/index.ts";
 export * from "./transport/index.ts";
 export * from "./ur/index.ts";
+export * from "./kuka/index.ts";
