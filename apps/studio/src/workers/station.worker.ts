@@ -1,16 +1,23 @@
 import { brandById, BRANDS, openStation } from "@twincell/controllers";
-import { robotById, type Refusal, type Scheduler } from "@twincell/core";
+import { manualScheduler, robotById, type Refusal } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
 import { createHost, type OpenedStation } from "@twincell/messages";
 
-/** A worker's timers are not slowed down while the page is out of sight; whoever asked looks at the clock, not at the count. */
-const scheduler: Scheduler = {
-  now_s: () => performance.now() / 1000,
-  every(period_s, tick) {
-    const timer = setInterval(tick, Math.max(1, period_s * 1000));
-    return () => { clearInterval(timer); };
-  },
-};
+/** How often the world of the page goes on, and the most it goes on by at once [s]. */
+const TICK_S = 0.004, MOST_S = 0.02;
+
+/**
+ * The clock of the virtual controllers, their wires, drivers and guards. A worker that was kept from running is no link that
+ * was lost: all of them stand still together, and go on together.
+ */
+const scheduler = manualScheduler();
+let last_s = performance.now() / 1000;
+setInterval(() => {
+  const now_s = performance.now() / 1000;
+  scheduler.advance(Math.min(MOST_S, now_s - last_s));
+  last_s = now_s;
+}, TICK_S * 1000);
+
 const refused = (why: Refusal): OpenedStation => ({ kind: "refused", why });
 
 const host = createHost({

@@ -41,9 +41,9 @@ function Open() {
   };
   return (
     <Frame open title={words.stations.addTitle} onClose={closeDialog} width={520} foot={
-      <><span className="grow small muted">{words.app.notSafety}</span><button className="btn primary" disabled={busy || robotId === "" || (place === "server" && host.trim() === "")} onClick={() => { void add(); }}>{busy ? words.stations.connecting : words.stations.addAndConnect}</button></>
+      <><span className="grow small muted">{words.app.notSafety}</span><button type="submit" form="add-station" className="btn primary" disabled={busy || robotId === "" || (place === "server" && host.trim() === "")}>{busy ? words.stations.connecting : words.stations.addAndConnect}</button></>
     }>
-      <form className="add-station stack" onSubmit={event => { event.preventDefault(); void add(); }}>
+      <form id="add-station" className="add-station stack" onSubmit={event => { event.preventDefault(); void add(); }}>
         <div className="pair"><span className="label">{words.stations.brand}</span><Chooser label={words.stations.brand} value={brand} onChange={setBrand} options={BRAND_LIST.map(({ id, name }) => ({ value: id, words: name }))} /></div>
         <div className="pair"><span className="label">{words.stations.robot}</span><Chooser label={words.stations.robot} value={robotId} onChange={setRobot} options={robots.map(({ id, name }) => ({ value: id, words: name }))} /></div>
         <div className="pair"><span className="label">{words.stations.where}</span>
@@ -57,7 +57,6 @@ function Open() {
             <NumberField label={words.stations.y} mark="Y" quantity="length" value={y_m} decimals={0} onChange={setY} />
             <NumberField label={words.stations.turned} mark="Rz" quantity="angle" value={turned_rad} decimals={0} onChange={setTurned} />
           </span></div>
-        <button type="submit" className="visually-hidden" tabIndex={-1}>{words.stations.addAndConnect}</button>
       </form>
     </Frame>
   );
