@@ -31,7 +31,7 @@ export const MOVE_FRAME = { base: 16, robot: 17, user: 18, tool: 19 } as const;
 /** Added status: why a controller refuses. */
 export const ADDED = {
   moving: 0x2010, heldByPendant: 0x2020, heldByPanel: 0x2030, heldOutside: 0x2040, heldByCommand: 0x2050, alarm: 0x2060, servoOff: 0x2070,
-  wrongMode: 0x2080, fileInUse: 0x2090, noCommandRemote: 0x2100, confirmPosition: 0x3050, servoRefuses: 0x3450, memoryFull: 0x4010, editProhibited: 0x4020, noSuchJob: 0x4040, noJobSelected: 0x4060,
+  wrongMode: 0x2080, fileInUse: 0x2090, noCommandRemote: 0x2100, notAccessible: 0x2110, confirmPosition: 0x3050, servoRefuses: 0x3450, memoryFull: 0x4010, editProhibited: 0x4020, sameJob: 0x4030, noSuchJob: 0x4040, noJobSelected: 0x4060,
   badJobName: 0x4190, syntax: 0x5110, noNopOrEnd: 0x5130, format: 0x5170, range: 0x5200,
   noCommand: 0xA000, noInstance: 0xA001, noAttribute: 0xA002, tooLarge: 0xA100, noPosition: 0xB001, size: 0xB003, outOfRange: 0xB004, noGroup: 0xB008,
   speed: 0xB009, frame: 0xB00B, positionType: 0xB00C, tool: 0xB00D, userFrame: 0xB00E,
