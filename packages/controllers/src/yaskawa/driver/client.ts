@@ -29,10 +29,6 @@ export interface Client {
   ask(question: Question): Promise<Answer>;
   /** Said once; nobody waits for the answer. */
   say(question: Omit<Question, "patience_s">): void;
-  /** Whether nothing is under way or waits. */
-  readonly isIdle: boolean;
-  /** When anything was last heard [s]. */
-  readonly heard_s: number;
   close(): void;
 }
 export interface ClientOptions {
@@ -46,7 +42,7 @@ export interface ClientOptions {
 /** Asks a controller over UDP: an answer belongs to its question by the request id, and what is lost is said again. */
 export function hsesClient({ socket, to, division, scheduler, onRoundTrip }: ClientOptions): Client {
   const out = new Uint8Array(HEADER_BYTES + MOST_DATA_BYTES);
-  let waiting: Asked[] = [], current: Asked | null = null, urgent: Asked | null = null, lastId = 0, heard_s = scheduler.now_s(), isClosed = false;
+  let waiting: Asked[] = [], current: Asked | null = null, urgent: Asked | null = null, lastId = 0, isClosed = false;
 
   /** @param id  of a file transfer: the same for all its packets. */
   const packet = ({ command = 0, instance = 0, attribute = 0, service, data = NOTHING, block }: Omit<Question, "patience_s">, id: number): Uint8Array => {
@@ -79,12 +75,11 @@ export function hsesClient({ socket, to, division, scheduler, onRoundTrip }: Cli
     const read = readReply(lent);
     if (read.kind === "flawed" || read.packet.division !== division) return;
     const { packet: reply } = read;
-    heard_s = scheduler.now_s();
     for (const asked of [current, urgent]) {
       if (asked === null || asked.id !== reply.id || asked.question.service !== reply.service) continue;
       // A block that was answered before its turn is the answer to an older packet.
       if (asked.question.block !== undefined && !belongs(asked.question, reply)) continue;
-      onRoundTrip?.(heard_s - (asked.next_s - asked.question.patience_s[asked.said - 1]!));
+      onRoundTrip?.(scheduler.now_s() - (asked.next_s - asked.question.patience_s[asked.said - 1]!));
       end(asked, { kind: "answer", reply: { ...reply, data: reply.data.slice() } });
       return;
     }
@@ -98,8 +93,6 @@ export function hsesClient({ socket, to, division, scheduler, onRoundTrip }: Cli
   });
 
   return {
-    get isIdle() { return current === null && urgent === null && waiting.length === 0; },
-    get heard_s() { return heard_s; },
     ask: question => new Promise(resolve => {
       if (isClosed || waiting.length >= MOST_WAITING) { resolve({ kind: "silent", after_s: 0 }); return; }
       const id = question.block === undefined ? nextId() : lastId;

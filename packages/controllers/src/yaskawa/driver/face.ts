@@ -1,14 +1,14 @@
 import type { CommandOutcome, EmittedFile, Refusal, Robot, Scheduler } from "@twincell/core";
 import type { Face, FaceEvents, FaceMotion, Opened } from "../../real/index.ts";
 import type { Network } from "../../transport/index.ts";
-import { COMMAND, DIVISION, FILE_PORT, ROBOT_PORT, SERVICE, readAlarm, readJob, textAt, type PulseScale } from "../codec/index.ts";
+import { COMMAND, DIVISION, FILE_PORT, ROBOT_PORT, SERVICE, EXAMPLE_SCALE, readAlarm, readJob, textAt, type PulseScale } from "../codec/index.ts";
 import { hsesClient, type Answer, type Client } from "./client.ts";
 import { fileClient, type FileClient } from "./files.ts";
 import { Hand } from "./hand.ts";
 import { sendJob } from "./job.ts";
-import { lineTable } from "./lines.ts";
+import { lineTable, type LineTable } from "./lines.ts";
 import { robotState } from "./state.ts";
-import { badAnswer, noGripper, noPulses, noWay, otherAxes, otherModel } from "./words.ts";
+import { badAnswer, noGripper, noPulses, noWay, otherAxes, otherModel, unknownPulses } from "./words.ts";
 
 export interface YaskawaFaceOptions {
   readonly robot: Robot;
@@ -18,14 +18,17 @@ export interface YaskawaFaceOptions {
   readonly ports?: { readonly robot: number; readonly files: number };
   /** From where to ask; every address of this machine when left out. */
   readonly local?: string;
-  /** From the parameter file of the controller: nothing here guesses it. */
-  readonly scale: PulseScale;
+  /**
+   * From the parameter file of the controller: nothing here guesses it. Left out, only a virtual controller is driven, which
+   * says of itself that it is one and counts as the example does.
+   */
+  readonly scale?: PulseScale;
   /** Part of what the controller answers as its model; the name of the robot without its maker when left out. */
   readonly model?: string;
   /** From one state to the next [s]. */
   readonly poll_s?: number;
   readonly stale_s?: number;
-  /** Logical numbers of lines by name; only network inputs (27010 …) are written. */
+  /** Logical numbers of lines by name; only network inputs (27010 …) are written. Left out, a virtual controller has those of its example ladder. */
   readonly signals?: Readonly<Record<string, number>>;
   /** The line that closes the gripper. */
   readonly gripper?: number;
@@ -40,16 +43,21 @@ export interface YaskawaFace extends Face {
 const READ_PATIENCE_S = [0.025, 0.025, 0.05, 0.3, 0.5], OPEN_PATIENCE_S = [0.3, 0.5, 0.8];
 const POLL_S = 0.01, STALE_S = 0.08, BESIDE_S = 0.02;
 const GRIPPER = "gripper";
+/** What a virtual controller answers as its software; and its lines: sixteen in, sixteen out, and one for the gripper. */
+const VIRTUAL = "VIRTUAL", EXAMPLE_GRIPPER = 29_567;
+const EXAMPLE_SIGNALS = Object.fromEntries(Array.from({ length: 16 }, (_, i) => [i, 10 * Math.floor(i / 8) + i % 8] as const)
+  .flatMap(([i, at]) => [[`in_${i + 1}`, 27_010 + at], [`ot_${i + 1}`, 10_010 + at]]));
 
 /** The high-speed Ethernet server as a face: states by asking, motion by commands, stop by hold. */
 export function yaskawaFace(options: YaskawaFaceOptions): YaskawaFace {
-  const { robot, scheduler, network, host, scale } = options, n = robot.arm.joints.length, state = robotState(robot, scale);
+  const { robot, scheduler, network, host, scale = EXAMPLE_SCALE } = options, n = robot.arm.joints.length, state = robotState(robot, scale);
   const to = { host, port: options.ports?.robot ?? ROBOT_PORT }, filesAt = { host, port: options.ports?.files ?? FILE_PORT };
-  const lines = lineTable({ ...options.signals, ...(options.gripper === undefined ? {} : { [GRIPPER]: options.gripper }) }, (signal, on) => {
+  const tableOf = (signals: Readonly<Record<string, number>>, gripper: number | undefined): LineTable => lineTable({ ...signals, ...(gripper === undefined ? {} : { [GRIPPER]: gripper }) }, (signal, on) => {
     if (signal === GRIPPER) state.sample.gripperClosed = on; else state.sample.signals.set(signal, on);
   });
+  let lines = tableOf(options.signals ?? {}, options.gripper), hasGripper = options.gripper !== undefined;
   const hand = new Hand({ robot, scheduler, scale, state });
-  let line: { readonly client: Client; readonly files: FileClient; readonly close: () => void } | null = null, life = 0, begun_s = 0, beside_s = 0, beside = 0;
+  let line: { readonly orders: Client; readonly files: FileClient; readonly close: () => void } | null = null, life = 0, begun_s = 0, beside_s = 0, beside = 0;
 
   const isWell = (answer: Answer): answer is Extract<Answer, { kind: "answer" }> => answer.kind === "answer" && answer.reply.status === 0;
   const ask = (client: Client, command: number, instance: number, patience_s: readonly number[], attribute = 0): Promise<Answer> =>
@@ -90,7 +98,9 @@ export function yaskawaFace(options: YaskawaFaceOptions): YaskawaFace {
     const turn = async (): Promise<void> => {
       const why = await poll(client);
       if (mine !== life) return;
-      if (why) { events.lost(why.sentence); return; }
+      if (why?.code === "link.no-answer") { events.lost(why.sentence); return; }
+      // One odd answer is no state; when no state comes any more, that is noticed.
+      if (why) return;
       events.sample(state.sample);
       if (scheduler.now_s() - beside_s < BESIDE_S) return;
       beside_s = scheduler.now_s();
@@ -107,6 +117,9 @@ export function yaskawaFace(options: YaskawaFaceOptions): YaskawaFace {
   async function strange(client: Client): Promise<{ readonly why: Refusal; readonly again: boolean } | null> {
     const info = await ask(client, COMMAND.systemInfo, 11, OPEN_PATIENCE_S);
     if (info.kind === "silent") return { why: noWay(to, info), again: true };
+    const isVirtual = isWell(info) && textAt(info.reply.data, 0, 24).startsWith(VIRTUAL);
+    if (options.scale === undefined && !isVirtual) return { why: unknownPulses(robot), again: false };
+    if (isVirtual && options.signals === undefined && options.gripper === undefined) { lines = tableOf(EXAMPLE_SIGNALS, EXAMPLE_GRIPPER); hasGripper = true; }
     const model = isWell(info) ? textAt(info.reply.data, 24, 16).trim() : "", wanted = options.model ?? robot.name.replace(new RegExp(`^${robot.vendor}\\s+`, "i"), "");
     if (model !== "" && !plain(model).includes(plain(wanted))) return { why: otherModel(robot, wanted, model), again: false };
     const names = await ask(client, COMMAND.axisNames, 1, OPEN_PATIENCE_S);
@@ -133,25 +146,28 @@ export function yaskawaFace(options: YaskawaFaceOptions): YaskawaFace {
       close();
       const mine = life, failed = (why: Refusal, again: boolean): Opened => ({ kind: "failed", why, again });
       if (scale.pulsesPerDegree.length !== n) return failed(noPulses(robot, scale.pulsesPerDegree.length), false);
-      const here = options.local ?? "0.0.0.0", bound = await network.bind({ host: here, port: 0 }), boundFiles = await network.bind({ host: here, port: 0 });
-      const free = (): void => { for (const each of [bound, boundFiles]) if (each.kind === "bound") each.socket.close(); };
-      if (bound.kind === "taken" || boundFiles.kind === "taken" || mine !== life) {
-        free();
-        const sentence = bound.kind === "taken" ? bound.sentence : boundFiles.kind === "taken" ? boundFiles.sentence : "The link was closed.";
-        return failed({ code: "link.no-port", sentence, hint: "Look at the network of this machine." }, true);
+      const here = options.local ?? "0.0.0.0", open: Client[] = [];
+      const shut = (): void => { for (const client of open) client.close(); };
+      // A controller hears one question at a time of each sender: who watches does not wait behind an order whose answer was lost.
+      for (const [address, division] of [[to, DIVISION.robot], [to, DIVISION.robot], [filesAt, DIVISION.file]] as const) {
+        const bound = await network.bind({ host: here, port: 0 });
+        if (bound.kind === "taken" || mine !== life) {
+          shut();
+          if (bound.kind === "bound") bound.socket.close();
+          return failed({ code: "link.no-port", sentence: bound.kind === "taken" ? bound.sentence : "The link was closed.", hint: "Look at the network of this machine." }, true);
+        }
+        open.push(hsesClient({ socket: bound.socket, to: address, division, scheduler, ...(open.length === 0 ? { onRoundTrip: seconds => { events.roundTrip(seconds); } } : {}) }));
       }
-      const client = hsesClient({ socket: bound.socket, to, division: DIVISION.robot, scheduler, onRoundTrip: seconds => { events.roundTrip(seconds); } });
-      const fileLine = hsesClient({ socket: boundFiles.socket, to: filesAt, division: DIVISION.file, scheduler });
+      const [watch, orders, fileLine] = open as [Client, Client, Client];
       begun_s = scheduler.now_s();
-      const wrong = await strange(client);
+      const wrong = await strange(watch);
       if (wrong || mine !== life) {
-        client.close();
-        fileLine.close();
+        shut();
         return wrong ? failed(wrong.why, wrong.again) : failed({ code: "link.closed", sentence: "The link was closed.", hint: "Connect it again." }, false);
       }
-      const stopPolling = keepPolling(client, events, mine);
-      line = { client, files: fileClient(fileLine), close() { stopPolling(); client.close(); fileLine.close(); } };
-      hand.take(client);
+      const stopPolling = keepPolling(watch, events, mine);
+      line = { orders, files: fileClient(fileLine), close() { stopPolling(); shut(); } };
+      hand.take(orders);
       return { kind: "open" };
     },
     close,
@@ -159,13 +175,13 @@ export function yaskawaFace(options: YaskawaFaceOptions): YaskawaFace {
     stop(emergency) { hand.stop(emergency); },
     setOverride: ratio => hand.setOverride(ratio),
     reset: () => hand.reset(),
-    setSignal: (signal, value) => line ? lines.write(line.client, signal, value, why => { hand.complaint = why.sentence; }) : noWay(to, { kind: "silent", after_s: 0 }),
+    setSignal: (signal, value) => line ? lines.write(line.orders, signal, value, why => { hand.complaint = why.sentence; }) : noWay(to, { kind: "silent", after_s: 0 }),
     setGripper(closed) {
-      if (options.gripper === undefined) return noGripper(robot);
-      return line ? lines.write(line.client, GRIPPER, closed, why => { hand.complaint = why.sentence; }) : noWay(to, { kind: "silent", after_s: 0 });
+      if (!hasGripper) return noGripper(robot);
+      return line ? lines.write(line.orders, GRIPPER, closed, why => { hand.complaint = why.sentence; }) : noWay(to, { kind: "silent", after_s: 0 });
     },
     runText: async (files: readonly EmittedFile[]): Promise<CommandOutcome> => line
-      ? sendJob(files, line.client, line.files, hand) : { kind: "refused", why: noWay(to, { kind: "silent", after_s: 0 }) },
+      ? sendJob(files, line.orders, line.files, hand) : { kind: "refused", why: noWay(to, { kind: "silent", after_s: 0 }) },
   };
 }
 

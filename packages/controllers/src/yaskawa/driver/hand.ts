@@ -12,6 +12,8 @@ const ONCE_S = [0.3];
 const MOST_TRIES = 3;
 /** From the acceptance of a motion until it must be seen running [s]; the drives may take so long to come on. */
 const START_S = 0.3, SERVO_S = 5;
+/** A robot that is not where it should end is looked at twice: states may be damaged on their way. */
+const STANDS = 2;
 /** A robot this near to the end is there [pulses of each axis as a part of a degree]. */
 const THERE_DEG = 0.02;
 
@@ -27,6 +29,8 @@ interface Going {
   acceptedPoll: number;
   acceptedAt_s: number;
   seenRunning: boolean;
+  /** States in a row in which it stood. */
+  standing: number;
   stopping: Refusal | null;
 }
 export interface HandOptions { readonly robot: Robot; readonly scheduler: Scheduler; readonly scale: PulseScale; readonly state: RobotState }
@@ -130,10 +134,12 @@ export class Hand {
     const { status } = this.options.state, { hold, going } = this;
     if (hold && hold.acknowledged !== 0 && poll > hold.acknowledged && !status.running) { this.stood(); return; }
     if (going?.phase !== "going" || poll <= going.acceptedPoll) return;
-    if (status.running) { going.seenRunning = true; return; }
+    if (status.running) { going.seenRunning = true; going.standing = 0; return; }
     if (hold) return;
-    const because = standsBecause(status), robot = this.options.robot;
-    if (going.motion === null ? going.seenRunning && because === undefined : this.isThere(going)) this.end({ kind: "done" });
+    const isOver = ++going.standing >= STANDS, because = standsBecause(status), robot = this.options.robot;
+    if (going.motion !== null && this.isThere(going)) this.end({ kind: "done" });
+    else if (!isOver) return;
+    else if (going.motion === null && going.seenRunning && because === undefined) this.end({ kind: "done" });
     else if (going.seenRunning || because !== undefined || this.options.scheduler.now_s() - going.acceptedAt_s > START_S) {
       this.end(going.motion === null && because === undefined ? { kind: "done" } : { kind: "stopped", why: because === undefined ? endedEarly(robot) : stands(robot, this.options.state.alarm || because) });
     }
@@ -145,7 +151,7 @@ export class Hand {
     // One that was stopped and has not been let go of yet.
     this.end({ kind: "stopped", why: wasStopped(this.options.robot) });
     return new Promise(resolve => {
-      this.going = { motion, end, resolve, phase: "waiting", accepted: false, acceptedPoll: 0, acceptedAt_s: 0, seenRunning: false, stopping: null };
+      this.going = { motion, end, resolve, phase: "waiting", accepted: false, acceptedPoll: 0, acceptedAt_s: 0, seenRunning: false, standing: 0, stopping: null };
       this.goOn();
     });
   }
@@ -177,7 +183,7 @@ export class Hand {
         if (this.going !== going || this.client !== client) return;
       }
       if (isTaken || (answer.kind === "silent" && (state.status.running || (going.end !== null && this.isThere(going))))) {
-        Object.assign(going, { phase: "going", accepted: true, acceptedPoll: this.poll, acceptedAt_s: scheduler.now_s(), seenRunning: false });
+        Object.assign(going, { phase: "going", accepted: true, acceptedPoll: this.poll, acceptedAt_s: scheduler.now_s(), seenRunning: false, standing: 0 });
         return;
       }
       // A hold of ours was quicker: it is told again when the hold is let go.

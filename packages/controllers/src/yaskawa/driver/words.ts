@@ -47,3 +47,4 @@ export function standsBecause(status: Status): string | undefined {
 }
 export const stands = (robot: Robot, because: string): Refusal => refusal("yaskawa.stands", `${robot.name} stopped. ${because}`, "Clear the cause, reset the robot, then command the move again.");
 export const noSoftness = (robot: Robot): Refusal => refusal("yaskawa.acceleration", `${robot.name} cannot be told an acceleration by a command of its Ethernet server.`, "Run the program as a job: INFORM has ACC= and DEC=.");
+export const unknownPulses = (robot: Robot): Refusal => refusal("yaskawa.pulses-unknown", `The pulses per degree of this ${robot.name} are not known.`, "Take them from the parameter file (ALL.PRM) of its controller.");

@@ -1,4 +1,4 @@
-import { identity, seededRandom, type CommandOutcome, type Pose, type Robot, type Scheduler } from "@twincell/core";
+import { brakingTime_s, identity, seededRandom, type CommandOutcome, type Pose, type Robot, type Scheduler } from "@twincell/core";
 import { addressText, type Network } from "../../transport/index.ts";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
 import { DIVISION, EXAMPLE_SCALE, FILE_PORT, HEADER_BYTES, LAST_BLOCK, MOST_DATA_BYTES, ROBOT_PORT, SERVICE, STATUS, readRequest, writeReply, type HsesReply, type HsesRequest, type PulseScale } from "../codec/index.ts";
@@ -71,6 +71,8 @@ export interface VirtualYaskawa {
   readonly faults: Faults;
   readonly files: Files;
   readonly scale: PulseScale;
+  /** Longest time from a hold until standstill [s]. */
+  readonly brakingTime_s: number;
   /** Off for so long, then on again: servo off, no job selected; jobs and variables are kept. */
   reboot(off_s: number): void;
   readonly ports: { readonly robot: number; readonly files: number };
@@ -81,6 +83,7 @@ export type YaskawaStart = { readonly kind: "listening"; readonly controller: Vi
 /** Clients whose last order is remembered, and for how long an order with the same id counts as said again [s]. */
 const MOST_CLIENTS = 64, AGAIN_S = 2;
 const MOST_LOGGED = 100;
+const CYCLE_S = 0.004;
 const READING: readonly number[] = [SERVICE.getAll, SERVICE.getOne, SERVICE.getMany];
 
 interface Client { id: number; counts: boolean; at_s: number; order: Uint8Array | null; answer: Answer | null }
@@ -96,7 +99,7 @@ export async function createVirtualYaskawa(options: VirtualYaskawaOptions): Prom
 
   const { start_rad, maxSpeed, initialize, onMotion } = options;
   const neutral = createVirtualController({
-    robot, scheduler, cycle_s: options.cycle_s ?? 0.004, ...(start_rad ? { start_rad } : {}), ...(maxSpeed === undefined ? {} : { maxSpeed }), ...(initialize ? { initialize } : {}),
+    robot, scheduler, cycle_s: options.cycle_s ?? CYCLE_S, ...(start_rad ? { start_rad } : {}), ...(maxSpeed === undefined ? {} : { maxSpeed }), ...(initialize ? { initialize } : {}),
   });
   const scale = options.scale ?? EXAMPLE_SCALE, files = new Files(), variables = new Variables(), lines = new Lines(neutral.signals);
   const zero_s = scheduler.now_s(), unix_s = (): number => (options.began_unix_s ?? 0) + scheduler.now_s() - zero_s;
@@ -164,7 +167,7 @@ export async function createVirtualYaskawa(options: VirtualYaskawaOptions): Prom
   }
 
   const controller: VirtualYaskawa = {
-    robot, neutral, faults, files, scale, ports: { robot: robotSocket.address.port, files: fileSocket.address.port },
+    robot, neutral, faults, files, scale, brakingTime_s: brakingTime_s(robot) + 2 * (options.cycle_s ?? CYCLE_S), ports: { robot: robotSocket.address.port, files: fileSocket.address.port },
     pendant: {
       get text() { return text; },
       get message() { return machine.message; },

@@ -118,11 +118,14 @@ export class Machine {
   /** A joint move with the pendant: TEACH only, the flange no faster than 250 mm/s. */
   async jog(q_rad: ArrayLike<number>): Promise<CommandOutcome> {
     const { neutral } = this.options, { joints } = this.options.robot.arm, from = neutral.jointAngles();
-    const travel = joints.map((_, i) => Math.abs((q_rad[i] ?? 0) - from[i]!));
-    const longest_s = Math.max(1e-9, ...joints.map(({ limits }, i) => travel[i]! / limits.speed_rad_s));
-    // No point of the arm is further from any axis than its links are long together.
-    const reach_m = joints.reduce((sum, { parentFromJoint }) => sum + Math.hypot(...parentFromJoint.position), 0) + Math.hypot(...this.options.robot.arm.lastJointFromFlange.position);
-    this.jogRatio = Math.min(1, TEACH_MPS * longest_s / (travel.reduce((sum, by) => sum + by, 0) * reach_m + 1e-12));
+    // From rest to rest no joint gets faster than its acceleration lets it half-way; no point is further from a joint than the links behind it are long.
+    let behind_m = Math.hypot(...this.options.robot.arm.lastJointFromFlange.position), fastest_mps = 0;
+    for (let i = joints.length - 1; i >= 0; i--) {
+      const { limits, parentFromJoint } = joints[i]!;
+      fastest_mps += behind_m * Math.min(limits.speed_rad_s, Math.sqrt(limits.acceleration_rad_s2 * Math.abs((q_rad[i] ?? 0) - from[i]!)));
+      behind_m += Math.hypot(...parentFromJoint.position);
+    }
+    this.jogRatio = Math.min(1, TEACH_MPS / (fastest_mps + 1e-12));
     this.refresh();
     const outcome = await neutral.atTheRobot.jog(q_rad);
     this.jogRatio = 1;
