@@ -9,3 +9,4 @@ export * from "./station/index.ts";
 export * from "./transport/index.ts";
 export * from "./ur/index.ts";
 export * from "./kuka/index.ts";
+export * from "./yaskawa/index.ts";
