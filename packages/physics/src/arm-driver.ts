@@ -33,6 +33,8 @@ export class DrivenArm {
   private readonly scene: PhysicalScene;
   private readonly control: Exclude<PhysicalScene["control"], { kind: "moved" }>;
   private readonly limits_Nm: Float64Array;
+  private readonly q: Float64Array;
+  private readonly qd: Float64Array;
   private readonly none: Float64Array;
   private readonly weight: Float64Array;
   private readonly scratch: ReturnType<typeof dynamicsScratch>;
@@ -44,6 +46,7 @@ export class DrivenArm {
     const { joints } = scene.robot.arm;
     this.scene = scene; this.control = control;
     this.limits_Nm = Float64Array.from(joints, ({ limits }) => limits.torque_Nm ?? Number.POSITIVE_INFINITY);
+    this.q = new Float64Array(joints.length); this.qd = new Float64Array(joints.length);
     this.none = new Float64Array(joints.length); this.weight = new Float64Array(joints.length);
     this.model = this.carrying(0);
     this.scratch = dynamicsScratch(this.model); this.working = computedTorqueScratch(this.model);
@@ -51,12 +54,14 @@ export class DrivenArm {
   }
 
   drive({ q_rad, qd_rad_s, qdd_rad_s2 }: DynamicsCommand, qpos: Float64Array, qvel: Float64Array, applied: Float64Array, torque_Nm: Float64Array): void {
-    const { control, limits_Nm } = this, n = limits_Nm.length;
-    if (control.kind === "computed-torque") computedTorque(this.model, { q: q_rad, qd: qd_rad_s, qdd: qdd_rad_s2 }, qpos, qvel, control.bandwidth_rad_s, limits_Nm, torque_Nm, this.working);
+    const { control, limits_Nm, q, qd } = this, n = limits_Nm.length;
+    // The engine's lists go on with fingers, belts and parts.
+    for (let j = 0; j < n; j++) { q[j] = qpos[j]!; qd[j] = qvel[j]!; }
+    if (control.kind === "computed-torque") computedTorque(this.model, { q: q_rad, qd: qd_rad_s, qdd: qdd_rad_s2 }, q, qd, control.bandwidth_rad_s, limits_Nm, torque_Nm, this.working);
     else {
-      inverseDynamics(this.model, qpos, this.none, this.none, this.weight, this.scratch);
+      inverseDynamics(this.model, q, this.none, this.none, this.weight, this.scratch);
       for (let j = 0; j < n; j++) {
-        const wanted = driveTorque(this.gains[j]!, q_rad[j]!, qpos[j]!, qd_rad_s[j]!, qvel[j]!) + this.weight[j]!;
+        const wanted = driveTorque(this.gains[j]!, q_rad[j]!, q[j]!, qd_rad_s[j]!, qd[j]!) + this.weight[j]!;
         torque_Nm[j] = Math.max(-limits_Nm[j]!, Math.min(limits_Nm[j]!, wanted));
       }
     }

@@ -1,5 +1,5 @@
 import {
-  SignalTable, type Dynamics, type DynamicsCommand, type DynamicsOutcome, type PhysicalScene, type Pose, type Refusal, type Signals,
+  SignalTable, type Dynamics, type DynamicsCommand, type DynamicsOutcome, type PhysicalObject, type PhysicalScene, type Pose, type Refusal, type Signals,
 } from "@twincell/core";
 import { armMasses } from "./model/arm.ts";
 import { assumptionsOf, judgeScene } from "./model/judge.ts";
@@ -18,6 +18,11 @@ export type WorldAnswer =
 
 /** Faster than anything in a cell: a state that gets here is not one any more [m/s, rad/s]. */
 const EXPLODED = 200;
+
+/** How fast a finger comes to rest at its open end [1/s]. */
+const OPENING_PER_S = 20;
+/** A part pressed with more than this beside the grip itself is crushed, not gripped [N]. */
+const CRUSHING_N = 1000;
 
 /** Where the coordinates of a scene lie: arm, two fingers, belts, then seven (six for speeds) of each part. */
 interface Layout { readonly joints: number; readonly fingers: number; readonly belts: number; readonly parts: number; readonly nq: number; readonly nv: number; readonly firstPartQ: number; readonly firstPartV: number }
@@ -61,6 +66,7 @@ export class MujocoWorld implements Dynamics {
   readonly signals: Signals;
   readonly parts: readonly string[];
   readonly masses_kg: readonly number[];
+  readonly partObjects: readonly PhysicalObject[];
   readonly step_s: number;
   readonly engine: Engine;
   readonly model: MjModel;
@@ -81,6 +87,7 @@ export class MujocoWorld implements Dynamics {
     const parts = scene.objects.filter(({ role }) => role === "part"), layout = layoutOf(scene);
     this.engine = engine; this.scene = scene; this.signals = signals; this.model = model; this.driver = driver; this.layout = layout;
     this.data = new engine.MjData(model);
+    this.partObjects = parts;
     this.parts = parts.map(({ id }) => id);
     this.masses_kg = parts.map(partMass);
     this.step_s = model.opt.timestep;
@@ -107,8 +114,9 @@ export class MujocoWorld implements Dynamics {
     this.belts.drive(qpos, qvel, joints + layout.fingers, this.step_s);
     driver.drive(command, qpos, qvel, data.qfrc_applied as Float64Array, state.torque_Nm);
     if (layout.fingers > 0) {
-      const speed = command.gripperClosed ? scene.gripper!.speed_mps : -scene.gripper!.speed_mps, ctrl = data.ctrl as Float64Array;
-      ctrl[0] = speed; ctrl[1] = speed;
+      const { speed_mps } = scene.gripper!, ctrl = data.ctrl as Float64Array;
+      // Opening, a finger comes to rest before its stop; closing, it pushes on.
+      for (let finger = 0; finger < 2; finger++) ctrl[finger] = command.gripperClosed ? speed_mps : -Math.min(speed_mps, OPENING_PER_S * Math.max(0, qpos[joints + finger]!));
     }
     this.people.place(state.time_s, data.mocap_pos as Float64Array, data.mocap_quat as Float64Array);
     this.engine.mj_step(this.model, data);
@@ -117,6 +125,8 @@ export class MujocoWorld implements Dynamics {
     const odd = this.odd();
     if (odd !== undefined) return this.explode(odd);
     this.read(command.gripperClosed);
+    const crushed = scene.gripper === undefined ? -1 : this.grasps.pressedBeyond(CRUSHING_N + 2 * scene.gripper.force_N, this.step_s);
+    if (crushed >= 0) return this.pause("physics.crushed", `The fingers press on “${this.nameOf(crushed)}” with ${(this.grasps.hardest_N(crushed) / 1000).toFixed(1)} kN.`, "Move the point where the arm goes down, or open the gripper wider.");
     return this.outcome;
   }
 
@@ -168,7 +178,7 @@ export class MujocoWorld implements Dynamics {
       for (let k = 0; k < 3; k++) state.parts[to + k] = qpos[from + k]!;
       state.parts[to + 3] = qpos[from + 4]!; state.parts[to + 4] = qpos[from + 5]!; state.parts[to + 5] = qpos[from + 6]!; state.parts[to + 6] = qpos[from + 3]!;
     }
-    const held = this.grasps.sense(data.sensordata as Float64Array, closed);
+    const held = this.grasps.sense(data.sensordata as Float64Array, closed, this.step_s);
     if (held && this.driver.kind === "driven") this.driver.carry(this.heldLoad());
     this.sensors.look(this.steps);
     this.good.set(qpos);
@@ -189,7 +199,10 @@ export class MujocoWorld implements Dynamics {
     return undefined;
   }
 
-  private nameOf(part: number): string { return this.scene.objects.filter(({ role }) => role === "part")[part]!.name; }
+  private nameOf(part: number): string { return this.partObjects[part]!.name; }
+
+  /** 1 where a sensor of the scene is tripped. Lent. */
+  get tripped(): Uint8Array { return this.sensors.tripped; }
 
   private explode(name: string): DynamicsOutcome {
     (this.data.qpos as Float64Array).set(this.good);

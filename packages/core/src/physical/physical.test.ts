@@ -1,5 +1,5 @@
 import { describe, expect, test } from "vitest";
-import { allowedOverride, calibrateFinger, distanceToOutline, fingerBend, GRASP_MARK_HEIGHT, graspSignal, liftRefusal, personAt, personInZone, robotById, togetherCarried, type GraspSignal, type PeopleZone, type Person } from "../index.ts";
+import { allowedOverride, calibrateFinger, distanceToOutline, fingerBend, GRASP_MARK_HEIGHT, GraspFilter, graspSignal, liftRefusal, personAt, personInZone, robotById, togetherCarried, type GraspSignal, type PeopleZone, type Person } from "../index.ts";
 
 describe("the grasp signal", () => {
   const sense = { bend: 1, distance_m: 0, between: true, graspable: true };
@@ -21,6 +21,11 @@ describe("the grasp signal", () => {
     const hand: readonly [number, number][] = [[0, 0.1], [0, 0], [0.3, 0], [1, 0], [0.2, 0], [0, 0], [0, 0.1]], seen: GraspSignal[] = [];
     for (const [bend, distance_m] of hand) { const next = graspSignal({ bend, distance_m, between: true, graspable: true }); if (next !== seen.at(-1)) seen.push(next); }
     expect(seen).toEqual(["free", "ready", "held", "ready", "free"]);
+    const filter = new GraspFilter(), shown: GraspSignal[] = [];
+    // Closed at one stroke and opened at one stroke, with a flicker in between: what is shown keeps the order.
+    const sensed: GraspSignal[] = [...Array<GraspSignal>(50).fill("free"), ...Array<GraspSignal>(50).fill("held"), "free", ...Array<GraspSignal>(50).fill("held"), ...Array<GraspSignal>(60).fill("free")];
+    for (const each of sensed) { const next = filter.step(each, 0.002); if (next !== shown.at(-1)) shown.push(next); }
+    expect(shown).toEqual(["free", "ready", "held", "ready", "free"]);
     expect(new Set(Object.values(GRASP_MARK_HEIGHT)).size).toBe(3);
   });
 });

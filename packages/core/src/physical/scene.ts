@@ -75,6 +75,8 @@ export type Sensor = {
   /** The line is true while the sensor is tripped. */
   readonly signal: string;
   readonly sees: readonly Seen[];
+  /** Tripped, it also stops the robot until a person lets it go on (row T-27). */
+  readonly stops?: true;
 } & (
   /** A photo-cell: tripped while something is between its two ends. */
   | { readonly kind: "beam"; readonly from_m: Vector3; readonly to_m: Vector3 }

@@ -19,7 +19,7 @@ export function gripperXml({ flangeFromGrip, open_m, closed_m, force_N, finger_m
   const palm_m = Math.max(0.02, flangeFromGrip.position[2] - long), finger_kg = mass_kg / 4, travel_m = (open_m - closed_m) / 2;
   const pad = { solref: [PAD_S, 1], friction: [friction, 0.02, 0.001], priority: 1, condim: 4, group: GROUP.robot, ...CONTACT.robot, mass: 0 } as const;
   const finger = (name: string, side: 1 | -1): string => element("body", { name, pos: [(side * open_m) / 2, 0, 0], gravcomp: 0 }, [
-    element("joint", { name, type: "slide", axis: [-side, 0, 0], range: [0, travel_m], limited: "true", armature: FINGER_DRIVE_KG }),
+    element("joint", { name, type: "slide", axis: [-side, 0, 0], range: [0, travel_m], limited: "true", solreflimit: [0.004, 1], armature: FINGER_DRIVE_KG }),
     element("inertial", { mass: finger_kg, pos: [(side * thick) / 2, 0, (beyond_m - long) / 2], diaginertia: [1e-5, 1e-5, 1e-5] }),
     element("geom", { type: "box", size: [thick / 2, wide / 2, (long + beyond_m) / 2], pos: [(side * thick) / 2, 0, (beyond_m - long) / 2], ...pad }),
   ]);

@@ -14,7 +14,7 @@ export type Geom =
 
 /** Sectors of a turned solid with a hole: the hole is met to 0.9 % of its radius. */
 const SECTORS = 24;
-const CELLS = 24;
+const CELLS = 16;
 /** A vertex may stand out of a face by this share of the size before a mesh counts as concave. */
 const CONVEX_WITHIN = 1e-4;
 const FACES_PER_TURN = 48;
