@@ -8,3 +8,5 @@ export * from "./run/run.ts";
 export { StateLog } from "./run/state-log.ts";
 export { SafetyWatch } from "./run/watch.ts";
 export * from "./validation/pick-and-place.ts";
+export * from "./learn/environment.ts";
+export * from "./learn/dataset.ts";

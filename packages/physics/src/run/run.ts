@@ -61,6 +61,9 @@ export class PhysicsRun {
     this.h = step_s;
   }
 
+  /** Where the arm was last told to be [rad]. Lent. */
+  get commanded_rad(): Float64Array { return this.q; }
+
   /** One step of the world. */
   advance(): PhysicsRunState {
     const { state, world, stepper, q, qd, qdd, h } = this;
