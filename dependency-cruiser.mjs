@@ -2,7 +2,7 @@
  * Who may use what. Three floors: core knows nobody, the middle floor knows core and none of its neighbours,
  * apps join things. This table is the whole truth; there is no list of exceptions.
  */
-const middle = ["languages", "controllers", "formats", "recording", "project", "messages"];
+const middle = ["languages", "controllers", "formats", "recording", "physics", "project", "messages"];
 const packages = ["core", ...middle];
 const mayUse = { core: [], ...Object.fromEntries(middle.map(name => [name, ["core"]])) };
 
@@ -13,6 +13,7 @@ const mayInstall = {
   controllers: [],
   formats: ["saxes", "xmlchars", "yaml"],
   recording: ["@mcap/", "@foxglove/", "@bokuweb/zstd-wasm"],
+  physics: ["@mujoco/mujoco"],
   project: ["zod"],
   messages: ["zod"],
 };

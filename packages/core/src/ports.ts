@@ -1,4 +1,6 @@
 import type { Robot } from "./robots/robot.ts";
+import type { GraspSignal } from "./physical/grasp.ts";
+import type { PhysicalScene } from "./physical/scene.ts";
 import type { Pose } from "./spatial/pose.ts";
 import type { Capability } from "./program/capabilities.ts";
 import type { Program, Step } from "./program/program.ts";
@@ -207,4 +209,51 @@ export interface Dialect {
   parse(text: string, robot: Robot, worldFromBase?: Pose<"world", "base">): Parsed;
   /** Executes the text with the vendor's own conventions. Written independently of `emit`. */
   interpret(text: string, robot: Robot, worldFromBase?: Pose<"world", "base">): Interpreted;
+}
+
+/** What the arm and its gripper are told for the next step of a physical cell. */
+export interface DynamicsCommand {
+  /** Where the joints are to be at its end, how fast and with which acceleration [rad, rad/s, rad/s²]. */
+  readonly q_rad: ArrayLike<number>;
+  readonly qd_rad_s: ArrayLike<number>;
+  readonly qdd_rad_s2: ArrayLike<number>;
+  readonly gripperClosed: boolean;
+}
+
+/** A physical cell at one instant. Lent: overwritten by the next step. */
+export interface DynamicsState {
+  readonly time_s: number;
+  readonly q_rad: Float64Array;
+  readonly qd_rad_s: Float64Array;
+  /** What the drives give [N m]. */
+  readonly torque_Nm: Float64Array;
+  /** Between the fingers [m]; 0 without a gripper. */
+  readonly opening_m: number;
+  /** Seven numbers of each part: x y z [m], quaternion x y z w. */
+  readonly parts: Float64Array;
+  readonly grasp: readonly GraspSignal[];
+}
+
+/** Why a physical cell does not go on: the state before it is kept, and no number of it is ever NaN. */
+export type DynamicsOutcome = { readonly kind: "running" } | { readonly kind: "paused"; readonly why: Refusal };
+
+/**
+ * Bodies with mass that touch: an arm, its gripper, parts, belts, sensors. One step after the other, without a clock; the
+ * same scene, commands and engine give the same states to the last bit.
+ */
+export interface Dynamics {
+  readonly scene: PhysicalScene;
+  readonly step_s: number;
+  /** Ids of the parts, in the order of `DynamicsState.parts`. */
+  readonly parts: readonly string[];
+  readonly masses_kg: readonly number[];
+  readonly state: DynamicsState;
+  /** The lines of belts are read from here and those of sensors written to it. */
+  readonly signals: Signals;
+  step(command: DynamicsCommand): DynamicsOutcome;
+  /** Puts a part somewhere, at rest: a feeder, a shuffled start. */
+  place(part: string, worldFromPart: Pose<"world", "object">): void;
+  /** Everything as it was at the start. */
+  reset(): void;
+  close(): void;
 }
