@@ -4,3 +4,4 @@ export * from "./numbers.ts";
 export * from "./tokens.ts";
 export * from "./waits-outside.ts";
 export * from "./rehearse.ts";
+export * from "./line-cursor.ts";
