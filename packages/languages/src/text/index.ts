@@ -5,3 +5,4 @@ export * from "./tokens.ts";
 export * from "./waits-outside.ts";
 export * from "./rehearse.ts";
 export * from "./line-cursor.ts";
+export * from "./jumps.ts";
