@@ -3,7 +3,8 @@ import { axisConvention, type PulseData } from "./robots.ts";
 import { Controller } from "./write/controller.ts";
 import { JobWriter } from "./write/job.ts";
 import { jobName } from "./write/names.ts";
-import { Place, posturesOf } from "./write/postures.ts";
+import { WalkedPlace } from "../writing/index.ts";
+import { posturesOf } from "./write/postures.ts";
 import { FASTEST_MPS, pathSpeed } from "./write/speed.ts";
 
 /** What INFORM has no instruction for. */
@@ -41,7 +42,7 @@ export function emitInform(program: Program, robot: Robot, worldFromBase: Pose<"
   }
   const steps = [...everyStep(program)], refusal = refused(steps) ?? unresolved(program, steps, pulses);
   if (refusal !== undefined) return refusal;
-  const place = new Place(program, robot, worldFromBase), postures = posturesOf(place, pulses !== undefined);
+  const place = new WalkedPlace(program, robot, worldFromBase), postures = posturesOf(place, pulses !== undefined);
   if (postures.kind === "cannot") return postures;
 
   const controller = new Controller(place), taken = new Set<string>(), main = jobName(program.name, taken);

@@ -3,3 +3,4 @@ export * from "./names.ts";
 export * from "./numbers.ts";
 export * from "./cannot.ts";
 export * from "./place.ts";
+export * from "./walk.ts";
