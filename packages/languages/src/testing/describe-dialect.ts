@@ -94,6 +94,13 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
       }
     });
 
+    test("a remark between two moves is no stop", () => {
+      if (cannot.includes("comment")) return;
+      const q = [...robot.home_rad], move = (id: string, turn_rad: number): MoveStep => ({ id, type: "move", path: "ptp", target: { q: q.map((angle, i) => i === 0 ? angle + turn_rad : angle) }, speed: { ratio: 0.5 }, blend_m: 0.01 });
+      const program: Program = { ...emptyProgram(robot.id), steps: [move("a", 0.1), { id: "c", type: "comment", text: "Now the other one" }, move("b", 0.3), move("d", 0.2)] };
+      expectProven(runnable(program), program);
+    });
+
     test("another robot is refused with a sentence", () => {
       const stranger: Robot = { ...robot, id: "stranger", name: "Stranger" };
       expect(dialect.emit(random(1), stranger).kind).toBe("cannot");

@@ -67,13 +67,12 @@ class Maker {
   }
 
   private move(base: { readonly id: string }): MoveStep {
-    const { random, robot, tools, frames } = this, { worldFromBase, paths, can, cannot = [] } = this.choices;
+    const { random, robot, tools, frames } = this, { worldFromBase, paths, can } = this.choices;
     const q = easyPosture(robot, random, EASE_M);
     const tool = pick(random, ["flange", ...Object.keys(tools)]), frame = pick(random, ["world", ...Object.keys(frames)]);
     const worldFromTcp = compose(worldFromBase, compose(flangePose(robot.arm, q), tools[tool] ?? identity<"flange", "tcp">()));
     const branch = random() < 0.5 && this.choices.branches !== false ? branchOf(robot, q) : undefined;
-    const path = pick(random, paths), drawn = randomSpeed(random);
-    const speed = "time_s" in drawn && (path === "circ" || cannot.includes("duration")) ? { mps: 0.1 } : drawn;
+    const path = pick(random, paths), speed = this.speed(path);
     const target: Target = random() < 0.4
       ? { q, ...(random() < 0.5 ? { tool } : {}) }
       : { pose: compose(inverse(frames[frame] ?? identity()), worldFromTcp), frame, tool, ...(branch === undefined ? {} : { branch }) };
@@ -108,6 +107,11 @@ class Maker {
     }
   }
 
+  private speed(path: MoveStep["path"]): Speed {
+    const drawn = randomSpeed(this.random);
+    return "time_s" in drawn && (path === "circ" || this.choices.cannot?.includes("duration") === true) ? { mps: 0.1 } : drawn;
+  }
+
   private line(kind: SignalLine["kind"]): string {
     return pick(this.random, Object.entries(this.choices.signals ?? SIGNALS).flatMap(([name, line]) => line.kind === kind ? [name] : []));
   }
@@ -140,7 +144,7 @@ class Maker {
       rows: pick(random, [1, 2, 3]), columns: pick(random, [2, 3]), layers: pick(random, [1, 2]), layer_m: 0.002, order, ...(shifted ? { interleave: "odd-rows-shifted" } : {}),
     };
     const at = (z_m: number): MoveStep["target"] => ({ pose: { position: [0, 0, z_m], quaternion: [0, 0, 0, 1] }, frame: name, tool: "flange", ...(this.choices.branches === false ? {} : { branch: branchOf(robot, q)! }) });
-    const move = (path: MoveStep["path"], z_m: number): MoveStep => ({ id: `k${this.count++}`, type: "move", path, target: at(z_m), speed: randomSpeed(random), blend_m: 0 });
+    const move = (path: MoveStep["path"], z_m: number): MoveStep => ({ id: `k${this.count++}`, type: "move", path, target: at(z_m), speed: this.speed(path), blend_m: 0 });
     const paths = this.choices.paths.filter(path => path === "ptp" || path === "lin");
     return { ...base, type: "pallet", pallet: name, steps: [move(pick(random, paths), -0.003), move(pick(random, paths), 0), { id: `k${this.count++}`, type: "gripper", closed: false }] };
   }

@@ -4,3 +4,5 @@ export * from "./numbers.ts";
 export * from "./cannot.ts";
 export * from "./place.ts";
 export * from "./walk.ts";
+export * from "./steps.ts";
+export * from "./pattern.ts";
