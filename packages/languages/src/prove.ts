@@ -208,6 +208,8 @@ function sameCondition(a: Condition, b: Condition, mine: Program["signals"], the
 
 function samePayload(a: PayloadStep, b: PayloadStep): boolean {
   const numbers = ({ mass_kg, center_m, inertia_kgm2 = [0, 0, 0, 0, 0, 0] }: PayloadStep): readonly number[] => [mass_kg, ...center_m, ...inertia_kgm2];
+  // Nothing has no centre.
+  if (a.mass_kg === 0) return b.mass_kg === 0;
   const other = numbers(b);
   return numbers(a).every((x, i) => near(x, other[i]!));
 }

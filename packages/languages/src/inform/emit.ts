@@ -42,7 +42,7 @@ export function emitInform(program: Program, robot: Robot, worldFromBase: Pose<"
   }
   const steps = [...everyStep(program)], refusal = refused(steps) ?? unresolved(program, steps, pulses);
   if (refusal !== undefined) return refusal;
-  const place = new WalkedPlace(program, robot, worldFromBase), postures = posturesOf(place, pulses !== undefined);
+  const place = new WalkedPlace(program, robot, worldFromBase), postures = posturesOf(place, convention, pulses !== undefined);
   if (postures.kind === "cannot") return postures;
 
   const controller = new Controller(place), taken = new Set<string>(), main = jobName(program.name, taken);

@@ -40,14 +40,23 @@ export class WalkedPlace {
   }
 }
 
+/** Where the arm may be before a step: behind a decision that is more than one posture. */
+type Starts = readonly ArrayLike<number>[];
+/** More starts than these are not told apart. */
+const MOST_STARTS = 8;
+/** Postures that are closer than this are one [rad]. */
+const SAME_RAD = 1e-6;
+
 /**
  * Shows every move of a program in the order of execution: loops twice, since the second round begins where the first one
- * ends, pallets place by place, and routines that nobody calls behind everything else.
+ * ends, pallets place by place, what follows a decision from both its ends, and routines that nobody calls behind
+ * everything else.
  *
- * @param visit  what is wrong with a move; the walk ends there.
+ * @param visit  the posture that a move ends in when the arm starts from `near`, or what is wrong with it; the walk ends there.
  */
-export function walkMoves(place: WalkedPlace, visit: (step: MoveStep) => Cannot | undefined): Cannot | undefined {
-  const { program } = place, { routines, pallets } = program, walked = new Set<string>();
+export function walkMoves(place: WalkedPlace, visit: (step: MoveStep, near: ArrayLike<number>) => { readonly kind: "reached"; readonly q_rad: ArrayLike<number> } | Cannot): Cannot | undefined {
+  const { program, robot } = place, { routines, pallets } = program, walked = new Set<string>();
+  let starts: Starts = [robot.home_rad];
   const routine = (name: string): Cannot | undefined => {
     walked.add(name);
     return walk(Object.hasOwn(routines, name) ? routines[name]! : []);
@@ -59,11 +68,27 @@ export function walkMoves(place: WalkedPlace, visit: (step: MoveStep) => Cannot 
     }
     return undefined;
   };
+  const move = (step: MoveStep): Cannot | undefined => {
+    const ends: ArrayLike<number>[] = [];
+    for (const near of starts) {
+      const answer = visit(step, near);
+      if (answer.kind === "cannot") return answer;
+      ends.push(answer.q_rad);
+    }
+    starts = distinct(ends);
+    return undefined;
+  };
   const one = (step: Step): Cannot | undefined => {
     switch (step.type) {
-      case "move": return visit(step);
+      case "move": return move(step);
       case "repeat": return walk(step.steps) ?? (step.times === 1 ? undefined : walk(step.steps));
-      case "if": return walk(step.then) ?? walk(step.else ?? []);
+      case "if": {
+        const before = starts, flaw = walk(step.then), then = starts;
+        starts = before;
+        const other = flaw ?? walk(step.else ?? []);
+        starts = distinct([...then, ...starts]);
+        return other;
+      }
       case "call": return routine(step.routine);
       case "pallet": {
         const pallet = Object.hasOwn(pallets, step.pallet) ? pallets[step.pallet] : undefined;
@@ -80,6 +105,14 @@ export function walkMoves(place: WalkedPlace, visit: (step: MoveStep) => Cannot 
     }
   };
   return walk(program.steps) ?? Object.keys(routines).reduce<Cannot | undefined>((flaw, name) => flaw ?? (walked.has(name) ? undefined : routine(name)), undefined);
+}
+
+function distinct(starts: Starts): Starts {
+  const found: ArrayLike<number>[] = [];
+  for (const start of starts) {
+    if (found.length < MOST_STARTS && !found.some(other => Array.from(other).every((angle, i) => Math.abs(angle - start[i]!) < SAME_RAD))) found.push(start);
+  }
+  return found;
 }
 
 /** The joint angles in which a target of a step is reached from `near`: those that were taught on a joint move, otherwise those of least travel. */

@@ -70,7 +70,7 @@ export class JobWriter {
   private steps(steps: readonly Step[], after: Step | undefined): void {
     for (const [i, step] of steps.entries()) {
       const next = steps.slice(i + 1).find(({ type }) => type !== "comment") ?? after;
-      this.step(step, next, steps[i - 1]);
+      this.step(step, next, steps.slice(0, i).findLast(({ type }) => type !== "comment"));
     }
   }
 

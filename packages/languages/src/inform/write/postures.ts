@@ -1,5 +1,7 @@
 import type { MoveStep } from "@twincell/core";
-import { outsideLimits, reached, walkMoves, type Cannot, type WalkedPlace } from "../../writing/index.ts";
+import { called, outsideLimits, reached, walkMoves, type Cannot, type WalkedPlace } from "../../writing/index.ts";
+import type { AxisConvention } from "../robots.ts";
+import { axisValues, rconfText } from "./location.ts";
 
 /** The joint angles in which a point is reached first, and the point on the way to it. */
 export interface Posture { readonly q_rad: ArrayLike<number>; readonly via_rad: ArrayLike<number> | undefined }
@@ -14,19 +16,25 @@ export type Postures = { readonly kind: "postures"; readonly of: PostureMap } | 
  *
  * @param inPulses  points on the way of arcs are written as joint angles too, so they must be reached.
  */
-export function posturesOf(place: WalkedPlace, inPulses: boolean): Postures {
-  const found = new Map<string, Posture>();
-  let near: ArrayLike<number> = place.robot.home_rad;
-  const flaw = walkMoves(place, (step: MoveStep) => {
+export function posturesOf(place: WalkedPlace, convention: AxisConvention, inPulses: boolean): Postures {
+  const found = new Map<string, Posture>(), typeOf = (q_rad: ArrayLike<number>): string => rconfText(place.robot, q_rad, axisValues(q_rad, convention));
+  const flaw = walkMoves(place, (step: MoveStep, near) => {
     const via = step.via === undefined || !inPulses ? undefined : reached(place, step, { ...step.via, tool: step.target.tool ?? "flange" }, near);
     if (via?.kind === "cannot") return via;
     const answer = reached(place, step, step.target, near);
     if (answer.kind === "cannot") return answer;
     const outside = outsideLimits(place, step, answer.q_rad, axis => "SLURBT"[axis] ?? `${axis + 1}`);
     if (outside !== undefined) return outside;
-    near = answer.q_rad;
-    if (!found.has(step.id)) found.set(step.id, { q_rad: near, via_rad: via?.q_rad });
-    return undefined;
+    const first = found.get(step.id)?.q_rad;
+    if (first === undefined) found.set(step.id, { q_rad: answer.q_rad, via_rad: via?.q_rad });
+    // The points of a pallet are shifted with the type that is written for its first place.
+    else if (place.visited.size > 0 && typeOf(first) !== typeOf(answer.q_rad)) {
+      return {
+        kind: "cannot", step: step.id, sentence: `${called(step)} reaches a place of the pallet with another manipulator type (RCONF) than its first place; INFORM shifts a point and keeps its type.`,
+        hint: "Turn the tool or move the pallet, so that one posture reaches all places, or teach the places one by one.",
+      };
+    }
+    return answer;
   });
   return flaw ?? { kind: "postures", of: found };
 }

@@ -17,17 +17,15 @@ export type Postures = { readonly kind: "postures"; readonly of: PostureMap } | 
  */
 export function posturesOf(place: WalkedPlace, convention: AxisConvention): Postures {
   const found = new Map<string, Posture>(), { robot } = place;
-  let near: ArrayLike<number> = robot.home_rad;
-  const flaw = walkMoves(place, (step: MoveStep) => {
+  const flaw = walkMoves(place, (step: MoveStep, near) => {
     const { id, target } = step, answer = reached(place, step, target, near);
     if (answer.kind === "cannot") return answer;
-    near = answer.q_rad;
-    const outside = outsideLimits(place, step, near, axis => `${axis + 1}`);
+    const { q_rad } = answer, outside = outsideLimits(place, step, q_rad, axis => `${axis + 1}`);
     if (outside !== undefined) return outside;
-    const branch = branchOf(robot, near), status = branch === undefined ? 0 : statusOf(branch), turn = turnOf(axisValues(near, convention)), before = found.get(id);
+    const branch = branchOf(robot, q_rad), status = branch === undefined ? 0 : statusOf(branch), turn = turnOf(axisValues(q_rad, convention)), before = found.get(id);
     if (before === undefined) found.set(id, { status, turn });
     else if (before.turn !== turn || before.status !== status) found.set(id, { status: before.status === status ? status : undefined, turn: undefined });
-    return undefined;
+    return answer;
   });
   return flaw ?? { kind: "postures", of: found };
 }

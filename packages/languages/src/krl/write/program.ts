@@ -86,7 +86,7 @@ export class ModuleWriter {
   private steps(steps: readonly Step[], after: Step | undefined): void {
     for (let i = 0; i < steps.length; i++) {
       const step = steps[i]!, next = steps.slice(i + 1).find(({ type }) => type !== "comment") ?? after;
-      if (step.type !== "move" || step.path !== "spline") { this.step(step, next, i > 0 ? steps[i - 1] : undefined); continue; }
+      if (step.type !== "move" || step.path !== "spline") { this.step(step, next, steps.slice(0, i).findLast(({ type }) => type !== "comment")); continue; }
       const block = [step];
       for (let following = steps[i + 1]; following?.type === "move" && following.path === "spline" && toolName(following) === toolName(step); following = steps[i + 1]) {
         block.push(following);

@@ -8,7 +8,7 @@ import type { Confdata } from "./configuration.ts";
 import { inverted, times, toPose, turned, type Frame } from "./frame.ts";
 import { FUNCTIONS } from "./functions.ts";
 import { KIND_OF_FUNCTION, Lines } from "./lines.ts";
-import { predefined } from "./predefined.ts";
+import { NOTHING_KG, predefined } from "./predefined.ts";
 import { asFrame, asNumber, asNumbers, asPosition, asRecord, asTruth, binary, fromFrame, placeOf, type Value } from "./values.ts";
 
 /** What the steps of a run refer to; filled while it goes on. */
@@ -284,6 +284,7 @@ export class Machine extends BlockMachine<Value> {
   private payload(load: Value, at: TextPlace): Step {
     const [mass, cog, aom, ix, iy, iz] = asRecord(load, at, 6, "a load"), flange = times(this.tool, { mm: asPosition(cog, at), wxyz: [1, 0, 0, 0] }).mm;
     const inertia = [ix, iy, iz].map(each => asNumber(each!, at)), axes = times(this.tool, asFrame([[0, 0, 0], aom!], at)).wxyz;
+    if (asNumber(mass!, at) <= NOTHING_KG) return { id: this.stepId(at), type: "payload", mass_kg: 0, center_m: [0, 0, 0] };
     const base = { id: this.stepId(at), type: "payload", mass_kg: asNumber(mass!, at), center_m: [flange[0] / 1000, flange[1] / 1000, flange[2] / 1000] } satisfies Step;
     if (inertia.every(each => each === 0)) return base;
     // I = Σ I_k a_k a_kᵀ over the axes of moment.
