@@ -6,3 +6,4 @@ export * from "./waits-outside.ts";
 export * from "./rehearse.ts";
 export * from "./line-cursor.ts";
 export * from "./jumps.ts";
+export * from "./skip.ts";
