@@ -1,6 +1,14 @@
 /** English. Field terms as a programmer says them; sentences end with a full stop and carry the number and the unit. */
 const plural = (count: number, one: string, many = `${one}s`): string => `${count} ${count === 1 ? one : many}`;
 
+/** What of a text was left out, the worst of it by name. */
+function leftOut(all: readonly { readonly what: "motion" | "branch" | "statement" }[]): string {
+  const count = (what: string): number => all.filter(each => each.what === what).length, motions = count("motion"), branches = count("branch");
+  if (motions + branches === 0) return `${plural(all.length, "statement")} left out.`;
+  const worst = [motions > 0 ? plural(motions, "motion") : "", branches > 0 ? plural(branches, "branch", "branches") : ""].filter(each => each !== "").join(" and ");
+  return `${plural(all.length, "statement")} left out, among them ${worst}: the robot does not do what the text says.`;
+}
+
 export const en = {
   common: {
     close: "Close", cancel: "Cancel", apply: "Apply", show: "Show", hide: "Hide", remove: "Delete", rename: "Rename", duplicate: "Duplicate", done: "Done", more: "More",
@@ -142,7 +150,9 @@ export const en = {
   },
   programs: { switch: "Stored programs", new: "New program", duplicate: "Duplicate this program", rename: "Rename this program", remove: "Delete this program", name: "Name of the program", plain: "Program", removed: (name: string) => `${name} was deleted. Undo brings it back.` },
   foreign: {
-    guess: "Find out", nothing: "Nothing to read yet.", reads: (language: string, steps: number) => `Read as ${language}: ${plural(steps, "step")}.`, cannotRead: (language: string) => `Read as ${language}, it is not understood:`, steps: "Make steps", asText: "Run as text", pasted: "Pasted text",
+    guess: "Find out", nothing: "Nothing to read yet.", reads: (language: string, steps: number) => `Read as ${language}: ${plural(steps, "step")}.`, cannotRead: (language: string) => `Read as ${language}, it is not understood:`, skip: "Skip what is not understood",
+    skipSays: "Statements that are not understood are left out. The robot then does something else than the text says.", skipped: leftOut,
+    steps: "Make steps", asText: "Run as text", pasted: "Pasted text",
     asTextSays: "Run as text executes it line by line on the virtual controller, with breakpoints. Your program stays as it is.", run: "Run the text", step: "One statement", paused: (line: number) => `It stands before line ${line}.`, idle: "Click a line number to stop there.",
     breakpoint: (line: number) => `Stop before line ${line}`, edit: "Edit the text", back: "Back to the program", done: "The text is done.", fault: (line: number, why: string) => `Line ${line} could not be executed: ${why}`,
   },
