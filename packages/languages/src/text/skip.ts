@@ -48,10 +48,13 @@ function without<A extends { readonly kind: string }>(text: string, shapes: Line
     for (const fault of faults) {
       const at = fault.line - 1, line = lines[at];
       if (line === undefined || gone.has(at) || line.trim() === "" || shapes.keeps.test(line)) continue;
-      const last = lastOf(lines, at, shapes);
-      skipped.push(told(fault, line, lines.slice(at, last + 1), shapes));
-      for (let i = at; i <= last; i++) { lines[i] = blank(lines[i]!); gone.add(i); }
+      // Where the end of a block is not understood, all of the block goes: nobody knows how often it runs.
+      const from = firstOf(lines, at, shapes), last = Math.max(at, lastOf(lines, from, shapes));
+      skipped.push(told({ ...fault, line: from + 1, column: from === at ? fault.column : 1 }, lines[from]!, lines.slice(from, last + 1), shapes));
+      for (let i = from; i <= last; i++) { lines[i] = blank(lines[i]!); gone.add(i); }
       isShorter = true;
+      // A block that was not understood throws the ends of all that follows out of step: they are looked at again.
+      if (shapes.opens.test(line) || shapes.parts.test(line) || shapes.closes.test(line)) break;
     }
     if (!isShorter) break;
   }
@@ -59,6 +62,17 @@ function without<A extends { readonly kind: string }>(text: string, shapes: Line
 }
 
 const isNotUnderstood = (answer: { readonly kind: string }): answer is NotUnderstood => answer.kind === "not-understood";
+
+/** The line that opened what a line closes, or the line itself. */
+function firstOf(lines: readonly string[], at: number, { opens, closes, keeps }: LineShapes): number {
+  if (!closes.test(lines[at]!) || opens.test(lines[at]!)) return at;
+  for (let i = at - 1, depth = 1; i >= 0; i--) {
+    if (keeps.test(lines[i]!)) return at;
+    if (closes.test(lines[i]!)) depth++;
+    if (opens.test(lines[i]!) && --depth === 0) return i;
+  }
+  return at;
+}
 
 /** The last line that goes with a line: the end of a block, or where its next part begins. */
 function lastOf(lines: readonly string[], at: number, { opens, parts, closes, keeps }: LineShapes): number {

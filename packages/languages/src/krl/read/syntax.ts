@@ -21,6 +21,8 @@ export type MotionKind = "PTP" | "LIN" | "CIRC" | "SPL";
 export interface Motion {
   readonly motion: MotionKind;
   readonly relative: boolean;
+  /** A relative motion that counts along the axes of the tool. */
+  readonly inTool: boolean;
   /** A statement of its own that is planned as a spline: SPTP, SLIN, SCIRC. */
   readonly spline: boolean;
   readonly target: Expression;
@@ -71,6 +73,8 @@ export interface Routine {
 export interface Source {
   readonly routines: ReadonlyMap<string, Routine>;
   readonly data: readonly Declaration[];
+  /** Elements of its arrays, in their order: `POINT[3]={X 1,Y 2}`. */
+  readonly elements: readonly Extract<Statement, { kind: "assign" }>[];
   readonly signals: readonly SignalDeclaration[];
   /** Line of the text in which the data list begins, or undefined. */
   readonly dataLine: number | undefined;

@@ -25,6 +25,11 @@ const SILENT = new Set([
   "sync", "set_gravity", "popup", "set_tool_voltage", "set_tool_communication", "set_input_actions_to_default", "set_runstate_standard_digital_output_to_value",
   "set_standard_analog_input_domain", "set_tool_analog_input_domain", "set_analog_outputdomain", "set_safety_mode_transition_hardness", "zero_ftsensor",
   "step_count_reset", "modbus_add_signal", "request_boolean_from_primary_client", "reset_world_model", "set_target_payload_inertia", "stopj", "stopl", "textmsg_debug",
+  // Said to other machines and to the operator.
+  "socket_open", "socket_close", "socket_send_string", "socket_send_line", "socket_send_byte", "socket_send_int", "socket_set_var", "modbus_set_output_register", "modbus_set_output_signal",
+  "modbus_set_signal_update_frequency", "modbus_set_runstate_dependent_choice", "modbus_delete_signal", "rtde_set_watchdog", "write_output_integer_register", "write_output_float_register",
+  "write_output_boolean_register", "set_analog_inputrange", "set_standard_analog_inputrange", "set_runstate_outputs", "set_runstate_configurable_digital_output_to_value", "set_runstate_tool_digital_output_to_value",
+  "set_runstate_gp_boolean_output_to_value", "set_tool_analog_inputrange", "set_tool_digital_output_mode", "set_tool_output_mode", "set_tool_digital_input_action", "set_safety_mode_transition_hardness", "set_digital_input_action", "popup_close", "varmsg", "set_joint_limits",
 ]);
 const THREADED = "is followed in real time by the controller's other tasks and cannot be written as steps.";
 const REFUSED: Readonly<Record<string, string>> = Object.fromEntries(
