@@ -159,6 +159,8 @@ export interface Resolution {
   readonly angle_rad?: number;
   /** Joint angles are written as the pose they reach, with the posture. */
   readonly anglesAsPoses?: boolean;
+  /** The robot stands before the language takes another tool: points between two tools are not passed. */
+  readonly stopsAtNewTool?: boolean;
   /** Poses are written as joint angles that reach them. */
   readonly posesAsAngles?: boolean;
 }

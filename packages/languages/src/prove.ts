@@ -178,7 +178,7 @@ function otherwise(wanted: Step, done: Step, next: Step | undefined, { mine, the
   if (!blends(wanted) && blends(done)) return "passes its target without a stop.";
   // Points of one spline are passed as they are.
   const isInSpline = wanted.path === "spline" && next?.type === "move" && next.path === "spline";
-  if (blends(wanted) && !blends(done) && !isInSpline && next?.type === "move" && sameTool(wanted, next)) return "stops at its target.";
+  if (blends(wanted) && !blends(done) && !isInSpline && next?.type === "move" && (resolution.stopsAtNewTool !== true || sameTool(wanted, next))) return "stops at its target.";
   if (wanted.until !== undefined || done.until !== undefined) {
     if (wanted.until === undefined || done.until === undefined || wanted.until.missing !== done.until.missing || !sameCondition(wanted.until.when, done.until.when, mine, theirs)) return "searches otherwise.";
   }

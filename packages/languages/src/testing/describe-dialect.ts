@@ -101,6 +101,18 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
       expectProven(runnable(program), program);
     });
 
+    test("a stop where a point should be passed is seen, between moves of two tools too", () => {
+      const q = [...robot.home_rad], tools: Program["tools"] = { one: { position: [0, 0, 0.1], quaternion: [0, 0, 0, 1] }, two: { position: [0, 0, 0.2], quaternion: [0, 0, 0, 1] } };
+      const move = (id: string, tool: string, turn_rad: number, blend_m: number): MoveStep => ({ id, type: "move", path: "ptp", target: { q: q.map((angle, i) => i === 0 ? angle + turn_rad : angle), tool }, speed: { ratio: 0.5 }, blend_m });
+      const across = (second: string, blend_m: number): Program => ({ ...emptyProgram(robot.id), tools, steps: [move("a", "one", 0.1, 0), move("b", "one", 0.3, blend_m), move("c", second, 0.2, 0)] });
+      for (const second of ["one", "two"]) {
+        expectProven(runnable(across(second, 0.01)), across(second, 0.01));
+        const stopping = proveText(dialect, runnable(across(second, 0)), across(second, 0.01), robot, worldFromBase);
+        if (second === "two" && dialect.resolution?.stopsAtNewTool === true) expect(stopping.kind).toBe("proven");
+        else expect(stopping.sentence).toMatch(/stops at its target\.$/);
+      }
+    });
+
     test("another robot is refused with a sentence", () => {
       const stranger: Robot = { ...robot, id: "stranger", name: "Stranger" };
       expect(dialect.emit(random(1), stranger).kind).toBe("cannot");

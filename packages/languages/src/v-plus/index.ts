@@ -13,6 +13,8 @@ export const vPlus: Dialect = skippingDialect({
   extensions: [".v2", ".pg", ".vp", ".txt"],
   maturity: "proven",
   cannot: CANNOT,
+  // TOOL is carried out when the motion before it has ended.
+  resolution: { stopsAtNewTool: true },
   emit: (program, robot, worldFromBase = identity()) => emitVPlus(program, robot, worldFromBase),
   parse: (text, robot, worldFromBase = identity()) => parseVPlus(text, robot, worldFromBase),
   interpret: (text, robot, worldFromBase = identity()) => interpretVPlus(text, robot, worldFromBase),
