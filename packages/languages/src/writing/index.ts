@@ -6,3 +6,4 @@ export * from "./place.ts";
 export * from "./walk.ts";
 export * from "./steps.ts";
 export * from "./pattern.ts";
+export * from "./split.ts";

@@ -28,7 +28,9 @@ export abstract class StepWriter {
     for (const [i, step] of steps.entries()) {
       this.heading(step);
       // Nobody stops for a remark.
-      this.step(step, steps.slice(i + 1).find(({ type }) => type !== "comment"));
+      let next = i + 1;
+      while (steps[next]?.type === "comment") next++;
+      this.step(step, steps[next]);
       if (step.type !== "comment" && step.type !== "wait") this.before = step.type === "move" ? step : undefined;
     }
     this.group = outer;
