@@ -44,6 +44,19 @@ const PROGRAMS: readonly Program[] = [
 ];
 const right = PROGRAMS.map(program => dialect.emit(program, robot, worldFromBase));
 
+/** What people called steps and groups, and which belong together. */
+const titles = (program: Program): string => JSON.stringify(Array.from(everyStep(program), ({ name, group }) => [name, group === undefined ? undefined : program.groups[group]?.name]));
+const read: (Program | undefined)[] = [];
+/** What is read of the right text. */
+function readRight(i: number): Program | undefined {
+  const wanted = right[i]!;
+  if (read[i] === undefined && wanted.kind === "emitted") {
+    const parsed = dialect.parse(runnableFile(dialect, wanted.files)!.text, robot, worldFromBase);
+    if (parsed.kind === "parsed") read[i] = parsed.program;
+  }
+  return read[i];
+}
+
 async function judged(order: Order): Promise<Verdict> {
   sources.set(order.id, order);
   let faulty: Dialect;
@@ -72,6 +85,7 @@ async function judged(order: Order): Promise<Verdict> {
       if (proof.steps.some(({ id, line }) => file.lines[line - 1] !== id)) return { kind: "killed", by: "lines of another step" };
       const parsed = dialect.parse(file.text, robot, worldFromBase);
       if (parsed.kind === "not-understood") return { kind: "killed", by: "cannot be read back" };
+      if (titles(parsed.program) !== titles(readRight(i)!)) return { kind: "killed", by: "names or groups are lost" };
       const again = faulty.emit(parsed.program, robot, worldFromBase);
       if (again.kind === "cannot" || runnableFile(faulty, again.files)!.text !== file.text) return { kind: "killed", by: "read back, it is another text" };
       if (survived.kind === "same text") survived = { kind: "survived", text: difference(wanted.files[Math.max(0, differs)]!.text, emitted.files[Math.max(0, differs)]!.text) };

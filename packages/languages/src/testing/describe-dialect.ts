@@ -64,6 +64,14 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
       expectProven(first, program);
     });
 
+    test("names of steps and groups come back from the text", () => {
+      const titles = (program: Program): unknown[] => program.steps.map(({ name, group }) => [name, group === undefined ? undefined : program.groups[group]?.name]);
+      for (const seed of SEEDS) {
+        const plain = randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths, cannot, ...(bench.branches === undefined ? {} : { branches: bench.branches }) });
+        expect(titles(parse(runnable(plain).text))).toEqual(titles(plain));
+      }
+    });
+
     test("an empty program is a text that does nothing", () => {
       expect(parse(runnable(emptyProgram(robot.id)).text).steps).toEqual([]);
     });
