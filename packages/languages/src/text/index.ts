@@ -7,3 +7,4 @@ export * from "./rehearse.ts";
 export * from "./line-cursor.ts";
 export * from "./jumps.ts";
 export * from "./skip.ts";
+export * from "./naming.ts";

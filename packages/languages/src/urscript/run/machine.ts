@@ -1,5 +1,5 @@
 import { type Executed, type MoveStep, type Pose, type Robot, type Signals, type Speed, type Step, type Target, type TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError, nameIn } from "../../text/index.ts";
 import { BlockMachine, type Do, type Expression, type Flow, type WaitUntil } from "../../text/structured/index.ts";
 import type { Source } from "../read/grammar.ts";
 import { ControllerArm } from "./arm.ts";
@@ -245,7 +245,7 @@ export class Machine extends BlockMachine<Value> {
     const pose = asPose(args.required(0, "pose"), at), given = args.given(0, "pose");
     this.arm.tcp = matrixOf(pose.six);
     this.hasTool = true;
-    this.tool = pose.six.every(x => x === 0) ? "flange" : named(this.surroundings.tools, toPose(this.arm.tcp), given.kind === "variable" && given.name !== "flange" ? given.name : "tool");
+    this.tool = pose.six.every(x => x === 0) ? "flange" : nameIn(this.surroundings.tools, toPose(this.arm.tcp), given.kind === "variable" && given.name !== "flange" ? given.name : "tool", "_");
   }
 
   private payload(args: Arguments, id: string): Step {
@@ -307,15 +307,5 @@ export class Machine extends BlockMachine<Value> {
     }
     if (typeof goal !== "object") throw new TextError(at, "a pose or joint angles", `${kindOf(goal)} is no place to move to.`);
     this.arm.atPose(asPose(goal, at));
-  }
-}
-
-/** A tool met before keeps its name; two tools never share one. */
-export function named<T>(table: Record<string, T>, value: T, wanted: string): string {
-  const text = JSON.stringify(value);
-  for (let i = 1; ; i++) {
-    const name = i === 1 ? wanted : `${wanted}_${i}`, known = Object.hasOwn(table, name) ? table[name] : undefined;
-    if (known === undefined) table[name] = value;
-    if (known === undefined || JSON.stringify(known) === text) return name;
   }
 }
