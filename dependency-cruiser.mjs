@@ -2,7 +2,7 @@
  * Who may use what. Three floors: core knows nobody, the middle floor knows core and none of its neighbours,
  * apps join things. This table is the whole truth; there is no list of exceptions.
  */
-const middle = ["languages", "controllers", "formats", "recording", "project"];
+const middle = ["languages", "controllers", "formats", "recording", "physics", "project", "messages"];
 const packages = ["core", ...middle];
 const mayUse = { core: [], ...Object.fromEntries(middle.map(name => [name, ["core"]])) };
 
@@ -12,8 +12,10 @@ const mayInstall = {
   languages: [],
   controllers: [],
   formats: ["saxes", "xmlchars", "yaml"],
-  recording: ["@mcap/", "@foxglove/"],
+  recording: ["@mcap/", "@foxglove/", "@bokuweb/zstd-wasm"],
+  physics: ["@mujoco/mujoco"],
   project: ["zod"],
+  messages: ["zod"],
 };
 const any = names => names.join("|");
 const test = "[.]test[.]tsx?$|/testing/";
@@ -44,12 +46,13 @@ export default {
     {
       name: "vendors-are-strangers", severity: "error",
       comment: "brands and dialects meet only in the port above them and in the shared folders named here",
-      from: { path: "^packages/(controllers|languages)/src/([^/]+)/", pathNot: "/src/(text|writing|transport|guard|twin|testing)/" },
-      to: { path: "^packages/(controllers|languages)/src/[^/]+/", pathNot: "^packages/[^/]+/src/($2|text|writing|transport|guard|twin|testing)/" },
+      from: { path: "^packages/(controllers|languages)/src/([^/]+)/", pathNot: "/testing/" },
+      to: { path: "^packages/(controllers|languages)/src/[^/]+/", pathNot: "^packages/[^/]+/src/($2|text|writing|transport|guard|twin|virtual|real|runner|testing)/" },
     },
     {
       name: "driver-and-virtual-are-strangers", severity: "error", comment: "they share the codec and nothing else",
-      from: { path: "/(driver|virtual)[.]ts$" }, to: { path: "/(driver|virtual)[.]ts$", pathNot: "index[.]ts$" },
+      from: { path: "^packages/controllers/src/([^/]+)/(driver|virtual)(/|[.]ts$)", pathNot: "[.]test[.]ts$" },
+      to: { path: "^packages/controllers/src/$1/(driver|virtual)(/|[.]ts$)", pathNot: "^packages/controllers/src/$1/$2(/|[.]ts$)" },
     },
     {
       name: "features-are-strangers", severity: "error", comment: "features meet in stores/ or in packages/",

@@ -1,3 +1,6 @@
 export { serve, type Served, type ServeOptions } from "./serve.ts";
 export { lanAddresses } from "./lan.ts";
 export { nodeNetwork } from "./sockets/node-network.ts";
+export { nodeScheduler } from "./clock.ts";
+export { stationHost } from "./stations/host.ts";
+export { newFile, recordingFile, recordingsFolder } from "./files/recordings-folder.ts";

@@ -3,6 +3,9 @@ import { createServer as createHttps } from "node:https";
 import type { AddressInfo } from "node:net";
 import { accessCode, askForCode, type AccessCode } from "./access.ts";
 import { certificate, lanAddresses } from "./lan.ts";
+import { nodeScheduler } from "./clock.ts";
+import { stationHost } from "./stations/host.ts";
+import { stationSocket } from "./stations/socket.ts";
 import { staticFiles } from "./static-files.ts";
 
 export interface ServeOptions {
@@ -16,6 +19,8 @@ export interface ServeOptions {
   readonly lan?: boolean;
   /** Address to listen on; by default loopback, or every address with `lan`. */
   readonly host?: string;
+  /** What the studio is told it speaks with. */
+  readonly version?: string;
 }
 export interface Served {
   readonly url: string;
@@ -43,6 +48,8 @@ export async function serve(options: ServeOptions): Promise<Served> {
     server.once("error", reject);
     server.listen(options.port, options.host ?? (options.lan ? "0.0.0.0" : "127.0.0.1"), resolve);
   });
+  const stations = stationHost(nodeScheduler, options.version ?? "");
+  const socket = stationSocket(server, stations, request => isServed(hosts, request) && (access === null || access.enter(request.headers.cookie, null).kind === "welcome"));
   const port = (server.address() as AddressInfo).port;
   const scheme = options.lan ? "https" : "http";
   const query = access ? `/?code=${access.code}` : "/";
@@ -50,9 +57,11 @@ export async function serve(options: ServeOptions): Promise<Served> {
     url: `${scheme}://127.0.0.1:${port}${query}`,
     lanUrls: addresses.map(address => `${scheme}://${address}:${port}${query}`),
     code: access?.code ?? null,
-    close: () => new Promise(resolve => { server.closeAllConnections(); server.close(() => { resolve(); }); }),
+    close: () => new Promise(resolve => { stations.close(); socket.close(); server.closeAllConnections(); server.close(() => { resolve(); }); }),
   };
 }
+
+const isServed = (hosts: ReadonlySet<string>, request: IncomingMessage): boolean => hosts.has((request.headers.host ?? "").replace(/:\d+$/, ""));
 
 function studioListener(files: ReturnType<typeof staticFiles>, hosts: ReadonlySet<string>, access: AccessCode | null): RequestListener {
   return (request, response) => {
@@ -69,7 +78,7 @@ function studioListener(files: ReturnType<typeof staticFiles>, hosts: ReadonlySe
       response.end(request.method === "HEAD" ? undefined : text);
     };
     // A page elsewhere that points its own name at this machine must not be served.
-    if (!hosts.has((request.headers.host ?? "").replace(/:\d+$/, ""))) { say(421, "This address is not served here.\n"); return; }
+    if (!isServed(hosts, request)) { say(421, "This address is not served here.\n"); return; }
     if (request.method !== "GET" && request.method !== "HEAD") { say(405, "Only reading is possible here.\n", { allow: "GET, HEAD" }); return; }
     let url: URL, path: string;
     try {

@@ -29,6 +29,8 @@ import "./app.css";
 const Viewport = lazy(() => import("./scene/Viewport.tsx").then(scene => ({ default: scene.Viewport })));
 const Export = lazy(() => import("./features/export/Export.tsx"));
 const Robots = lazy(() => import("./features/robots/Robots.tsx"));
+const AddStation = lazy(() => import("./features/stations/AddStation.tsx"));
+const Stations = lazy(() => import("./features/stations/Stations.tsx").then(part => ({ default: part.Stations })));
 const Run = lazy(() => import("./features/run/Run.tsx"));
 const History = lazy(() => import("./features/history/History.tsx"));
 const Rewind = lazy(() => import("./features/history/Rewind.tsx"));
@@ -59,6 +61,7 @@ export function App() {
         <ControlsDialog />
         <Suspense><Export /></Suspense>
         <Suspense><Robots /></Suspense>
+        <Suspense><AddStation /></Suspense>
         <Files />
         <Shortcuts />
         <GamepadWatch />
@@ -74,7 +77,7 @@ function RightSide() {
   switch (mode) {
     case "teach": return <>{tracing && <TracePanel />}<Pendant /><SavedPoses /><Inspector /></>;
     case "check": return <><Check /><Inspector /></>;
-    case "run": return <Suspense><Run /></Suspense>;
+    case "run": return <Suspense><Run /><Stations /></Suspense>;
     case "history": return <Suspense><History /></Suspense>;
   }
 }

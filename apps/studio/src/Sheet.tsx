@@ -13,6 +13,7 @@ import { showMode, viewStore, type SheetTab, type StudioMode } from "./stores/vi
 import { Segments } from "./ui/Choice.tsx";
 import { words } from "./words/index.ts";
 
+const Stations = lazy(() => import("./features/stations/Stations.tsx").then(part => ({ default: part.Stations })));
 const Run = lazy(() => import("./features/run/Run.tsx"));
 const History = lazy(() => import("./features/history/History.tsx"));
 const Rewind = lazy(() => import("./features/history/Rewind.tsx"));
@@ -29,7 +30,7 @@ export function Sheet() {
       <Tabs.Content value="jog" className="scroll sheet-body" tabIndex={-1}>{tracing && <TracePanel />}<Pendant /><SavedPoses /></Tabs.Content>
       <Tabs.Content value="program" className="sheet-body sheet-program" tabIndex={-1}><Tree /><div className="scroll"><Inspector /></div></Tabs.Content>
       <Tabs.Content value="why" className="scroll sheet-body" tabIndex={-1}><Check /><Timeline /></Tabs.Content>
-      <Tabs.Content value="run" className="scroll sheet-body" tabIndex={-1}><Suspense><Segments label={words.mode.label} value={mode === "history" ? "history" : "run"} onChange={showMode} options={[{ value: "run", words: words.mode.run }, { value: "history", words: words.mode.history }]} className="seg fill sheet-seg" />{mode === "history" ? <><Rewind /><History /></> : <><Run /><Timeline /></>}</Suspense></Tabs.Content>
+      <Tabs.Content value="run" className="scroll sheet-body" tabIndex={-1}><Suspense><Segments label={words.mode.label} value={mode === "history" ? "history" : "run"} onChange={showMode} options={[{ value: "run", words: words.mode.run }, { value: "history", words: words.mode.history }]} className="seg fill sheet-seg" />{mode === "history" ? <><Rewind /><History /></> : <><Run /><Stations /><Timeline /></>}</Suspense></Tabs.Content>
     </Tabs.Root>
   );
 }

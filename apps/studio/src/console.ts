@@ -21,13 +21,14 @@ import { postStore } from "./stores/post.ts";
 import { seek } from "./stores/seek.ts";
 import { selectionStore } from "./stores/selection.ts";
 import { soundStore } from "./stores/sound.ts";
+import { stationStore } from "./stores/stations.ts";
 import { traceStore } from "./stores/trace.ts";
 import { viewStore } from "./stores/view.ts";
 import { watchStore } from "./stores/watch.ts";
 
 /** What the browser's console and tests can reach: every store, the live state, and the commands by name. */
 const twincell = {
-  stores: { aidStore, bindingStore, cellStore, commandStore, controlStore, dialogStore, foreignStore, gamepadStore, historyStore, jogStore, languageStore, noticeStore, playStore, postStore, selectionStore, soundStore, traceStore, viewStore, watchStore },
+  stores: { aidStore, bindingStore, cellStore, commandStore, controlStore, dialogStore, foreignStore, gamepadStore, historyStore, jogStore, languageStore, noticeStore, playStore, postStore, selectionStore, soundStore, stationStore, traceStore, viewStore, watchStore },
   live: { now: theLive, touching: touchingNow, showJoints, hold, release, releaseAll, playhead: playheadNow, link: linkMeter },
   document: { commit, undo, redo, show: showDocument, open: openCellText },
   run: runCommand, seek,

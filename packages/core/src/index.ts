@@ -14,3 +14,4 @@ export * from "./paths/index.ts";
 export * from "./program/index.ts";
 export * from "./teach/index.ts";
 export * from "./calibration/index.ts";
+export * from "./physical/index.ts";

@@ -1,4 +1,6 @@
 import type { Robot } from "./robots/robot.ts";
+import type { GraspSignal } from "./physical/grasp.ts";
+import type { PhysicalScene } from "./physical/scene.ts";
 import type { Pose } from "./spatial/pose.ts";
 import type { Capability } from "./program/capabilities.ts";
 import type { Program, Step } from "./program/program.ts";
@@ -29,6 +31,8 @@ export interface JointSample {
   /** The controller's own time [s]. */
   readonly time_s: number;
   readonly q_rad: Float64Array;
+  /** What the controller commands at that time, where it says so. Lent like the rest. */
+  readonly target_rad?: Float64Array;
   readonly moving: boolean;
   readonly mode: OperatingMode;
   readonly safety: SafetyState;
@@ -99,6 +103,40 @@ export interface RobotController extends StateSource {
   readonly signals?: Signals;
   /** Virtual robots only (row T-18). */
   readonly jumpTo?: (q_rad: ArrayLike<number>) => CommandOutcome;
+}
+
+/** How the connection to a real robot is: connecting tries again by itself, with growing pauses; only a person closes it. */
+export type LinkState = "closed" | "connecting" | "open" | "lost";
+export interface LinkReport {
+  readonly state: LinkState;
+  /** Why it is as it is, in words; "" while it is open. */
+  readonly sentence: string;
+  /** Tries since it was last open. */
+  readonly attempts: number;
+  /** Samples that came per second, over the last second. */
+  readonly rate_Hz: number;
+  /** How much later than the fastest one the last sample came [s]; with `roundTrip_s` the age of what is shown. */
+  readonly late_s: number;
+  /** From a question to its answer [s]; NaN where the protocol asks nothing. */
+  readonly roundTrip_s: number;
+  /** Samples that the controller's own count or clock says are missing, since it was last opened. */
+  readonly missing: number;
+}
+/** What stops the robot when nobody commands it any more: its own controller, or nothing on its side. */
+export type Watchdog = { readonly kind: "robot"; readonly within_s: number } | { readonly kind: "none"; readonly because: string };
+
+/** A robot on a wire (rows T-19 … T-22). Its commands are refused while the link is not open; nothing here waits for the wire. */
+export interface RealController extends RobotController {
+  readonly kind: "real";
+  readonly isConnected: boolean;
+  readonly link: LinkReport;
+  readonly watchdog: Watchdog;
+  /** Resolves with the first answer: open, or why not. A lost link is opened again without being asked; motion is not. */
+  connect(): Promise<CommandOutcome>;
+  disconnect(): void;
+  onLink(listen: (report: LinkReport) => void): () => void;
+  /** Hands the controller a program in its own language and runs it there to its end. */
+  readonly runText?: (files: readonly EmittedFile[]) => Promise<CommandOutcome>;
 }
 
 /** A place in a text, counted from 1. */
@@ -202,4 +240,51 @@ export interface Dialect {
   parse(text: string, robot: Robot, worldFromBase?: Pose<"world", "base">, options?: ReadOptions): Parsed;
   /** Executes the text with the vendor's own conventions. Written independently of `emit`. */
   interpret(text: string, robot: Robot, worldFromBase?: Pose<"world", "base">, options?: ReadOptions): Interpreted;
+}
+
+/** What the arm and its gripper are told for the next step of a physical cell. */
+export interface DynamicsCommand {
+  /** Where the joints are to be at its end, how fast and with which acceleration [rad, rad/s, rad/s²]. */
+  readonly q_rad: ArrayLike<number>;
+  readonly qd_rad_s: ArrayLike<number>;
+  readonly qdd_rad_s2: ArrayLike<number>;
+  readonly gripperClosed: boolean;
+}
+
+/** A physical cell at one instant. Lent: overwritten by the next step. */
+export interface DynamicsState {
+  readonly time_s: number;
+  readonly q_rad: Float64Array;
+  readonly qd_rad_s: Float64Array;
+  /** What the drives give [N m]. */
+  readonly torque_Nm: Float64Array;
+  /** Between the fingers [m]; 0 without a gripper. */
+  readonly opening_m: number;
+  /** Seven numbers of each part: x y z [m], quaternion x y z w. */
+  readonly parts: Float64Array;
+  readonly grasp: readonly GraspSignal[];
+}
+
+/** Why a physical cell does not go on: the state before it is kept, and no number of it is ever NaN. */
+export type DynamicsOutcome = { readonly kind: "running" } | { readonly kind: "paused"; readonly why: Refusal };
+
+/**
+ * Bodies with mass that touch: an arm, its gripper, parts, belts, sensors. One step after the other, without a clock; the
+ * same scene, commands and engine give the same states to the last bit.
+ */
+export interface Dynamics {
+  readonly scene: PhysicalScene;
+  readonly step_s: number;
+  /** Ids of the parts, in the order of `DynamicsState.parts`. */
+  readonly parts: readonly string[];
+  readonly masses_kg: readonly number[];
+  readonly state: DynamicsState;
+  /** The lines of belts are read from here and those of sensors written to it. */
+  readonly signals: Signals;
+  step(command: DynamicsCommand): DynamicsOutcome;
+  /** Puts a part somewhere, at rest: a feeder, a shuffled start. */
+  place(part: string, worldFromPart: Pose<"world", "object">): void;
+  /** Everything as it was at the start. */
+  reset(): void;
+  close(): void;
 }

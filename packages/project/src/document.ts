@@ -1,4 +1,4 @@
-import type { Pose, Program, Vector3 } from "@twincell/core";
+import type { Belt, Gripper, PeopleZone, Person, Pose, Program, Sensor, Vector3 } from "@twincell/core";
 
 /** How a solid is described in a saved cell. Origin and axes are the object's own frame, z up. */
 export type Shape =
@@ -16,6 +16,8 @@ export interface ToolRecord {
   readonly flangeFromTcp: Pose<"flange", "tcp">;
   /** In the flange frame. */
   readonly shape?: Shape;
+  /** Fingers that close around the TCP, for the simulation with physics. */
+  readonly gripper?: Omit<Gripper, "name" | "flangeFromGrip">;
 }
 
 export interface ObjectRecord {
@@ -28,6 +30,13 @@ export interface ObjectRecord {
   readonly color: string;
   /** What may stand on it, as its maker says: the robot with its load is held against it. */
   readonly carries_kg?: number;
+  /** What it weighs; of a work piece, for the simulation with physics (row X-55). */
+  readonly mass_kg?: number;
+  /** Coulomb's coefficient of its surface, and the time in which a contact gives way [s] (row X-16). */
+  readonly friction?: number;
+  readonly softness_s?: number;
+  /** It moves what lies on it. */
+  readonly belt?: Belt;
 }
 
 /** A user frame; `saved`: a pose of the tool tip that a person saved, to go through it later (rows L-44 … L-49). */
@@ -46,6 +55,10 @@ export interface CellDocument {
   readonly frames: readonly FrameRecord[];
   /** Pairs of solids that may touch, by object id, "tool" or "link n". */
   readonly allowedPairs: readonly (readonly [string, string])[];
+  /** What the simulation with physics watches and lets walk; none when left out. */
+  readonly sensors?: readonly Sensor[];
+  readonly people?: readonly Person[];
+  readonly zones?: readonly PeopleZone[];
   readonly programs: readonly Program[];
   /** Name of the program being worked on. */
   readonly program: string;

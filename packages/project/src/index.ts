@@ -3,6 +3,7 @@ export * from "./open.ts";
 export * from "./save.ts";
 export * from "./programs.ts";
 export * from "./coords.ts";
+export * from "./physical.ts";
 export * from "./history.ts";
 export * from "./mesh/index.ts";
 export * from "./example/index.ts";

@@ -33,13 +33,31 @@ const shape = z.discriminatedUnion("kind", [
   }),
 ]);
 
+const point = z.tuple([number, number, number]);
+const floor = z.array(z.tuple([number, number]));
+const belt = z.strictObject({ direction: point, speed_mps: number, runs: z.exactOptional(z.strictObject({ signal: text, is: z.boolean() })) });
+const gripper = z.strictObject({
+  open_m: length_m, closed_m: z.number().nonnegative(), force_N: z.number().positive(), finger_m: z.tuple([length_m, length_m, length_m]), beyond_m: z.number().nonnegative(),
+  speed_mps: z.number().positive(), friction: z.number().nonnegative().max(10), mass_kg: z.number().positive(),
+});
+const sensed = { id: text, name: text, signal: text, sees: z.array(z.enum(["part", "robot", "person"])), stops: z.exactOptional(z.literal(true)) };
+const sensor = z.discriminatedUnion("kind", [
+  z.strictObject({ ...sensed, kind: z.literal("beam"), from_m: point, to_m: point }),
+  z.strictObject({ ...sensed, kind: z.literal("proximity"), at_m: point, range_m: length_m }),
+]);
+const person = z.strictObject({ id: text, name: text, path_m: floor.min(1), speed_mps: z.number().nonnegative(), starts_s: z.number().nonnegative(), height_m: length_m });
+const zone = z.strictObject({
+  id: text, name: text, outline_m: floor.min(3),
+  reaction: z.discriminatedUnion("kind", [z.strictObject({ kind: z.literal("slow"), override: z.number().positive().max(1) }), z.strictObject({ kind: z.literal("stop") })]),
+});
+
 /** Version 1 of the cell file. The programs inside have their own door: core's `parseProgram`. */
 export const cellSchema = z.strictObject({
   format: z.literal("twincell.cell"),
   version: z.literal(1),
   name: z.string(),
   robot: z.strictObject({ id: text, worldFromBase: poseOf<"world", "base">() }),
-  tools: z.array(z.strictObject({ name: text, flangeFromTcp: poseOf<"flange", "tcp">(), shape: z.exactOptional(shape) })),
+  tools: z.array(z.strictObject({ name: text, flangeFromTcp: poseOf<"flange", "tcp">(), shape: z.exactOptional(shape), gripper: z.exactOptional(gripper) })),
   tool: text,
   objects: z.array(z.strictObject({
     id: text, name: text,
@@ -48,9 +66,12 @@ export const cellSchema = z.strictObject({
     shape,
     color: z.string().regex(/^#[0-9a-f]{6}$/i, "a colour is written #rrggbb"),
     carries_kg: z.exactOptional(z.number().positive()),
+    mass_kg: z.exactOptional(z.number().positive()), friction: z.exactOptional(z.number().nonnegative().max(10)), softness_s: z.exactOptional(z.number().positive()),
+    belt: z.exactOptional(belt),
   })),
   frames: z.array(z.strictObject({ name: text, worldFromFrame: poseOf<"world", "frame">(), saved: z.exactOptional(z.literal(true)) })),
   allowedPairs: z.array(z.tuple([text, text])),
+  sensors: z.exactOptional(z.array(sensor)), people: z.exactOptional(z.array(person)), zones: z.exactOptional(z.array(zone)),
   programs: z.array(z.unknown()),
   program: z.string(),
 });

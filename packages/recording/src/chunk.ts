@@ -1,5 +1,6 @@
 import { crc32 } from "@foxglove/crc";
 import { Opcode, McapRecordBuilder, type ChunkIndex } from "@mcap/core";
+import type { Packing } from "./packing.ts";
 
 const TWO_32 = 2 ** 32;
 /** Opcode, length, channel, sequence, log time, publish time. */
@@ -70,12 +71,13 @@ export class OpenChunk {
    * Ends the chunk; it is empty afterwards.
    *
    * @param position  where in the file the pieces will stand, one after the other.
+   * @param packing   packs the messages; left out, they stand as they are.
    */
-  close(position: number): { readonly pieces: readonly Uint8Array[]; readonly index: ChunkIndex } {
+  close(position: number, packing?: Packing): { readonly pieces: readonly Uint8Array[]; readonly index: ChunkIndex } {
     const records = this.bytes.subarray(0, this.length), size = BigInt(this.length);
     const times = { messageStartTime: this.#startedAt_ns + BigInt(this.first_ns), messageEndTime: this.#startedAt_ns + BigInt(this.last_ns) };
-    const builder = new McapRecordBuilder();
-    const chunkLength = builder.writeChunk({ ...times, uncompressedSize: size, uncompressedCrc: crc32(records), compression: "", records });
+    const builder = new McapRecordBuilder(), stored = packing ? packing.pack(records) : records, compression = packing?.name ?? "";
+    const chunkLength = builder.writeChunk({ ...times, uncompressedSize: size, uncompressedCrc: crc32(records), compression, records: stored });
     const pieces: Uint8Array[] = [builder.buffer];
     const messageIndexOffsets = new Map<number, bigint>(), indexStart = position + builder.length;
     let indexLength = 0;
@@ -95,7 +97,7 @@ export class OpenChunk {
     this.messages = 0;
     return {
       pieces,
-      index: { ...times, chunkStartOffset: BigInt(position), chunkLength, messageIndexOffsets, messageIndexLength: BigInt(indexLength), compression: "", compressedSize: size, uncompressedSize: size },
+      index: { ...times, chunkStartOffset: BigInt(position), chunkLength, messageIndexOffsets, messageIndexLength: BigInt(indexLength), compression, compressedSize: BigInt(stored.length), uncompressedSize: size },
     };
   }
 

@@ -1,11 +1,15 @@
 import type { JointSample, Refusal, Robot } from "@twincell/core";
-import { crc32Final, crc32Init, crc32Update } from "@foxglove/crc";
-import { McapRecordBuilder, Opcode, type Channel, type ChunkIndex, type Schema } from "@mcap/core";
+import type { Channel, Schema } from "@mcap/core";
 import { OpenChunk } from "./chunk.ts";
-import { JOINT_STATE_SCHEMA, jointStateTemplate } from "./joint-state.ts";
+import { createDigester, type Digest, type OpenCycle } from "./digest.ts";
+import { jointStateTemplate } from "./joint-state.ts";
+import { mcapFile, recordsOf } from "./mcap-file.ts";
+import type { Note, NoteKind, Notes } from "./notes.ts";
+import type { Packing } from "./packing.ts";
 import type { ByteSink } from "./sink.ts";
-import { copyState, EVENT_SCHEMA, LEVELS, sameState, STATE_SCHEMA, type EventLevel, type RobotState } from "./state.ts";
+import { copyState, LEVELS, sameState, type EventLevel, type RobotState } from "./state.ts";
 import { utf8Bytes } from "./text.ts";
+import { CHANNEL, DIGEST_METADATA, RUN_METADATA, TOPICS } from "./topics.ts";
 
 export interface RunHeader {
   readonly robot: Robot;
@@ -17,161 +21,200 @@ export interface RunHeader {
   readonly chunkBytes?: number;
   /** … or spans this much time: what a crash can cost. */
   readonly chunk_s?: number;
+  /** For hours and days; left out, every sample is kept as it is. */
+  readonly compact?: Compact;
+  /** The cycle that was under way when the file before this one ended; its times count from the start of this file. */
+  readonly cycle?: OpenCycle | null;
+}
+
+/** Joints are kept to 2⁻²⁰ rad (or m): below 10⁻⁶, and the rest of the number is zeros that pack to nothing. */
+export const QUANTUM = 2 ** -20;
+
+export interface Compact {
+  readonly packing: Packing;
+  /**
+   * Of samples in which no joint leaves this band about the last one kept, and nothing else changes, only the first and the
+   * last of each chunk are kept [rad, or m]. By default half a quantum, so that nothing is lost but repetition.
+   */
+  readonly still?: number;
 }
 
 export interface RunRecorder {
   /** Allocates nothing while a chunk is open. */
   record(sample: JointSample): void;
   event(kind: string, sentence: string, level?: EventLevel): void;
+  /** Commands, alarms, what people did, latencies, loads, the cell's version. Lines in and out come with the samples. */
+  note<K extends NoteKind>(kind: K, what: Notes[K]): void;
   /** Closes the open chunk now, so that a crash after this costs nothing before it. */
   flush(): void;
   /** Writes the index that makes the file quick to open. Nothing is recorded after it. */
   finish(): void;
   readonly samples: number;
+  /** Time of the last sample since the first [s]. */
+  readonly duration_s: number;
+  /** The cycle that is under way, for the file that follows. */
+  readonly cycle: OpenCycle | null;
   /** Why recording ended early: the sink took no more. What was written until then can be read. */
   readonly problem: Refusal | null;
 }
 
-export const CHANNELS = { joints: 0, state: 1, events: 2 } as const;
-export const TOPICS = ["/joint_states", "/robot_state", "/events"] as const;
-/** Key of the channel metadata and name of the metadata record that say which run this is. */
-export const RUN_METADATA = "twincell.run";
+/** In a compact recording schemas and channels are repeated this often; elsewhere in every chunk. */
+const REPEAT_NS = 60e9;
 
 /**
- * Records a run to MCAP. Every chunk repeats schemas, channels and the state of the robot, so each can be read without
- * the others: whatever happens to the file, a damaged or missing chunk costs itself and nothing else.
+ * Records a run to MCAP. Every chunk begins with the state of the robot and its lines, so each can be read without the
+ * others: whatever happens to the file, a damaged or missing chunk costs itself and nothing else.
  */
 export function createRunRecorder(sink: ByteSink, header: RunHeader): RunRecorder {
-  const { robot, startedAt_ns } = header, n = robot.arm.joints.length;
-  const chunkBytes = header.chunkBytes ?? 128 * 1024, chunk_ns = (header.chunk_s ?? 1) * 1e9;
+  const { robot, startedAt_ns, compact } = header, n = robot.arm.joints.length;
+  const chunkBytes = header.chunkBytes ?? 128 * 1024, chunk_ns = (header.chunk_s ?? 1) * 1e9, still = compact ? Math.max(compact.still ?? 0, QUANTUM / 2) : -1;
   const names = robot.arm.joints.map(joint => joint.name), template = jointStateTemplate(robot.frames.base, names);
   const start_s = Number(startedAt_ns / 1_000_000_000n), start_ns = Number(startedAt_ns % 1_000_000_000n);
   const run = new Map([
-    ["version", "1"], ["robot", robot.id], ["robot_name", robot.name], ["program", header.program], ["cell", header.cell],
+    ["version", "2"], ["robot", robot.id], ["robot_name", robot.name], ["program", header.program], ["cell", header.cell],
     ["started_at_ns", startedAt_ns.toString()], ["joints", JSON.stringify(names)],
+    ...(header.cycle ? [["cycle", JSON.stringify(header.cycle)] as const] : []),
   ]);
-  const schemas: Schema[] = [JOINT_STATE_SCHEMA, STATE_SCHEMA, EVENT_SCHEMA].map(({ name, encoding, text }, i) => ({ id: i + 1, name, encoding, data: utf8Bytes(text) }));
-  const channels: Channel[] = ["cdr", "json", "json"].map((messageEncoding, id) => ({ id, schemaId: id + 1, topic: TOPICS[id]!, messageEncoding, metadata: run }));
-  const preamble = recordsOf(builder => {
-    for (const schema of schemas) builder.writeSchema(schema);
-    for (const channel of channels) builder.writeChannel(channel);
-  });
+  const schemas: Schema[] = TOPICS.map(({ schema }, i) => ({ id: i + 1, name: schema.name, encoding: schema.encoding, data: utf8Bytes(schema.text) }));
+  const channels: Channel[] = TOPICS.map(({ topic, messageEncoding }, id) => ({ id, schemaId: id + 1, topic, messageEncoding, metadata: run }));
+  const declarations = channels.map((channel, id) => recordsOf(builder => { builder.writeSchema(schemas[id]!); builder.writeChannel(channel); }));
+  const declaredAt_ns = channels.map(() => -Infinity);
 
-  const chunk = new OpenChunk(chunkBytes + 8192, channels.length, startedAt_ns), indexes: ChunkIndex[] = [];
-  const counts = [0, 0, 0];
-  let state: RobotState | null = null, stateBytes = new Uint8Array(0), firstSample_s = NaN, now_ns = 0, opened_ns = 0, samples = 0;
-  let problem: Refusal | null = null, finished = false, crc = crc32Init(), metadataAt = 0, metadataLength = 0n;
+  const chunk = new OpenChunk(chunkBytes + 8192, channels.length, startedAt_ns), file = mcapFile(sink, { schemas, channels });
+  const digester = createDigester(n, header.cycle ?? null);
+  const kept = new Float64Array(n), seen = new Float64Array(n);
+  let state: RobotState | null = null, stateBytes = new Uint8Array(0), io: ReadonlyMap<string, boolean | number> | null = null, ioBytes = new Uint8Array(0);
+  let firstSample_s = NaN, now_ns = 0, opened_ns = 0, samples = 0, keptOne = false, opening = false, held_ns = -1, heldSequence = 0, finished = false;
 
-  function write(bytes: Uint8Array, inDataSection = true): void {
-    if (problem) return;
-    try {
-      sink.write(bytes);
-    } catch (reason) {
-      problem = {
-        code: "recording.no-room", sentence: `Recording ended after ${sink.position} bytes: ${reason instanceof Error ? reason.message : "the place it is written to takes no more"}`,
-        hint: "Make room, then start a new recording. The part written so far can be opened.",
-      };
-      return;
+  function put(channel: number, sequence: number, data: Uint8Array, at_ns = now_ns): number {
+    if (chunk.length === 0 && !opening) {
+      opening = true;
+      opened_ns = at_ns;
+      if (!compact) declaredAt_ns.fill(-Infinity);
+      if (state && channel !== CHANNEL.state) put(CHANNEL.state, 0, stateBytes, at_ns);
+      if (io && channel !== CHANNEL.io) put(CHANNEL.io, 0, ioBytes, at_ns);
+      opening = false;
     }
-    if (inDataSection) crc = crc32Update(crc, bytes);
-  }
-
-  function put(channel: number, sequence: number, data: Uint8Array): number {
-    if (chunk.length === 0) {
-      opened_ns = now_ns;
-      chunk.raw(preamble);
-      if (state && channel !== CHANNELS.state) put(CHANNELS.state, 0, stateBytes);
+    if (at_ns - declaredAt_ns[channel]! >= REPEAT_NS) {
+      declaredAt_ns[channel] = at_ns;
+      chunk.raw(declarations[channel]!);
     }
-    const at = chunk.message(channel, sequence, now_ns, data.length);
+    const at = chunk.message(channel, sequence, at_ns, data.length);
     chunk.bytes.set(data, at);
-    counts[channel]!++;
+    file.counts[channel]!++;
     return at;
+  }
+  function putJoints(sequence: number, at_ns: number, q: ArrayLike<number>): void {
+    const at = put(CHANNEL.joints, sequence, template.bytes, at_ns), { view } = chunk;
+    const nanoseconds = start_ns + at_ns % 1e9, carry = nanoseconds >= 1e9 ? 1 : 0;
+    view.setInt32(at + template.stampAt, start_s + Math.floor(at_ns / 1e9) + carry, true);
+    view.setUint32(at + template.stampAt + 4, nanoseconds - carry * 1e9, true);
+    for (let i = 0; i < n; i++) view.setFloat64(at + template.positionsAt + 8 * i, q[i]!, true);
+  }
+  /** The last of the samples that were alike: where they ended is known by it. */
+  function putHeld(): void {
+    if (held_ns < 0) return;
+    const at_ns = held_ns;
+    held_ns = -1;
+    putJoints(heldSequence, at_ns, kept);
+    keptOne = true;
   }
 
   function flush(): void {
+    putHeld();
     if (chunk.length === 0) return;
-    const { pieces, index } = chunk.close(sink.position);
-    for (const piece of pieces) write(piece);
-    if (!problem) indexes.push(index);
+    file.chunk(chunk.close(sink.position, compact?.packing));
+    keptOne = false;
   }
-  const flushWhenFull = (): void => { if (chunk.length >= chunkBytes || now_ns - opened_ns >= chunk_ns) flush(); };
+  const flushWhenFull = (): void => { if (chunk.length >= chunkBytes || (chunk.length > 0 && now_ns - opened_ns >= chunk_ns)) flush(); };
+  const json = (value: unknown): Uint8Array<ArrayBuffer> => new Uint8Array(utf8Bytes(JSON.stringify(value)));
 
-  write(recordsOf(builder => { builder.writeMagic(); builder.writeHeader({ profile: "", library: "twincell" }); }));
-  metadataAt = sink.position;
-  write(recordsOf(builder => { metadataLength = builder.writeMetadata({ name: RUN_METADATA, metadata: run }); }));
+  function note<K extends NoteKind>(kind: K, what: Notes[K]): void {
+    putHeld();
+    put(CHANNEL[kind], file.counts[CHANNEL[kind]]!, json(what));
+    digester.note({ ...what, at_s: now_ns / 1e9, kind } as Note);
+    flushWhenFull();
+  }
 
+  file.begin({ name: RUN_METADATA, metadata: run });
   return {
     get samples() { return samples; },
-    get problem() { return problem; },
+    get duration_s() { return now_ns / 1e9; },
+    get problem() { return file.problem; },
+    get cycle() { return digester.open; },
     record(sample) {
-      if (finished || problem) return;
+      if (finished || file.problem) return;
       if (samples++ === 0) firstSample_s = sample.time_s;
       // A clock that jumps back must not make the file run backwards: readers search it by time.
       const at_ns = Math.round((sample.time_s - firstSample_s) * 1e9);
       if (at_ns > now_ns) now_ns = at_ns;
       flushWhenFull();
+      const before = state?.safety ?? "normal";
+      let changed = false;
       if (!state || !sameState(state, sample)) {
+        putHeld();
         state = copyState(sample);
-        stateBytes = new Uint8Array(utf8Bytes(JSON.stringify(state)));
-        put(CHANNELS.state, 0, stateBytes);
+        stateBytes = json(state);
+        put(CHANNEL.state, 0, stateBytes);
+        changed = true;
       }
-      const at = put(CHANNELS.joints, sample.sequence, template.bytes), { view } = chunk;
-      const nanoseconds = start_ns + now_ns % 1e9, carry = nanoseconds >= 1e9 ? 1 : 0;
-      view.setInt32(at + template.stampAt, start_s + Math.floor(now_ns / 1e9) + carry, true);
-      view.setUint32(at + template.stampAt + 4, nanoseconds - carry * 1e9, true);
-      for (let i = 0; i < n; i++) view.setFloat64(at + template.positionsAt + 8 * i, sample.q_rad[i]!, true);
+      if (sample.signals !== undefined && !(io && sameLines(io, sample.signals)) && (io !== null || sample.signals.size > 0)) {
+        putHeld();
+        io = new Map(sample.signals);
+        ioBytes = json({ signals: Object.fromEntries(io) });
+        put(CHANNEL.io, 0, ioBytes);
+        changed = true;
+      }
+      if (compact) for (let i = 0; i < n; i++) seen[i] = Math.round(sample.q_rad[i]! / QUANTUM) * QUANTUM;
+      const q = compact ? seen : sample.q_rad;
+      digester.sample(now_ns / 1e9, q, sample);
+      if (keptOne && !changed && still >= 0 && within(kept, q, still)) {
+        held_ns = now_ns;
+        heldSequence = sample.sequence;
+      } else {
+        putHeld();
+        putJoints(sample.sequence, now_ns, q);
+        kept.set(q);
+        keptOne = true;
+      }
+      if (sample.safety !== before) {
+        const active = sample.safety !== "normal";
+        note("alarm", { code: `safety.${active ? sample.safety : before}`, active, sentence: active ? sample.message || SAFETY_WORDS[sample.safety] : "Back to normal.", hint: "" });
+      }
     },
     event(kind, sentence, level = "info") {
-      if (finished || problem) return;
+      if (finished || file.problem) return;
+      putHeld();
       const at_ns = startedAt_ns + BigInt(now_ns);
       const timestamp = { sec: Number(at_ns / 1_000_000_000n), nsec: Number(at_ns % 1_000_000_000n) };
-      put(CHANNELS.events, counts[CHANNELS.events]!, utf8Bytes(JSON.stringify({ timestamp, level: LEVELS[level], message: sentence, name: kind, file: "", line: 0 })));
+      put(CHANNEL.events, file.counts[CHANNEL.events]!, utf8Bytes(JSON.stringify({ timestamp, level: LEVELS[level], message: sentence, name: kind, file: "", line: 0 })));
+      digester.event(now_ns / 1e9, kind, level, sentence);
       flushWhenFull();
+    },
+    note(kind, what) {
+      if (finished || file.problem) return;
+      note(kind, what);
     },
     flush,
     finish() {
       if (finished) return;
       flush();
       finished = true;
-      write(recordsOf(builder => { builder.writeDataEnd({ dataSectionCrc: crc32Final(crc) }); }), false);
-      const summaryStart = sink.position;
-      const groups: [Opcode, (builder: McapRecordBuilder) => void][] = [
-        [Opcode.SCHEMA, builder => { for (const schema of schemas) builder.writeSchema(schema); }],
-        [Opcode.CHANNEL, builder => { for (const channel of channels) builder.writeChannel(channel); }],
-        [Opcode.STATISTICS, builder => { builder.writeStatistics(statistics()); }],
-        [Opcode.METADATA_INDEX, builder => { builder.writeMetadataIndex({ name: RUN_METADATA, offset: BigInt(metadataAt), length: metadataLength }); }],
-        [Opcode.CHUNK_INDEX, builder => { for (const index of indexes) builder.writeChunkIndex(index); }],
-      ];
-      const summary = new McapRecordBuilder(), offsets = new McapRecordBuilder();
-      for (const [groupOpcode, fill] of groups) {
-        const from = summary.length;
-        fill(summary);
-        const groupLength = BigInt(summary.length - from);
-        if (groupLength > 0n) offsets.writeSummaryOffset({ groupOpcode, groupStart: BigInt(summaryStart + from), groupLength });
-      }
-      const footer = { summaryStart: BigInt(summaryStart), summaryOffsetStart: BigInt(summaryStart + summary.length), summaryCrc: 0 };
-      // The summary's checksum covers the footer up to the checksum itself.
-      const head = recordsOf(builder => { builder.writeFooter(footer); }).subarray(0, 1 + 8 + 8 + 8);
-      const summaryCrc = crc32Final(crc32Update(crc32Update(crc32Update(crc32Init(), summary.buffer), offsets.buffer), head));
-      write(summary.buffer, false);
-      write(offsets.buffer, false);
-      write(recordsOf(builder => { builder.writeFooter({ ...footer, summaryCrc }); builder.writeMagic(); }), false);
+      const digest: Digest = digester.result();
+      file.end([{ name: DIGEST_METADATA, metadata: new Map([["json", JSON.stringify(digest)]]) }]);
     },
   };
-
-  function statistics() {
-    const first = indexes[0], last = indexes.at(-1);
-    return {
-      messageCount: BigInt(counts.reduce((sum, count) => sum + count, 0)), schemaCount: schemas.length, channelCount: channels.length,
-      attachmentCount: 0, metadataCount: 1, chunkCount: indexes.length,
-      messageStartTime: first?.messageStartTime ?? 0n, messageEndTime: last?.messageEndTime ?? 0n,
-      channelMessageCounts: new Map(counts.map((count, id) => [id, BigInt(count)] as const)),
-    };
-  }
 }
 
-function recordsOf(fill: (builder: McapRecordBuilder) => void): Uint8Array {
-  const builder = new McapRecordBuilder();
-  fill(builder);
-  return builder.buffer;
+const SAFETY_WORDS = { "normal": "", "guard-stop": "The guard stopped the robot.", "protective-stop": "The robot is in a protective stop.", "emergency-stop": "The robot is in an emergency stop." } as const;
+
+/** Every joint is within the band about where it was kept. */
+function within(kept: Float64Array, q: ArrayLike<number>, band: number): boolean {
+  for (let i = 0; i < kept.length; i++) if (!(Math.abs(q[i]! - kept[i]!) <= band)) return false;
+  return true;
+}
+function sameLines(a: ReadonlyMap<string, boolean | number>, b: ReadonlyMap<string, boolean | number>): boolean {
+  if (a.size !== b.size) return false;
+  for (const [name, value] of a) if (b.get(name) !== value) return false;
+  return true;
 }

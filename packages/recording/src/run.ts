@@ -1,4 +1,5 @@
 import { robotById, type JointSample, type Robot, type Scheduler, type StateSource, type Timeline } from "@twincell/core";
+import type { Packing } from "./packing.ts";
 import { readRecording, type RecordingData } from "./read.ts";
 import type { RunEvent } from "./state.ts";
 
@@ -25,13 +26,15 @@ export type Opened = { readonly kind: "recording"; readonly recording: RecordedR
 export interface OpenOptions {
   /** Needed to play; seeking works without. */
   readonly scheduler: Scheduler;
+  /** Unpacks compact recordings. */
+  readonly packing?: Packing;
   /** Finds the robot of that id. */
   readonly robot?: (id: string) => Robot | undefined;
 }
 
 /** Opens a recorded run; one that was cut off or damaged opens with what is left of it. */
 export function openRecording(bytes: Uint8Array, options: OpenOptions): Opened {
-  const read = readRecording(bytes);
+  const read = readRecording(bytes, options.packing);
   return read.kind === "read" ? playable(read.data, options) : read;
 }
 

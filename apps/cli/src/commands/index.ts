@@ -2,16 +2,21 @@ import type { Command } from "../io/usage.ts";
 import { benchCommand } from "./bench.ts";
 import { calibrateCommand } from "./calibrate.ts";
 import { checkCommand } from "./check.ts";
+import { datasetCommand } from "./dataset.ts";
 import { dialectsCommand } from "./dialects.ts";
 import { fkCommand } from "./fk.ts";
 import { ikCommand } from "./ik.ts";
 import { parseCommand } from "./parse.ts";
 import { postCommand } from "./post.ts";
+import { recordCommand } from "./record.ts";
+import { replayCommand } from "./replay.ts";
 import { robotsCommand } from "./robots.ts";
 import { runCommand } from "./run.ts";
 import { serveCommand } from "./serve.ts";
 import { simulateCommand } from "./simulate.ts";
+import { validateCommand } from "./validate.ts";
+import { virtualCommand } from "./virtual.ts";
 
 export const COMMANDS: readonly Command[] = [
-  robotsCommand, dialectsCommand, fkCommand, ikCommand, checkCommand, simulateCommand, postCommand, parseCommand, runCommand, serveCommand, calibrateCommand, benchCommand,
+  robotsCommand, dialectsCommand, fkCommand, ikCommand, checkCommand, simulateCommand, validateCommand, datasetCommand, postCommand, parseCommand, runCommand, serveCommand, virtualCommand, recordCommand, replayCommand, calibrateCommand, benchCommand,
 ];

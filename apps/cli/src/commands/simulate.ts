@@ -2,6 +2,7 @@ import { jointsOf, PlanCursor, planProgram, PlanSignals, pose, torqueAt, trackin
 import { given } from "../io/arguments.ts";
 import { lineWriter } from "../io/json-lines.ts";
 import { inputsFrom, ioOf, momentWriter, toolsBySteps } from "../io/moments.ts";
+import { controlFrom, playWithPhysics, sceneFor } from "../io/physics.ts";
 import { readCell, readProgram } from "../io/program.ts";
 import { programRobot, ROBOT_HELP, ROBOT_OPTIONS } from "../io/robot.ts";
 import { UseFault, type Command } from "../io/usage.ts";
@@ -10,7 +11,7 @@ export const simulateCommand: Command = {
   name: "simulate",
   summary: "a program laid out in time, one line per period",
   usage: `twincell simulate PROGRAM [--robot R] [--cell CELL] [--period 0.01] [--inputs part=true,level=2.5]
-                  [--torque] [--within-torque] [--accuracy 0.1,0.5,1]
+                  [--torque] [--within-torque] [--accuracy 0.1,0.5,1] [--physics]
 
 Writes JSON lines {"t":s,"q":[…],"position":[…],"quaternion":[…],"io":{…},"step":ID}: joint angles and the TCP in the world,
 from the start to the end of the program; how long it takes, and on what that rests, on stderr. Waits for signals take no
@@ -26,17 +27,28 @@ time, and a loop without end goes round once. A step that cannot be carried out 
   --accuracy LIST instead of the lines above, one for each of these shares of the planned speed: the plan driven by spring and damper
                   drives with the weight held, as {"override","duration_s","worst_m","rms_m","worstJoint_rad","saturated_s"} off the plan
   --bandwidth W   of those drives, in rad/s (default 60)
+  --physics       carries the program out with contact in the cell: parts fall, are gripped by friction and carried, belts run, sensors
+                  drive the inputs, waits wait. Every line has "parts":{ID:{"position","quaternion","grasp"}} and "events":[…]; exit 1 with a
+                  sentence where it is paused. Same cell, program and version: the same states to the last bit, whose hash is on stderr
+  --control C     of the arm with --physics: moved (as told, the default), drives, computed-torque
+  --most S        with --physics: at most so many seconds (default 600)
+  --lift-anything with --physics: what is too heavy for the robot is lifted all the same
 
 ${ROBOT_HELP}`,
   async run(args) {
-    const options = given(args, { ...ROBOT_OPTIONS, cell: { type: "string" }, period: { type: "string" }, inputs: { type: "string" }, torque: { type: "boolean" }, "within-torque": { type: "boolean" }, accuracy: { type: "string" }, bandwidth: { type: "string" }, json: { type: "boolean" } });
+    const options = given(args, { ...ROBOT_OPTIONS, cell: { type: "string" }, period: { type: "string" }, inputs: { type: "string" }, torque: { type: "boolean" }, "within-torque": { type: "boolean" }, accuracy: { type: "string" }, bandwidth: { type: "string" }, physics: { type: "boolean" }, control: { type: "string" }, most: { type: "string" }, "lift-anything": { type: "boolean" }, json: { type: "boolean" } });
     const [path] = options.positionals, period_s = options.number("period") ?? 0.01;
     if (path === undefined) throw new UseFault("PROGRAM is missing.", "Give the path of a program file.");
     if (!(period_s >= 1e-6)) throw new UseFault(`--period wants at least 0.000001 s, not ${period_s}.`);
     const { program, robot } = await readProgram(path, await programRobot(options)), cellPath = options.text("cell");
-    const worldFromBase = cellPath === undefined ? pose<"world", "base">() : (await readCell(cellPath)).robot.worldFromBase;
+    const cell = cellPath === undefined ? undefined : await readCell(cellPath), worldFromBase = cell === undefined ? pose<"world", "base">() : cell.robot.worldFromBase;
 
-    const inputs = inputsFrom(options.text("inputs")), answer = planProgram(program, robot, { worldFromBase, inputs, ...(options.flag("within-torque") ? { withinTorque: {} } : {}) }), { plan } = answer;
+    const inputs = inputsFrom(options.text("inputs"));
+    if (options.flag("physics")) {
+      const scene = sceneFor(cell, robot, program, controlFrom(options.text("control"), options.number("bandwidth")));
+      return playWithPhysics({ scene, program, period_s, most_s: options.number("most") ?? 600, inputs, liftAnything: options.flag("lift-anything") });
+    }
+    const answer = planProgram(program, robot, { worldFromBase, inputs, ...(options.flag("within-torque") ? { withinTorque: {} } : {}) }), { plan } = answer;
     const torque = options.flag("torque") || options.flag("within-torque") ? torqueAt(plan, robot, program, { worldFromBase }) : undefined;
     if (torque?.kind === "unknown") { process.stderr.write(`twincell: ${torque.sentence}\n`); return 1; }
     const torqueOf = (t_s: number): { torque?: number[] } => (options.flag("torque") && torque?.kind === "known" ? { torque: Array.from(torque.at(t_s)) } : {});

@@ -14,7 +14,7 @@ export async function* jsonLines(): AsyncGenerator<{ readonly line: number; read
 }
 
 /** Writes to standard output in large pieces; a reader that went away (head, less) ends the program quietly. */
-export function lineWriter(): { write(value: unknown): void; end(): Promise<void> } {
+export function lineWriter(): { write(value: unknown): void; flush(): void; end(): Promise<void> } {
   let pending: string[] = [], size = 0;
   process.stdout.on("error", (problem: NodeJS.ErrnoException) => { process.exit(problem.code === "EPIPE" ? 0 : 1); });
   const flush = () => { if (size) { process.stdout.write(pending.join("")); pending = []; size = 0; } };
@@ -25,6 +25,7 @@ export function lineWriter(): { write(value: unknown): void; end(): Promise<void
       size += text.length;
       if (size > 65536) flush();
     },
+    flush,
     end: () => new Promise(resolve => { flush(); process.stdout.write("", () => { resolve(); }); }),
   };
 }

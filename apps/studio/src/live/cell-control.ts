@@ -13,10 +13,12 @@ import { onStop } from "../stores/stop.ts";
 import { viewStore } from "../stores/view.ts";
 import { words } from "../words/index.ts";
 import { browserShelf } from "./archive.ts";
+import { writtenProgram } from "./posting.ts";
 import { leaveRobot, takeRobot } from "./owner.ts";
 import { readInWorker } from "./recording-reader.ts";
 import { controlCell, type CellControl } from "./run.ts";
 import { pageScheduler } from "./scheduler.ts";
+import { startStations } from "./stations.ts";
 import { travelBack, type TravelBack } from "./travel-back.ts";
 
 const shelf = browserShelf();
@@ -41,7 +43,7 @@ export function theControl(): CellControl | null {
   control?.close();
   made = document;
   control = controlCell(
-    { dialect: theLanguage, scheduler: pageScheduler, shelf, clock_ms: () => Date.now() },
+    { dialect: theLanguage, write: program => writtenProgram(program, document), scheduler: pageScheduler, shelf, clock_ms: () => Date.now() },
     { robot, worldFromBase: document.robot.worldFromBase, flangeFromTcp: flangeFromTcpOf(document), isSafe: contactTest(document, robot) },
   );
   control.setOverride(playStore.getState().speed);
@@ -72,6 +74,7 @@ export async function startRun(): Promise<void> {
 export function startCellControl(): void {
   theControl();
   void theHistory.refresh();
+  startStations();
   // Another robot is another controller, as the chip says at once.
   cellStore.subscribe((state, before) => { if (state.document?.robot.id !== before.document?.robot.id) theControl(); });
   onStop(() => { control?.stop(); theHistory.pause(); });

@@ -1,4 +1,4 @@
-import { manualScheduler, robotById, type Program } from "@twincell/core";
+import { compose, flangePose, manualScheduler, robotById, withBranches, type Pose, type Program } from "@twincell/core";
 import { vPlus } from "@twincell/languages";
 import { tracedCartonCell } from "@twincell/project";
 import { openRecording } from "@twincell/recording";
@@ -8,6 +8,7 @@ import { historyStore } from "../stores/history.ts";
 import { listRuns, runBytes, type Shelf } from "./archive.ts";
 import { showJoints, theLive } from "./live.ts";
 import { controlCell, prepareRun } from "./run.ts";
+import { writeProgram, type Written } from "./written.ts";
 
 const robot = robotById("staubli_rx90l")!, cell = tracedCartonCell(), program = cell.programs[0]!;
 const worldFromBase = cell.robot.worldFromBase, flangeFromTcp = cell.tools[0]!.flangeFromTcp;
@@ -24,7 +25,7 @@ function memoryShelf(): Shelf {
 function bench(isSafe?: (q: Float64Array) => boolean) {
   const scheduler = manualScheduler(), shelf = memoryShelf();
   showJoints(robot.home_rad);
-  const control = controlCell({ dialect: () => vPlus, scheduler, shelf, clock_ms: () => 1_700_000_000_000 + scheduler.now_s() * 1000 }, { robot, worldFromBase, flangeFromTcp, ...(isSafe ? { isSafe } : {}) });
+  const control = controlCell({ dialect: () => vPlus, write: async wanted => writeProgram(vPlus, wanted, robot, worldFromBase), scheduler, shelf, clock_ms: () => 1_700_000_000_000 + scheduler.now_s() * 1000 }, { robot, worldFromBase, flangeFromTcp, ...(isSafe ? { isSafe } : {}) });
   return { scheduler, shelf, control };
 }
 
@@ -52,7 +53,7 @@ test("T-23 T-25 the exported text runs to its end, the twin within 0.001°, and 
 
 test("lines of the text keep the ids of the program's steps", () => {
   const lines = new Map<string, number>();
-  const prepared = prepareRun(vPlus, program, { robot, worldFromBase }, (step, line) => lines.set(step, line));
+  const prepared = prepareRun(vPlus, writeProgram(vPlus, program, robot, worldFromBase), { robot, worldFromBase }, (step, line) => lines.set(step, line));
   if (prepared.kind !== "ready") throw new Error(prepared.sentence);
   expect([...prepared.steps()].map(step => step.id)).toEqual(program.steps.map(step => step.id));
   expect([...lines.keys()]).toEqual(program.steps.map(step => step.id));
@@ -116,7 +117,7 @@ test("override 0 holds the robot and more lets it go on", async () => {
 test("a robot that no language speaks for runs the steps themselves, to the same end", async () => {
   const scheduler = manualScheduler(), shelf = memoryShelf();
   showJoints(robot.home_rad);
-  const control = controlCell({ dialect: () => null, scheduler, shelf, clock_ms: () => 1_700_000_000_000 }, { robot, worldFromBase, flangeFromTcp });
+  const control = controlCell({ dialect: () => null, write: async wanted => writeProgram(null, wanted, robot, worldFromBase), scheduler, shelf, clock_ms: () => 1_700_000_000_000 }, { robot, worldFromBase, flangeFromTcp });
   const outcome = control.run(program, cell.name);
   await scheduler.elapse(3);
   expect(controlStore.getState()).toMatchObject({ running: true, line: 0 });
@@ -138,5 +139,40 @@ test("an input switched by hand lets a program go on; outputs are told as the co
   expect(await outcome).toEqual({ kind: "done" });
   expect(controlStore.getState().signals.get("part")).toBe(true);
   expect(controlStore.getState().signals.get("lamp")).toBe(true);
+  control.close();
+});
+
+test("a straight move that the nearest posture does not lead to runs as it was checked", async () => {
+  const { scheduler, control } = bench();
+  const from = [-0.96, -1.27, 1.08, 0.92, 0.3, -0.24], to = [-0.58, -1.58, 1.09, 0.39, 0.32, -0.75];
+  const target = (q: readonly number[]) => ({ pose: compose(worldFromBase, flangePose(robot.arm, q)) as Pose as Pose<"frame", "tcp">, frame: "world", tool: "flange" });
+  const rescued: Program = { ...program, steps: [
+    { id: "a", type: "move", path: "ptp", target: target(from), speed: { ratio: 1 }, blend_m: 0 },
+    { id: "b", type: "move", path: "lin", target: target(to), speed: { mps: 0.3 }, blend_m: 0 },
+  ] };
+  expect(withBranches(rescued, robot, { where: "needed", worldFromBase })).not.toBe(rescued);
+  const outcome = control.run(rescued, cell.name);
+  await scheduler.elapse(30);
+  expect(await outcome).toEqual({ kind: "done" });
+  expect(flangePose(robot.arm, theLive().q_rad).position[0]).toBeCloseTo(flangePose(robot.arm, to).position[0], 4);
+  control.close();
+});
+
+test("who presses stop while the text is being written has stopped the run, and a second one begins none beside it", async () => {
+  const scheduler = manualScheduler();
+  let answer: (written: Written) => void = () => undefined;
+  showJoints(robot.home_rad);
+  const control = controlCell(
+    { dialect: () => vPlus, write: () => new Promise(resolve => { answer = resolve; }), scheduler, shelf: memoryShelf(), clock_ms: () => 0 }, { robot, worldFromBase, flangeFromTcp },
+  );
+  const outcome = control.run(program, cell.name);
+  expect(controlStore.getState().running).toBe(true);
+  expect(await control.run(program, cell.name)).toMatchObject({ kind: "refused", why: { code: "run.under-way" } });
+  control.stop();
+  answer(writeProgram(vPlus, program, robot, worldFromBase));
+  await scheduler.elapse(1);
+  expect(await outcome).toMatchObject({ kind: "stopped", why: { code: "run.stopped" } });
+  expect(controlStore.getState().running).toBe(false);
+  expect([...theLive().q_rad]).toEqual([...robot.home_rad]);
   control.close();
 });

@@ -1,5 +1,5 @@
 import { createGuard, createTwin, createVirtualController, textSteps, type Guard, type Twin, type VirtualController } from "@twincell/controllers";
-import { unrolled, type CommandOutcome, type Dialect, type EmittedFile, type Pose, type Program, type Robot, type Scheduler, type Signals, type Step } from "@twincell/core";
+import { unrolled, type CommandOutcome, type Dialect, type EmittedFile, type Pose, type Program, type Refusal, type Robot, type Scheduler, type Signals, type Step } from "@twincell/core";
 import { createRunRecorder, type RunRecorder } from "@twincell/recording";
 import { controlStore } from "../stores/control.ts";
 import { historyStore, type RunEnding } from "../stores/history.ts";
@@ -7,6 +7,7 @@ import { shortName } from "../stores/robot.ts";
 import { listRuns, openRunFile, type RunFile, type Shelf } from "./archive.ts";
 import { linkMeter } from "./link-meter.ts";
 import { showJoints, theLive } from "./live.ts";
+import type { Written } from "./written.ts";
 
 /** What a run needs to know of the cell. */
 export interface RunSetting {
@@ -20,6 +21,8 @@ export interface RunSetting {
 export interface RunWorld {
   /** The language programs are run in; null when none speaks for the robot: then the steps themselves run. */
   readonly dialect: () => Dialect | null;
+  /** Writes a program in that language, away from the page. */
+  readonly write: (program: Program) => Promise<Written>;
   readonly scheduler: Scheduler;
   readonly shelf: Shelf;
   /** Wall clock, milliseconds since 1970. */
@@ -34,15 +37,14 @@ export type Prepared =
 const TELL_EVERY_S = 0.1;
 
 /**
- * Emits the program, interprets that very text, and gives the steps it amounts to. A step of the text keeps the id of the
+ * Interprets the very text that was written, and gives the steps it amounts to. A step of the text keeps the id of the
  * program step its line was written for, so that screen and recording speak of the same thing.
  */
-export function prepareRun(dialect: Dialect | null, program: Program, { robot, worldFromBase }: Pick<RunSetting, "robot" | "worldFromBase">, onLine: (step: string, line: number) => void, signals?: Signals): Prepared {
-  if (dialect === null) {
+export function prepareRun(dialect: Dialect | null, { program, emitted }: Written, { robot, worldFromBase }: Pick<RunSetting, "robot" | "worldFromBase">, onLine: (step: string, line: number) => void, signals?: Signals): Prepared {
+  if (dialect === null || emitted === null) {
     const alone = function* (): Generator<Step> { for (const step of unrolled(program, signals)) { onLine(step.id, 0); yield step; } };
     return { kind: "ready", file: null, steps: alone, context: program };
   }
-  const emitted = dialect.emit(program, robot, worldFromBase);
   if (emitted.kind === "cannot") return { kind: "not-emitted", sentence: emitted.sentence, hint: emitted.hint };
   const file = dialect.runnable?.(emitted.files) ?? emitted.files[0]!;
   const interpreted = dialect.interpret(file.text, robot, worldFromBase);
@@ -106,6 +108,8 @@ export interface CellControl {
   close(): void;
 }
 
+const UNDER_WAY: Refusal = { code: "run.under-way", sentence: "A run is under way.", hint: "Stop it first, or wait until it is done." };
+const NOT_BEGUN: Refusal = { code: "run.stopped", sentence: "The run was stopped before it began.", hint: "Run it again when the way is clear." };
 /** Robot and guard share the page: one that draws slowly is late with both, and there is no link between them to lose. */
 const PAGE_SILENCE_S = Infinity;
 
@@ -115,7 +119,7 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
   const guard = createGuard({ controller: virtual, scheduler, flangeFromTcp, brakingTime_s: virtual.brakingTime_s, silence_s: PAGE_SILENCE_S, ...(isSafe ? { isSafe } : {}) });
   const seat = guard.seat("you");
   seat.take();
-  let running = false, told_s = -1, recorder: RunRecorder | null = null;
+  let running = false, starting: object | null = null, told_s = -1, recorder: RunRecorder | null = null;
   const lines = new Map<string, number>();
   const twin = createTwin({
     real: seat.robot, scheduler,
@@ -148,10 +152,22 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
   controlStore.setState({ controller: virtual.name, running: false, message: "", safety: "normal", mode: "automatic", line: 0, step: "" });
 
   async function run(program: Program, cellName: string): Promise<CommandOutcome | Exclude<Prepared, { kind: "ready" }>> {
-    const prepared = prepareRun(world.dialect(), program, { robot, worldFromBase }, (step, line) => lines.set(step, line), virtual.signals);
-    if (prepared.kind !== "ready") return prepared;
+    if (starting || running) return { kind: "refused", why: UNDER_WAY };
+    const mine = starting = {}, dialect = world.dialect();
+    controlStore.setState({ running: true, message: "" });
+    const notBegun = <T>(how: T): T => { starting = null; controlStore.setState({ running: false }); return how; };
+    const written = await world.write(program).catch((trouble: unknown) => trouble instanceof Error ? trouble.message : String(trouble));
+    // Whoever pressed stop meanwhile has stopped this run.
+    if (starting !== mine) {
+      if (starting === null) controlStore.setState({ running: false });
+      return { kind: "stopped", why: NOT_BEGUN };
+    }
+    if (typeof written === "string") return notBegun({ kind: "not-emitted", sentence: written, hint: "Try it again, or choose another language." });
+    const prepared = prepareRun(dialect, written, { robot, worldFromBase }, (step, line) => lines.set(step, line), virtual.signals);
+    if (prepared.kind !== "ready") return notBegun(prepared);
     const session = begin(program.name, cellName);
-    if ("kind" in session) return session;
+    if ("kind" in session) return notBegun(session);
+    starting = null;
     const outcome = await session.part(prepared.steps(), prepared.context);
     await session.end(outcome);
     return outcome;
@@ -199,7 +215,7 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
   return {
     run, begin, twin, guard, signals: virtual.signals,
     setInput: (signal, value) => { virtual.atTheRobot.setInput(signal, value); },
-    stop(emergency = false) { guard.stop(emergency); },
+    stop(emergency = false) { starting = null; guard.stop(emergency); },
     reset: () => seat.robot.reset(),
     setOverride: part => twin.setSpeed(Math.round(Math.min(1, Math.max(0, part)) * 100)),
     setMode: mode => { virtual.atTheRobot.setMode(mode); },

@@ -7,6 +7,7 @@ import { showJoints, theLive } from "./live.ts";
 import { readText } from "./reading.ts";
 import { controlCell } from "./run.ts";
 import { textRun, type TextEnding, type TextRun, type TextRunState } from "./text-run.ts";
+import { writeProgram } from "./written.ts";
 
 const noShelf: Shelf = { set: async () => undefined, get: async () => undefined, keys: async () => [], remove: async () => undefined };
 const worldFromBase: Pose<"world", "base"> = pose([0.3, -0.2, 0.5]);
@@ -28,7 +29,7 @@ end
 function bench(text: string, breakpoints: ReadonlySet<number> = new Set()) {
   const robot = robotById("ur10e")!, scheduler = manualScheduler(), states: TextRunState[] = [], endings: TextEnding[] = [];
   showJoints(robot.home_rad);
-  const control = controlCell({ dialect: () => null, scheduler, shelf: noShelf, clock_ms: () => 0 }, { robot, worldFromBase, flangeFromTcp: identity() });
+  const control = controlCell({ dialect: () => null, write: async wanted => writeProgram(null, wanted, robot, worldFromBase), scheduler, shelf: noShelf, clock_ms: () => 0 }, { robot, worldFromBase, flangeFromTcp: identity() });
   const run = textRun(control, dialectById("urscript")!, text, { robot, worldFromBase, name: "elsewhere", cellName: "Test" }, () => breakpoints, state => states.push(state), ending => endings.push(ending));
   return { robot, scheduler, control, run, states, endings };
 }

@@ -7,6 +7,7 @@ import { dragFollows } from "../live/drag.ts";
 import { cellStore } from "../stores/cell.ts";
 import { registerCommands } from "../stores/commands.ts";
 import { playStore } from "../stores/play.ts";
+import { stationStore } from "../stores/stations.ts";
 import { traceStore } from "../stores/trace.ts";
 import { viewStore } from "../stores/view.ts";
 import { type CameraWishes, Controls } from "./camera/controls.tsx";
@@ -34,6 +35,7 @@ import { WORDS } from "./words.ts";
 import { askForHeadset } from "./xr/availability.ts";
 
 /** Everything a headset needs is fetched when one is first asked for. */
+const StationViews = lazy(() => import("./robot/station-view.tsx").then(part => ({ default: part.StationViews })));
 const Headset = lazy(() => import("./xr/headset.tsx").then(part => ({ default: part.Headset })));
 const meter = new FrameMeter();
 const BARE_FLANGE: Pose<"flange", "tcp"> = identity();
@@ -44,6 +46,7 @@ export function Viewport() {
   const mode = useStore(viewStore, state => state.mode), inHeadset = useStore(viewStore, state => state.inHeadset);
   const wish = useStore(viewStore, state => state.headsetWish);
   const playing = useStore(playStore, state => state.playing), tracing = useStore(traceStore, state => state.active);
+  const stations = useStore(stationStore, state => state.stations.length);
   const theme = useStore(viewStore, state => state.theme), colours = useMemo(() => readTheme(theme), [theme]);
   const [pictured, setPictured] = useState(true);
   const picture = useMemo(hiddenPicture, []), interaction = useMemo(newInteraction, []), wishes = useMemo<CameraWishes>(() => ({ fit: () => undefined, look: () => undefined }), []);
@@ -68,6 +71,7 @@ export function Viewport() {
           <group rotation-x={-Math.PI / 2} ref={world}>
             {document && <Stage theme={colours} document={document} />}
             {document && robot && <RobotView robot={robot} worldFromBase={document.robot.worldFromBase} />}
+            {stations > 0 && <Suspense fallback={null}><StationViews /></Suspense>}
             {document && tool && <ToolView tool={tool} worldFromBase={document.robot.worldFromBase} />}
             {document?.objects.map(object => <ObjectView key={object.id} object={object} theme={colours} />)}
             <PathView theme={colours} />

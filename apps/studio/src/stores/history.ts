@@ -1,3 +1,4 @@
+import type { Pose } from "@twincell/core";
 import { createStore } from "zustand/vanilla";
 
 export type RunEnding = "done" | "stopped" | "refused" | "running" | "cut-off";
@@ -12,6 +13,8 @@ export interface RunRecord {
   readonly bytes: number;
   /** "cut-off": the page was closed while it ran; everything but the last second is there. */
   readonly ending: RunEnding;
+  /** Of another controller than the cell's own: its robot, and where that stood. */
+  readonly station?: { readonly robot: string; readonly stand: Pose<"world", "base"> };
 }
 
 export interface RunEventLine { readonly at_s: number; readonly level: "info" | "warning" | "error"; readonly sentence: string }

@@ -3,6 +3,7 @@ import { emptyCell } from "@twincell/project";
 import { beforeEach, expect, test } from "vitest";
 import { showJoints, theLive } from "../live/live.ts";
 import { controlCell } from "../live/run.ts";
+import { writeProgram } from "../live/written.ts";
 import { cellStore } from "./cell.ts";
 import { showDocument, theProgram, undo } from "./document.ts";
 import { languageOf } from "./languages.ts";
@@ -22,7 +23,7 @@ test("T-71 three programs are stored, the second is selected: the second is what
   expect(names()).toEqual(["first", "second", "third"]);
   const scheduler = manualScheduler();
   showJoints(robot.home_rad);
-  const control = controlCell({ dialect: () => languageOf(robot), scheduler, shelf: { set: async () => undefined, get: async () => undefined, keys: async () => [], remove: async () => undefined }, clock_ms: () => 0 }, {
+  const control = controlCell({ dialect: () => languageOf(robot), write: async wanted => writeProgram(languageOf(robot), wanted, robot, cellStore.getState().document!.robot.worldFromBase), scheduler, shelf: { set: async () => undefined, get: async () => undefined, keys: async () => [], remove: async () => undefined }, clock_ms: () => 0 }, {
     robot, worldFromBase: cellStore.getState().document!.robot.worldFromBase, flangeFromTcp: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] },
   });
   const outcome = control.run(theProgram()!, "Cell");

@@ -76,7 +76,8 @@ export function createGuard(options: GuardOptions): Guard {
   const flangeFromTcp = options.flangeFromTcp ?? identity<"flange", "tcp">(), tcp = tcpOf(robot.arm, flangeFromTcp), bound_mps = speedBound(robot, flangeFromTcp);
   const changes = listeners<GuardState>(), notices = listeners<Refusal>();
 
-  let state = AT_FIRST, heard_s = scheduler.now_s(), alive_s = heard_s, because: Refusal | null = null, manual = false;
+  // A link that never was cannot be lost: silence counts from the first sample.
+  let state = AT_FIRST, heard_s = Infinity, alive_s = scheduler.now_s(), because: Refusal | null = null, manual = false;
   /** Wanted override, and the part of it that the cap leaves in this move. */
   let percent = 100, capped = 1, applied = 100;
   // What is known of the motion: latest angles, where it would stand if stopped now, the last pose that was safe with room to stop.

@@ -1,6 +1,7 @@
 export { manualScheduler } from "@twincell/core";
 export * from "./contract.ts";
 export * from "./network.ts";
+export * from "./near-face.ts";
 export * from "./numeric.ts";
 export * from "./spoiled.ts";
 export { createVirtualController } from "../virtual/index.ts";

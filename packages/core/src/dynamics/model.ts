@@ -14,6 +14,20 @@ export interface Payload {
   readonly inertia_kgm2?: readonly [number, number, number, number, number, number];
 }
 
+/** Two loads as one: masses add, centres average by mass, inertias move to the common centre,  I = Σ I_i + m_i (d·d 1 − d dᵀ). */
+export function togetherCarried(a: Payload, b: Payload): Payload {
+  const mass_kg = a.mass_kg + b.mass_kg;
+  if (!(mass_kg > 0)) return a;
+  const center_m = a.center_m.map((length, k) => (a.mass_kg * length + b.mass_kg * b.center_m[k]!) / mass_kg) as Vector3;
+  const sum: [number, number, number, number, number, number] = [0, 0, 0, 0, 0, 0];
+  for (const { mass_kg: m, center_m: c, inertia_kgm2: i = [0, 0, 0, 0, 0, 0] } of [a, b]) {
+    const x = c[0] - center_m[0], y = c[1] - center_m[1], z = c[2] - center_m[2];
+    const moved = [m * (y * y + z * z), m * (x * x + z * z), m * (x * x + y * y), -m * x * y, -m * x * z, -m * y * z];
+    for (let k = 0; k < 6; k++) sum[k]! += i[k]! + moved[k]!;
+  }
+  return { mass_kg, center_m, inertia_kgm2: sum };
+}
+
 /** An arm as masses that turn about axes: read-only, shared by any number of callers. */
 export interface DynamicsModel {
   readonly robot: Robot;

@@ -4,3 +4,4 @@ export * from "./assemble.ts";
 export * from "./measure.ts";
 export * from "./weld.ts";
 export * from "./deviation.ts";
+export * from "./mass.ts";

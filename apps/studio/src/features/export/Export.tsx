@@ -36,7 +36,7 @@ function Body() {
   const dialect = useStore(languageStore, state => languageOf(robot, state)), id = dialect?.id ?? "";
   const [chosen, setChosen] = useState(0);
   const selected = useStore(selectionStore, state => (state.selected?.kind === "step" ? state.selected.id : ""));
-  useEffect(() => { postStore.setState({ emitted: null, proof: null }); postProgram(); }, [program, id]);
+  useEffect(() => { postStore.setState({ emitted: null, proof: null }); postProgram(true); }, [program, id]);
   if (!program || program.steps.length === 0) return <p className="muted">{words.run.nothing}</p>;
   if (!robot || !dialect) return <p className="muted">{words.export.noLanguage(robot?.name ?? "")}</p>;
   const files = emitted?.kind === "emitted" ? emitted.files : [], file = files[Math.min(chosen, files.length - 1)];

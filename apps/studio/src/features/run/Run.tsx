@@ -1,7 +1,8 @@
 import { Pause, Play, RotateCcw, Square } from "lucide-react";
-import { useMemo } from "react";
+import { useEffect } from "react";
 import { useStore } from "zustand";
 import { runnableFile } from "@twincell/languages";
+import { postProgram } from "../../live/posting.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { controlStore } from "../../stores/control.ts";
@@ -9,6 +10,7 @@ import { programOf, robotOf } from "../../stores/document.ts";
 import { foreignStore } from "../../stores/foreign.ts";
 import { languageOf, languageStore } from "../../stores/languages.ts";
 import { playStore } from "../../stores/play.ts";
+import { postStore } from "../../stores/post.ts";
 import { CodeView } from "../../ui/CodeView.tsx";
 import { words } from "../../words/index.ts";
 import { LanguageChoice } from "../../ui/LanguageChoice.tsx";
@@ -22,13 +24,11 @@ export default function Run() {
   const running = useStore(controlStore, state => state.running), safety = useStore(controlStore, state => state.safety);
   const held = useStore(playStore, state => state.speed === 0), dialect = useStore(languageStore, state => languageOf(robot, state));
   const nothing = !program || !robot || program.steps.length === 0;
-  const file = useMemo(() => {
-    if (!program || !robot || !document || !dialect || program.steps.length === 0) return null;
-    const emitted = dialect.emit(program, robot, document.robot.worldFromBase);
-    return emitted.kind === "cannot" ? emitted : runnableFile(dialect, emitted.files) ?? null;
-  }, [program, robot, document, dialect]);
+  const { emitted, trouble } = useStore(postStore), id = dialect?.id ?? "";
+  useEffect(() => { postStore.setState({ emitted: null, proof: null, trouble: null }); postProgram(false); }, [program, id]);
+  const file = dialect && emitted?.kind === "emitted" ? runnableFile(dialect, emitted.files) : undefined;
   const foreign = useStore(foreignStore, state => state.open);
-  const cannot = file !== null && "kind" in file;
+  const cannot = trouble ?? (emitted?.kind === "cannot" ? emitted.sentence : null);
 
   if (foreign) return (
     <section aria-label={words.run.title}>
@@ -48,14 +48,14 @@ export default function Run() {
             <button className="btn" onClick={() => playStore.setState({ speed: held ? 1 : 0 })}>{held ? <Play /> : <Pause />}{held ? words.run.resume : words.run.hold}</button>
             <button className="btn" onClick={() => runCommand("stop")}><Square />{words.run.stop}</button>
           </>
-          : <button className="btn primary" disabled={nothing || cannot || safety !== "normal"} onClick={() => runCommand("run.start")}><Play />{words.run.run}</button>}
+          : <button className="btn primary" disabled={nothing || cannot !== null || safety !== "normal"} onClick={() => runCommand("run.start")}><Play />{words.run.run}</button>}
         {safety !== "normal" && <button className="btn" onClick={() => runCommand("run.reset")}><RotateCcw />{words.control.reset}</button>}
       </div>
       <TwinError />
       {nothing && <p className="muted">{words.run.nothing}</p>}
-      {cannot && <p role="alert" className="run-cannot">{words.run.notEmitted(dialect?.name ?? "")} {file.sentence}</p>}
+      {cannot !== null && <p role="alert" className="run-cannot">{words.run.notEmitted(dialect?.name ?? "")} {cannot}</p>}
       {program && <SignalList signals={program.signals} />}
-      {file !== null && !("kind" in file) && dialect && <Listing text={file.text} dialect={dialect.id} name={dialect.name} />}
+      {file && dialect && <Listing text={file.text} dialect={dialect.id} name={dialect.name} />}
       </div>
     </section>
   );

@@ -1,0 +1,28 @@
+import { brandById, BRANDS, openStation } from "@twincell/controllers";
+import { robotById, type Refusal, type Scheduler } from "@twincell/core";
+import { dialectById } from "@twincell/languages";
+import { createHost, type AskOf, type Host, type OpenedStation } from "@twincell/messages";
+import { nodeNetwork } from "../sockets/node-network.ts";
+
+const refused = (why: Refusal): OpenedStation => ({ kind: "refused", why });
+/** Of the one who commands: without a sign of life for this long the robot is stopped (row X-41 with the watch's own period). */
+const HEARTBEAT_S = 0.08;
+
+/** Stations of this machine: drivers on the network, and virtual controllers beside them where no address is given. */
+export function stationHost(scheduler: Scheduler, version: string): Host {
+  const network = nodeNetwork();
+  return createHost({
+    scheduler, version,
+    brands: BRANDS.map(({ id, name, vendor, dialect, ports }) => ({ id, name, vendor, dialect, ports: { ...ports } })),
+    async open(ask: AskOf<"open">): Promise<OpenedStation> {
+      const brand = brandById(ask.brand), robot = robotById(ask.robot), dialect = brand && dialectById(brand.dialect);
+      if (!brand || !dialect) return refused({ code: "station.no-brand", sentence: `There is no driver for “${ask.brand}”.`, hint: `There are: ${BRANDS.map(({ id }) => id).join(", ")}.` });
+      if (!robot) return refused({ code: "station.no-robot", sentence: `There is no robot “${ask.robot}” in the library.`, hint: "Choose one of the library." });
+      return openStation({
+        id: ask.station, brand, robot, scheduler, dialect, heartbeat_s: HEARTBEAT_S,
+        ...(ask.name === undefined ? {} : { name: ask.name }), ...(ask.worldFromBase ? { worldFromBase: ask.worldFromBase } : {}),
+        ...(ask.address ? { at: { network, host: ask.address.host, ...(ask.address.ports ? { ports: ask.address.ports } : {}) } } : {}),
+      });
+    },
+  });
+}

@@ -1,0 +1,63 @@
+import { compose, identity, LIBRARY, type Pose } from "@twincell/core";
+import { useEffect, useState } from "react";
+import { useStore } from "zustand";
+import { lookForServer } from "../../live/station-hosts.ts";
+import { addStation } from "../../live/stations.ts";
+import { cellStore } from "../../stores/cell.ts";
+import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
+import { notify } from "../../stores/notices.ts";
+import { stationStore, type HostPlace } from "../../stores/stations.ts";
+import { Chooser, Segments } from "../../ui/Choice.tsx";
+import { Frame } from "../../ui/Frame.tsx";
+import { NumberField } from "../../ui/NumberField.tsx";
+import { BRAND_LIST } from "../../live/brand-list.ts";
+import { words } from "../../words/index.ts";
+
+export default function AddStation() {
+  const open = useStore(dialogStore, state => state.open === "station");
+  return open ? <Open /> : null;
+}
+
+/** Beside the robot of the cell, and beside those that are there already. */
+const APART_M = 1.6;
+
+function Open() {
+  const document = useStore(cellStore, state => state.document), count = useStore(stationStore, state => state.stations.length), server = useStore(stationStore, state => state.server);
+  const [brand, setBrand] = useState(BRAND_LIST[0]?.id ?? ""), [robot, setRobot] = useState(""), [place, setPlace] = useState<HostPlace>("page"), [host, setHost] = useState("");
+  const [x_m, setX] = useState(0), [y_m, setY] = useState((count + 1) * APART_M), [turned_rad, setTurned] = useState(0), [busy, setBusy] = useState(false);
+  useEffect(() => { lookForServer(); }, []);
+  const chosen = BRAND_LIST.find(({ id }) => id === brand), robots = LIBRARY.filter(({ vendor }) => vendor === chosen?.vendor), robotId = robots.find(({ id }) => id === robot)?.id ?? robots[0]?.id ?? "";
+  if (!document) return null;
+  const add = async (): Promise<void> => {
+    setBusy(true);
+    const beside: Pose<"base", "base"> = { ...identity(), position: [x_m, y_m, 0], quaternion: [0, 0, Math.sin(turned_rad / 2), Math.cos(turned_rad / 2)] };
+    const outcome = await addStation({
+      brand, robot: robotId, place, stand: compose(document.robot.worldFromBase, beside),
+      ...(place === "server" ? { address: { host: host.trim() } } : {}),
+    });
+    setBusy(false);
+    if (outcome.kind === "done") closeDialog();
+    else notify("bad", outcome.why.sentence, outcome.why.hint);
+  };
+  return (
+    <Frame open title={words.stations.addTitle} onClose={closeDialog} width={520} foot={
+      <><span className="grow small muted">{words.app.notSafety}</span><button type="submit" form="add-station" className="btn primary" disabled={busy || robotId === "" || (place === "server" && host.trim() === "")}>{busy ? words.stations.connecting : words.stations.addAndConnect}</button></>
+    }>
+      <form id="add-station" className="add-station stack" onSubmit={event => { event.preventDefault(); void add(); }}>
+        <div className="pair"><span className="label">{words.stations.brand}</span><Chooser label={words.stations.brand} value={brand} onChange={setBrand} options={BRAND_LIST.map(({ id, name }) => ({ value: id, words: name }))} /></div>
+        <div className="pair"><span className="label">{words.stations.robot}</span><Chooser label={words.stations.robot} value={robotId} onChange={setRobot} options={robots.map(({ id, name }) => ({ value: id, words: name }))} /></div>
+        <div className="pair"><span className="label">{words.stations.where}</span>
+          <Segments label={words.stations.where} value={place} onChange={setPlace} options={[{ value: "page", words: words.stations.here }, { value: "server", words: words.stations.there, disabled: server !== true }]} /></div>
+        {server === false && <p className="small muted">{words.stations.noServer} {words.stations.noServerHint}</p>}
+        {place === "server" && <div className="pair"><label className="label" htmlFor="station-address">{words.stations.address}</label>
+          <span className="field text"><input id="station-address" value={host} placeholder={words.stations.addressHint} spellCheck={false} autoComplete="off" onChange={event => setHost(event.currentTarget.value)} /></span></div>}
+        <div className="pair"><span className="label">{words.stations.stand}</span>
+          <span className="fields-3">
+            <NumberField label={words.stations.x} mark="X" quantity="length" value={x_m} decimals={0} onChange={setX} />
+            <NumberField label={words.stations.y} mark="Y" quantity="length" value={y_m} decimals={0} onChange={setY} />
+            <NumberField label={words.stations.turned} mark="Rz" quantity="angle" value={turned_rad} decimals={0} onChange={setTurned} />
+          </span></div>
+      </form>
+    </Frame>
+  );
+}

@@ -1,0 +1,199 @@
+import { retargetProgram, robotById, type CommandOutcome, type JointSample, type Pose, type Program, type Robot } from "@twincell/core";
+import type { PendantAct, TellOf } from "@twincell/messages";
+import { createRunRecorder, type RunRecorder } from "@twincell/recording";
+import { cellStore } from "../stores/cell.ts";
+import { programOf, robotOf } from "../stores/document.ts";
+import { historyStore, type RunEnding } from "../stores/history.ts";
+import { notify } from "../stores/notices.ts";
+import { changeStation, stationOf, stationStore, type HostPlace, type StationState } from "../stores/stations.ts";
+import { onStop } from "../stores/stop.ts";
+import { words } from "../words/index.ts";
+import { browserShelf, listRuns, openRunFile, type RunFile } from "./archive.ts";
+import { hostAt, onHosts, type Told } from "./station-hosts.ts";
+
+/** The fast state of a station: written in place, read by the frame loop. */
+export interface StationLive {
+  readonly robot: Robot;
+  readonly q_rad: Float64Array;
+  revision: number;
+  /** When the last sample was written here, and the host's clock when it handed it on [s]. */
+  received_s: number;
+  sent_s: number;
+}
+interface Recording { readonly recorder: RunRecorder; readonly file: RunFile; readonly note: (ending: RunEnding) => void }
+
+const shelf = browserShelf();
+const lives = new Map<string, StationLive>(), recordings = new Map<string, Recording>(), told_ms = new Map<string, number>(), alive = new Map<string, number>();
+const TELL_EVERY_MS = 100, ALIVE_EVERY_MS = 25;
+const NO_LINK: StationState["link"] = { state: "closed", sentence: "", attempts: 0, rate_Hz: 0, late_s: 0, roundTrip_s: null, missing: 0 };
+const AT_REST: StationState["guard"] = { holder: null, pressed: false, link: "up", motion: "at-rest", trip: "none", emergency: false };
+
+export const stationLive = (id: string): StationLive | undefined => lives.get(id);
+
+export interface NewStation {
+  readonly brand: string;
+  readonly robot: string;
+  readonly place: HostPlace;
+  readonly stand: Pose<"world", "base">;
+  readonly address?: { readonly host: string; readonly ports?: Readonly<Record<string, number>> };
+}
+
+const refusedAs = (sentence: string, hint: string): CommandOutcome => ({ kind: "refused", why: { code: "station.none", sentence, hint } });
+const hostOf = (id: string) => { const place = stationOf(id)?.place; return place && hostAt(place); };
+
+/** Opens and connects a station, and takes its lease. Programs of the cell are carried out as if its robot stood where the cell's stands. */
+export async function addStation({ brand, robot: robotId, place, stand, address }: NewStation): Promise<CommandOutcome> {
+  const host = hostAt(place), robot = robotById(robotId), { document } = cellStore.getState();
+  if (!host || !robot || !document) return refusedAs(words.stations.noServer, words.stations.noServerHint);
+  const taken = new Set(stationStore.getState().stations.map(({ id }) => id));
+  let id = robotId;
+  for (let n = 2; taken.has(id); n++) id = `${robotId} ${n}`;
+  lives.set(id, { robot, q_rad: Float64Array.from(robot.home_rad), revision: 0, received_s: 0, sent_s: 0 });
+  stands.set(id, stand);
+  const opened = await host.ask({
+    type: "open", station: id, brand, robot: robotId, worldFromBase: document.robot.worldFromBase, ...(address ? { address: { host: address.host, ...(address.ports ? { ports: { ...address.ports } } : {}) } } : {}),
+  });
+  if (opened.kind !== "done") { lives.delete(id); return opened; }
+  const took = await host.ask({ type: "take", station: id });
+  return took.kind === "done" ? host.ask({ type: "connect", station: id }) : took;
+}
+const stands = new Map<string, Pose<"world", "base">>();
+
+export async function removeStation(id: string): Promise<void> { await hostOf(id)?.ask({ type: "close", station: id }); }
+export const askStation = (id: string, type: "connect" | "disconnect" | "confirm" | "reset" | "take" | "release" | "zero"): Promise<CommandOutcome> =>
+  hostOf(id)?.ask({ type, station: id }) ?? Promise.resolve(refusedAs(words.stations.gone, ""));
+export const atPendant = (id: string, act: PendantAct): Promise<CommandOutcome> =>
+  hostOf(id)?.ask({ type: "pendant", station: id, act }) ?? Promise.resolve(refusedAs(words.stations.gone, ""));
+export function stopStation(id: string, emergency = false): void { hostOf(id)?.stop(id, emergency); }
+export async function pullPlug(id: string, pulled: boolean): Promise<void> {
+  const outcome = await hostOf(id)?.ask({ type: "plug", station: id, pulled });
+  if (outcome?.kind === "done") changeStation(id, { unplugged: pulled });
+}
+/** The dead-man of a real robot. */
+export function holdStation(id: string, pressed: boolean): void { void hostOf(id)?.ask({ type: "hold", station: id, pressed }); }
+
+/** The present program as that station's robot can do it. */
+export function programFor(id: string): { readonly program: Program; readonly unreached: readonly string[] } | null {
+  const { document } = cellStore.getState(), program = programOf(document), from = robotOf(document), to = lives.get(id)?.robot;
+  if (!document || !program || !from || !to) return null;
+  if (from.id === to.id) return { program, unreached: [] };
+  const { program: moved, unreached } = retargetProgram(program, from, to, document.robot.worldFromBase);
+  return { program: { ...moved, robot: to.id }, unreached };
+}
+
+/** Runs the present program there as text of its own language, recorded from beginning to end. */
+export async function runStation(id: string): Promise<CommandOutcome> {
+  const wanted = programFor(id), host = hostOf(id), station = stationOf(id), live = lives.get(id);
+  if (!wanted || !host || !station || !live) return refusedAs(words.stations.gone, "");
+  if (wanted.program.steps.length === 0) return refusedAs(words.run.nothing, "");
+  if (wanted.unreached.length > 0) return refusedAs(words.stations.unreached(live.robot.name, wanted.unreached.length), words.stations.unreachedHint);
+  changeStation(id, { running: true, notice: "" });
+  const recording = beginRecording(station, live, wanted.program.name);
+  const outcome = await host.ask({ type: "run", station: id, program: wanted.program, asText: true });
+  await endRecording(id, recording, outcome);
+  changeStation(id, { running: false, notice: outcome.kind === "done" ? "" : outcome.why.sentence });
+  return outcome;
+}
+
+/** All that are at rest begin in the same turn. */
+export async function runAll(): Promise<void> {
+  const ready = stationStore.getState().stations.filter(({ running, link }) => !running && link.state === "open");
+  const outcomes = await Promise.all(ready.map(async station => ({ station, outcome: await runStation(station.id) })));
+  for (const { station, outcome } of outcomes) if (outcome.kind !== "done") notify(outcome.kind === "stopped" ? "warn" : "bad", `${station.name}: ${outcome.why.sentence}`, outcome.why.hint);
+}
+
+function beginRecording(station: StationState, { robot }: StationLive, program: string): Recording {
+  const startedAt = new Date(), run = `${startedAt.toISOString().replace(/[:.]/g, "-")} ${station.id}`, file = openRunFile(shelf, run), cell = cellStore.getState().document?.name ?? "";
+  const recorder = createRunRecorder(file.sink, { robot, startedAt_ns: BigInt(startedAt.getTime()) * 1_000_000n, program, cell, chunk_s: 0.5 });
+  const note = (ending: RunEnding): void => {
+    file.note({
+      id: run, name: `${station.name} · ${program}`, startedAt: startedAt.toISOString(), duration_s: (Date.now() - startedAt.getTime()) / 1000, bytes: file.sink.position, ending,
+      station: { robot: station.robot, stand: station.stand },
+    });
+  };
+  note("running");
+  recorder.event("run", `The run of ${program} began.`);
+  const recording = { recorder, file, note };
+  recordings.set(station.id, recording);
+  return recording;
+}
+async function endRecording(id: string, { recorder, file, note }: Recording, outcome: CommandOutcome): Promise<void> {
+  recordings.delete(id);
+  recorder.event(outcome.kind, outcome.kind === "done" ? "The run is done." : outcome.why.sentence, outcome.kind === "done" ? "info" : "warning");
+  recorder.finish();
+  note(outcome.kind);
+  const trouble = await file.settled() ?? recorder.problem?.sentence ?? null;
+  if (trouble !== null) changeStation(id, { notice: trouble });
+  historyStore.setState({ runs: await listRuns(shelf) });
+}
+
+/** Commands wait on nothing, but who holds the lease of a real robot says so many times a second. */
+function keepAlive(id: string): void {
+  if (alive.has(id)) return;
+  alive.set(id, window.setInterval(() => { hostOf(id)?.alive(id); }, ALIVE_EVERY_MS));
+}
+
+function take(place: HostPlace, message: Told): void {
+  switch (message.type) {
+    case "hello":
+      if (message.brands.length > 0) stationStore.setState({ brands: message.brands });
+      for (const station of message.stations) appear(place, station);
+      break;
+    case "opened": appear(place, message); break;
+    case "closed": vanish(message.station); break;
+    case "link": if (message.state !== stationOf(message.station)?.link.state || due(`${message.station} link`)) changeStation(message.station, { link: message }); break;
+    case "guard": changeStation(message.station, { guard: message }); break;
+    case "notice": changeStation(message.station, { notice: message.why.sentence }); recordings.get(message.station)?.recorder.event(message.why.code, message.why.sentence, "warning"); break;
+    case "sample": show(message); break;
+    case "fault":
+      notify("bad", message.sentence, words.stations.faultHint);
+      for (const { id, place: at } of stationStore.getState().stations) if (at === place) vanish(id);
+      break;
+  }
+}
+
+function appear(place: HostPlace, { id, name, brand, robot: robotId, virtual, watchdog }: Omit<TellOf<"opened">, "type">): void {
+  const robot = robotById(robotId), { document } = cellStore.getState();
+  if (!robot || stationOf(id)) return;
+  if (!lives.has(id)) lives.set(id, { robot, q_rad: Float64Array.from(robot.home_rad), revision: 0, received_s: 0, sent_s: 0 });
+  const stand = stands.get(id) ?? document!.robot.worldFromBase;
+  const station: StationState = {
+    id, name, brand, robot: robotId, virtual, watchdog, place, stand, link: NO_LINK, guard: AT_REST, mode: "automatic", safety: "normal", moving: false, override: 1,
+    step: "", message: "", plan_rad: null, command_rad: null, running: false, unplugged: false, notice: "",
+  };
+  stationStore.setState(({ stations }) => ({ stations: [...stations, station] }));
+  keepAlive(id);
+}
+function vanish(id: string): void {
+  clearInterval(alive.get(id));
+  alive.delete(id);
+  lives.delete(id);
+  stands.delete(id);
+  stationStore.setState(({ stations }) => ({ stations: stations.filter(station => station.id !== id) }));
+}
+
+const due = (what: string): boolean => {
+  const now_ms = performance.now();
+  if (now_ms - (told_ms.get(what) ?? -Infinity) < TELL_EVERY_MS) return false;
+  told_ms.set(what, now_ms);
+  return true;
+};
+
+function show(sample: TellOf<"sample">): void {
+  const live = lives.get(sample.station), known = stationOf(sample.station);
+  if (!live || !known || sample.q_rad.length !== live.q_rad.length) return;
+  live.q_rad.set(sample.q_rad);
+  live.received_s = performance.now() / 1000;
+  live.sent_s = sample.sent_s;
+  live.revision++;
+  const { sequence, time_s, moving, mode, safety, override, gripperClosed, step, message, plan_rad, command_rad } = sample;
+  recordings.get(sample.station)?.recorder.record({ sequence, time_s, q_rad: live.q_rad, moving, mode, safety, override, gripperClosed, step, message } satisfies JointSample);
+  if (safety === known.safety && mode === known.mode && !due(sample.station)) return;
+  changeStation(sample.station, { moving, mode, safety, override, step, message, plan_rad, command_rad });
+}
+
+/** Listens to hosts as long as the page lives. STOP stops every station. */
+export function startStations(): void {
+  onHosts(take);
+  onStop(() => { for (const place of new Set(stationStore.getState().stations.map(({ place: at }) => at))) hostAt(place)?.stop(); });
+}

@@ -1,0 +1,58 @@
+import { armScratch, compose, identity, linkPoses, type Pose, type Robot } from "@twincell/core";
+import { useFrame } from "@react-three/fiber";
+import { useEffect, useMemo, useRef } from "react";
+import type { Group } from "three";
+import { paintTouching } from "../paint.ts";
+import { raycastByTree } from "../pick/raycast.ts";
+import { poseMatrix } from "../pose-matrix.ts";
+import { linkDrawings } from "./link-geometry.ts";
+import { partMaterials } from "./materials.ts";
+
+/** Where the angles come from: written in place, `revision` counts the changes. */
+export interface ArmState { readonly q_rad: ArrayLike<number>; readonly revision: number }
+interface Props {
+  readonly robot: Robot;
+  readonly worldFromBase: Pose<"world", "base">;
+  readonly live: () => ArmState;
+  /** Before the names of its links, so that no two robots have the same. The robot of the cell has none: it can be picked and touched. */
+  readonly prefix?: string;
+}
+
+/** An arm as its joint angles say, link by link. Draws, decides nothing. */
+export function ArmView({ robot, worldFromBase, live: now, prefix = "" }: Props) {
+  const drawings = useMemo(() => linkDrawings(robot), [robot]);
+  const materials = useMemo(() => partMaterials(robot.paint), [robot.paint]);
+  const links = useRef<(Group | null)[]>([]);
+  const seen = useRef(-1);
+  const scratch = useMemo(() => ({
+    arm: armScratch(), world: identity<"world", "link">(),
+    baseFromLink: Array.from({ length: robot.arm.joints.length + 1 }, () => identity<"base", "link">()),
+  }), [robot]);
+
+  useEffect(() => { seen.current = -1; }, [robot, worldFromBase]);
+  useEffect(() => () => {
+    for (const drawing of drawings) for (const piece of drawing.pieces) piece.geometry.dispose();
+  }, [drawings]);
+  useEffect(() => prefix !== "" ? undefined : paintTouching(name => links.current[drawings.findIndex(drawing => drawing.name === name)] ?? null), [drawings, prefix]);
+
+  useFrame(() => {
+    const live = now();
+    if (live.revision === seen.current) return;
+    seen.current = live.revision;
+    linkPoses(robot.arm, live.q_rad, scratch.baseFromLink, scratch.arm);
+    for (let i = 0; i < scratch.baseFromLink.length; i++) {
+      const group = links.current[i];
+      if (!group) continue;
+      compose(worldFromBase, scratch.baseFromLink[i]!, scratch.world);
+      poseMatrix(scratch.world, group.matrix);
+      group.matrixWorldNeedsUpdate = true;
+    }
+  }, -10);
+
+  return drawings.map(drawing => (
+    <group key={drawing.name} name={prefix + drawing.name} matrixAutoUpdate={false} userData={prefix === "" ? { thing: { kind: "link", link: drawing.link } } : {}}
+      ref={group => { links.current[drawing.link] = group; }}>
+      {drawing.pieces.map(piece => <mesh key={piece.material} geometry={piece.geometry} material={materials[piece.material]} castShadow receiveShadow raycast={raycastByTree} />)}
+    </group>
+  ));
+}

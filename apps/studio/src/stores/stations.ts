@@ -1,0 +1,40 @@
+import type { Pose } from "@twincell/core";
+import type { StationWords, TellOf } from "@twincell/messages";
+import { createStore } from "zustand/vanilla";
+
+/** Where the host of a station runs: in a worker of this page, or on the server that served it. */
+export type HostPlace = "page" | "server";
+
+/** Another controller of the cell, as slowly as people read. Its joint angles are in `live/stations.ts`. */
+export interface StationState extends StationWords {
+  readonly place: HostPlace;
+  /** Where its robot is drawn. */
+  readonly stand: Pose<"world", "base">;
+  readonly link: Omit<TellOf<"link">, "type" | "station">;
+  readonly guard: Omit<TellOf<"guard">, "type" | "station">;
+  readonly mode: "manual" | "automatic" | "remote";
+  readonly safety: TellOf<"sample">["safety"];
+  readonly moving: boolean;
+  readonly override: number;
+  readonly step: string;
+  readonly message: string;
+  readonly plan_rad: number | null;
+  readonly command_rad: number | null;
+  readonly running: boolean;
+  /** The plug of a virtual controller was pulled. */
+  readonly unplugged: boolean;
+  /** The last thing the guard or the host said. */
+  readonly notice: string;
+}
+export interface StationsState {
+  readonly stations: readonly StationState[];
+  readonly brands: TellOf<"hello">["brands"];
+  /** Whether the page was served by a server that hosts stations; null until it was asked. */
+  readonly server: boolean | null;
+}
+export const stationStore = createStore<StationsState>(() => ({ stations: [], brands: [], server: null }));
+
+export const stationOf = (id: string): StationState | undefined => stationStore.getState().stations.find(station => station.id === id);
+export function changeStation(id: string, change: Partial<StationState>): void {
+  stationStore.setState(({ stations }) => ({ stations: stations.map(station => (station.id === id ? { ...station, ...change } : station)) }));
+}

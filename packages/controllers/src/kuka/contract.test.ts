@@ -1,0 +1,26 @@
+import { manualScheduler } from "@twincell/core";
+import { createRealController } from "../real/index.ts";
+import { describeController } from "../testing/index.ts";
+import { memoryNetwork } from "../transport/index.ts";
+import { createKukaFace, createVirtualKuka, kukaAxes, startLoop } from "./index.ts";
+import { HOST, interpretMoves, KR6 } from "./testing/bench.ts";
+
+describeController("KUKA driver on its virtual controller, over variables", {
+  robot: KR6, scheduler: manualScheduler,
+  cannot: [
+    { test: "T-17", because: "A command takes two questions, a cycle and a poll to come through (about 10 ms), three times of which is more than one frame; how the greatest speed scales a motion is measured at the robot instead." },
+  ],
+  async make({ robot, scheduler, start_rad, maxSpeed, initialize, onMotion }) {
+    const network = memoryNetwork(scheduler), axes = kukaAxes(KR6)!, model = "#KR6R900SIXX";
+    // As many digits as there are: what is compared here is the driver, not the rounding of a 32-bit REAL (that is T-23's).
+    const kuka = await createVirtualKuka({ robot, scheduler, network, host: HOST, interpret: interpretMoves, axes, model, start_rad, digits: 14, ...(maxSpeed === undefined ? {} : { maxSpeed }) });
+    startLoop(kuka);
+    const face = createKukaFace({ robot, scheduler, network, host: HOST, axes, model, period_s: 0.004 });
+    const controller = createRealController({ face, scheduler, ...(initialize ? { initialize } : {}), ...(onMotion ? { onMotion } : {}) });
+    const connecting = controller.connect();
+    await scheduler.elapse(0.05);
+    await connecting;
+    await scheduler.elapse(0.02);
+    return controller;
+  },
+});

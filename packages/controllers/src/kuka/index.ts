@@ -1,0 +1,8 @@
+export { kukaAxes, type KukaAxes } from "./axes.ts";
+export { C3_PORT } from "./codec-c3.ts";
+export { LOOP_FILES, LOOP_NAME } from "./loop.ts";
+export { createVirtualKuka, startLoop, type KukaPendant, type VirtualKuka, type VirtualKukaOptions } from "./virtual/controller.ts";
+export { createKukaFace, type KukaFaceOptions } from "./driver/face.ts";
+export type { KukaFaults } from "./virtual/faults.ts";
+export type { KukaMode } from "./virtual/machine.ts";
+export { kuka } from "./brand.ts";

@@ -1,0 +1,65 @@
+import type { CommandOutcome, Interpreted, OperatingMode, Robot, Scheduler } from "@twincell/core";
+import type { Network } from "../transport/index.ts";
+import type { Face } from "./face.ts";
+
+/** Ports by the brand's own names for them; those left out are the vendor's own. */
+export type PortNumbers = Readonly<Record<string, number>>;
+
+export interface FaceOptions {
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly network: Network;
+  readonly host: string;
+  readonly ports?: PortNumbers;
+}
+export interface BrandVirtualOptions extends FaceOptions {
+  /** Executes a text of the brand's own language; see `Brand.dialect`. */
+  readonly interpret: (text: string) => Interpreted;
+  readonly start_rad?: ArrayLike<number>;
+  /** Part of the robot's own joint speeds that 100 % stands for, 0 … 1 (row T-17). */
+  readonly maxSpeed?: number;
+}
+
+/** The cabinet and the pendant of a virtual controller, as a person stands before them (rows T-26, T-27). */
+export interface Pendant {
+  setMode(mode: OperatingMode): void;
+  /** A joint move commanded at the pendant; works in manual mode only. */
+  jog(q_rad: ArrayLike<number>): Promise<CommandOutcome>;
+  /** The red button: true presses it, false turns it out again; the drives stay off. */
+  emergencyStop(pressed: boolean): void;
+  /** A proximity sensor or a gate. */
+  setGuardOpen(open: boolean): void;
+  /** The robot stops by itself and stays so until reset. */
+  protectiveStop(because: string): void;
+  setInput(signal: string, value: boolean | number): void;
+}
+
+export interface BrandVirtual {
+  readonly name: string;
+  readonly robot: Robot;
+  /** Where it listens, by the brand's names. */
+  readonly ports: PortNumbers;
+  readonly pendant: Pendant;
+  /** Longest time from the command to stop until standstill [s]. */
+  readonly brakingTime_s: number;
+  /** The joint angles now [rad]. */
+  jointAngles(out?: Float64Array): Float64Array;
+  /** Off and on again: connections end, clocks and counters begin anew, drives are off as after power-on. */
+  readonly reboot: () => void;
+  close(): void;
+}
+export type BrandStarted = { readonly kind: "started"; readonly virtual: BrandVirtual } | { readonly kind: "taken"; readonly sentence: string };
+
+/** A brand as apps meet it: one of these for each folder. */
+export interface Brand {
+  readonly id: string;
+  readonly name: string;
+  /** Id of the language its controllers run. */
+  readonly dialect: string;
+  /** The vendor's own port numbers. */
+  readonly ports: PortNumbers;
+  /** Vendor of the robots it drives, as robots name it. */
+  readonly vendor: string;
+  face(options: FaceOptions): Face;
+  virtual(options: BrandVirtualOptions): Promise<BrandStarted>;
+}

@@ -1,0 +1,4 @@
+export * from "./brand.ts";
+export * from "./face.ts";
+export { Meter, type Metered } from "./meter.ts";
+export { createRealController, type RealOptions } from "./controller.ts";

@@ -1,0 +1,123 @@
+import type { CommandOutcome, JointSample, LinkReport, LinkState, Refusal, Scheduler } from "@twincell/core";
+import { listeners } from "../listeners.ts";
+import type { Face } from "./face.ts";
+import { Meter } from "./meter.ts";
+import { cameLate, noAnswer, notOpen } from "./words.ts";
+
+/** First pause before a lost link is tried again [s]; each failure doubles it up to the longest. */
+const FIRST_PAUSE_S = 0.25, LONGEST_PAUSE_S = 8;
+/** An attempt that says nothing for this long has failed [s]. */
+const ATTEMPT_S = 10;
+/** How often the watch looks, as a part of the time after which samples are stale. */
+const LOOKS = 4;
+
+export interface Link {
+  readonly report: LinkReport;
+  readonly isOpen: boolean;
+  open(): Promise<CommandOutcome>;
+  close(): void;
+  onChange(listen: (report: LinkReport) => void): () => void;
+}
+export interface LinkListener {
+  /** A sample that is whole and newer than the one before. */
+  sample(lent: Omit<JointSample, "step">): void;
+  /** The link was open and is not any more. */
+  lost(why: Refusal): void;
+}
+
+/**
+ * Keeps one connection: opens it, watches that samples keep coming, and when they do not, closes it and tries again with
+ * growing pauses until somebody closes the link. What an old connection still says is not listened to.
+ */
+export function keepLink(face: Face, scheduler: Scheduler, name: string, listener: LinkListener): Link {
+  const meter = new Meter(), changes = listeners<LinkReport>();
+  let state: LinkState = "closed", sentence = notOpen(name).sentence, attempts = 0, roundTrip_s = NaN, heard_s = 0, life = 0;
+  let stopWaiting: () => void = () => { /* Nothing waits yet. */ }, giveUp: () => void = stopWaiting;
+
+  const report: LinkReport = {
+    get state() { return state; }, get sentence() { return sentence; }, get attempts() { return attempts; },
+    get rate_Hz() { return meter.now.rate_Hz; }, get late_s() { return meter.now.late_s; }, get missing() { return meter.now.missing; },
+    get roundTrip_s() { return roundTrip_s; },
+  };
+  const become = (to: LinkState, says: string): void => {
+    state = to;
+    sentence = says;
+    changes.call(report);
+  };
+  const after = (seconds: number, then: () => void): void => {
+    stopWaiting();
+    const stop = scheduler.every(seconds, () => { stop(); then(); });
+    stopWaiting = stop;
+  };
+
+  function lose(why: Refusal): void {
+    life++;
+    face.close();
+    become("lost", why.sentence);
+    listener.lost(why);
+    again();
+  }
+  const again = (): void => { after(Math.min(LONGEST_PAUSE_S, FIRST_PAUSE_S * 2 ** Math.max(0, attempts - 1)), () => { void attempt(); }); };
+
+  function watch(): void {
+    stopWaiting();
+    stopWaiting = scheduler.every(face.stale_s / LOOKS, () => {
+      const silent_s = scheduler.now_s() - heard_s;
+      if (silent_s > face.stale_s) lose(cameLate(name, silent_s));
+    });
+  }
+
+  async function attempt(): Promise<CommandOutcome> {
+    const mine = ++life;
+    attempts++;
+    become("connecting", `${name} is being connected, attempt ${attempts}.`);
+    const isMine = (): boolean => mine === life;
+    const opening = face.open({
+      sample(lent) {
+        if (!isMine()) return;
+        heard_s = scheduler.now_s();
+        for (const angle of lent.q_rad) if (!Number.isFinite(angle)) return;
+        if (meter.take(lent.sequence, lent.time_s, heard_s)) listener.sample(lent);
+      },
+      roundTrip(seconds) { if (isMine()) roundTrip_s = seconds; },
+      lost(says) { if (isMine() && state === "open") lose({ code: "link.lost", sentence: says, hint: "It is tried again by itself; motion is not." }); },
+    });
+    const tooLong = new Promise<null>(resolve => { giveUp = () => { resolve(null); }; after(ATTEMPT_S, giveUp); });
+    const opened = await Promise.race([opening, tooLong]);
+    if (!isMine()) return { kind: "refused", why: notOpen(name) };
+    if (opened?.kind === "open") {
+      attempts = 0;
+      heard_s = scheduler.now_s();
+      become("open", "");
+      watch();
+      return { kind: "done" };
+    }
+    life++;
+    face.close();
+    const why = opened?.why ?? noAnswer(name, ATTEMPT_S);
+    if (opened?.again === false) { stopWaiting(); become("closed", why.sentence); } else { become("lost", why.sentence); again(); }
+    return { kind: "refused", why };
+  }
+
+  return {
+    report,
+    get isOpen() { return state === "open"; },
+    async open() {
+      if (state === "open") return { kind: "done" };
+      attempts = 0;
+      meter.reset();
+      return attempt();
+    },
+    close() {
+      if (state === "closed") return;
+      const wasOpen = state === "open";
+      life++;
+      stopWaiting();
+      giveUp();
+      face.close();
+      become("closed", notOpen(name).sentence);
+      if (wasOpen) listener.lost(notOpen(name));
+    },
+    onChange: listen => changes.add(listen),
+  };
+}

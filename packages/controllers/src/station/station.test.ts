@@ -1,0 +1,94 @@
+import { emptyProgram, manualScheduler, planProgram, robotById, samplePlan, type MoveStep, type Program } from "@twincell/core";
+import { describe, expect, test } from "vitest";
+import { createRealController } from "../real/index.ts";
+import { nearFace } from "../testing/index.ts";
+import { PlanFollower } from "../twin/index.ts";
+import { createStation } from "./index.ts";
+
+const robot = robotById("staubli_rx90l")!;
+const shifted = (by_rad: number): number[] => Array.from(robot.home_rad, q => q + by_rad);
+const move = (id: string, q: readonly number[]): MoveStep => ({ id, type: "move", path: "ptp", target: { q }, speed: { ratio: 0.5 }, blend_m: 0 });
+const program: Program = { ...emptyProgram(robot.id), steps: [move("there", shifted(0.4)), move("back", [...robot.home_rad])] };
+
+async function bench() {
+  const scheduler = manualScheduler(), face = nearFace(robot, scheduler);
+  const station = createStation({ controller: createRealController({ face, scheduler, name: "Cell 1" }), scheduler, deadMan: false, alarm_rad: 0.02 });
+  await station.connect();
+  await scheduler.elapse(0.1);
+  const seat = station.seat("you"), notices: string[] = [];
+  station.onNotice(why => { notices.push(why.code); });
+  seat.take();
+  return { scheduler, face, station, seat, notices };
+}
+const planned = () => {
+  const answer = planProgram(program, robot);
+  if (answer.kind !== "planned") throw new Error("The plan of the test fails.");
+  return answer.plan;
+};
+
+describe("a station", () => {
+  test("T-24 T-25 runs a program through its guard, its twin follows, and it stays on its plan at any override", async () => {
+    const { scheduler, station, seat } = await bench();
+    const running = station.carryOut(seat, { program, steps: () => program.steps, plan: planned() });
+    let worst_rad = 0;
+    station.onSample(() => { worst_rad = Math.max(worst_rad, station.deviation.plan_rad || 0); });
+    await scheduler.elapse(0.5);
+    seat.robot.setSpeed(30);
+    await scheduler.elapse(30);
+    expect(await running).toEqual({ kind: "done" });
+    expect(worst_rad).toBeGreaterThan(0);
+    expect(worst_rad).toBeLessThan(0.005);
+    expect(station.twin.accuracy.mirror_rad).toBe(0);
+    expect(station.deviation.plan_rad).toBeNaN();
+  });
+
+  test("a robot that leaves its plan is said aloud, once", async () => {
+    const { scheduler, face, station, seat, notices } = await bench();
+    const other = [move("there", shifted(0.4).map((q, i) => i === 2 ? q - 0.3 : q))];
+    const running = station.carryOut(seat, { program, steps: () => other, plan: planned() });
+    await scheduler.elapse(10);
+    await running;
+    expect(notices).toEqual(["twin.deviation"]);
+    expect(face.virtual.jointAngle(3)).toBeCloseTo(robot.home_rad[2]! + 0.1, 6);
+  });
+
+  test("X-41 the plug is pulled: the guard lets nothing move until a person says so, though the link is back", async () => {
+    const { scheduler, face, station, seat } = await bench();
+    const running = station.carryOut(seat, { program, steps: () => program.steps });
+    await scheduler.elapse(0.3);
+    face.silent = true;
+    await scheduler.elapse(0.1);
+    expect(await running).toMatchObject({ kind: "stopped" });
+    face.silent = false;
+    face.virtual.stop();
+    await scheduler.elapse(2);
+    expect(station.link).toMatchObject({ state: "open" });
+    expect(await seat.robot.moveToZero()).toMatchObject({ kind: "refused", why: { code: "guard.link-unconfirmed" } });
+    expect(seat.confirm()).toEqual({ kind: "done" });
+    const again = seat.robot.moveJoints(shifted(0.1));
+    await scheduler.elapse(5);
+    expect(await again).toEqual({ kind: "done" });
+  });
+
+  test("two people: one commands, anyone stops", async () => {
+    const { scheduler, station, seat } = await bench();
+    const other = station.seat("somebody");
+    expect(other.take()).toMatchObject({ kind: "refused", why: { code: "guard.lease-taken" } });
+    const running = seat.robot.moveJoints(shifted(0.5));
+    await scheduler.elapse(0.2);
+    other.robot.stop();
+    await scheduler.elapse(1);
+    expect(await running).toMatchObject({ kind: "stopped" });
+  });
+});
+
+test("the place on a plan is found again sample by sample, also where the plan turns back", () => {
+  const plan = planned(), follower = new PlanFollower(plan, 6), q = new Float64Array(6);
+  let worst_rad = 0;
+  for (let t_s = 0; t_s <= plan.duration_s; t_s += 0.02) {
+    samplePlan(plan, t_s, q);
+    worst_rad = Math.max(worst_rad, follower.take(q));
+    expect(Math.abs(follower.at_s - t_s)).toBeLessThan(0.5);
+  }
+  expect(worst_rad).toBeLessThan(0.005);
+});

@@ -1,0 +1,56 @@
+import { samplePlan, type Plan } from "@twincell/core";
+
+/** How far ahead and back along the plan the robot is looked for, in steps of this long [s]. */
+const STEP_S = 0.05, BACK = 2, AHEAD = 8, HALVINGS = 5;
+
+/** Largest differences of any joint [rad]; NaN where one of both is not known. */
+export interface Deviation {
+  /** From the nearest place of the plan: how late the robot is does not count, where it is does. */
+  plan_rad: number;
+  /** Of the measured angles from those the controller commands at the same time. */
+  command_rad: number;
+}
+
+/**
+ * Follows a plan with a robot that executes it, at whatever override: the place on the plan nearest to the measured
+ * angles, searched around the place found before. Around a place where the plan turns back, the way there and the way back
+ * are the same place. Allocates nothing per sample.
+ */
+export class PlanFollower {
+  private readonly plan: Plan;
+  private readonly q: Float64Array;
+  private t_s = 0;
+
+  constructor(plan: Plan, joints: number) {
+    this.plan = plan;
+    this.q = new Float64Array(joints);
+  }
+
+  /** The plan's time at which it passes nearest to where the robot last was. */
+  get at_s(): number { return this.t_s; }
+
+  /** min over t near the last of max over joints of |q(t) − measured| [rad]. */
+  take(measured_rad: ArrayLike<number>): number {
+    let best = Infinity, best_s = this.t_s;
+    for (let k = -BACK; k <= AHEAD; k++) {
+      const t_s = Math.min(this.plan.duration_s, Math.max(0, this.t_s + k * STEP_S)), far = this.far(t_s, measured_rad);
+      if (far < best) { best = far; best_s = t_s; }
+    }
+    for (let width = STEP_S / 2, i = 0; i < HALVINGS; i++, width /= 2) {
+      for (const t_s of [best_s - width, best_s + width]) {
+        if (t_s < 0 || t_s > this.plan.duration_s) continue;
+        const far = this.far(t_s, measured_rad);
+        if (far < best) { best = far; best_s = t_s; }
+      }
+    }
+    this.t_s = best_s;
+    return best;
+  }
+
+  private far(t_s: number, measured_rad: ArrayLike<number>): number {
+    samplePlan(this.plan, t_s, this.q);
+    let far = 0;
+    for (let i = 0; i < this.q.length; i++) far = Math.max(far, Math.abs(this.q[i]! - measured_rad[i]!));
+    return far;
+  }
+}

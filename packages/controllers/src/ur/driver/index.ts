@@ -1,0 +1,1 @@
+export { createUrFace } from "./face.ts";

@@ -1,0 +1,278 @@
+import type { Pose } from "@twincell/core";
+import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
+import type { ByteStream, Listening } from "../../transport/index.ts";
+import type { BrandStarted, BrandVirtual, BrandVirtualOptions, Pendant } from "../../real/index.ts";
+import { jointRefusal } from "../../refusals.ts";
+import { JOINTS, lineNumber, modelOf, typeOf, UR_PORTS, type UrPorts } from "../codec/models.ts";
+import { EMERGENCY_STOPS, JOINT_MODE, ROBOT_MODE, RUNTIME, SAFETY_MODE } from "../codec/modes.ts";
+import { errorMessage, exceptionMessage, keyMessage, safetyModeMessage, statePackage, textMessage, versionMessage, type PrimaryArm } from "../codec/primary.ts";
+import type { Version } from "../codec/rtde.ts";
+import type { Field } from "../codec/rtde-fields.ts";
+import type { ScriptFault } from "../script/index.ts";
+import { DashboardServer } from "./dashboard-server.ts";
+import { noFaults, Outbox, type UrFaults } from "./faults.ts";
+import { GRIPPER_BIT, NamedLines } from "./lines.ts";
+import { Memory } from "./memory.ts";
+import { Mover } from "./mover.ts";
+import { Programs } from "./programs.ts";
+import { RtdeServer } from "./rtde-server.ts";
+import { ScriptServer } from "./script-server.ts";
+import { stateFiller } from "./state-filler.ts";
+import { States } from "./states.ts";
+
+export interface VirtualUrOptions extends Omit<BrandVirtualOptions, "host"> {
+  readonly host?: string;
+  readonly worldFromBase?: Pose<"world", "base">;
+  /** What it says it is, where that is not the robot it has. */
+  readonly model?: string;
+  readonly serial?: string;
+  readonly version?: Version;
+  /** Ready to move, or as after switching on. */
+  readonly begins?: "running" | "powered-off";
+  readonly remote?: boolean;
+  readonly powerOn_s?: number;
+  readonly brakes_s?: number;
+  /** What the clock of the controller says at the beginning [s]; clients mistrust one that has just booted. */
+  readonly booted_s?: number;
+  /** Programs by name, for "load". */
+  readonly files?: ReadonlyMap<string, string>;
+  readonly onMotion?: (q_rad: ArrayLike<number>) => void;
+  readonly log?: (sentence: string) => void;
+}
+
+/** What a person does at the teach pendant and at the robot, beside what every brand has. Manual mode is local control. */
+export interface UrPendant extends Pendant {
+  setOperationalMode(mode: "NONE" | "MANUAL" | "AUTOMATIC"): void;
+  setSpeed(fraction: number): void;
+  fault(because: string): void;
+  /** Powers on and releases the brakes. */
+  switchOn(): void;
+  switchOff(): void;
+  unlock(): "unlocked" | "too-soon" | "nothing";
+  stopProgram(): void;
+}
+
+export interface UrState {
+  readonly q_rad: Float64Array;
+  readonly robotMode: number;
+  readonly safetyMode: number;
+  readonly runtime: number;
+  readonly moving: boolean;
+  readonly remote: boolean;
+  readonly speedFraction: number;
+  /** Cycles since it was switched on. */
+  readonly cycles: number;
+}
+
+export interface VirtualUr extends BrandVirtual {
+  readonly faults: UrFaults;
+  readonly pendant: UrPendant;
+  readonly state: UrState;
+  readonly memory: Memory;
+  digitalOut(bit: number): boolean;
+}
+export type UrStarted = { readonly kind: "started"; readonly virtual: VirtualUr } | Extract<BrandStarted, { kind: "taken" }>;
+
+const CYCLE_S = 0.002;
+/** The primary interface tells its state ten times a second. */
+const PRIMARY_CYCLES = 50;
+const DEFAULTS = { version: [5, 12, 0, 1_101_319] as Version, serial: "20225500001", booted_s: 60, powerOn_s: 1.5, brakes_s: 1, host: "127.0.0.1" } as const;
+/** Error of a script that comes while the controller is not in remote control. */
+const READ_ONLY = 210, VIOLATION = 2;
+
+/** A controller of Universal Robots made of numbers: its ports, its states, its programs, in front of the neutral virtual robot that moves. */
+export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStarted> {
+  const { robot, network, scheduler } = options, version = options.version ?? DEFAULTS.version, host = options.host ?? DEFAULTS.host, log = options.log ?? (() => { /* Nobody listens. */ });
+  if (robot.arm.joints.length !== JOINTS) return { kind: "taken", sentence: `${robot.name} has ${robot.arm.joints.length} joints; robots of Universal Robots have ${JOINTS}.` };
+  const neutral: VirtualController = createVirtualController({
+    robot, scheduler, cycle_s: CYCLE_S, ...(options.start_rad ? { start_rad: options.start_rad } : {}), ...(options.maxSpeed === undefined ? {} : { maxSpeed: options.maxSpeed }),
+    ...(options.worldFromBase ? { worldFromBase: options.worldFromBase } : {}), ...(options.onMotion ? { onMotion: options.onMotion } : {}),
+  });
+  const memory = new Memory(), mover = new Mover(neutral, robot, CYCLE_S), lines = new NamedLines(memory, neutral.signals), faults = noFaults();
+  let cycles = 0, booted_s = options.booted_s ?? DEFAULTS.booted_s, remote = options.remote ?? true, operational = "NONE", fraction = 1, frozen = false, gripper = false, isClosed = false;
+  const now_s = (): number => cycles * CYCLE_S, time_us = (): number => Math.round((booted_s + now_s()) * 1e6);
+  // Delays are the wire's, not the controller's: they go on while it hangs.
+  const outbox = new Outbox(faults, () => scheduler.now_s());
+
+  const tell = (bytes: Uint8Array): void => { primary.tell(bytes); };
+  const states = new States({
+    powerOn_s: options.powerOn_s ?? DEFAULTS.powerOn_s, brakes_s: options.brakes_s ?? DEFAULTS.brakes_s,
+    onStop(how, because) {
+      log(because);
+      if (how === "hold" && programs.pause()) return;
+      programs.end();
+    },
+    onResume() { programs.resume(); },
+    onSafety(mode) { tell(safetyModeMessage(time_us(), mode)); },
+  });
+  const onFault = ({ line, column, sentence }: ScriptFault): void => { log(`Line ${line}: ${sentence}`); tell(exceptionMessage(time_us(), line, column, sentence)); };
+  const protectiveStop = (because: string): void => {
+    states.protectiveStop(because, now_s());
+    tell(errorMessage(time_us(), 0, VIOLATION, because));
+  };
+  const programs: Programs = new Programs({
+    mover, lines, interpret: options.interpret, onFault,
+    host: { robot, memory, mover, cycle_s: CYCLE_S, now_s, protectiveStop, say: text => { tell(textMessage(time_us(), text)); } },
+    onStarted: name => { tell(keyMessage(time_us(), "PROGRAM_XXX_STARTED", name)); },
+    onStopped: name => { tell(keyMessage(time_us(), "PROGRAM_XXX_STOPPED", name)); },
+  });
+
+  function onScript(text: string, answer: (bytes: Uint8Array) => void): void {
+    if (!remote) { answer(errorMessage(time_us(), READ_ONLY, 1, "The controller is not in remote control.")); return; }
+    switch (text.trim().toLowerCase()) {
+      case "power on": states.powerOn(now_s()); return;
+      case "power off": states.powerOff(); return;
+      case "set robotmode run": states.powerOn(now_s(), ROBOT_MODE.RUNNING); return;
+      case "set unlock protective stop": states.unlock(now_s()); return;
+      case "stop program": programs.end(); return;
+      default:
+    }
+    if (!states.mayMove) { answer(errorMessage(time_us(), 0, 1, "The robot is not ready: programs run when it is powered, its brakes are open and nothing holds it.")); return; }
+    programs.start(text);
+  }
+
+  const setSpeed = (to: number): void => { fraction = Math.max(0, Math.min(1, to)); mover.setRate(fraction); };
+  const GROUPS = [["standard", 0, 8], ["configurable", 8, 8], ["tool", 16, 2]] as const;
+  function onInputs(fields: readonly Field[]): void {
+    if (!remote) return;
+    for (const { name } of fields) {
+      if (name === "speed_slider_mask" && memory.get("speed_slider_mask") !== 0) setSpeed(memory.get("speed_slider_fraction"));
+      if (name === "standard_analog_output_mask") {
+        const mask = memory.get("standard_analog_output_mask");
+        for (const i of [0, 1]) if (mask & (1 << i)) memory.set(`standard_analog_output${i}`, memory.get(`standard_analog_output_${i}`));
+      }
+      for (const [group, from, count] of GROUPS) {
+        if (name !== `${group}_digital_output_mask`) continue;
+        const mask = memory.get(name), value = memory.get(`${group}_digital_output`);
+        for (let i = 0; i < count; i++) if (mask & (1 << i)) memory.setDigital("output", from + i, (value & (1 << i)) !== 0);
+      }
+    }
+  }
+
+  const model = options.model ?? modelOf(robot), common = { outbox, log };
+  const rtde = new RtdeServer({ ...common, memory, version, cycle_s: CYCLE_S, now_s, onInputs });
+  const dashboard = new DashboardServer({
+    ...common, states, programs, version, model, now_s, serial: options.serial ?? DEFAULTS.serial, isRemote: () => remote, operationalMode: () => operational,
+    setOperationalMode: mode => { operational = mode; }, file: name => options.files?.get(name),
+  });
+  const joints = robot.arm.joints.map(({ limits }) => limits);
+  const arm: PrimaryArm = {
+    lower_rad: joints.map(limits => limits.lower_rad), upper_rad: joints.map(limits => limits.upper_rad), speed_rad_s: joints.map(limits => limits.speed_rad_s),
+    acceleration_rad_s2: joints.map(limits => limits.acceleration_rad_s2), type: typeOf(model),
+  };
+  const tcp = new Float64Array(6), offset = new Float64Array(6);
+  const packaged = (): Uint8Array => {
+    for (let i = 0; i < 6; i++) { tcp[i] = memory.slots[slotTcp + i]!; offset[i] = memory.slots[slotOffset + i]!; }
+    const { robotMode, safetyMode } = states;
+    return statePackage({
+      time_us: time_us(), powerOn: robotMode >= ROBOT_MODE.IDLE, emergencyStopped: EMERGENCY_STOPS.has(safetyMode), protectiveStopped: safetyMode === SAFETY_MODE.PROTECTIVE_STOP,
+      running: programs.runtime === RUNTIME.PLAYING, paused: programs.runtime === RUNTIME.PAUSED, robotMode, safetyMode, remote, speedFraction: fraction, q_rad: neutral.jointAngles(), qd_rad_s: mover.qd,
+      jointMode: robotMode === ROBOT_MODE.RUNNING ? JOINT_MODE.running : JOINT_MODE.idle, tcp, tcpOffset: offset,
+      digitalIn: memory.get("actual_digital_input_bits"), digitalOut: memory.get("actual_digital_output_bits"),
+    }, arm);
+  };
+  const slotTcp = memory.slotOf("actual_TCP_pose"), slotOffset = memory.slotOf("tcp_offset");
+  const greeting = (): Uint8Array[] => [versionMessage(time_us(), "URControl", version, "22-03-2022, 00:00:00"), safetyModeMessage(time_us(), states.safetyMode), packaged()];
+  const primary = new ScriptServer({ ...common, name: "Primary interface", greeting, onScript });
+  const secondary = new ScriptServer({ ...common, name: "Secondary interface", greeting, onScript });
+  const realTime = new ScriptServer({ ...common, name: "Real-time interface", greeting: () => [], onScript });
+
+  const fill = stateFiller(robot, memory, mover, states, programs);
+  states.begin(options.begins === "powered-off" ? ROBOT_MODE.POWER_OFF : ROBOT_MODE.RUNNING);
+
+  neutral.onSample(sample => {
+    outbox.cycle();
+    if (frozen !== faults.frozen) { frozen = faults.frozen; mover.hold(frozen); }
+    if (frozen) return;
+    cycles++;
+    if (sample.gripperClosed !== gripper) { gripper = sample.gripperClosed; memory.setDigital("output", GRIPPER_BIT, gripper); }
+    const q = mover.cycle(sample);
+    fill(booted_s + now_s(), q, fraction);
+    states.cycle(now_s());
+    const ended = programs.cycle();
+    if (ended !== "") { log(ended); tell(errorMessage(time_us(), 0, 1, ended)); }
+    rtde.cycle(cycles);
+    if (cycles % PRIMARY_CYCLES === 0 && primary.clients + secondary.clients > 0) {
+      const bytes = packaged();
+      primary.tell(bytes, true);
+      secondary.tell(bytes, true);
+    }
+  });
+
+  const wanted = { ...UR_PORTS, ...options.ports }, doors: Extract<Listening, { kind: "listening" }>[] = [];
+  const servers: Readonly<Record<keyof UrPorts, { accept(stream: ByteStream): void; closeAll(): void }>> = { dashboard, primary, secondary, realTime, rtde };
+  const ports: Record<keyof UrPorts, number> = { ...wanted };
+  const closeAll = (): void => { for (const server of Object.values(servers)) server.closeAll(); };
+  for (const name of ["dashboard", "primary", "secondary", "realTime", "rtde"] as const) {
+    const door = await network.listen({ host, port: wanted[name] }, stream => { if (faults.refusing || isClosed) stream.close(); else servers[name].accept(stream); });
+    if (door.kind === "taken") {
+      for (const open of doors) open.close();
+      neutral.close();
+      return door;
+    }
+    ports[name] = door.address.port;
+    doors.push(door);
+  }
+
+  const virtual: VirtualUr = {
+    name: `Virtual ${robot.name}`, robot, faults, ports, memory, brakingTime_s: neutral.brakingTime_s,
+    jointAngles: out => neutral.jointAngles(out),
+    state: {
+      get q_rad() { return neutral.jointAngles(); }, get robotMode() { return states.robotMode; }, get safetyMode() { return states.safetyMode; }, get runtime() { return programs.runtime; },
+      get moving() { return mover.isMoving; }, get remote() { return remote; }, get speedFraction() { return fraction; }, get cycles() { return cycles; },
+    },
+    digitalOut: bit => memory.digital("output", bit),
+    pendant: {
+      setMode(mode) {
+        const to = mode !== "manual";
+        if (to !== remote) { remote = to; programs.end(); }
+      },
+      setOperationalMode(mode) { operational = mode; },
+      async jog(q_rad) {
+        const why = jointRefusal(robot, q_rad) ?? (remote ? { code: "controller.not-manual", sentence: `${robot.name} is in remote control; its pendant jogs in local control only.`, hint: "Switch it to local control." } : null)
+          ?? (states.mayMove ? null : { code: "controller.not-ready", sentence: `${robot.name} is not ready to move.`, hint: "Power it on and release its brakes." }) ?? (mover.isAtRest ? null
+            : { code: "controller.busy", sentence: `${robot.name} is still moving.`, hint: "Wait until it stands." });
+        if (why) return { kind: "refused", why };
+        const moving = mover.run([{ id: "", type: "move", path: "ptp", target: { q: Array.from(q_rad) }, speed: { ratio: 0.25 }, blend_m: 0 }], { tools: {}, frames: {} });
+        return new Promise(resolve => {
+          const done = neutral.onSample(() => {
+            if (!moving.over) return;
+            done();
+            resolve(moving.sentence === "" ? { kind: "done" } : { kind: "stopped", why: { code: "controller.stopped", sentence: moving.sentence, hint: "Jog it again." } });
+          });
+        });
+      },
+      setSpeed,
+      emergencyStop(pressed) { states.emergencyStop(pressed); },
+      setGuardOpen(open) { states.safeguard(open); },
+      protectiveStop,
+      fault(because) { states.fault(because); },
+      switchOn() { states.powerOn(now_s(), ROBOT_MODE.RUNNING); },
+      switchOff() { states.powerOff(); },
+      unlock: () => states.unlock(now_s()),
+      stopProgram() { programs.end(); },
+      setInput(signal, value) {
+        const line = lineNumber(signal);
+        if (line?.kind === "digital-in") memory.setDigital("input", line.number, value === true || (typeof value === "number" && value !== 0));
+        if (line?.kind === "analogue-in" && line.number < 2) memory.set(`standard_analog_input${line.number}`, Number(value));
+      },
+    },
+    reboot() {
+      programs.end();
+      programs.endBeside();
+      closeAll();
+      outbox.clear();
+      cycles = 0;
+      booted_s = 0;
+      states.begin(ROBOT_MODE.POWER_OFF);
+    },
+    close() {
+      if (isClosed) return;
+      isClosed = true;
+      closeAll();
+      for (const door of doors) door.close();
+      neutral.close();
+    },
+  };
+  return { kind: "started", virtual };
+}

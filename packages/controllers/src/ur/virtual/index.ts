@@ -1,0 +1,2 @@
+export { createVirtualUr, type UrPendant, type UrState, type UrStarted, type VirtualUr, type VirtualUrOptions } from "./controller.ts";
+export type { UrFaults } from "./faults.ts";

@@ -1,0 +1,49 @@
+import type { Pose } from "@twincell/core";
+import { z } from "zod";
+
+const text = z.string().min(1).max(200);
+const angles = z.array(z.number()).max(16);
+const pose = z.strictObject({ position: z.tuple([z.number(), z.number(), z.number()]), quaternion: z.tuple([z.number(), z.number(), z.number(), z.number()]) })
+  .transform((value): Pose<"world", "base"> => value);
+const port = z.int().min(1).max(65_535);
+const station = { station: text } as const;
+/** Answered by the `answer` of the same number. */
+const asked = { id: z.int().nonnegative() } as const;
+
+/** What a pendant at a virtual controller does. */
+export const pendantSchema = z.discriminatedUnion("do", [
+  z.strictObject({ do: z.literal("mode"), mode: z.enum(["manual", "automatic", "remote"]) }),
+  z.strictObject({ do: z.literal("jog"), q_rad: angles }),
+  z.strictObject({ do: z.literal("emergency-stop"), pressed: z.boolean() }),
+  z.strictObject({ do: z.literal("guard"), open: z.boolean() }),
+  z.strictObject({ do: z.literal("protective-stop"), because: text }),
+  z.strictObject({ do: z.literal("input"), signal: text, value: z.union([z.boolean(), z.number()]) }),
+  z.strictObject({ do: z.literal("reboot") }),
+]);
+
+/** What one who commands may say to a host of stations. Lengths and counts are bounded; a program has its own door in core. */
+export const askSchema = z.discriminatedUnion("type", [
+  z.strictObject({
+    type: z.literal("open"), ...asked, ...station, brand: text, robot: text, name: z.exactOptional(text), worldFromBase: z.exactOptional(pose),
+    /** Where the controller is; left out, a virtual one is started where the host is. */
+    address: z.exactOptional(z.strictObject({ host: text, ports: z.exactOptional(z.record(text, port)) })),
+  }),
+  z.strictObject({ type: z.enum(["close", "connect", "disconnect", "take", "release", "confirm", "reset"]), ...asked, ...station }),
+  z.strictObject({ type: z.literal("hold"), ...asked, ...station, pressed: z.boolean() }),
+  z.strictObject({ type: z.literal("speed"), ...asked, ...station, percent: z.number() }),
+  z.strictObject({ type: z.literal("move"), ...asked, ...station, q_rad: angles }),
+  z.strictObject({ type: z.literal("zero"), ...asked, ...station }),
+  z.strictObject({ type: z.literal("run"), ...asked, ...station, program: z.unknown(), asText: z.boolean() }),
+  /** Anyone may. Without a station it is all of them. */
+  z.strictObject({ type: z.literal("stop"), station: z.exactOptional(text), emergency: z.boolean() }),
+  z.strictObject({ type: z.literal("pendant"), ...asked, ...station, act: pendantSchema }),
+  /** Pulls the plug of a virtual controller, or puts it back. */
+  z.strictObject({ type: z.literal("plug"), ...asked, ...station, pulled: z.boolean() }),
+  z.strictObject({ type: z.literal("alive"), ...station }),
+  /** Comes back as it is, for the time it takes (row T-61). */
+  z.strictObject({ type: z.literal("ping"), sent_s: z.number() }),
+]);
+
+export type Ask = z.infer<typeof askSchema>;
+export type AskOf<Type extends Ask["type"]> = Extract<Ask, { readonly type: Type }>;
+export type PendantAct = z.infer<typeof pendantSchema>;

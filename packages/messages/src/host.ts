@@ -1,0 +1,205 @@
+import { parseProgram, type CommandOutcome, type JointSample, type LinkReport, type Program, type Refusal, type RobotController, type Scheduler } from "@twincell/core";
+import type { Ask, AskOf, PendantAct } from "./ask.ts";
+import { PROTOCOL, readAsk, write } from "./read.ts";
+import type { StationWords, Tell, TellOf } from "./tell.ts";
+
+/** A line of texts between a host and one who commands: a socket, or a worker's port. */
+export interface Channel {
+  send(text: string): void;
+  close(): void;
+}
+/** The place of one who commands at one station. */
+export interface HostedSeat {
+  take(): CommandOutcome;
+  release(): CommandOutcome;
+  hold(pressed: boolean): CommandOutcome;
+  confirm(): CommandOutcome;
+  alive(): void;
+  readonly robot: RobotController;
+}
+/** What a host needs of a station. */
+export interface HostedStation<Seat extends HostedSeat = HostedSeat> {
+  readonly words: StationWords;
+  readonly link: LinkReport | null;
+  readonly guard: { readonly state: Omit<TellOf<"guard">, "type" | "station"> };
+  readonly deviation: { readonly plan_rad: number; readonly command_rad: number };
+  seat(who: string): Seat;
+  connect(): Promise<CommandOutcome>;
+  disconnect(): void;
+  run(seat: Seat, program: Program, asText: boolean): Promise<CommandOutcome>;
+  stop(emergency: boolean): void;
+  /** The pendant of a virtual controller; null where a person stands before a real one. */
+  readonly pendant: ((act: PendantAct) => Promise<CommandOutcome>) | null;
+  readonly plug: ((pulled: boolean) => void) | null;
+  onSample(listen: (lent: JointSample) => void): () => void;
+  onLink(listen: (report: LinkReport) => void): () => void;
+  onGuard(listen: () => void): () => void;
+  onNotice(listen: (why: Refusal) => void): () => void;
+  close(): void;
+}
+export type OpenedStation = { readonly kind: "opened"; readonly station: HostedStation } | { readonly kind: "refused"; readonly why: Refusal };
+
+/** What an app brings to its host. */
+export interface HostOptions {
+  readonly scheduler: Scheduler;
+  readonly version: string;
+  readonly brands: TellOf<"hello">["brands"];
+  open(ask: AskOf<"open">): Promise<OpenedStation>;
+}
+export interface Host {
+  /** Somebody new; what comes from them goes into `hear`. Leaving gives back every lease they hold. */
+  join(who: string, channel: Channel): { hear(text: string): void; leave(): void };
+  readonly stations: readonly HostedStation[];
+  close(): void;
+}
+
+const DONE: CommandOutcome = { kind: "done" };
+const MOST_STATIONS = 32;
+/** Link figures are told this often, and at every change of state [s]. */
+const FIGURES_S = 0.5;
+const refuse = (code: string, sentence: string, hint: string): CommandOutcome => ({ kind: "refused", why: { code, sentence, hint } });
+const known = (value: number): number | null => Number.isFinite(value) ? value : null;
+
+/** Stations that any number of people look at, and each of which one commands. The same in a worker of the page and on a server. */
+export function createHost(options: HostOptions): Host {
+  const stations = new Map<string, { readonly station: HostedStation; readonly forget: () => void }>(), channels = new Set<Channel>();
+  const all = (message: Tell): void => {
+    const text = write(message);
+    for (const channel of channels) channel.send(text);
+  };
+  const linkWords = (station: HostedStation): TellOf<"link"> | null => {
+    const { link } = station;
+    return link && {
+      type: "link", station: station.words.id, state: link.state, sentence: link.sentence, attempts: link.attempts,
+      rate_Hz: link.rate_Hz, late_s: link.late_s, roundTrip_s: known(link.roundTrip_s), missing: link.missing,
+    };
+  };
+  const guardWords = (station: HostedStation): TellOf<"guard"> => ({ type: "guard", station: station.words.id, ...station.guard.state });
+  const tellLink = (station: HostedStation): void => { const says = linkWords(station); if (says) all(says); };
+
+  function watch(station: HostedStation): () => void {
+    const { id } = station.words;
+    let signals: ReadonlyMap<string, boolean | number> | undefined, said = "";
+    const offs = [
+      station.onSample(sample => {
+        // Lines are told when they change: most samples only move.
+        const lines = sample.signals === undefined ? "" : JSON.stringify([...sample.signals]);
+        if (lines !== said) { said = lines; signals = sample.signals; } else signals = undefined;
+        all({
+          type: "sample", station: id, sequence: sample.sequence, time_s: sample.time_s, sent_s: options.scheduler.now_s(), q_rad: Array.from(sample.q_rad),
+          moving: sample.moving, mode: sample.mode, safety: sample.safety, override: sample.override, gripperClosed: sample.gripperClosed, step: sample.step, message: sample.message,
+          plan_rad: known(station.deviation.plan_rad), command_rad: known(station.deviation.command_rad),
+          ...(signals ? { signals: Object.fromEntries(signals) } : {}),
+        });
+      }),
+      station.onLink(() => { tellLink(station); }),
+      station.onGuard(() => { all(guardWords(station)); }),
+      station.onNotice(why => { all({ type: "notice", station: id, why }); }),
+      options.scheduler.every(FIGURES_S, () => { tellLink(station); }),
+    ];
+    return () => { for (const off of offs) off(); };
+  }
+
+  async function open(ask: AskOf<"open">): Promise<CommandOutcome> {
+    if (stations.has(ask.station)) return refuse("station.exists", `There is a station “${ask.station}” already.`, "Close it first, or give the new one another name.");
+    if (stations.size >= MOST_STATIONS) return refuse("station.too-many", `${MOST_STATIONS} stations are open, which is the most.`, "Close one first.");
+    const opened = await options.open(ask);
+    if (opened.kind === "refused") return opened;
+    // Somebody may have been faster while this one was being opened.
+    if (stations.has(ask.station)) { opened.station.close(); return refuse("station.exists", `There is a station “${ask.station}” already.`, "Give the new one another name."); }
+    stations.set(ask.station, { station: opened.station, forget: watch(opened.station) });
+    all({ type: "opened", ...opened.station.words });
+    all(guardWords(opened.station));
+    return DONE;
+  }
+  function close(id: string): void {
+    const entry = stations.get(id);
+    if (!entry) return;
+    stations.delete(id);
+    entry.forget();
+    entry.station.close();
+    all({ type: "closed", station: id });
+  }
+
+  return {
+    get stations() { return [...stations.values()].map(({ station }) => station); },
+    join(who, channel) {
+      const seats = new Map<HostedStation, HostedSeat>();
+      let gone = false;
+      const tell = (message: Tell): void => { if (!gone) channel.send(write(message)); };
+      const seatAt = (station: HostedStation): HostedSeat => {
+        let seat = seats.get(station);
+        if (!seat) seats.set(station, seat = station.seat(who));
+        return seat;
+      };
+
+      async function carryOut(ask: Exclude<Ask, AskOf<"stop" | "alive" | "ping">>): Promise<CommandOutcome> {
+        if (ask.type === "open") return open(ask);
+        const station = stations.get(ask.station)?.station;
+        if (!station) return refuse("station.none", `There is no station “${ask.station}”.`, "Open it first.");
+        const seat = seatAt(station);
+        switch (ask.type) {
+          case "close": close(ask.station); return DONE;
+          case "connect": return station.connect();
+          case "disconnect": station.disconnect(); return DONE;
+          case "take": return seat.take();
+          case "release": return seat.release();
+          case "confirm": return seat.confirm();
+          case "reset": return seat.robot.reset();
+          case "hold": return seat.hold(ask.pressed);
+          case "speed": return seat.robot.setSpeed(ask.percent);
+          case "move": return seat.robot.moveJoints(ask.q_rad);
+          case "zero": return seat.robot.moveToZero();
+          case "run": {
+            const parsed = parseProgram(ask.program);
+            if (parsed.kind !== "program") return refuse("station.program", `The program cannot be read: ${parsed.faults[0]?.sentence ?? "it is empty"}`, "Export it again.");
+            return station.run(seat, parsed.program, ask.asText);
+          }
+          case "pendant": return station.pendant?.(ask.act) ?? refuse("station.no-pendant", `${station.words.name} is a real controller: its pendant is at the robot.`, "Go there.");
+          case "plug":
+            if (!station.plug) return refuse("station.no-plug", `${station.words.name} is a real controller: its plug is in the wall.`, "Disconnect it instead.");
+            station.plug(ask.pulled);
+            return DONE;
+        }
+      }
+
+      channels.add(channel);
+      tell({ type: "hello", protocol: PROTOCOL, version: options.version, brands: options.brands, stations: [...stations.values()].map(({ station }) => station.words) });
+      for (const { station } of stations.values()) {
+        tell(guardWords(station));
+        const link = linkWords(station);
+        if (link) tell(link);
+      }
+      const leave = (): void => {
+        if (gone) return;
+        gone = true;
+        channels.delete(channel);
+        for (const seat of seats.values()) seat.release();
+      };
+      return {
+        leave,
+        hear(text) {
+          if (gone) return;
+          const heard = readAsk(text);
+          if (heard.kind === "fault") {
+            tell({ type: "fault", sentence: heard.sentence });
+            leave();
+            channel.close();
+            return;
+          }
+          const ask = heard.message;
+          switch (ask.type) {
+            case "ping": tell({ type: "pong", sent_s: ask.sent_s, host_s: options.scheduler.now_s() }); break;
+            case "alive": { const entry = stations.get(ask.station); if (entry) seatAt(entry.station).alive(); break; }
+            case "stop": for (const [id, { station }] of stations) if (ask.station === undefined || ask.station === id) station.stop(ask.emergency); break;
+            default: {
+              const { id } = ask;
+              void carryOut(ask).then(outcome => { tell({ type: "answer", id, outcome }); });
+            }
+          }
+        },
+      };
+    },
+    close() { for (const id of [...stations.keys()]) close(id); channels.clear(); },
+  };
+}

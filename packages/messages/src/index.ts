@@ -1,0 +1,5 @@
+export * from "./ask.ts";
+export * from "./tell.ts";
+export * from "./read.ts";
+export * from "./host.ts";
+export * from "./client.ts";

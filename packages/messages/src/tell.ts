@@ -1,0 +1,54 @@
+import { z } from "zod";
+
+const text = z.string().max(2000);
+const angles = z.array(z.number()).max(16);
+/** JSON knows no NaN: what is not known is null. */
+const maybe = z.number().nullable();
+const value = z.union([z.boolean(), z.number()]);
+const refusal = z.strictObject({
+  code: text, sentence: text, hint: text, joint: z.exactOptional(z.number()), value: z.exactOptional(z.number()), limit: z.exactOptional(z.number()),
+});
+export const outcomeSchema = z.discriminatedUnion("kind", [
+  z.strictObject({ kind: z.literal("done") }),
+  z.strictObject({ kind: z.literal("refused"), why: refusal }),
+  z.strictObject({ kind: z.literal("stopped"), why: refusal }),
+]);
+const station = { station: text } as const;
+const stationWords = z.strictObject({ id: text, name: text, brand: text, robot: text, virtual: z.boolean(), watchdog: text });
+
+/** What a host of stations says. */
+export const tellSchema = z.discriminatedUnion("type", [
+  z.strictObject({
+    type: z.literal("hello"), protocol: z.int(), version: text,
+    brands: z.array(z.strictObject({ id: text, name: text, vendor: text, dialect: text, ports: z.record(text, z.number()) })),
+    stations: z.array(stationWords),
+  }),
+  z.strictObject({ type: z.literal("opened"), ...stationWords.shape }),
+  z.strictObject({ type: z.literal("closed"), ...station }),
+  z.strictObject({ type: z.literal("answer"), id: z.int(), outcome: outcomeSchema }),
+  z.strictObject({
+    type: z.literal("sample"), ...station, sequence: z.number(), time_s: z.number(),
+    /** When the host handed it on, on its own clock. */
+    sent_s: z.number(),
+    q_rad: angles, moving: z.boolean(), mode: z.enum(["manual", "automatic", "remote"]), safety: z.enum(["normal", "guard-stop", "protective-stop", "emergency-stop"]),
+    override: z.number(), gripperClosed: z.boolean(), step: text, message: text, signals: z.exactOptional(z.record(text, value)),
+    /** From the plan and from the controller's own command [rad]. */
+    plan_rad: maybe, command_rad: maybe,
+  }),
+  z.strictObject({
+    type: z.literal("link"), ...station, state: z.enum(["closed", "connecting", "open", "lost"]), sentence: text, attempts: z.int(),
+    rate_Hz: z.number(), late_s: z.number(), roundTrip_s: maybe, missing: z.number(),
+  }),
+  z.strictObject({
+    type: z.literal("guard"), ...station, holder: text.nullable(), pressed: z.boolean(), link: z.enum(["up", "lost", "unconfirmed"]),
+    motion: z.enum(["at-rest", "moving", "stopping", "returning"]), trip: z.enum(["none", "return-due", "return-wanted"]), emergency: z.boolean(),
+  }),
+  z.strictObject({ type: z.literal("notice"), ...station, why: refusal }),
+  z.strictObject({ type: z.literal("pong"), sent_s: z.number(), host_s: z.number() }),
+  /** Something came that could not be read; the connection ends after it. */
+  z.strictObject({ type: z.literal("fault"), sentence: text }),
+]);
+
+export type Tell = z.infer<typeof tellSchema>;
+export type TellOf<Type extends Tell["type"]> = Extract<Tell, { readonly type: Type }>;
+export type StationWords = z.infer<typeof stationWords>;

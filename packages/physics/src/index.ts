@@ -1,0 +1,12 @@
+export { loadEngine, MUJOCO_VERSION, type Engine } from "./engine.ts";
+export * from "./world.ts";
+export { touches, OVERLAP_M, type Touch } from "./contacts.ts";
+export { solidGeoms, solidMass, solidMesh, type Geom } from "./model/solid-geoms.ts";
+export { sceneXml, partMass } from "./model/scene.ts";
+export * from "./run/events.ts";
+export * from "./run/run.ts";
+export { StateLog } from "./run/state-log.ts";
+export { SafetyWatch } from "./run/watch.ts";
+export * from "./validation/pick-and-place.ts";
+export * from "./learn/environment.ts";
+export * from "./learn/dataset.ts";

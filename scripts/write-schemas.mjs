@@ -1,0 +1,9 @@
+/** Writes docs/recording/*.schema.json, the schemas that stand in every recording: node scripts/write-schemas.mjs. A test holds the files to them. */
+import { mkdirSync, writeFileSync } from "node:fs";
+import { TOPICS } from "@twincell/recording";
+
+const folder = new URL("../docs/recording/", import.meta.url);
+mkdirSync(folder, { recursive: true });
+for (const { schema } of TOPICS) {
+  if (schema.encoding === "jsonschema") writeFileSync(new URL(`${schema.name}.schema.json`, folder), `${JSON.stringify(JSON.parse(schema.text), null, 2)}\n`);
+}
