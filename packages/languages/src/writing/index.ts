@@ -7,3 +7,5 @@ export * from "./walk.ts";
 export * from "./steps.ts";
 export * from "./pattern.ts";
 export * from "./split.ts";
+export * from "./basic-program.ts";
+export * from "./six-numbers.ts";

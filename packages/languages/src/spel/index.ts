@@ -1,0 +1,17 @@
+import { identity, type Dialect } from "@twincell/core";
+import { CANNOT, emitSpel } from "./emit.ts";
+import { interpretSpel, parseSpel } from "./interpret.ts";
+
+/** SPEL+ of Epson's RC controllers, on arms with six axes. docs/languages/spel.md says what is known of it, and from where. */
+export const spel: Dialect = {
+  id: "spel",
+  brand: "Epson",
+  name: "SPEL+",
+  extensions: [".prg"],
+  maturity: "experimental",
+  cannot: CANNOT,
+  resolution: { ratio: 0.00501, leastRatio: 0.01, mostMps: 2 },
+  emit: (program, robot, worldFromBase = identity()) => emitSpel(program, robot, worldFromBase),
+  parse: parseSpel,
+  interpret: interpretSpel,
+};
