@@ -5,6 +5,7 @@ import { kawasakiAs } from "./kawasaki-as/index.ts";
 import { krl } from "./krl/index.ts";
 import { poseList } from "./l-irl/index.ts";
 import { rapid } from "./rapid/index.ts";
+import { spel } from "./spel/index.ts";
 import { urScript } from "./urscript/index.ts";
 import { val3 } from "./val3/index.ts";
 import { vPlus } from "./v-plus/index.ts";
@@ -14,6 +15,7 @@ export { fanucLs } from "./fanuc-ls/index.ts";
 export { kawasakiAs } from "./kawasaki-as/index.ts";
 export { loadPoses, poseList, savePoses, type LoadedPoses, type SavedPose } from "./l-irl/index.ts";
 export { rapid } from "./rapid/index.ts";
+export { spel } from "./spel/index.ts";
 export { urScript } from "./urscript/index.ts";
 export { emitPtpAxis, krl } from "./krl/index.ts";
 export { val3 } from "./val3/index.ts";
@@ -21,7 +23,7 @@ export { vPlus } from "./v-plus/index.ts";
 export * from "./prove.ts";
 
 /** Every dialect. A new one is a folder and one line here. */
-export const DIALECTS: readonly Dialect[] = [vPlus, krl, inform, urScript, rapid, fanucLs, val3, kawasakiAs, poseList];
+export const DIALECTS: readonly Dialect[] = [vPlus, krl, inform, urScript, rapid, fanucLs, val3, kawasakiAs, spel, poseList];
 
 /** The dialect of that id, or undefined. */
 export const dialectById = (id: string): Dialect | undefined => DIALECTS.find(dialect => dialect.id === id);

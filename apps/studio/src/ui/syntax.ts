@@ -12,6 +12,7 @@ const SYNTAX: Readonly<Record<string, Syntax>> = {
   "fanuc-ls": of(/!.*$/, "/PROG /ATTR /MN /POS /END J L C A S WAIT CALL LBL JMP IF SELECT DO DI RO RI UFRAME_NUM UTOOL_NUM FINE CNT FOR ENDFOR TO ON OFF PAYLOAD SKIP END UF UT CONFIG"),
   val3: of(/\/\/.*$/, "begin end movej movel movec if then else endIf while do endWhile for to endFor return call open close delay wait watch put putln dio aio true false here appro setFrame waitEndMove autoConnectMove", true),
   "kawasaki-as": of(/;.*$/, ".PROGRAM .END .TRANS .JOINTS .REALS JMOVE LMOVE C1MOVE C2MOVE JAPPRO LAPPRO JDEPART LDEPART SPEED ACCURACY ACCEL DECEL TOOL BASE OPENI CLOSEI OPEN CLOSE SIGNAL SWAIT TWAIT DELAY BREAK FOR TO END IF THEN ELSE WHILE DO CALL RETURN ALWAYS FINE POINT TRANS STOP PRINT MM/S"),
+  spel: of(/'.*$/, "Function Fend Call Go Move Arc3 TGo TMove CP XY JA P Here Local Tool TLSet Speed SpeedS Accel AccelS Power Motor High Low On Off Sw Oport Wait Print For To Step Next Do Loop While Until Wend If Then Else ElseIf EndIf Select Case Default Send Integer Real Boolean Global Quit All Exit Mod And Or Not True False define TLX TLY TLZ"),
   "l-irl": of(/\{.*$/, "POSES MM M DEG RAD ZYX ZYZ XYZ BASE WORLD ROBOT PROGRAM TOOL FRAME GROUP POSE MOVE PTP LIN SPLINE CIRCLE VIA TO JOINTS AT IN BRANCH FRONT BACK UP DOWN POSITIVE NEGATIVE DET ELBOW SPEED MMPS TIME ACC BLEND NAME WAIT GRIPPER CLOSE OPEN"),
 };
 const PLAIN: Syntax = { words: new Set(), comment: /(?!)/, exact: true };

@@ -62,7 +62,9 @@ export abstract class BasicReader {
     this.guard(() => { cursor.advance(); });
     while (!cursor.done && faults.length < MOST_FAULTS) {
       if (cursor.isAt("line-end")) { this.guard(() => { cursor.advance(); }); continue; }
+      const { length } = faults;
       this.guard(() => { this.part(); });
+      if (faults.length > length && this.closes(cursor.next)) this.guard(() => { cursor.advance(); });
     }
     for (const [name, at] of this.calls) if (!this.routines.has(name)) faults.push(new TextError(at, "a routine of this text", `The routine ${name} is not in the text.`).fault);
     const main = this.started();
@@ -84,7 +86,7 @@ export abstract class BasicReader {
     }
   }
 
-  protected restOfLine(): void { this.cursor.skip(cursor => cursor.isAt("line-end")); }
+  protected restOfLine(): void { this.cursor.skip(cursor => cursor.isAt("line-end") || this.closes(cursor.next)); }
   protected value(least = 0): Expression { return readExpression(this.cursor, this.grammar.expression, 0, least); }
   protected get atEnd(): boolean { return this.cursor.isAt("line-end") || this.cursor.done || this.cursor.next === ";"; }
 
