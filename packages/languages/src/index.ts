@@ -3,6 +3,7 @@ import { fanucLs } from "./fanuc-ls/index.ts";
 import { inform } from "./inform/index.ts";
 import { kawasakiAs } from "./kawasaki-as/index.ts";
 import { krl } from "./krl/index.ts";
+import { melfaBasic } from "./melfa-basic/index.ts";
 import { poseList } from "./l-irl/index.ts";
 import { rapid } from "./rapid/index.ts";
 import { spel } from "./spel/index.ts";
@@ -13,6 +14,7 @@ import { vPlus } from "./v-plus/index.ts";
 export { EXAMPLE_PULSES, inform, informDialect, informExamplePulses, type InformOptions, type PulseData } from "./inform/index.ts";
 export { fanucLs } from "./fanuc-ls/index.ts";
 export { kawasakiAs } from "./kawasaki-as/index.ts";
+export { melfaBasic } from "./melfa-basic/index.ts";
 export { loadPoses, poseList, savePoses, type LoadedPoses, type SavedPose } from "./l-irl/index.ts";
 export { rapid } from "./rapid/index.ts";
 export { spel } from "./spel/index.ts";
@@ -23,7 +25,7 @@ export { vPlus } from "./v-plus/index.ts";
 export * from "./prove.ts";
 
 /** Every dialect. A new one is a folder and one line here. */
-export const DIALECTS: readonly Dialect[] = [vPlus, krl, inform, urScript, rapid, fanucLs, val3, kawasakiAs, spel, poseList];
+export const DIALECTS: readonly Dialect[] = [vPlus, krl, inform, urScript, rapid, fanucLs, val3, kawasakiAs, spel, melfaBasic, poseList];
 
 /** The dialect of that id, or undefined. */
 export const dialectById = (id: string): Dialect | undefined => DIALECTS.find(dialect => dialect.id === id);

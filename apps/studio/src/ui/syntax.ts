@@ -13,6 +13,7 @@ const SYNTAX: Readonly<Record<string, Syntax>> = {
   val3: of(/\/\/.*$/, "begin end movej movel movec if then else endIf while do endWhile for to endFor return call open close delay wait watch put putln dio aio true false here appro setFrame waitEndMove autoConnectMove", true),
   "kawasaki-as": of(/;.*$/, ".PROGRAM .END .TRANS .JOINTS .REALS JMOVE LMOVE C1MOVE C2MOVE JAPPRO LAPPRO JDEPART LDEPART SPEED ACCURACY ACCEL DECEL TOOL BASE OPENI CLOSEI OPEN CLOSE SIGNAL SWAIT TWAIT DELAY BREAK FOR TO END IF THEN ELSE WHILE DO CALL RETURN ALWAYS FINE POINT TRANS STOP PRINT MM/S"),
   spel: of(/'.*$/, "Function Fend Call Go Move Arc3 TGo TMove CP XY JA P Here Local Tool TLSet Speed SpeedS Accel AccelS Power Motor High Low On Off Sw Oport Wait Print For To Step Next Do Loop While Until Wend If Then Else ElseIf EndIf Select Case Default Send Integer Real Boolean Global Quit All Exit Mod And Or Not True False define TLX TLY TLZ"),
+  "melfa-basic": of(/'.*$/, "Mov Mvs Mvr Cnt Ovrd JOvrd Spd Accel Dly HOpen HClose Tool Base Wait M_In M_Out P_Curr P_NTool P_NBase SetPos JtoP GoSub Return For To Step Next While WEnd If Then Else EndIf Select Case Default Hlt End Mod And Or Not Servo Def Dim On Off"),
   "l-irl": of(/\{.*$/, "POSES MM M DEG RAD ZYX ZYZ XYZ BASE WORLD ROBOT PROGRAM TOOL FRAME GROUP POSE MOVE PTP LIN SPLINE CIRCLE VIA TO JOINTS AT IN BRANCH FRONT BACK UP DOWN POSITIVE NEGATIVE DET ELBOW SPEED MMPS TIME ACC BLEND NAME WAIT GRIPPER CLOSE OPEN"),
 };
 const PLAIN: Syntax = { words: new Set(), comment: /(?!)/, exact: true };

@@ -207,6 +207,8 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
   }
 
   protected placed(at: Rigid, frame = ""): PlaceValue { return { kind: "place", at, frame }; }
+  /** The place alone, wherever it was made of. */
+  protected unbound({ at, frame, posture }: PlaceValue): PlaceValue { return { kind: "place", at, frame, ...(posture === undefined ? {} : { posture }) }; }
   /** From the base, whatever frame its numbers count in. */
   protected inBase({ at, frame }: PlaceValue): Rigid { return frame === "" ? at : on(this.frames.get(frame) ?? NOWHERE, at); }
 

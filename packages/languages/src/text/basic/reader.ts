@@ -104,9 +104,12 @@ export abstract class BasicReader {
   /** A call of a routine, of which the name comes; its arguments stand in brackets. */
   protected calling(at: TextPlace): Statement {
     const { cursor, grammar } = this, place = cursor.here, name = cursor.name("the name of a routine");
-    if (!this.calls.has(name)) this.calls.set(name, place);
+    this.isCalled(name, place);
     return { kind: "do", name, args: cursor.accept("(") ? grammar.expression.args(cursor, 0) : [], ...at };
   }
+
+  /** Every routine that is called must be there. */
+  protected isCalled(name: string, at: TextPlace): void { if (!this.calls.has(name)) this.calls.set(name, at); }
 
   protected body(opened: string, at: TextPlace, ends: readonly string[]): Block {
     const { cursor } = this, statements: Statement[] = [];
@@ -117,6 +120,7 @@ export abstract class BasicReader {
       // The number of a step.
       if (cursor.isAt("number")) { this.guard(() => { cursor.advance(); }); continue; }
       if (cursor.kind === "word" && ends.includes(cursor.next)) break;
+      if (cursor.done && ends.includes("")) break;
       if (cursor.done || this.closes(cursor.next)) throw new TextError(cursor.here, ends[0]!, `The ${opened} of line ${at.line} is not closed.`);
       if (this.faults.length >= MOST_FAULTS) break;
       const statement = this.guard(() => {
