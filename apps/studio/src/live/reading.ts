@@ -9,7 +9,7 @@ export interface Reading { readonly dialect: Dialect; readonly parsed: Parsed }
 const SIGNS: Readonly<Record<string, RegExp>> = {
   "v-plus": /^\s*\.PROGRAM\b/im, "kawasaki-as": /^\s*\.(PROGRAM|TRANS|JOINTS)\b/im, krl: /^\s*(&ACCESS\b|DEFDAT\b|(GLOBAL\s+)?DEF\s+\w+\s*\([^)]*\)\s*$)/im, rapid: /^\s*(%%%|MODULE|PROC)\b/im, urscript: /^\s*def\s+\w+\s*\(|\bmove[jlpc]\s*\(/m,
   inform: /^\s*\/JOB\b/m, "fanuc-ls": /^\s*\/PROG\b/m, val3: /^\s*(begin\b|<\?xml)/im, "l-irl": /^\s*POSES\s+\d/m, spel: /^\s*Function\s+\w+[\s\S]*^\s*Fend\b/im,
-  "melfa-basic": /^\s*(\d+\s+)?(Mov|Mvs|Mvr|JOvrd|HOpen|HClose)\s+\S/im,
+  "melfa-basic": /^\s*(\d+\s+)?(Mov|Mvs|Mvr|JOvrd|HOpen|HClose)\s+\S/im, pacscript: /^\s*('!TITLE|TakeArm\b|Move\s+[PLC]\s*,)/im,
 };
 
 /**

@@ -1,6 +1,7 @@
 import { pose, robotById } from "@twincell/core";
 import { describeDialect, describeMutations, type DialectBench } from "../testing/describe-dialect.ts";
 import { each, listIn, moreAt, negatedAt, swappedAt } from "../testing/changes.ts";
+import { linesOf } from "../testing/lines.ts";
 import { describeStructure } from "../testing/describe-structure.ts";
 import { melfaBasic } from "./index.ts";
 
@@ -9,7 +10,7 @@ const bench: DialectBench = {
   worldFromBase: pose([0.3, -0.2, 0.75], [0, 0, Math.sin(0.4), Math.cos(0.4)]),
   paths: ["ptp", "lin", "circ"],
   structured: true,
-  signals: { lamp: { kind: "digital-out", address: 5 }, "Blow off": { kind: "digital-out", address: 6 }, part: { kind: "digital-in", address: 3 }, tray_full: { kind: "digital-in", address: 4 } },
+  signals: linesOf("melfa-basic"),
 };
 
 describeDialect(melfaBasic, bench);

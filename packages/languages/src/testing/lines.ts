@@ -1,8 +1,10 @@
 import type { Program, Robot } from "@twincell/core";
 import { SIGNALS } from "./programs.ts";
 
+const LOW: Program["signals"] = { lamp: { kind: "digital-out", address: 5 }, "Blow off": { kind: "digital-out", address: 6 }, part: { kind: "digital-in", address: 3 }, tray_full: { kind: "digital-in", address: 4 } };
 /** Lines by the names and numbers that each language has; where a language is not named here, `SIGNALS` does. */
 const LINES: Readonly<Record<string, Program["signals"]>> = {
+  spel: LOW, "melfa-basic": LOW, pacscript: LOW,
   urscript: {
     lamp: { kind: "digital-out", address: 5 }, "Blow off": { kind: "digital-out", address: 16 + 1 }, part: { kind: "digital-in", address: 9 }, tray_full: { kind: "digital-in", address: 3 },
     level: { kind: "analogue-in", address: 1 }, valve: { kind: "analogue-out", address: 0 },

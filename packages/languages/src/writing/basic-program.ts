@@ -86,6 +86,9 @@ export abstract class BasicProgram extends BlockStepWriter {
     }
   }
 
+  /** Says what must hold before the loops over a pattern. */
+  protected beforePattern(_step: PalletStep): void { /* most languages say nothing */ }
+
   private condition(when: Condition, step: Step): string {
     if (!("is" in when)) throw new CannotSay(step.id, `${called(step)} compares the line ${when.signal} with a number.`, "Decide by a digital line.");
     return this.asked(when, this.line(when.signal, step));
@@ -93,6 +96,7 @@ export abstract class BasicProgram extends BlockStepWriter {
 
   /** A loop over layers, lines and places; the place changes with them. A pallet of the world is counted in the base of the robot, which turns its pitches. */
   private pallet(step: PalletStep): void {
+    this.beforePattern(step);
     const { out, place: { baseFromWorld, program }, words: { endIf, mm } } = this;
     const pattern = patternOf(step, program, (v, { frame }) => frame === "world" ? rotate(baseFromWorld.quaternion, v) : v), { pallet, lines, inLine, isShifted } = pattern;
     const [layer, line, along, at] = [this.counter("layer"), this.counter("line"), this.counter("along"), this.counter("at")];

@@ -8,4 +8,5 @@ export * from "./steps.ts";
 export * from "./pattern.ts";
 export * from "./split.ts";
 export * from "./basic-program.ts";
+export * from "./basic-modules.ts";
 export * from "./six-numbers.ts";

@@ -39,6 +39,7 @@ class SpelReader extends BasicReader {
 
   protected part(): void {
     const { cursor } = this, at = cursor.here;
+    this.dropRemarks();
     if (cursor.accept("#")) return this.directive(at);
     if (cursor.kind === "word" && TYPES.has(cursor.next)) return this.restOfLine();
     cursor.expect("function");

@@ -1,6 +1,5 @@
-import { branchOf, compose, type Branch, type Condition, type EmittedFile, type MoveStep, type Pallet, type Pose, type Step, type Target } from "@twincell/core";
-import { asciiText } from "../../text/index.ts";
-import { BasicProgram, BlockWriter, CannotSay, Names, called, degText, fixed, inUse, mmText, turnTexts, type Add, type InUse, type Place } from "../../writing/index.ts";
+import { branchOf, compose, type Branch, type Condition, type MoveStep, type Pallet, type Pose, type Step, type Target } from "@twincell/core";
+import { BasicModules, CannotSay, called, degText, fixed, mmText, turnTexts, type Add, type Place } from "../../writing/index.ts";
 import { GRIPPER, LINES, type Spoken } from "../robots.ts";
 import { RESERVED } from "./reserved.ts";
 
@@ -13,78 +12,29 @@ const FASTEST_MMPS = 2000, SLOWEST_MMPS = 0.1, LEAST_PERCENT = 1;
 const STRAIGHT = 1e-9;
 
 /** The file: `main` and the functions that it calls. */
-export class SpelProgram extends BasicProgram {
+export class SpelProgram extends BasicModules {
+  protected readonly sharesNumbers = false;
   private readonly spoken: Spoken;
-  private readonly used: InUse;
-  private readonly numbers = new Map<string, number>();
-  private declared: string[] = [];
 
   constructor(place: Place, spoken: Spoken) {
-    super(place, new Names({ most: LONGEST_NAME, reserved: RESERVED, first: "n_", foldsCase: true }), { endIf: "EndIf", forever: ["Do", "Loop"], mm: mmText });
+    super(place, { most: LONGEST_NAME, reserved: RESERVED, first: "n_", foldsCase: true }, {
+      language: "SPEL+", file: "main.prg", define: "#define", main: "main", open: name => `Function ${name}`, close: "Fend", endIf: "EndIf", forever: ["Do", "Loop"], mm: mmText,
+      most: { tools: MOST, frames: MOST, called: "locals" }, lines: LINES, gripper: GRIPPER,
+    });
     this.spoken = spoken;
-    this.used = inUse(place.program);
   }
 
-  write(): EmittedFile {
-    const { program, robot } = this.place, whole = new BlockWriter();
-    const bodies = [["main", program.steps, () => { this.beginning(); }] as const, ...Object.entries(program.routines).map(([routine, steps]) => [this.named("routine", routine), steps, (): void => { /* nothing before the steps */ }] as const)];
-    for (const line of this.constants()) whole.add(line);
-    for (const [name, steps, before] of bodies) {
-      const inside = this.out = new BlockWriter();
-      this.declared = [];
-      this.begin();
-      before();
-      this.steps(steps);
-      whole.block(`Function ${name}`, "Fend", "", () => {
-        if (name === "main") {
-          whole.add(`'* ${asciiText(program.name)}`.trimEnd());
-          whole.add(`'* ${asciiText(robot.name)}. Lengths in mm, angles in degrees, points in the base of the robot.`);
-        }
-        if (this.declared.length > 0) whole.add(`Real ${this.declared.join(", ")}`);
-        whole.append(inside);
-      });
-    }
-    return whole.file("main.prg", "\r\n");
-  }
+  protected head(): readonly string[] { return []; }
+  protected ending(): readonly string[] { return []; }
+  protected declaration(names: readonly string[]): readonly string[] { return [`Real ${names.join(", ")}`]; }
+  protected patterns(): readonly string[] { return [...this.used.pallets].map((name, i) => `#define ${this.named("pallet", name)} P${i + 1}`); }
 
-  private named(sort: string, name: string): string { return this.names.of(sort, name.toLowerCase()); }
-
-  /** Names of numbers, which the text then uses. */
-  private constants(): string[] {
-    const { tools, frames, pallets, signals } = this.used, lines: string[] = [];
-    for (const [sort, names, what] of [["tool", tools, "tools"], ["frame", frames, "locals"]] as const) {
-      if (names.size > MOST) throw new CannotSay("", `The program uses ${names.size} ${what}; a controller keeps ${MOST}.`, "Divide the program.");
-      for (const [i, name] of [...names].entries()) {
-        this.numbers.set(`${sort}\0${name}`, i + 1);
-        lines.push(`#define ${this.named(sort, name)} ${i + 1}`);
-      }
-    }
-    for (const [i, name] of [...pallets].entries()) lines.push(`#define ${this.named("pallet", name)} P${i + 1}`);
-    for (const [signal, step] of signals) lines.push(`#define ${this.named("signal", signal)} ${this.address(signal, step)}`);
-    if (JSON.stringify([this.place.program.steps, this.place.program.routines]).includes('"type":"gripper"')) lines.push(`#define ${GRIPPER.name} ${GRIPPER.output}`);
-    return lines;
-  }
-
-  private address(signal: string, step: Step): number {
-    const { signals } = this.place.program, line = Object.hasOwn(signals, signal) ? signals[signal] : undefined, [first, last] = LINES;
-    if (line?.address === undefined) throw new CannotSay(step.id, `${called(step)} uses the line ${signal}, whose number is not known.`, "Give the line its number in the list of signals.");
-    if (!Number.isInteger(line.address) || line.address < first || line.address > last) throw new CannotSay(step.id, `${called(step)} uses the line ${signal} with the number ${line.address}; SPEL+ counts lines from ${first} to ${last}.`, "Give the line a number of the controller.");
-    if (line.kind === "digital-out" && line.address === GRIPPER.output) throw new CannotSay(step.id, `${called(step)} uses the output ${GRIPPER.output}, which is the gripper's.`, "Give the line another number.");
-    return line.address;
-  }
-
-  /** What the controller would keep from before. */
-  private beginning(): void {
-    const { out, place } = this, { baseFromWorld } = place;
-    for (const line of ["Motor On", "Power High", "Accel 100, 100"]) out.add(line);
-    for (const tool of this.used.tools) out.add(`TLSet ${this.named("tool", tool)}, ${xyText(place.tool(tool))}`);
-    for (const frame of this.used.frames) out.add(`Local ${this.named("frame", frame)}, ${xyText(compose(baseFromWorld, place.frame(frame)))}`);
-  }
-
-  protected counter(name: string): string {
-    const variable = this.names.fresh(name);
-    this.declared.push(variable);
-    return variable;
+  protected beginning(): readonly string[] {
+    const { place, used: { tools, frames } } = this;
+    return [
+      "Motor On", "Power High", "Accel 100, 100", ...[...tools].map(tool => `TLSet ${this.named("tool", tool)}, ${xyText(place.tool(tool))}`),
+      ...[...frames].map(frame => `Local ${this.named("frame", frame)}, ${xyText(compose(place.baseFromWorld, place.frame(frame)))}`),
+    ];
   }
 
   protected wait(s: number, add: Add): void { add(`Wait ${fixed(s, 6)}`); }
@@ -97,8 +47,6 @@ export class SpelProgram extends BasicProgram {
   protected payload(): void { /* declared under cannot */ }
   protected message(text: string, add: Add): void { add(`Print "${text}"`); }
   protected stop(add: Add): void { add("Quit All"); }
-  protected call(routine: string, add: Add): void { add(`Call ${this.named("routine", routine)}`); }
-  protected line(signal: string): string { return this.named("signal", signal); }
 
   protected palletPlace({ pallet: name }: Extract<Step, { type: "pallet" }>, pallet: Pallet, coordinates: readonly string[], turn: Pose["quaternion"], add: Add): void {
     add(`${this.named("pallet", name)} = XY(${coordinates.join(", ")}, ${[...turnTexts(turn)].reverse().join(", ")})${this.local(pallet.frame)}`);
@@ -132,7 +80,7 @@ export class SpelProgram extends BasicProgram {
     return `${this.named("pallet", pallet)}${steps.length === 0 ? " +TLZ(0)" : steps.join("")}`;
   }
 
-  private local(frame: string): string { return frame === "world" ? "" : ` /${this.numbers.get(`frame\0${frame}`) ?? 0}`; }
+  private local(frame: string): string { return frame === "world" ? "" : ` /${this.numberOf(frame)}`; }
 
   /** A place alone is reached in the posture that the arm is in; one that was taught is asked for. */
   private postureWords(branch: Branch | undefined, posture: readonly number[] | undefined): string {

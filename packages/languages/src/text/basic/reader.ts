@@ -86,6 +86,8 @@ export abstract class BasicReader {
     }
   }
 
+  /** Remarks outside of routines say nothing. */
+  protected dropRemarks(): void { while (this.cursor.comment() !== undefined); }
   protected restOfLine(): void { this.cursor.skip(cursor => cursor.isAt("line-end") || this.closes(cursor.next)); }
   protected value(least = 0): Expression { return readExpression(this.cursor, this.grammar.expression, 0, least); }
   protected get atEnd(): boolean { return this.cursor.isAt("line-end") || this.cursor.done || this.cursor.next === ";"; }

@@ -1,0 +1,17 @@
+import { identity, type Dialect } from "@twincell/core";
+import { CANNOT, emitPac } from "./emit.ts";
+import { interpretPac, parsePac } from "./interpret.ts";
+
+/** PacScript of Denso's RC8 controllers. docs/languages/pacscript.md says what is known of it, and from where. */
+export const pacScript: Dialect = {
+  id: "pacscript",
+  brand: "Denso",
+  name: "PacScript",
+  extensions: [".pcs", ".pac"],
+  maturity: "experimental",
+  cannot: CANNOT,
+  resolution: { wait_s: 0.000501 },
+  emit: (program, robot, worldFromBase = identity()) => emitPac(program, robot, worldFromBase),
+  parse: parsePac,
+  interpret: interpretPac,
+};
