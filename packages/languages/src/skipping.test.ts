@@ -1,5 +1,5 @@
 import { pose, robotById } from "@twincell/core";
-import { fanucLs, inform, kawasakiAs, krl, poseList, rapid, urScript, val3, vPlus } from "./index.ts";
+import { fanucLs, inform, kawasakiAs, krl, melfaBasic, pacScript, poseList, rapid, spel, urScript, val3, vPlus } from "./index.ts";
 import type { DialectBench } from "./testing/describe-dialect.ts";
 import { describeSkipping } from "./testing/describe-skipping.ts";
 
@@ -14,3 +14,6 @@ describeSkipping(fanucLs, bench("fanuc_lrmate200id"), { statement: "FROBNICATE 5
 describeSkipping(val3, bench("staubli_rx160"), { statement: "frobnicate(5)", motion: "movel(nowhere,flange,mdesc)", opens: "if frob(7)", closes: "endIf" });
 describeSkipping(kawasakiAs, bench("kawasaki_rs007l"), { statement: "FROBNICATE 5", motion: "LMOVE nowhere", opens: "IF FROB(7) THEN", closes: "END" });
 describeSkipping(poseList, bench("ur10e"), { statement: "FROBNICATE 5", motion: "MOVE NOWHERE" });
+describeSkipping(spel, bench("epson_c4_a601s"), { statement: "Frobnicate 5", motion: "Move nowhere", opens: "If Frob(7) = On Then", closes: "EndIf" });
+describeSkipping(melfaBasic, bench("mitsubishi_rv7fl"), { statement: "Frobnicate 5", motion: "Mvs PNOWHERE", opens: "If Frob(7)=1 Then", closes: "EndIf" });
+describeSkipping(pacScript, bench("denso_vs060"), { statement: "Frobnicate 5", motion: "Move L, nowhere", opens: "If Frob(7) = On Then", closes: "End If" });

@@ -1,9 +1,11 @@
 import { identity, type Dialect } from "@twincell/core";
+import { skippingDialect } from "../text/index.ts";
 import { CANNOT, emitPac } from "./emit.ts";
 import { interpretPac, parsePac } from "./interpret.ts";
+import { LINES } from "./lines.ts";
 
 /** PacScript of Denso's RC8 controllers. docs/languages/pacscript.md says what is known of it, and from where. */
-export const pacScript: Dialect = {
+export const pacScript: Dialect = skippingDialect({
   id: "pacscript",
   brand: "Denso",
   name: "PacScript",
@@ -14,4 +16,5 @@ export const pacScript: Dialect = {
   emit: (program, robot, worldFromBase = identity()) => emitPac(program, robot, worldFromBase),
   parse: parsePac,
   interpret: interpretPac,
-};
+  lines: LINES,
+});

@@ -1,9 +1,11 @@
 import { identity, type Dialect } from "@twincell/core";
+import { skippingDialect } from "../text/index.ts";
 import { CANNOT, emitSpel } from "./emit.ts";
 import { interpretSpel, parseSpel } from "./interpret.ts";
+import { LINES } from "./lines.ts";
 
 /** SPEL+ of Epson's RC controllers, on arms with six axes. docs/languages/spel.md says what is known of it, and from where. */
-export const spel: Dialect = {
+export const spel: Dialect = skippingDialect({
   id: "spel",
   brand: "Epson",
   name: "SPEL+",
@@ -14,4 +16,5 @@ export const spel: Dialect = {
   emit: (program, robot, worldFromBase = identity()) => emitSpel(program, robot, worldFromBase),
   parse: parseSpel,
   interpret: interpretSpel,
-};
+  lines: LINES,
+});

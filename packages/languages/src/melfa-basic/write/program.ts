@@ -104,7 +104,7 @@ export class MelfaProgram extends BasicProgram {
   }
 
   protected move(step: MoveStep, next: Step | undefined, add: Add): void {
-    const { target, speed, path } = step, isJoint = path === "ptp", tool = target.tool ?? (isJoint && "q" in target ? undefined : "flange");
+    const { target, speed, path } = step, isJoint = path === "ptp", tool = toolOf(step);
     if (tool !== undefined) this.say("tool", tool === "flange" ? "Tool P_NTool" : `Tool ${this.named("tool", tool, "p")}`, add);
     this.tool = tool ?? this.tool;
     const percent = fixed((step.acceleration?.ratio ?? 1) * 100, 4);
@@ -114,7 +114,8 @@ export class MelfaProgram extends BasicProgram {
     if (isJoint) this.say("speed", `JOvrd ${fixed(Math.min(100, ("mps" in speed ? speed.mps / most_mps : speed.ratio) * 100), 5)}`, add);
     else this.say("path speed", `Spd ${fixed(("mps" in speed ? speed.mps : speed.ratio * most_mps) * 1000, 4)}`, add);
     const blend = mmText(this.place.blend_m(step, this.before, next)), flag = this.flagOf(this.place.posture(step, target, this.near));
-    const passes = blend !== "0" && !(next?.type === "move" && next.path === "circ" && (next.target.tool ?? "flange") !== this.tool);
+    // The hand stands before another tool is taken: what is said of places counts for the one in use.
+    const passes = blend !== "0" && !(next?.type === "move" && toolOf(next) !== undefined && toolOf(next) !== this.tool);
     this.say("passing", passes ? `Cnt 1, ${blend}, ${blend}` : "Cnt 0", add);
     const goal = isJoint && "q" in target ? this.angles(target.q) : this.goal(step, target, flag);
     if (path === "circ") {
@@ -175,6 +176,9 @@ export class MelfaProgram extends BasicProgram {
     return `(${posture},0)`;
   }
 }
+
+/** Joint angles alone ask for no tool. */
+const toolOf = ({ path, target }: MoveStep): string | undefined => target.tool ?? (path === "ptp" && "q" in target ? undefined : "flange");
 
 /** (x, y, z, a, b, c): mm and degrees. */
 const sixText = ({ position, quaternion }: Pose): string => `(${[...position.map(mmText), ...turnTexts(quaternion)].join(",")})`;
