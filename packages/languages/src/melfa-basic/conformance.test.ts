@@ -1,6 +1,6 @@
 import { pose, robotById } from "@twincell/core";
 import { describeDialect, describeMutations, type DialectBench } from "../testing/describe-dialect.ts";
-import { each, listIn, moreAt, negatedAt, swappedAt } from "../testing/changes.ts";
+import { listIn, negatedAt, numberFaults } from "../testing/changes.ts";
 import { linesOf } from "../testing/lines.ts";
 import { describeStructure } from "../testing/describe-structure.ts";
 import { melfaBasic } from "./index.ts";
@@ -20,20 +20,7 @@ const joints = listIn(/^(J\d+=\()([^)]*)(\))/m), place = listIn(/^(P\d+=\()([^)]
 const flag = (bit: number) => (text: string): string => text.replace(/^(P\w+=\([^)]*\)\()([1-7]),/gm, (_, head: string, value: string) => `${head}${Number(value) ^ bit},`);
 
 describeMutations(melfaBasic, bench, {
-  "a joint with the wrong sign": joints(negatedAt(1)),
-  "two joints in the wrong order": joints(swappedAt(3, 4)),
-  "radians for degrees": joints(each(x => x / 180 * Math.PI)),
-  "a joint turned by a hundredth of a degree": joints(moreAt(0, 0.01)),
-  "a whole turn too much": joints(moreAt(5, 360)),
-  "metres for millimetres": place(each(x => x / 1000, 0, 2)),
-  "x and y in the wrong order": place(swappedAt(0, 1)),
-  "A and C in the wrong order": place(swappedAt(3, 5)),
-  "A with the wrong sign": place(negatedAt(3)),
-  "B with the wrong sign": place(negatedAt(4)),
-  "C with the wrong sign": place(negatedAt(5)),
-  "radians for degrees in a position": place(each(x => x / 180 * Math.PI, 3, 5)),
-  "heights from the shoulder instead of the floor": place(moreAt(2, -400)),
-  "two hundredths of a millimetre too much": place(moreAt(0, 0.02)),
+  ...numberFaults(joints, place, 400),
   "a joint motion for a straight one": text => text.replace(/ Mvs P/, " Mov P"),
   "a straight motion for a joint motion": text => text.replace(/ Mov P/, " Mvs P"),
   "the middle of an arc and its end in the wrong order": text => text.replace(/(Mvr [^,]*),([^,]*),([^\r]*)/, "$1,$3,$2"),

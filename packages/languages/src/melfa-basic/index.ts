@@ -1,4 +1,4 @@
-import { identity, type Dialect } from "@twincell/core";
+import type { Dialect } from "@twincell/core";
 import { skippingDialect } from "../text/index.ts";
 import { CANNOT, emitMelfa } from "./emit.ts";
 import { interpretMelfa, parseMelfa } from "./interpret.ts";
@@ -13,7 +13,7 @@ export const melfaBasic: Dialect = skippingDialect({
   maturity: "experimental",
   cannot: CANNOT,
   resolution: { stopsAtNewTool: true },
-  emit: (program, robot, worldFromBase = identity()) => emitMelfa(program, robot, worldFromBase),
+  emit: emitMelfa,
   parse: parseMelfa,
   interpret: interpretMelfa,
   lines: LINES,

@@ -1,21 +1,13 @@
-import { identity, pose, robotById, type Executed, type Robot, type Signals } from "@twincell/core";
+import { identity, pose, robotById, type Robot } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { proveText } from "../prove.ts";
 import { randomProgram } from "../testing/programs.ts";
+import { ALL_ON, near, testHundredPrograms, testLongText, witnessOf } from "../testing/witness.ts";
 import { melfaBasic } from "./index.ts";
 
 const robot: Robot = robotById("mitsubishi_rv7fl")!;
 const half = Math.SQRT1_2;
 
-function run(text: string, signals?: Signals): Executed[] {
-  const interpreted = melfaBasic.interpret(text, robot);
-  if (interpreted.kind === "not-understood") throw new Error(JSON.stringify(interpreted.faults));
-  const done: Executed[] = [];
-  for (let next = interpreted.run(signals), one = next.next(); one.done !== true; one = next.next()) if (one.value.step !== undefined) done.push(one.value);
-  return done;
-}
-const faults = (text: string): unknown => { const answer = melfaBasic.interpret(text, robot); return answer.kind === "not-understood" ? answer.faults : "ready"; };
-const near = (values: readonly number[], digits = 9): number[] => values.map(value => expect.closeTo(value, digits) as number);
+const { run, faults } = witnessOf(melfaBasic, robot);
 
 describe("a program written by hand from the fact sheet", () => {
   const text = [
@@ -81,7 +73,7 @@ describe("a program written by hand from the fact sheet", () => {
   });
 
   test("an input that is on takes the other way", () => {
-    expect(run(text, { read: () => true, write: () => { /* nobody listens */ } }).map(({ line }) => line)).not.toContain(23);
+    expect(run(text, ALL_ON).map(({ line }) => line)).not.toContain(23);
   });
 });
 
@@ -109,21 +101,8 @@ test("statements that are no steps are told with their place", () => {
   expect(faults("Mov P1\nEnd\nP1=(0,0,2450,180,0,180)(7,0)\n")).toMatchObject([{ line: 1, sentence: expect.stringContaining("cannot be reached") as string }]);
 });
 
-test("100,000 lines are read in less than two seconds", () => {
-  const text = `${Array.from({ length: 50_000 }, (_, i) => `${2 * i + 1} Mvs PA*(${i % 300},0,0,0,0,0)\n${2 * i + 2} Dly 0.1\n`).join("")}End\nPA=(450,0,300,180,0,180)(7,0)\n`;
-  const before = process.threadCpuUsage(), parsed = melfaBasic.parse(text.replaceAll("PA*(", "(").replaceAll(",0,0,0,0,0)", ",400,300,180,0,180)"), robot), { user, system } = process.threadCpuUsage(before);
-  expect(parsed.kind === "parsed" && parsed.program.steps.length).toBe(100_000);
-  expect((user + system) / 1e6).toBeLessThan(2);
-});
-
-test("100 random programs are met by their texts", () => {
-  for (let seed = 101; seed <= 200; seed++) {
-    const program = randomProgram(robot, { seed, steps: 12, worldFromBase: identity(), paths: ["ptp", "lin", "circ"], cannot: ["duration"] }), emitted = melfaBasic.emit(program, robot);
-    if (emitted.kind === "cannot") throw new Error(emitted.sentence);
-    const proof = proveText(melfaBasic, emitted.files[0]!, program, robot);
-    expect(proof.kind, `seed ${seed}: ${proof.sentence}`).toBe("proven");
-  }
-});
+testLongText(melfaBasic, robot, () => `${Array.from({ length: 50_000 }, (_, i) => `${2 * i + 1} Mvs (${i % 300},400,300,180,0,180)\n${2 * i + 2} Dly 0.1\n`).join("")}End\n`);
+testHundredPrograms(melfaBasic, robot);
 
 test("what does not fit into the controller is refused with the step", () => {
   const program = { ...randomProgram(robot, { seed: 3, steps: 3, worldFromBase: identity(), paths: ["lin"], cannot: ["duration"] }), name: "Cell" };

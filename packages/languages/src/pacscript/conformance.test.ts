@@ -1,6 +1,6 @@
 import { pose, robotById } from "@twincell/core";
 import { describeDialect, describeMutations, type DialectBench } from "../testing/describe-dialect.ts";
-import { each, listIn, moreAt, negatedAt, swappedAt } from "../testing/changes.ts";
+import { listIn, negatedAt, numberFaults } from "../testing/changes.ts";
 import { linesOf } from "../testing/lines.ts";
 import { describeStructure } from "../testing/describe-structure.ts";
 import { pacScript } from "./index.ts";
@@ -21,19 +21,7 @@ const joints = listIn(/(Move P, @\d+ J\()([^)]*)(\))/), place = listIn(/(Move [P
 const figure = (bit: number) => (text: string): string => text.replace(/^( *Move P, @\d+ P\((?:[^,]*, ){6})([0-7])\)/gm, (_, head: string, value: string) => `${head}${Number(value) ^ bit})`);
 
 describeMutations(pacScript, bench, {
-  "a joint with the wrong sign": joints(negatedAt(1)),
-  "two joints in the wrong order": joints(swappedAt(3, 4)),
-  "radians for degrees": joints(each(x => x / 180 * Math.PI)),
-  "a joint turned by a hundredth of a degree": joints(moreAt(0, 0.01)),
-  "a whole turn too much": joints(moreAt(5, 360)),
-  "metres for millimetres": place(each(x => x / 1000, 0, 2)),
-  "x and y in the wrong order": place(swappedAt(0, 1)),
-  "RX and RZ in the wrong order": place(swappedAt(3, 5)),
-  "RX with the wrong sign": place(negatedAt(3)),
-  "RY with the wrong sign": place(negatedAt(4)),
-  "RZ with the wrong sign": place(negatedAt(5)),
-  "heights from the shoulder instead of the floor": place(moreAt(2, -345)),
-  "two hundredths of a millimetre too much": place(moreAt(0, 0.02)),
+  ...numberFaults(joints, place, 345),
   "a joint motion for a straight one": text => text.replace(/Move L, (@\d+ P)/, "Move P, $1"),
   "a straight motion for a joint motion": text => text.replace(/Move P, (@\d+ P)/, "Move L, $1"),
   "the middle of an arc and its end in the wrong order": text => text.replace(/Move C, (P\([^)]*\)), (@\d+) ([PJ]\([^)]*\))/, "Move C, $3, $2 $1"),

@@ -1,5 +1,5 @@
-import { everyStep, type Dialect, type Emitted, type Pose, type Program, type Robot } from "@twincell/core";
-import { Place, tellsRobot, undeclared, writtenOr } from "../writing/index.ts";
+import { everyStep, type Dialect, type Program } from "@twincell/core";
+import { emitterOf } from "../writing/index.ts";
 import { GRIPPER, spokenBy } from "./robots.ts";
 import { PacProgram } from "./write/program.ts";
 
@@ -13,14 +13,7 @@ export const CANNOT: Dialect["cannot"] = [
 ];
 
 /** One file with `Main` and the subs that it calls, or the step that stands in the way: never a part of a program. */
-export function emitPac(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
-  const spoken = spokenBy(robot);
-  if (spoken === undefined) return { kind: "cannot", step: "", sentence: `The controller of the ${robot.name} does not speak PacScript.`, hint: "Export in the language of this robot's own controller." };
-  return undeclared(program, CANNOT) ?? writtenOr(() => {
-    const file = new PacProgram(new Place(program, robot, worldFromBase), spoken).write();
-    return { kind: "emitted", files: [file], warnings: [...tellsRobot(program, robot), ...warnings(program)] };
-  });
-}
+export const emitPac = emitterOf({ language: "PacScript", spokenBy, cannot: CANNOT, write: (place, spoken) => new PacProgram(place, spoken).write(), warnings });
 
 function warnings(program: Program): string[] {
   const said: string[] = [], steps = [...everyStep(program)];

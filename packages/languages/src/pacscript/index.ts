@@ -1,4 +1,4 @@
-import { identity, type Dialect } from "@twincell/core";
+import type { Dialect } from "@twincell/core";
 import { skippingDialect } from "../text/index.ts";
 import { CANNOT, emitPac } from "./emit.ts";
 import { interpretPac, parsePac } from "./interpret.ts";
@@ -13,7 +13,7 @@ export const pacScript: Dialect = skippingDialect({
   maturity: "experimental",
   cannot: CANNOT,
   resolution: { wait_s: 0.000501 },
-  emit: (program, robot, worldFromBase = identity()) => emitPac(program, robot, worldFromBase),
+  emit: emitPac,
   parse: parsePac,
   interpret: interpretPac,
   lines: LINES,

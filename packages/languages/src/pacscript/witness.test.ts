@@ -1,21 +1,13 @@
-import { identity, pose, robotById, type Executed, type Robot, type Signals } from "@twincell/core";
+import { identity, pose, robotById, type Robot } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { proveText } from "../prove.ts";
 import { randomProgram } from "../testing/programs.ts";
+import { ALL_ON, near, testHundredPrograms, testLongText, witnessOf } from "../testing/witness.ts";
 import { pacScript } from "./index.ts";
 
 const robot: Robot = robotById("denso_vs060")!;
 const half = Math.SQRT1_2;
 
-function run(text: string, signals?: Signals): Executed[] {
-  const interpreted = pacScript.interpret(text, robot);
-  if (interpreted.kind === "not-understood") throw new Error(JSON.stringify(interpreted.faults));
-  const done: Executed[] = [];
-  for (let next = interpreted.run(signals), one = next.next(); one.done !== true; one = next.next()) if (one.value.step !== undefined) done.push(one.value);
-  return done;
-}
-const faults = (text: string): unknown => { const answer = pacScript.interpret(text, robot); return answer.kind === "not-understood" ? answer.faults : "ready"; };
-const near = (values: readonly number[], digits = 9): number[] => values.map(value => expect.closeTo(value, digits) as number);
+const { run, faults } = witnessOf(pacScript, robot);
 
 describe("a program written by hand from the fact sheet", () => {
   const text = [
@@ -78,7 +70,7 @@ describe("a program written by hand from the fact sheet", () => {
   });
 
   test("an input that is on takes the other way", () => {
-    expect(run(text, { read: () => true, write: () => { /* nobody listens */ } }).map(({ line }) => line)).not.toContain(26);
+    expect(run(text, ALL_ON).map(({ line }) => line)).not.toContain(26);
   });
 });
 
@@ -115,21 +107,8 @@ test("statements that are no steps are told with their place", () => {
   expect(faults("Sub Main\nWait IO[1] = On, 500\nEnd Sub\n")).toMatchObject([{ line: 2, column: 16 }]);
 });
 
-test("100,000 lines are read in less than two seconds", () => {
-  const text = `Sub Main\n${Array.from({ length: 50_000 }, (_, i) => `  Move L, @0 P(${i % 300}, 300, 300, 180, 0, 90, -1)\n  Delay 100\n`).join("")}End Sub\n`;
-  const before = process.threadCpuUsage(), parsed = pacScript.parse(text, robot), { user, system } = process.threadCpuUsage(before);
-  expect(parsed.kind === "parsed" && parsed.program.steps.length).toBe(100_000);
-  expect((user + system) / 1e6).toBeLessThan(2);
-});
-
-test("100 random programs are met by their texts", () => {
-  for (let seed = 101; seed <= 200; seed++) {
-    const program = randomProgram(robot, { seed, steps: 12, worldFromBase: identity(), paths: ["ptp", "lin", "circ"], cannot: ["duration"] }), emitted = pacScript.emit(program, robot);
-    if (emitted.kind === "cannot") throw new Error(emitted.sentence);
-    const proof = proveText(pacScript, emitted.files[0]!, program, robot);
-    expect(proof.kind, `seed ${seed}: ${proof.sentence}`).toBe("proven");
-  }
-});
+testLongText(pacScript, robot, () => `Sub Main\n${Array.from({ length: 50_000 }, (_, i) => `  Move L, @0 P(${i % 300}, 300, 300, 180, 0, 90, -1)\n  Delay 100\n`).join("")}End Sub\n`);
+testHundredPrograms(pacScript, robot);
 
 test("what does not fit into the controller is refused with the step", () => {
   const program = { ...randomProgram(robot, { seed: 3, steps: 3, worldFromBase: identity(), paths: ["lin"], cannot: ["duration"] }), name: "Cell" };

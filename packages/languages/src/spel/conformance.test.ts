@@ -1,6 +1,6 @@
 import { pose, robotById } from "@twincell/core";
 import { describeDialect, describeMutations, type DialectBench } from "../testing/describe-dialect.ts";
-import { each, listIn, moreAt, negatedAt, swappedAt } from "../testing/changes.ts";
+import { listIn, negatedAt, numberFaults } from "../testing/changes.ts";
 import { linesOf } from "../testing/lines.ts";
 import { describeStructure } from "../testing/describe-structure.ts";
 import { spel } from "./index.ts";
@@ -20,19 +20,7 @@ const joints = listIn(/(Go JA\()([^)]*)(\))/), place = listIn(/((?:Go|Move) XY\(
 const other = (a: string, b: string) => (text: string): string => text.replace(new RegExp(`^( *Go XY[^\\r]*) /(${a}|${b})\\b`, "m"), (_, head: string, word: string) => `${head} /${word === a ? b : a}`);
 
 describeMutations(spel, bench, {
-  "a joint with the wrong sign": joints(negatedAt(1)),
-  "two joints in the wrong order": joints(swappedAt(3, 4)),
-  "radians for degrees": joints(each(x => x / 180 * Math.PI)),
-  "a joint turned by a hundredth of a degree": joints(moreAt(0, 0.01)),
-  "a whole turn too much": joints(moreAt(5, 360)),
-  "metres for millimetres": place(each(x => x / 1000, 0, 2)),
-  "x and y in the wrong order": place(swappedAt(0, 1)),
-  "turns about x, y, z for turns about z, y, x": place(swappedAt(3, 5)),
-  "U with the wrong sign": place(negatedAt(3)),
-  "V with the wrong sign": place(negatedAt(4)),
-  "W with the wrong sign": place(negatedAt(5)),
-  "heights from the shoulder instead of the floor": place(moreAt(2, -320)),
-  "two hundredths of a millimetre too much": place(moreAt(0, 0.02)),
+  ...numberFaults(joints, place, 320),
   "a joint motion for a straight one": text => text.replace("  Move XY", "  Go XY"),
   "a straight motion for a joint motion": text => text.replace("  Go XY", "  Move XY"),
   "the middle of an arc and its end in the wrong order": text => text.replace(/Arc3 ([^\r]*?\)(?: \/\d)?), ([^\r]*?\)(?: \/\d)?)( CP)?\r/, "Arc3 $2, $1$3\r"),

@@ -1,4 +1,4 @@
-import { identity, type Dialect } from "@twincell/core";
+import type { Dialect } from "@twincell/core";
 import { skippingDialect } from "../text/index.ts";
 import { CANNOT, emitSpel } from "./emit.ts";
 import { interpretSpel, parseSpel } from "./interpret.ts";
@@ -13,7 +13,7 @@ export const spel: Dialect = skippingDialect({
   maturity: "experimental",
   cannot: CANNOT,
   resolution: { ratio: 0.00501, leastRatio: 0.01, mostMps: 2 },
-  emit: (program, robot, worldFromBase = identity()) => emitSpel(program, robot, worldFromBase),
+  emit: emitSpel,
   parse: parseSpel,
   interpret: interpretSpel,
   lines: LINES,

@@ -1,22 +1,14 @@
-import { identity, pose, robotById, type Executed, type Robot, type Signals } from "@twincell/core";
+import { identity, pose, robotById, type Robot } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { proveText } from "../prove.ts";
 import { randomProgram } from "../testing/programs.ts";
+import { ALL_ON, near, testHundredPrograms, testLongText, witnessOf } from "../testing/witness.ts";
 import { on, rigid, sixNumbers } from "../text/basic/index.ts";
 import { spel } from "./index.ts";
 
 const robot: Robot = robotById("epson_c4_a601s")!;
 const half = Math.SQRT1_2;
 
-function run(text: string, signals?: Signals): Executed[] {
-  const interpreted = spel.interpret(text, robot);
-  if (interpreted.kind === "not-understood") throw new Error(JSON.stringify(interpreted.faults));
-  const done: Executed[] = [];
-  for (let next = interpreted.run(signals), one = next.next(); one.done !== true; one = next.next()) if (one.value.step !== undefined) done.push(one.value);
-  return done;
-}
-const faults = (text: string): unknown => { const answer = spel.interpret(text, robot); return answer.kind === "not-understood" ? answer.faults : "ready"; };
-const near = (values: readonly number[], digits = 9): number[] => values.map(value => expect.closeTo(value, digits) as number);
+const { run, faults } = witnessOf(spel, robot);
 
 describe("a program written by hand from the fact sheet", () => {
   const text = [
@@ -77,7 +69,7 @@ describe("a program written by hand from the fact sheet", () => {
   });
 
   test("an input that is on takes the other way", () => {
-    expect(run(text, { read: () => true, write: () => { /* nobody listens */ } }).map(({ line }) => line)).not.toContain(24);
+    expect(run(text, ALL_ON).map(({ line }) => line)).not.toContain(24);
   });
 });
 
@@ -115,21 +107,8 @@ test("loops and choices of every sort are carried out", () => {
   expect(waits("If 1 = 2 Then Wait 1 Else Wait 2")).toBe(1);
 });
 
-test("100,000 lines are read in less than two seconds", () => {
-  const text = `Function main\n${Array.from({ length: 50_000 }, (_, i) => `  Move XY(${i % 300}, 400, 300, 90, 0, 180)\n  Wait 0.1\n`).join("")}Fend\n`;
-  const before = process.threadCpuUsage(), parsed = spel.parse(text, robot), { user, system } = process.threadCpuUsage(before);
-  expect(parsed.kind === "parsed" && parsed.program.steps.length).toBe(100_000);
-  expect((user + system) / 1e6).toBeLessThan(2);
-});
-
-test("100 random programs are met by their texts", () => {
-  for (let seed = 101; seed <= 200; seed++) {
-    const program = randomProgram(robot, { seed, steps: 12, worldFromBase: identity(), paths: ["ptp", "lin", "circ"], cannot: ["duration"] }), emitted = spel.emit(program, robot);
-    if (emitted.kind === "cannot") throw new Error(emitted.sentence);
-    const proof = proveText(spel, emitted.files[0]!, program, robot);
-    expect(proof.kind, `seed ${seed}: ${proof.sentence}`).toBe("proven");
-  }
-});
+testLongText(spel, robot, () => `Function main\n${Array.from({ length: 50_000 }, (_, i) => `  Move XY(${i % 300}, 400, 300, 90, 0, 180)\n  Wait 0.1\n`).join("")}Fend\n`);
+testHundredPrograms(spel, robot);
 
 test("what does not fit into the controller is refused with the step", () => {
   const program = { ...randomProgram(robot, { seed: 3, steps: 3, worldFromBase: identity(), paths: ["lin"], cannot: ["duration"] }), name: "Cell" };

@@ -10,3 +10,4 @@ export * from "./split.ts";
 export * from "./basic-program.ts";
 export * from "./basic-modules.ts";
 export * from "./six-numbers.ts";
+export * from "./emitter.ts";

@@ -1,7 +1,7 @@
 import type { TextPlace } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
 import { BasicReader, readPlainArguments, type BasicAnswer, type BasicGrammar } from "../../text/basic/index.ts";
-import type { Argument, ExpressionRules, Parameter, Routine, Statement } from "../../text/structured/index.ts";
+import type { Argument, ExpressionRules, Routine, Statement } from "../../text/structured/index.ts";
 
 const RULES: ExpressionRules = {
   binary: { or: 1, xor: 1, and: 2, "=": 3, "<>": 3, "<": 3, ">": 3, "<=": 3, ">=": 3, "+": 4, "-": 4, "*": 5, "/": 5, mod: 5, "^": 7 },
@@ -39,37 +39,20 @@ class PacReader extends BasicReader {
   protected part(): void {
     const { cursor } = this, at = cursor.here;
     this.dropRemarks();
-    if (cursor.accept("#")) return this.directive(at);
+    if (cursor.accept("#")) return this.directive();
     if (cursor.next === "dim") { this.declaration(); return; }
     cursor.expect("sub");
-    const place = cursor.here, name = cursor.name("the name of a sub"), parameters = cursor.accept("(") ? this.parameters() : [];
-    if (!cursor.isAt("line-end")) throw cursor.unexpected("the end of the line");
-    if (this.routines.has(name)) this.faults.push(new TextError(place, "a name used once", `The sub ${name} is there twice.`).fault);
-    const body = this.body("Sub", at, ["end sub"]);
-    cursor.expect("end sub");
-    this.routines.set(name, { name, parameters, body, ...place });
+    this.routine("sub", "end sub", at, () => this.parameters());
   }
 
   /** `#Define name 3` gives a number a name. */
-  private directive(at: TextPlace): void {
+  private directive(): void {
     const { cursor } = this;
     if (cursor.next !== "define") return this.restOfLine();
     cursor.advance();
     const place = cursor.here, name = cursor.name("the name of a constant");
-    this.before.push({ kind: "assign", to: { kind: "variable", name, ...place }, value: this.value(), global: true, ...at });
+    this.constant(name, place, this.value());
     if (!cursor.isAt("line-end") && !cursor.done) throw cursor.unexpected("the end of the line");
-  }
-
-  private parameters(): Parameter[] {
-    const { cursor } = this, all: Parameter[] = [];
-    if (cursor.accept(")")) return all;
-    do {
-      if (!cursor.accept("byref")) cursor.accept("byval");
-      const name = cursor.name("the name of an argument");
-      all.push({ name, type: cursor.accept("as") ? cursor.name("a type") : "" });
-    } while (cursor.accept(","));
-    cursor.expect(")");
-    return all;
   }
 
   /** Numbers begin as 0. */
@@ -79,9 +62,9 @@ class PacReader extends BasicReader {
     do {
       const place = cursor.here, name = cursor.name("the name of a variable");
       if (cursor.accept("(")) { this.values(); cursor.expect(")"); }
-      const type = cursor.accept("as") ? cursor.name("a type") : "integer", zero = { kind: "number", value: 0, ...place } as const;
-      if (cursor.accept("=")) this.before.push({ kind: "assign", to: { kind: "variable", name, ...place }, value: this.value(), global: true, ...place });
-      else if (NUMBERS.has(type)) this.before.push({ kind: "assign", to: { kind: "variable", name, ...place }, value: zero, global: true, ...place });
+      const type = cursor.accept("as") ? cursor.name("a type") : "integer";
+      if (cursor.accept("=")) this.constant(name, place, this.value());
+      else if (NUMBERS.has(type)) this.constant(name, place, { kind: "number", value: 0, ...place });
     } while (cursor.accept(","));
   }
 

@@ -68,11 +68,7 @@ export class PacMachine extends BasicMachine<Said> {
   }
 
   protected steps(statement: Do): readonly Step[] {
-    const { name, args } = statement, id = (): string => this.stepId(statement), given = (i: number, what: string): Expression => {
-      const value = args[i]?.value;
-      if (value === undefined) throw new TextError(statement, what, `${name} is said without ${what}.`);
-      return value;
-    };
+    const { name, args } = statement, id = (): string => this.stepId(statement), given = (i: number, what: string): Expression => this.given(statement, i, what);
     switch (name) {
       case "speed": this.state = { ...this.state, speed: { ratio: between(this.numberOf(given(0, "a percentage")), 0.1, 100, "a percentage", statement) / 100 } }; return [];
       case "accel": this.state = { ...this.state, acceleration: between(this.numberOf(given(0, "a percentage")), 0.0001, 100, "a percentage", statement) / 100 }; return [];

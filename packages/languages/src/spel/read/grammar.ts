@@ -1,7 +1,7 @@
 import type { TextPlace } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
 import { BasicReader, readPlainArguments, type BasicAnswer, type BasicGrammar } from "../../text/basic/index.ts";
-import type { Argument, Expression, ExpressionRules, Parameter, Routine, Statement } from "../../text/structured/index.ts";
+import type { Argument, Expression, ExpressionRules, Routine, Statement } from "../../text/structured/index.ts";
 
 const RULES: ExpressionRules = {
   binary: { or: 1, xor: 1, and: 2, "=": 3, "<>": 3, "><": 3, "<": 3, ">": 3, "<=": 3, ">=": 3, "+": 4, "-": 4, "*": 5, "/": 5, mod: 5, "^": 7 },
@@ -40,22 +40,20 @@ class SpelReader extends BasicReader {
   protected part(): void {
     const { cursor } = this, at = cursor.here;
     this.dropRemarks();
-    if (cursor.accept("#")) return this.directive(at);
+    if (cursor.accept("#")) return this.directive();
     if (cursor.kind === "word" && TYPES.has(cursor.next)) return this.restOfLine();
     cursor.expect("function");
-    const place = cursor.here, name = cursor.name("the name of a function"), parameters = cursor.accept("(") ? this.parameters() : [];
-    if (cursor.accept("as")) cursor.name("a type");
-    if (!cursor.isAt("line-end")) throw cursor.unexpected("the end of the line");
-    if (this.routines.has(name)) this.faults.push(new TextError(place, "a name used once", `The function ${name} is there twice.`).fault);
-    const body = this.body("Function", at, ["fend"]);
-    cursor.expect("fend");
-    this.routines.set(name, { name, parameters, body, ...place });
+    this.routine("function", "fend", at, () => {
+      const parameters = this.parameters();
+      if (cursor.accept("as")) cursor.name("a type");
+      return parameters;
+    });
   }
 
   protected started(): Routine | undefined { return this.routines.get("main") ?? [...this.routines.values()][0]; }
 
   /** `#define name 3` gives a number a name, `#define name P3` a point. */
-  private directive(at: TextPlace): void {
+  private directive(): void {
     const { cursor } = this;
     if (cursor.next !== "define") return this.restOfLine();
     cursor.advance();
@@ -63,21 +61,8 @@ class SpelReader extends BasicReader {
     if (cursor.kind === "word" && isPoint(cursor.next)) {
       this.alias(cursor.take(), name);
       this.points.add(name);
-    } else this.before.push({ kind: "assign", to: { kind: "variable", name, ...place }, value: this.value(), global: true, ...at });
+    } else this.constant(name, place, this.value());
     if (!cursor.isAt("line-end") && !cursor.done) throw cursor.unexpected("the end of the line");
-  }
-
-  private parameters(): Parameter[] {
-    const { cursor } = this, all: Parameter[] = [];
-    if (cursor.accept(")")) return all;
-    do {
-      if (!cursor.accept("byref")) cursor.accept("byval");
-      const name = cursor.name("the name of an argument");
-      cursor.expect("as");
-      all.push({ name, type: cursor.name("a type") });
-    } while (cursor.accept(","));
-    cursor.expect(")");
-    return all;
   }
 
   protected instruction(at: TextPlace): Statement | undefined {
@@ -113,7 +98,7 @@ class SpelReader extends BasicReader {
     do {
       const place = cursor.here, name = cursor.name("the name of a variable");
       if (cursor.accept("(")) { this.value(); cursor.expect(")"); }
-      this.before.push({ kind: "assign", to: { kind: "variable", name, ...place }, value: { kind: "number", value: 0, ...place }, global: true, ...place });
+      this.constant(name, place, { kind: "number", value: 0, ...place });
     } while (cursor.accept(","));
   }
 

@@ -93,11 +93,7 @@ export class SpelMachine extends BasicMachine<Said> {
   }
 
   protected steps(statement: Do): readonly Step[] {
-    const { name, args } = statement, id = (): string => this.stepId(statement), given = (i: number, what: string): Expression => {
-      const value = args[i]?.value;
-      if (value === undefined) throw new TextError(statement, what, `${name} is said without ${what}.`);
-      return value;
-    };
+    const { name, args } = statement, id = (): string => this.stepId(statement), given = (i: number, what: string): Expression => this.given(statement, i, what);
     switch (name) {
       case "speed": this.state = { ...this.state, speed: { ratio: between(this.numberOf(given(0, "a percentage")), 1, 100, "a percentage", statement) / 100 } }; return [];
       case "speeds": this.state = { ...this.state, pathSpeed: { mps: between(this.numberOf(given(0, "a speed")), 0.1, 2000, "a speed", statement) / 1000 } }; return [];

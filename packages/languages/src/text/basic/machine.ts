@@ -108,6 +108,13 @@ export abstract class BasicMachine<S extends object> extends BlockMachine<Value>
   isTrue(expression: Expression): boolean { return this.numberOf(expression) !== 0; }
   numberOf(expression: Expression): number { return numberIn(this.evaluate(expression), expression); }
   fromNumber(value: number): Value { return value; }
+  /** The argument of that place, which must be there. */
+  protected given({ name, args, line, column }: Do, i: number, what: string): Expression {
+    const value = args[i]?.value;
+    if (value === undefined) throw new TextError({ line, column }, what, `${name} is said without ${what}.`);
+    return value;
+  }
+
   /** The numbers of a list of arguments; those left out are 0. */
   protected numbers(args: readonly Argument[]): number[] { return args.map(({ value }) => value === undefined ? 0 : this.numberOf(value)); }
 

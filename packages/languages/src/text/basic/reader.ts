@@ -1,6 +1,6 @@
 import type { TextFault, TextPlace } from "@twincell/core";
 import { TextError } from "../faults.ts";
-import { TokenCursor, readExpression, type Argument, type Block, type Expression, type ExpressionRules, type Lexicon, type Routine, type Statement } from "../structured/index.ts";
+import { TokenCursor, readExpression, type Argument, type Block, type Expression, type ExpressionRules, type Lexicon, type Parameter, type Routine, type Statement } from "../structured/index.ts";
 
 /** Deepest nesting of blocks: more than anybody writes, less than the stack holds. */
 const DEPTH = 50;
@@ -108,6 +108,34 @@ export abstract class BasicReader {
     const { cursor, grammar } = this, place = cursor.here, name = cursor.name("the name of a routine");
     this.isCalled(name, place);
     return { kind: "do", name, args: cursor.accept("(") ? grammar.expression.args(cursor, 0) : [], ...at };
+  }
+
+  /** A routine from its name on, up to the word that closes it. */
+  protected routine(opened: string, close: string, at: TextPlace, head: () => Parameter[]): void {
+    const { cursor } = this, place = cursor.here, name = cursor.name(`the name of a ${opened}`), parameters = head();
+    if (!cursor.isAt("line-end")) throw cursor.unexpected("the end of the line");
+    if (this.routines.has(name)) this.faults.push(new TextError(place, "a name used once", `The ${opened} ${name} is there twice.`).fault);
+    const body = this.body(opened, at, [close]);
+    cursor.expect(close);
+    this.routines.set(name, { name, parameters, body, ...place });
+  }
+
+  /** `(ByVal a As Integer, b As Real)`, where there are any. */
+  protected parameters(): Parameter[] {
+    const { cursor } = this, all: Parameter[] = [];
+    if (!cursor.accept("(") || cursor.accept(")")) return all;
+    do {
+      if (!cursor.accept("byref")) cursor.accept("byval");
+      const name = cursor.name("the name of an argument");
+      all.push({ name, type: cursor.accept("as") ? cursor.name("a type") : "" });
+    } while (cursor.accept(","));
+    cursor.expect(")");
+    return all;
+  }
+
+  /** A name gets a number, once for all. */
+  protected constant(name: string, place: TextPlace, value: Expression): void {
+    this.before.push({ kind: "assign", to: { kind: "variable", name, ...place }, value, global: true, ...place });
   }
 
   /** Every routine that is called must be there. */
