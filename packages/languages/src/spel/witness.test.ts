@@ -1,4 +1,4 @@
-import { identity, pose, robotById, type Robot } from "@twincell/core";
+import { emptyProgram, identity, pose, robotById, type Robot } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { randomProgram } from "../testing/programs.ts";
 import { ALL_ON, near, testHundredPrograms, testLongText, witnessOf } from "../testing/witness.ts";
@@ -115,4 +115,10 @@ test("what does not fit into the controller is refused with the step", () => {
   const line = (address: number): unknown => spel.emit({ ...program, signals: { lamp: { kind: "digital-out", address } }, steps: [{ id: "a", type: "set", signal: "lamp", to: true }] }, robot);
   expect(line(600)).toMatchObject({ kind: "cannot", step: "a", sentence: "Step a uses the line lamp with the number 600; SPEL+ counts lines from 0 to 511." });
   expect(line(15)).toMatchObject({ kind: "cannot", step: "a", sentence: "Step a uses the output 15, which is the gripper's." });
+});
+
+test("names that are words or points of the language get another", () => {
+  const target = { pose: pose<"frame", "tcp">([0, 0.45, 0.26], [half, half, 0, 0]), frame: "P1", tool: "Line" } as const;
+  const emitted = spel.emit({ ...emptyProgram(robot.id), tools: { Line: pose([0, 0, 0.01]) }, frames: { P1: identity() }, steps: [{ id: "a", type: "move", path: "lin", target, speed: { mps: 0.1 }, blend_m: 0 }] }, robot);
+  expect(emitted.kind === "emitted" && emitted.files[0]!.text).toContain("#define line_2 1\r\n#define p1_2 1\r\n");
 });
