@@ -1,6 +1,14 @@
 /** English. Field terms as a programmer says them; sentences end with a full stop and carry the number and the unit. */
 const plural = (count: number, one: string, many = `${one}s`): string => `${count} ${count === 1 ? one : many}`;
 
+/** What of a text was left out, the worst of it by name. */
+function leftOut(all: readonly { readonly what: "motion" | "branch" | "statement" }[]): string {
+  const count = (what: string): number => all.filter(each => each.what === what).length, motions = count("motion"), branches = count("branch");
+  if (motions + branches === 0) return `${plural(all.length, "statement")} left out.`;
+  const worst = [motions > 0 ? plural(motions, "motion") : "", branches > 0 ? plural(branches, "branch", "branches") : ""].filter(each => each !== "").join(" and ");
+  return `${plural(all.length, "statement")} left out, among them ${worst}: the robot does not do what the text says.`;
+}
+
 export const en = {
   common: {
     close: "Close", cancel: "Cancel", apply: "Apply", show: "Show", hide: "Hide", remove: "Delete", rename: "Rename", duplicate: "Duplicate", done: "Done", more: "More",
@@ -144,7 +152,7 @@ export const en = {
     title: "Start with a cell", example: "Open an example", exampleSays: "A Stäubli RX90L, a carton on a table, four edges to trace.", drop: "Drop a CAD file", dropSays: "STL, OBJ and PLY meshes become objects; cells and program texts open.", connect: "Connect a controller", connectSays: (robot: string) => `The virtual ${robot} is connected. Real controllers come later.`, robot: "Choose a robot", robotSays: (robots: number) => `Or take one of the ${robots} robots of the library.`, connected: "connected", empty: "Empty cell", choose: "Choose a file",
   },
   export: {
-    title: "Export", dialect: "Language", files: "Files", text: "Text", warnings: "Notes", none: "No notes.", download: "Download all", copy: "Copy text", step: (name: string) => `from ${name}`, cannot: "This program cannot be written in this language:", manifest: "Manifest", lines: (n: number) => plural(n, "line"), copied: "The text is in the clipboard.", notCopied: "The browser did not allow copying.", notCopiedHint: "Select the text and copy it by hand.",
+    title: "Export", dialect: "Language", files: "Files", text: "Text", warnings: "Notes", none: "No notes.", download: "Download as zip", downloadFiles: "Single files", copy: "Copy text", step: (name: string) => `from ${name}`, cannot: "This program cannot be written in this language:", manifest: "Manifest", lines: (n: number) => plural(n, "line"), copied: "The text is in the clipboard.", notCopied: "The browser did not allow copying.", notCopiedHint: "Select the text and copy it by hand.",
     proof: (mm: string, deg: string) => `Read back by an independent interpreter: every point within ${mm} mm and ${deg}°.`, import: "Import or run a program text", importSays: "Paste or drop a program of any language known here.", paste: "Program text", line: (line: number, column: number, sentence: string) => `Line ${line}, column ${column}: ${sentence}`, imported: (n: number) => `${plural(n, "step")} imported.`, proven: "proven by interpreting the text", experimental: "Experimental: written from public sources and proven by interpreting the text; not yet tried on a controller of this make.", experimentalTag: "experimental", noLanguage: (robot: string) => `No language here speaks for the ${robot}. Its programs can be taught, checked and run, not exported.`, button: (language: string) => (language === "" ? "Export" : `Export ${language}`), refusedBy: "For other controllers",
     cannotDo: "What this language cannot say",
   },
@@ -155,8 +163,14 @@ export const en = {
     changed: (name: string, kept: number, points: number) => (points === 0 ? `The ${name} is in the cell.` : kept === points ? `The ${name} is in the cell; all ${plural(points, "point")} were kept.` : `The ${name} is in the cell; ${kept} of ${plural(points, "point")} were kept, ${points - kept} cannot be reached.`), changedHint: "Check says why, and what would fix it.",
   },
   programs: { switch: "Stored programs", new: "New program", duplicate: "Duplicate this program", rename: "Rename this program", remove: "Delete this program", name: "Name of the program", plain: "Program", removed: (name: string) => `${name} was deleted. Undo brings it back.` },
+  poses: {
+    title: "Saved poses", none: "No pose is kept yet. Jog the tool somewhere and keep it.", add: "Keep pose", addTip: "A frame of the cell where the tool tip is now", put: (name: string) => `Put “${name}” where the tool is`, putTip: "Put it where the tool is now, reachable or not",
+    load: "Load …", save: "Save …", loaded: (n: number) => `${plural(n, "pose")} loaded.`, through: "Move through", throughTip: "The program goes on through all of them, in their order", remove: "Forget all", removed: "All saved poses are gone. Undo brings them back.",
+  },
   foreign: {
-    guess: "Find out", nothing: "Nothing to read yet.", reads: (language: string, steps: number) => `Read as ${language}: ${plural(steps, "step")}.`, cannotRead: (language: string) => `Read as ${language}, it is not understood:`, steps: "Make steps", asText: "Run as text", pasted: "Pasted text",
+    guess: "Find out", nothing: "Nothing to read yet.", reads: (language: string, steps: number) => `Read as ${language}: ${plural(steps, "step")}.`, cannotRead: (language: string) => `Read as ${language}, it is not understood:`, skip: "Skip what is not understood",
+    skipSays: "Statements that are not understood are left out. The robot then does something else than the text says.", skipped: leftOut,
+    steps: "Make steps", asText: "Run as text", pasted: "Pasted text",
     asTextSays: "Run as text executes it line by line on the virtual controller, with breakpoints. Your program stays as it is.", run: "Run the text", step: "One statement", paused: (line: number) => `It stands before line ${line}.`, idle: "Click a line number to stop there.",
     breakpoint: (line: number) => `Stop before line ${line}`, edit: "Edit the text", back: "Back to the program", done: "The text is done.", fault: (line: number, why: string) => `Line ${line} could not be executed: ${why}`,
   },
