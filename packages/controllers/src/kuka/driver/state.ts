@@ -2,7 +2,7 @@ import type { JointSample, OperatingMode, SafetyState } from "@twincell/core";
 import { AXES, AXIS_NAMES, jointsOf, type KukaAxes } from "../axes.ts";
 import type { C3Item } from "../codec-c3-replies.ts";
 import { boolIn, enumIn, numberIn, partsIn, textIn } from "../codec-values.ts";
-import { LOOP_NAME, TWC } from "../loop.ts";
+import { TWC } from "../loop.ts";
 
 /** Read in every poll, in this order; the lines in and out that somebody wants to see follow. */
 export const POLLED: readonly string[] = [
@@ -26,6 +26,7 @@ export class KukaState {
   command = 0;
   done = 0;
   result = 0;
+  private readonly own: string;
   private readonly axes: KukaAxes;
   private readonly lines: readonly string[];
   private readonly gripper: string;
@@ -35,8 +36,9 @@ export class KukaState {
   private turns = 0;
   private timer_ms = NaN;
 
-  /** @param gripper  the line the gripper hangs on, or "". */
-  constructor(axes: KukaAxes, lines: readonly string[], gripper: string) {
+  /** @param own  the program that moves the robot for us. @param gripper  the line the gripper hangs on, or "". */
+  constructor(own: string, axes: KukaAxes, lines: readonly string[], gripper: string) {
+    this.own = own;
     this.axes = axes;
     this.lines = lines;
     this.gripper = gripper;
@@ -45,7 +47,7 @@ export class KukaState {
       signals: this.values,
     };
   }
-  get loopRuns(): boolean { return this.program === LOOP_NAME && this.programState === "P_ACTIVE"; }
+  get loopRuns(): boolean { return this.program === this.own && this.programState === "P_ACTIVE"; }
 
   /**
    * @param now_s  the time here, for a controller that has no timer.
