@@ -88,6 +88,9 @@ export class RsiRun implements Builtin {
     this.total.clear();
     axesOf(arm.jointAngles(), axes, this.start_deg);
     this.start = flangePose(robot.arm, arm.jointAngles());
+    // The set point is the program's: corrections do not show in it.
+    const start = this.start, angles = toKukaAbc(start.quaternion);
+    FRAME.forEach((name, i) => { this.values.set(`RSol.${name}`, i < 3 ? 1000 * start.position[i]! : angles[i - 3]!); });
     this.answer = null;
     this.late = this.ticks = 0;
     this.active = true;
@@ -114,11 +117,8 @@ export class RsiRun implements Builtin {
     this.ipoc += Math.round(1000 * cycle_s);
     const q_rad = arm.jointAngles(), at = flangePose(this.from.robot.arm, q_rad), angles = toKukaAbc(at.quaternion);
     axesOf(q_rad, axes, this.axes_deg);
-    AXIS_NAMES.forEach((name, i) => { this.values.set(`AIPos.${name}`, this.axes_deg[i]!).set(`ASPos.${name}`, this.axes_deg[i]!); });
-    FRAME.forEach((name, i) => {
-      const value = i < 3 ? 1000 * at.position[i]! : angles[i - 3]!;
-      this.values.set(`RIst.${name}`, value).set(`RSol.${name}`, value);
-    });
+    AXIS_NAMES.forEach((name, i) => { this.values.set(`AIPos.${name}`, this.axes_deg[i]!).set(`ASPos.${name}`, this.start_deg[i]!); });
+    FRAME.forEach((name, i) => { this.values.set(`RIst.${name}`, i < 3 ? 1000 * at.position[i]! : angles[i - 3]!); });
     this.values.set("Delay.D", this.late);
     const bytes = Uint8Array.from(this.write(this.values, this.ipoc), sign => sign.charCodeAt(0) & 255), to = { host: config.ip, port: config.port };
     if (faults.silent || this.random() < faults.loss) return;
