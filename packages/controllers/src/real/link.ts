@@ -61,9 +61,13 @@ export function keepLink(face: Face, scheduler: Scheduler, name: string, listene
 
   function watch(): void {
     stopWaiting();
-    stopWaiting = scheduler.every(face.stale_s / LOOKS, () => {
-      const silent_s = scheduler.now_s() - heard_s;
-      if (silent_s > face.stale_s) lose(cameLate(name, silent_s));
+    const every_s = face.stale_s / LOOKS;
+    let looked_s = scheduler.now_s();
+    stopWaiting = scheduler.every(every_s, () => {
+      const now_s = scheduler.now_s(), slept = now_s - looked_s > 2 * every_s, silent_s = now_s - heard_s;
+      looked_s = now_s;
+      // Who slept himself has not read yet what came meanwhile: the next look tells.
+      if (!slept && silent_s > face.stale_s) lose(cameLate(name, silent_s));
     });
   }
 

@@ -28,6 +28,8 @@ export interface KukaFaceOptions {
   readonly signals?: readonly string[];
   /** The robot brakes by itself when it hears nothing for so long during a motion [s]. */
   readonly watch_s?: number;
+  /** Without a new state for so long the link counts as lost [s]; 0.1, or four periods, when left out. */
+  readonly stale_s?: number;
   /** The program that moves the robot for us; TWINCELL when left out. */
   readonly program?: string;
 }
@@ -228,7 +230,7 @@ export function createKukaFace(options: KukaFaceOptions): Face {
   }
 
   return {
-    brand: "KUKA", robot, stale_s: Math.max(0.1, 4 * period_s),
+    brand: "KUKA", robot, stale_s: options.stale_s ?? Math.max(0.1, 4 * period_s),
     watchdog: { kind: "robot", within_s: watch_s },
     open, close, move, reset,
     stop(emergency) {
