@@ -4,10 +4,10 @@ import type { C3Item } from "../codec-c3-replies.ts";
 import { boolIn, enumIn, numberIn, partsIn, textIn } from "../codec-values.ts";
 import { TWC } from "../loop.ts";
 
-/** Read in every poll, in this order; the lines in and out that somebody wants to see follow. */
+/** Read in every poll, one after the other in this order: whether a motion ended before where the robot stands. The lines in and out that somebody wants to see follow. */
 export const POLLED: readonly string[] = [
-  "$AXIS_ACT", "$ROB_TIMER", "$MODE_OP", "$PRO_STATE1", "$PRO_NAME1[]", "$OV_PRO", "$PERI_RDY", "$STOPMESS", "$ALARM_STOP", "$USER_SAF",
-  TWC.command, TWC.done, TWC.result, TWC.lock,
+  TWC.done, TWC.command, "$MODE_OP", "$PRO_STATE1", "$PRO_NAME1[]", "$OV_PRO", "$PERI_RDY", "$STOPMESS", "$ALARM_STOP", "$USER_SAF",
+  "$ROB_TIMER", "$AXIS_ACT", TWC.result, TWC.lock,
 ];
 /** The timer of the controller counts to 2³¹ − 1 ms and begins again. */
 const TIMER_TURN_MS = 0x80000000, NEAR_TURN_MS = 60_000;
@@ -56,8 +56,8 @@ export class KukaState {
   take(items: readonly C3Item[], now_s: number): boolean | null {
     const text = (i: number): string => items[i]?.error === 1 ? items[i].value : "";
     this.before_deg.set(this.a_deg);
-    if (!partsIn(text(0), AXIS_NAMES, this.a_deg)) return null;
-    const timer_ms = numberIn(text(1));
+    if (!partsIn(text(11), AXIS_NAMES, this.a_deg)) return null;
+    const timer_ms = numberIn(text(10));
     if (timer_ms === this.timer_ms) return false;
     if (timer_ms < this.timer_ms && this.timer_ms > TIMER_TURN_MS - NEAR_TURN_MS) this.turns++;
     else if (timer_ms < this.timer_ms) this.turns = 0;
@@ -68,8 +68,8 @@ export class KukaState {
     if (this.mode === "" || this.programState === "") return null;
     this.program = textIn(text(4));
     this.ready = boolIn(text(6)) === true;
-    this.command = numberIn(text(10));
-    this.done = numberIn(text(11));
+    this.command = numberIn(text(1));
+    this.done = numberIn(text(0));
     this.result = numberIn(text(12));
     this.lines.forEach((line, i) => {
       const said = text(POLLED.length + i), bool = boolIn(said);
