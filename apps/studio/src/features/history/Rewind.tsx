@@ -10,6 +10,8 @@ import "./history.css";
 const SPEEDS = [0.25, 1, 4, 60] as const;
 const ZOOMS = [["all", null], ["hour", 3600], ["tenMinutes", 600], ["minute", 60], ["ten", 10]] as const;
 const MOST_TICKS = 300;
+/** What one key press moves by: some thousandth of what is shown, a round number, 1 ms at least. */
+const stepOf = (shown_s: number): number => Math.max(0.001, 10 ** Math.floor(Math.log10(shown_s / 5000)));
 
 /** The timeline of what is open: any moment of it, at any pace, with a mark where something happened. Long recordings are looked at part by part. */
 export default function Rewind() {
@@ -41,7 +43,7 @@ export default function Rewind() {
         </button>
       )}
       <div className="rewind-track">
-        <Slide label={words.history.moment} value={t_s} min={window.from_s} max={window.from_s + shown_s} step={0.001} says={clockOf(t_s)} onChange={theHistory.seek} />
+        <Slide label={words.history.moment} value={t_s} min={window.from_s} max={window.from_s + shown_s} step={stepOf(shown_s)} says={clockOf(t_s)} onChange={theHistory.seek} />
         {ticks.filter((mark, i) => mark.level === "error" || i % every === 0).slice(0, 2 * MOST_TICKS).map((mark, i) => <i key={i} className="rewind-mark" data-level={mark.level} aria-hidden style={{ left: `calc(8px + (100% - 16px) * ${(mark.at_s - window.from_s) / shown_s})` }} />)}
       </div>
     </div>
