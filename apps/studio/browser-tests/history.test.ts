@@ -2,6 +2,7 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { robotById, type JointSample } from "@twincell/core";
+import { saveDocument, tracedCartonCell } from "@twincell/project";
 import { createRunRecorder, memorySink } from "@twincell/recording";
 import { zstd } from "@twincell/recording/zstd";
 import type { Page } from "playwright-core";
@@ -66,6 +67,8 @@ test("T-54 T-56 X-43 a day is scrubbed, its last alarm found, two cycles laid ov
   expect(far_s).toBeGreaterThan(60_000);
   expect(far_s).toBeLessThan(DAY_S - 1);
   await page.getByRole("button", { name: "Last alarm" }).click();
+  expect(await standsThere(page)).toBeCloseTo(80_031.5, 0);
+  await page.getByRole("button", { name: "Last alarm" }).click();
   expect(await standsThere(page)).toBeCloseTo(61_235, 0);
   expect((await history(page)).moment).toMatchObject({ safety: "protective-stop", signals: { part: true, count: Math.floor(61_235 / CYCLE_S) } });
   await page.getByRole("group", { name: "Time shown" }).getByRole("button", { name: "10 min" }).click();
@@ -111,7 +114,7 @@ test("X-43 a moment is shared as a link; where the recording is missing it asks 
 test("T-54 from any past instant a run goes on: posture and step as they were, recorded as a run of its own", async () => {
   const { page, problems } = await studio.open();
   await drawn(page);
-  await page.evaluate(() => { window.twincell.stores.viewStore.setState({ coachDone: true }); window.twincell.run("file.example"); });
+  await page.evaluate(text => { window.twincell.stores.viewStore.setState({ coachDone: true }); window.twincell.document.open(text, "cell.json"); }, saveDocument(tracedCartonCell()));
   await page.waitForFunction(() => { const { verdict, checking } = window.twincell.stores.playStore.getState(); return verdict !== null && checking === null; }, null, { timeout: 60_000, polling: 100 });
   await page.evaluate(() => { window.twincell.run("run.start"); });
   const ended = (runs: number) => page.waitForFunction(count => { const { historyStore, controlStore } = window.twincell.stores; return historyStore.getState().runs.filter(({ ending }) => ending !== "running").length === count && !controlStore.getState().running; }, runs, { timeout: 120_000, polling: 200 });

@@ -1,10 +1,10 @@
 import { manualScheduler, robotById, type JointSample } from "@twincell/core";
 import { createRunRecorder } from "@twincell/recording";
 import { expect, test } from "vitest";
-import { historyStore } from "../stores/history.ts";
+import { historyStore, windowAt, zoomTo } from "../stores/history.ts";
 import { noticeStore } from "../stores/notices.ts";
 import { viewStore } from "../stores/view.ts";
-import { listRuns, openRunFile, removeRun, type Shelf } from "./archive.ts";
+import { listRuns, openRunFile, removeRun, tidyRuns, type Shelf } from "./archive.ts";
 import { theLive } from "./live.ts";
 import { openHere } from "./recordings.ts";
 import { travelBack } from "./travel-back.ts";
@@ -78,4 +78,27 @@ test("bytes that are no recording are told, and nothing stays open", async () =>
   expect(noticeStore.getState().notices.at(-1)?.tone).toBe("bad");
   await removeRun(shelf, "bad");
   expect(await shelf.keys()).toEqual([]);
+});
+
+test("runs are kept for 90 days and up to 1 GB; the oldest go, the newest stays", async () => {
+  const shelf = memoryShelf(), now_ms = Date.parse("2026-06-01T00:00:00Z");
+  const keep = async (id: string, startedAt: string, bytes: number): Promise<void> => { await shelf.set(`meta:${id}`, { ...record, id, startedAt, bytes, ending: "done" }); await shelf.set(`piece:${id}:00000000`, new Uint8Array(3)); };
+  await keep("old", "2026-01-01T00:00:00Z", 10);
+  await keep("large", "2026-05-01T00:00:00Z", 600_000_000);
+  await keep("mid", "2026-05-20T00:00:00Z", 600_000_000);
+  await keep("new", "2026-05-30T00:00:00Z", 10);
+  expect(await tidyRuns(shelf, now_ms)).toBe(2);
+  expect((await shelf.keys()).filter(key => key.startsWith("meta:")).sort()).toEqual(["meta:mid", "meta:new"]);
+  await keep("new", "2020-01-01T00:00:00Z", 2e9);
+  await removeRun(shelf, "mid");
+  expect(await tidyRuns(shelf, now_ms)).toBe(0);
+});
+test("the time shown follows the moment that is looked at", () => {
+  historyStore.setState({ duration_s: 1000, t_s: 990, window: { from_s: 0, to_s: 1000 } });
+  zoomTo(60);
+  expect(historyStore.getState().window).toEqual({ from_s: 940, to_s: 1000 });
+  expect(windowAt(950, historyStore.getState())).toEqual({ from_s: 940, to_s: 1000 });
+  expect(windowAt(500, historyStore.getState())).toEqual({ from_s: 470, to_s: 530 });
+  zoomTo(null);
+  expect(historyStore.getState().window).toEqual({ from_s: 0, to_s: 1000 });
 });

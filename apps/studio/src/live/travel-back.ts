@@ -1,11 +1,14 @@
 import { robotById, type Scheduler } from "@twincell/core";
 import { compareTraces, dashboardOf, playHistory, traceOf, type HistoryPlayer, type Moment } from "@twincell/recording";
+import { cellStore } from "../stores/cell.ts";
+import { robotOf } from "../stores/document.ts";
 import { closeHistory, historyStore, windowAt } from "../stores/history.ts";
 import { notify } from "../stores/notices.ts";
 import { viewStore } from "../stores/view.ts";
 import { words } from "../words/index.ts";
 import { listRuns, removeRun, runBlob, tidyRuns, type Shelf } from "./archive.ts";
 import { showJoints } from "./live.ts";
+import { leavePast, showPast } from "./past-robot.ts";
 import type { OpenRecordings, RecordingFile } from "./recordings.ts";
 import { wayOf, type WayWorld } from "./way.ts";
 
@@ -54,6 +57,7 @@ export function travelBack(shelf: Shelf, scheduler: Scheduler, openRecordings: O
   const close = (): void => {
     player?.close();
     player = opening = null;
+    leavePast();
     closeHistory();
   };
 
@@ -72,10 +76,12 @@ export function travelBack(shelf: Shelf, scheduler: Scheduler, openRecordings: O
       notify("bad", wrong ?? words.history.unreadable, hint);
       return false;
     }
-    const { history } = taken;
+    const { history } = taken, { document } = cellStore.getState(), here = robotOf(document);
+    const stand = historyStore.getState().runs.find(run => run.id === id)?.station?.stand, other = stand !== undefined || (here ? here.id !== robot.id : false);
     player = playHistory(history, robot, scheduler);
     player.onSample(({ q_rad }) => {
-      if (viewStore.getState().mode === "history") showJoints(q_rad);
+      if (other) showPast(robot, q_rad);
+      else if (viewStore.getState().mode === "history") showJoints(q_rad);
       tell(false);
     });
     player.onTrouble(sentence => { tell(true); notify("bad", sentence, words.history.unreadableHint); });
@@ -88,6 +94,7 @@ export function travelBack(shelf: Shelf, scheduler: Scheduler, openRecordings: O
     });
     player.timeline.seek(0);
     tell(true);
+    if (other) historyStore.setState({ past: stand ?? document?.robot.worldFromBase ?? null });
     return true;
   }
 

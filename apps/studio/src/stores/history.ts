@@ -57,9 +57,11 @@ export interface HistoryState {
   readonly moment: MomentWords;
   readonly figures: Dashboard | null;
   readonly overlay: Overlay | null;
+  /** Where the recorded robot stands when it is another than that of the cell. */
+  readonly past: Pose<"world", "base"> | null;
 }
 const CLOSED = {
-  open: null, name: "", startedAt_ms: 0, opening: false, duration_s: 0, t_s: 0, playing: false, speed: 1, marks: [], cycles: [], troubles: [], window: { from_s: 0, to_s: 0 }, moment: NOTHING, figures: null, overlay: null,
+  open: null, name: "", startedAt_ms: 0, opening: false, duration_s: 0, t_s: 0, playing: false, speed: 1, marks: [], cycles: [], troubles: [], window: { from_s: 0, to_s: 0 }, moment: NOTHING, figures: null, overlay: null, past: null,
 } satisfies Omit<HistoryState, "runs">;
 export const historyStore = createStore<HistoryState>(() => ({ runs: [], ...CLOSED }));
 export const closeHistory = (): void => historyStore.setState(CLOSED);
