@@ -17,8 +17,8 @@ function oneBox(): CellDocument {
   return { ...cell, objects: cell.objects.filter(({ id }) => !/box-[2-9]/.test(id)), programs: [{ ...program, pallets: { places } }] };
 }
 
-interface Seen { readonly t_s: number; readonly q_rad: number[]; readonly parts: number[]; readonly grasp: string[] }
-/** Opens the cell and plays it with physics; returns every frame that was on screen. */
+interface Seen { readonly t_s: number; readonly q_rad: number[]; readonly parts: number[] }
+/** Opens the cell and plays it with physics; every frame that was on screen is kept in the page. */
 async function play(page: Page, cell: CellDocument): Promise<void> {
   await drawn(page);
   await page.evaluate(text => { window.twincell.document.open(text, "cell.json"); }, saveDocument(cell));
@@ -28,7 +28,7 @@ async function play(page: Page, cell: CellDocument): Promise<void> {
     let last: unknown = null;
     const keep = (): void => {
       const frame = window.twincell.live.physics();
-      if (frame !== null && frame !== last) { last = frame; frames.push({ t_s: frame.t_s, q_rad: [...frame.q_rad], parts: [...frame.parts], grasp: [...frame.grasp] }); }
+      if (frame !== null && frame !== last) { last = frame; frames.push({ t_s: frame.t_s, q_rad: [...frame.q_rad], parts: [...frame.parts] }); }
       requestAnimationFrame(keep);
     };
     keep();
@@ -53,8 +53,10 @@ describe("playing with physics", () => {
     const said = await page.evaluate(() => window.twincell.stores.physicsStore.getState().said);
     expect(said).toEqual(expect.arrayContaining(["“Photo-cell” was tripped.", "“Box 1” is held.", "“Box 1” weighs 0.8 kg.", "The program has come to its end."]));
     expect(await page.locator(".physics-state").textContent()).toBe("Done");
-    const frames = await framesOf(page), marks = frames.map(({ grasp }) => grasp[0]).filter((mark, i, all) => mark !== all[i - 1]);
-    expect(marks).toEqual(["free", "ready", "held", "ready", "free"]);
+    // A slow page may not see a mark that lasts 30 ms; the log has them all, newest first.
+    const marks = [...said].reverse().filter(sentence => sentence.includes("“Box 1”") && !sentence.includes("weighs"));
+    expect(marks).toEqual(["The fingers touch “Box 1”.", "“Box 1” is held.", "The fingers touch “Box 1”.", "Nothing touches “Box 1”."]);
+    const frames = await framesOf(page);
     const end = frames.at(-1)!;
     [0.47, 0.22, 0.23].forEach((wanted, k) => { expect(Math.abs(end.parts[k]! - wanted)).toBeLessThan(0.003); });
     await page.screenshot({ path: picture("physics-done") });
