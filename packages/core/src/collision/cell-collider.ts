@@ -57,6 +57,7 @@ export class CellCollider {
   readonly #scratch = pairScratch();
   readonly #points = new Float64Array(6);
   #pairs: SolidPair[] = [];
+  #edition = 0;
 
   /** @param shelf  where built trees are kept; pass the same one when a cell is built again after an edit. */
   constructor(cell: CellGeometry, arm: SerialArm, shelf = new SolidShelf()) {
@@ -72,6 +73,9 @@ export class CellCollider {
 
   /** Every pair that is watched. The list is replaced when objects come, go or change hands. */
   get pairs(): readonly SolidPair[] { return this.#pairs; }
+
+  /** Grows whenever an object comes, goes, moves or changes hands, or pairs become allowed: what was proven before may be wrong then. */
+  get edition(): number { return this.#edition; }
 
   /** Puts the robot in this posture. The queries below do it themselves; `distanceOf` answers for the last one placed. */
   place(q: ArrayLike<number>): void {
@@ -214,6 +218,7 @@ export class CellCollider {
     if (body?.carrier !== WORLD) return;
     copyPose(worldFromObject as Pose, body.carrierFromBody);
     placeBody(body, HERE, this.#turn);
+    this.#edition++;
   }
 
   /** From now on the object moves with the flange, as gripped things do. */
@@ -251,6 +256,7 @@ export class CellCollider {
 
   /** Places what stands still and lists the pairs to watch. */
   #arrange(): void {
+    this.#edition++;
     const known = new Map(this.#pairs.map(pair => [keyOf(pair.contact.a, pair.contact.b), pair]));
     for (const body of this.#bodies) if (body.carrier === WORLD) placeBody(body, HERE, this.#turn);
     this.#pairs = [];

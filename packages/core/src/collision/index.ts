@@ -10,6 +10,7 @@ export * from "./inside.ts";
 export * from "./solid.ts";
 export { SolidShelf } from "./bodies.ts";
 export * from "./cell-collider.ts";
+export * from "./clearance-map.ts";
 export * from "./motion.ts";
 export * from "./certificate.ts";
 export * from "./matrix.ts";

@@ -1,0 +1,3 @@
+export { WayChecker, distanceBetween, type WayRules } from "./way-checker.ts";
+export { findWay, lengthOf, type WayOptions, type WayOutcome } from "./find-way.ts";
+export { shorten } from "./shorten.ts";
