@@ -25,8 +25,8 @@ const shelf = browserShelf();
 let control: CellControl | null = null, made: Solids | null = null;
 
 /** What the controller and its guard are made from. */
-type Solids = Pick<CellDocument, "robot" | "objects" | "tools" | "tool" | "allowedPairs">;
-const same = (a: Solids, b: Solids): boolean => a.robot === b.robot && a.objects === b.objects && a.tools === b.tools && a.tool === b.tool && a.allowedPairs === b.allowedPairs;
+type Solids = Pick<CellDocument, "robot" | "objects" | "tools" | "tool" | "allowedPairs" | "pairs">;
+const same = (a: Solids, b: Solids): boolean => a.robot === b.robot && a.objects === b.objects && a.tools === b.tools && a.tool === b.tool && a.allowedPairs === b.allowedPairs && a.pairs === b.pairs;
 
 /** Contact of the robot with itself or its surroundings. */
 function contactTest(document: CellDocument, robot: Robot): (q_rad: Float64Array) => boolean {

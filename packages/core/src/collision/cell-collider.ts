@@ -49,6 +49,7 @@ export class CellCollider {
   readonly #shelf: SolidShelf;
   readonly #bodies: Body[];
   readonly #allowed = new Set<string>();
+  readonly #decided = new Set<string>();
   readonly #worldFromBase: Pose<"world", "base">;
   readonly #baseFromLinks: Pose<"base", "link">[];
   readonly #worldFromLink: Pose = identity();
@@ -68,6 +69,10 @@ export class CellCollider {
     this.#baseFromLinks = Array.from({ length: arm.joints.length + 1 }, () => identity<"base", "link">());
     this.#bodies = bodiesOf(cell, arm, shelf);
     for (const [a, b] of cell.allowedPairs) this.#allowed.add(keyOf(a, b));
+    for (const { a, b, watched } of cell.pairs?.entries ?? []) {
+      this.#decided.add(keyOf(a, b));
+      if (!watched) this.#allowed.add(keyOf(a, b));
+    }
     this.#arrange();
   }
 
@@ -187,12 +192,12 @@ export class CellCollider {
 
   /**
    * Contacts of the robot with itself at q from now on count as part of the design: drawn shapes overlap in joints.
-   * Call it at a posture known to be free, such as home.
+   * Call it at a posture known to be free, such as home. Pairs that the cell's matrix speaks of stay as it says.
    *
    * @returns the pairs that were learnt.
    */
   allowContactsAt(q: ArrayLike<number>): readonly Contact[] {
-    const learnt = this.check(q).filter(({ a, b }) => this.#isRobot(a) && this.#isRobot(b));
+    const learnt = this.check(q).filter(({ a, b }) => this.#isRobot(a) && this.#isRobot(b) && !this.#decided.has(keyOf(a, b)));
     for (const { a, b } of learnt) this.#allowed.add(keyOf(a, b));
     if (learnt.length > 0) this.#arrange();
     return learnt;

@@ -1,5 +1,6 @@
 export * from "./mesh.ts";
 export * from "./cell.ts";
+export * from "./pairs.ts";
 export * from "./bvh.ts";
 export * from "./relative.ts";
 export * from "./triangles.ts";

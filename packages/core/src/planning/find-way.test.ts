@@ -49,7 +49,7 @@ describe("a way from one posture to another that touches nothing", () => {
 
   test.each([20, 21, 22, 23, 24, 25])("plates 0.1 mm thin are never stepped through (seed %i)", seed => {
     // A fence of thin plates across the outer bars' way, with a gap below it.
-    const fence = [0.25, 0.35, 0.45].map((angle, i) => ({ ...box(`plate ${i}`, [2.3 * Math.cos(angle), 2.3 * Math.sin(angle), 0], [1.2, 0.0001, 0.2]), worldFromObject: pose([2.3 * Math.cos(angle), 2.3 * Math.sin(angle), 0], [0, 0, Math.sin(angle / 2), Math.cos(angle / 2)]) }));
+    const fence = [0.25, 0.35, 0.45].map((angle, i) => ({ ...box(`plate ${i}`, [0, 0, 0], [1.2, 0.0001, 0.2]), worldFromObject: pose<"world", "object">([2.3 * Math.cos(angle), 2.3 * Math.sin(angle), 0], [0, 0, Math.sin(angle / 2), Math.cos(angle / 2)]) }));
     expect(checkJointLine(checkerOf(fence).collider, FROM, TO).kind).toBe("contact");
     const way = wayOf(findWay(checkerOf(fence), FROM, TO, { seed }));
     expect(confirmed(planarCell(fence), planarArm, way)).toBe(true);
