@@ -10,7 +10,7 @@ import type { PairEntry, PairMatrix, PairReason } from "./pairs.ts";
  * @param free_rad  a posture known to be free, such as home: what touches there does so by design.
  */
 export function learnPairs(cell: CellGeometry, arm: SerialArm, seed: number, samples: number, free_rad?: ArrayLike<number>): PairMatrix {
-  const { pairs: _, ...rest } = cell, collider = new CellCollider({ ...rest, objects: [] }, arm), random = seededRandom(seed), q = new Float64Array(arm.joints.length);
+  const collider = new CellCollider({ ...cell, objects: [], pairs: { seed, entries: [] } }, arm), random = seededRandom(seed), q = new Float64Array(arm.joints.length);
   const parts = [...new Set(cell.links.map(({ link }) => link))].sort((a, b) => a - b).map(link => `link ${link}`);
   if (cell.tool) parts.push("tool");
   const touches = new Map<string, number>(collider.pairs.map(({ contact: { a, b } }) => [keyOf(a, b), 0]));
