@@ -10,7 +10,7 @@ import { theLive } from "./live.ts";
 import { goAround } from "./planning.ts";
 
 /** Looks that the straight way may cost before the page answers; more is left to the worker. */
-const MOST_CHECKS = 300;
+const MOST_CHECKS = 1000;
 
 /**
  * Goes to a posture as the chosen behaviour wants it: straight where a contact is only an alert; not at all where the way is blocked and
