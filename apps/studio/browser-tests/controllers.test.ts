@@ -15,7 +15,7 @@ const to = (id: string, x: number, y: number, z: number): MoveStep => ({
 });
 const carton = tracedCartonCell();
 const cell: CellDocument = {
-  ...carton, name: "Three brands", robot: { ...carton.robot, worldFromBase: identity() }, objects: [],
+  ...carton, name: "Three brands", robot: { ...carton.robot, worldFromBase: identity() }, objects: [], program: "To and fro",
   programs: [{ ...carton.programs[0]!, name: "To and fro", tools: {}, frames: {}, groups: {}, steps: [to("a", 0.42, -0.12, 0.4), to("b", 0.42, 0.12, 0.4), to("c", 0.42, -0.12, 0.4), to("d", 0.42, 0.12, 0.4)] }],
 };
 
