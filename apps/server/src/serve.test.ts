@@ -10,6 +10,7 @@ const studio = mkdtempSync(join(tmpdir(), "twincell-studio-"));
 writeFileSync(join(studio, "index.html"), "<title>studio</title>");
 mkdirSync(join(studio, "assets"));
 writeFileSync(join(studio, "assets", "a-1234.js"), "export const a = 1;".repeat(100));
+writeFileSync(join(studio, "assets", "physics.worker-Ab_1-2.js"), "1;");
 writeFileSync(join(studio, "..", "secret.txt"), "secret");
 
 let served: Served | undefined;
@@ -39,6 +40,13 @@ test("serves the studio on loopback with isolation headers, and compresses it", 
   expect(script.headers["content-encoding"]).toBe("gzip");
   expect(script.headers["cache-control"]).toContain("immutable");
   expect((await get("/assets/a-1234.js", { "if-none-match": String(script.headers["etag"]) })).status).toBe(304);
+});
+
+test("only the worker that holds the physics engine may write code; the page and every other script may not", async () => {
+  served = await serve({ studio, port: 0 });
+  const policy = async (path: string): Promise<string> => String((await get(path)).headers["content-security-policy"]);
+  expect(await policy("/assets/physics.worker-Ab_1-2.js")).toContain("'unsafe-eval'");
+  for (const path of ["/", "/assets/a-1234.js", "/assets/physics.worker.js", "/assets/x/physics.worker-a.js", "/physics.worker-a.js"]) expect((await policy(path)).replace("'wasm-unsafe-eval'", ""), path).not.toContain("unsafe-eval");
 });
 
 test.each(["/../secret.txt", "/%2e%2e/secret.txt", "/..%2fsecret.txt", "/assets/../../secret.txt", "/%00", "/nothing"])(

@@ -39,6 +39,13 @@ const HEADERS: Readonly<Record<string, string>> = {
   "x-content-type-options": "nosniff", "referrer-policy": "no-referrer",
 };
 
+/**
+ * MuJoCo's bindings write their own invokers when they start. Only the worker that holds them may do so, which has no page to
+ * change and nobody but this origin to talk to; everything else stays without.
+ */
+const WRITES_CODE = /^\/assets\/physics\.worker-[\w-]+\.js$/;
+const WRITER_HEADERS: Readonly<Record<string, string>> = { ...HEADERS, "content-security-policy": "default-src 'none'; script-src 'self' 'wasm-unsafe-eval' 'unsafe-eval'; connect-src 'self'" };
+
 /** Serves the built studio on loopback, or on the local network when asked. Rejects when the port is taken. */
 export async function serve(options: ServeOptions): Promise<Served> {
   const addresses = options.lan ? lanAddresses() : [];
@@ -98,7 +105,7 @@ function studioListener(files: ReturnType<typeof staticFiles>, hosts: ReadonlySe
       if (entry.kind === "welcome-with-cookie") { say(303, "", { "set-cookie": entry.cookie, location: "/" }); return; }
     }
     const found = await files(path, String(request.headers["accept-encoding"] ?? ""), request.headers["if-none-match"]);
-    response.writeHead(found.status, { ...HEADERS, ...found.headers, ...(found.status === 200 ? { "content-length": String(found.body.length) } : {}) });
+    response.writeHead(found.status, { ...(WRITES_CODE.test(path) ? WRITER_HEADERS : HEADERS), ...found.headers, ...(found.status === 200 ? { "content-length": String(found.body.length) } : {}) });
     response.end(request.method === "HEAD" ? undefined : found.body);
   }
 }

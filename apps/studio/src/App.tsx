@@ -10,6 +10,7 @@ import { Shortcuts } from "./features/input/Shortcuts.tsx";
 import { Inspector } from "./features/inspector/Inspector.tsx";
 import { Notices } from "./features/notices/Notices.tsx";
 import { Overlay } from "./features/overlay/Overlay.tsx";
+import { Physics } from "./features/physics/Physics.tsx";
 import { Palette } from "./features/palette/Palette.tsx";
 import { Pendant } from "./features/pendant/Pendant.tsx";
 import { SavedPoses } from "./features/poses/SavedPoses.tsx";
@@ -49,6 +50,7 @@ export function App() {
         <main key="view" className="area-view" aria-label={words.app.region.view}>
           <SceneGuard><Suspense fallback={<p className="scene-note" role="status">{words.app.loadingScene}</p>}><Viewport /></Suspense></SceneGuard>
           <Overlay phone={phone} />
+          <Physics />
           {!phone && <Coach />}
           <Welcome />
           <Notices />

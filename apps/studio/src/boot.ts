@@ -9,6 +9,7 @@ import { endGlide } from "./live/glide.ts";
 import { startHandPath } from "./live/hand-path.ts";
 import { releaseAll } from "./live/held.ts";
 import { startJogging } from "./live/jogger.ts";
+import { hold, startPhysics } from "./live/physics.ts";
 import { pause, startPlayhead } from "./live/playhead.ts";
 import { startPreview } from "./live/preview.ts";
 import { keepDocument, openKept, type Keeper } from "./stores/autosave.ts";
@@ -22,11 +23,12 @@ export function boot(): void {
   keepPreferences(localStorage, matchMedia("(prefers-color-scheme: light)").matches);
   startFollowing();
   startPlayhead();
+  startPhysics();
   startJogging();
   startHandPath();
   startPreview();
   startSounds();
-  for (const bringToRest of [releaseAll, endGlide, pause]) onStop(bringToRest);
+  for (const bringToRest of [releaseAll, endGlide, pause, hold]) onStop(bringToRest);
   keepDocument(browserKeeper, { after: (ms, act) => { const timer = setTimeout(act, ms); return () => clearTimeout(timer); } });
   // Languages, controllers and recording are a part of the page that the first sight of it does not wait for.
   void openKept(browserKeeper).then(() => import("./live/cell-control.ts")).then(({ startCellControl }) => { startCellControl(); });

@@ -1,6 +1,7 @@
 import { hold, release, releaseAll } from "./live/held.ts";
 import { linkMeter } from "./live/link-meter.ts";
 import { showJoints, theLive, touchingNow } from "./live/live.ts";
+import { physicsNow } from "./live/physics.ts";
 import { playheadNow } from "./live/playhead.ts";
 import { aidStore } from "./stores/aids.ts";
 import { bindingStore } from "./stores/bindings.ts";
@@ -14,6 +15,7 @@ import { historyStore } from "./stores/history.ts";
 import { jogStore } from "./stores/jog.ts";
 import { noticeStore } from "./stores/notices.ts";
 import { openCellText } from "./stores/opening.ts";
+import { physicsStore } from "./stores/physics.ts";
 import { playStore } from "./stores/play.ts";
 import { foreignStore } from "./stores/foreign.ts";
 import { languageStore } from "./stores/languages.ts";
@@ -28,8 +30,8 @@ import { watchStore } from "./stores/watch.ts";
 
 /** What the browser's console and tests can reach: every store, the live state, and the commands by name. */
 const twincell = {
-  stores: { aidStore, bindingStore, cellStore, commandStore, controlStore, dialogStore, foreignStore, gamepadStore, historyStore, jogStore, languageStore, noticeStore, playStore, postStore, selectionStore, soundStore, stationStore, traceStore, viewStore, watchStore },
-  live: { now: theLive, touching: touchingNow, showJoints, hold, release, releaseAll, playhead: playheadNow, link: linkMeter },
+  stores: { aidStore, bindingStore, cellStore, commandStore, controlStore, dialogStore, foreignStore, gamepadStore, historyStore, jogStore, languageStore, noticeStore, physicsStore, playStore, postStore, selectionStore, soundStore, stationStore, traceStore, viewStore, watchStore },
+  live: { now: theLive, touching: touchingNow, showJoints, hold, release, releaseAll, playhead: playheadNow, physics: physicsNow, link: linkMeter },
   document: { commit, undo, redo, show: showDocument, open: openCellText },
   run: runCommand, seek,
 };

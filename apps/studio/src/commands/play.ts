@@ -1,5 +1,7 @@
-import { playheadNow, playOrPause } from "../live/playhead.ts";
+import { hold, playOrHold, resume } from "../live/physics.ts";
+import { pause, playheadNow, playOrPause } from "../live/playhead.ts";
 import type { Command } from "../stores/commands.ts";
+import { physicsStore } from "../stores/physics.ts";
 import { playStore } from "../stores/play.ts";
 import { seek } from "../stores/seek.ts";
 import { select } from "../stores/selection.ts";
@@ -8,11 +10,20 @@ import { words } from "../words/index.ts";
 const can = (): boolean => (playStore.getState().plan?.duration_s ?? 0) > 0;
 
 export const playCommands = (): readonly Command[] => [
-  { id: "play.toggle", group: "play", words: words.commands.play, keys: ["Space"], can, run: playOrPause },
+  { id: "play.toggle", group: "play", words: words.commands.play, keys: ["Space"], can, run: () => (physicsStore.getState().on ? playOrHold() : playOrPause()) },
+  { id: "play.physics", group: "play", words: words.commands.physics, run: togglePhysics },
+  { id: "play.resume", group: "play", words: words.commands.resume, can: () => physicsStore.getState().status === "stopped", run: resume },
   { id: "play.step", group: "play", words: words.commands.stepOn, keys: ["ArrowRight"], can, run: () => toStep(1) },
   { id: "play.back", group: "play", words: words.commands.stepBack, keys: ["ArrowLeft"], can, run: () => toStep(-1) },
   { id: "play.start", group: "play", words: words.commands.start, keys: ["Home"], can, run: () => seek(0) },
 ];
+
+/** Another way to play: what was playing stands still. */
+function togglePhysics(): void {
+  pause();
+  hold();
+  physicsStore.setState(({ on }) => ({ on: !on }));
+}
 
 /** To the next or the previous end of a step. */
 function toStep(by: 1 | -1): void {

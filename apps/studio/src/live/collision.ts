@@ -3,6 +3,7 @@ import { cellGeometry, type CellDocument } from "@twincell/project";
 import { cellStore } from "../stores/cell.ts";
 import { notify } from "../stores/notices.ts";
 import { sound } from "../stores/sound.ts";
+import { physicsShows, physicsStore } from "../stores/physics.ts";
 import { watchStore } from "../stores/watch.ts";
 import type { FromWatcher, ToWatcher } from "../workers/messages.ts";
 import { onFrame } from "./frames.ts";
@@ -39,7 +40,7 @@ export function watchCollisions(watcher: Watcher = workerWatcher()): () => void 
     edition++;
     waiting = false;
     lookedAt = -1;
-    if (document && robot) watcher.post({ kind: "cell", cell: watched(document, robot), edition });
+    if (document && robot) watcher.post({ kind: "cell", cell: watched(physicsShows(physicsStore.getState()) ? withoutParts(document) : document, robot), edition });
   };
 
   watcher.listen(message => {
@@ -65,9 +66,13 @@ export function watchCollisions(watcher: Watcher = workerWatcher()): () => void 
     watcher.post({ kind: "look", q_rad: live.q_rad });
   });
   const stopDocument = cellStore.subscribe((state, before) => { if (state.document !== before.document && solidsDiffer(state.document, before.document)) send(state.document); });
+  // Parts that physics moves are not where the document has them: what they touch is physics' affair.
+  const stopPhysics = physicsStore.subscribe((state, before) => { if (physicsShows(state) !== physicsShows(before)) send(cellStore.getState().document); });
   send(cellStore.getState().document);
-  return () => { stopFrames(); stopDocument(); watcher.close(); };
+  return () => { stopFrames(); stopPhysics(); stopDocument(); watcher.close(); };
 }
+
+const withoutParts = (document: CellDocument): CellDocument => ({ ...document, objects: document.objects.filter(({ role }) => role !== "workpiece") });
 
 /** Editing a program leaves the solids as they are. */
 function solidsDiffer(a: CellDocument | null, b: CellDocument | null): boolean {

@@ -1,5 +1,5 @@
 /** Who moves the robot on screen. One at a time: whoever takes it ends what the one before was doing. */
-export type Mover = "jog" | "glide" | "drag" | "play" | "run" | "history";
+export type Mover = "jog" | "glide" | "drag" | "play" | "physics" | "run" | "history";
 let owner: Mover | null = null;
 let lost: (() => void) | null = null;
 

@@ -6,6 +6,7 @@ import { useStore } from "zustand";
 import { dragFollows } from "../live/drag.ts";
 import { cellStore } from "../stores/cell.ts";
 import { registerCommands } from "../stores/commands.ts";
+import { physicsStore } from "../stores/physics.ts";
 import { playStore } from "../stores/play.ts";
 import { stationStore } from "../stores/stations.ts";
 import { traceStore } from "../stores/trace.ts";
@@ -26,6 +27,7 @@ import { Pointer } from "./pick/pointer.tsx";
 import { Outline } from "./pick/outline.tsx";
 import { Picture } from "./picture-frame.tsx";
 import { hiddenPicture } from "./picture.ts";
+import { WatchedView } from "./physical/watched-view.tsx";
 import { RenderLoop } from "./render-loop.tsx";
 import { RobotView } from "./robot/robot-view.tsx";
 import { Probe } from "./scene-probe.tsx";
@@ -47,7 +49,8 @@ export function Viewport() {
   const document = useStore(cellStore, state => state.document);
   const mode = useStore(viewStore, state => state.mode), inHeadset = useStore(viewStore, state => state.inHeadset);
   const wish = useStore(viewStore, state => state.headsetWish);
-  const playing = useStore(playStore, state => state.playing), tracing = useStore(traceStore, state => state.active);
+  const physics = useStore(physicsStore, ({ status }) => status === "running" || status === "stopped");
+  const playing = useStore(playStore, state => state.playing) || physics, tracing = useStore(traceStore, state => state.active);
   const stations = useStore(stationStore, state => state.stations.length);
   const theme = useStore(viewStore, state => state.theme), colours = useMemo(() => readTheme(theme), [theme]);
   const [pictured, setPictured] = useState(true);
@@ -76,6 +79,7 @@ export function Viewport() {
             {stations > 0 && <Suspense fallback={null}><StationViews /></Suspense>}
             {document && tool && <ToolView tool={tool} worldFromBase={document.robot.worldFromBase} />}
             {document?.objects.map(object => <ObjectView key={object.id} object={object} theme={colours} />)}
+            {document && <WatchedView document={document} theme={colours} />}
             <PathView theme={colours} />
             {document && <Waypoints document={document} />}
             <TcpTrace theme={colours} />

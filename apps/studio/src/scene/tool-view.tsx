@@ -4,6 +4,7 @@ import { useFrame } from "@react-three/fiber";
 import { useEffect, useMemo, useRef } from "react";
 import { BufferAttribute, type BufferGeometry, Color, type Group } from "three";
 import { theLive } from "../live/live.ts";
+import { Fingers } from "./physical/fingers.tsx";
 import { shapeGeometry } from "./objects/shape-geometry.ts";
 import { paintTouching } from "./paint.ts";
 import { raycastByTree } from "./pick/raycast.ts";
@@ -54,7 +55,8 @@ export function ToolView({ tool, worldFromBase }: { readonly tool: ToolRecord; r
   }, -10);
   return (
     <group ref={group} name="tool" matrixAutoUpdate={false} userData={{ thing: { kind: "tool" } }}>
-      <Wire tool={tool} from_m={geometry?.boundingBox?.max.z ?? 0} />
+      {tool.shape && <Wire tool={tool} from_m={geometry?.boundingBox?.max.z ?? 0} />}
+      {tool.gripper && <Fingers tool={tool} gripper={tool.gripper} />}
       {geometry && <mesh geometry={geometry} castShadow receiveShadow raycast={raycastByTree}><meshStandardMaterial vertexColors roughness={0.36} metalness={0.6} /></mesh>}
     </group>
   );

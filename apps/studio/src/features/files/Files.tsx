@@ -1,4 +1,4 @@
-import { edgeTraceCell, emptyCell, saveDocument } from "@twincell/project";
+import { conveyorPalletCell, edgeTraceCell, emptyCell, saveDocument } from "@twincell/project";
 import { DIALECTS } from "@twincell/languages";
 import { useEffect, useRef, useState } from "react";
 import { cellStore } from "../../stores/cell.ts";
@@ -20,6 +20,7 @@ export function Files() {
     { id: "file.save", group: "file", words: words.commands.save, keys: ["Mod+S"], can: () => cellStore.getState().document !== null, run: saveFile },
     { id: "file.load", group: "file", words: words.commands.load, keys: ["Mod+O"], run: () => input.current?.click() },
     { id: "file.example", group: "file", words: words.commands.example, run: () => openCell(edgeTraceCell()) },
+    { id: "file.conveyor", group: "file", words: words.commands.conveyor, run: () => openCell(conveyorPalletCell()) },
     { id: "file.new", group: "file", words: words.commands.fresh, run: () => openCell(emptyCell()) },
   ]), []);
   useEffect(() => {

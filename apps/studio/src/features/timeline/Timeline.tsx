@@ -1,12 +1,14 @@
-import { ChartSpline, Pause, Play, SkipBack, SkipForward } from "lucide-react";
+import { ChartSpline, Pause, Play, SkipBack, SkipForward, Weight } from "lucide-react";
 import { lazy, Suspense, useEffect, useMemo, useRef, type KeyboardEvent, type PointerEvent } from "react";
 import { useStore } from "zustand";
 import { onFrame } from "../../live/frames.ts";
+import { physicsNow } from "../../live/physics.ts";
 import { playheadNow } from "../../live/playhead.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { programOf, robotOf } from "../../stores/document.ts";
 import { languageOf, languageStore } from "../../stores/languages.ts";
+import { physicsStore } from "../../stores/physics.ts";
 import { playStore } from "../../stores/play.ts";
 import { seek } from "../../stores/seek.ts";
 import { select, selectionStore } from "../../stores/selection.ts";
@@ -33,13 +35,14 @@ export function Timeline() {
 }
 
 function Transport({ hasPlan }: { hasPlan: boolean }) {
-  const playing = useStore(playStore, state => state.playing), duration = useStore(playStore, state => state.plan?.duration_s ?? 0);
+  const physics = useStore(physicsStore, state => state.on), moving = useStore(physicsStore, ({ status }) => status === "running" || status === "stopped" || status === "loading");
+  const playing = useStore(playStore, state => (physics ? moving : state.playing)), duration = useStore(playStore, state => state.plan?.duration_s ?? 0);
   const repairs = useStore(playStore, state => state.verdict?.steps.reduce((count, step) => count + (step.findings.some(finding => finding.repairs.length > 0) ? 1 : 0), 0) ?? 0);
   const plots = useStore(viewStore, state => state.plots), checking = useStore(playStore, state => state.checking);
   const robot = useStore(cellStore, state => robotOf(state.document)), language = useStore(languageStore, state => languageOf(robot, state)?.name ?? "");
   const clock = useRef<HTMLSpanElement>(null);
   useEffect(() => onFrame(() => {
-    const text = words.time.s(playheadNow());
+    const text = words.time.s(physicsStore.getState().on ? physicsNow()?.t_s ?? 0 : playheadNow());
     if (clock.current && clock.current.textContent !== text) clock.current.textContent = text;
   }), []);
   return (
@@ -50,6 +53,7 @@ function Transport({ hasPlan }: { hasPlan: boolean }) {
       <span className="clock"><span ref={clock}>0.00</span> s <span className="dim">{words.time.of} {words.time.s(duration)} s</span></span>
       <span className="grow" />
       {checking !== null && <span className="row-flex small muted" role="status"><span className="progress checking-bar"><i style={{ width: `${checking * 100}%` }} /></span>{words.check.percent(Math.round(checking * 100))}<button className="btn quiet tight" onClick={() => runCommand("check.cancel")}>{words.common.cancel}</button></span>}
+      <Tip words={words.physics.tip}><button className="btn quiet" aria-pressed={physics} onClick={() => runCommand("play.physics")}><Weight />{words.physics.toggle}</button></Tip>
       <Tip words={words.time.plots}><button className="btn quiet" aria-pressed={plots} onClick={() => runCommand("view.plots")}><ChartSpline />{words.time.plots}</button></Tip>
       {repairs > 0 && <button className="btn" onClick={() => runCommand("check.repair-all")}>{words.check.repairAll(repairs)}</button>}
       <button className="btn" onClick={() => runCommand("export.open")}>{words.export.button(language)}</button>

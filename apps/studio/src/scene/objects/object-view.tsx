@@ -1,7 +1,10 @@
+import { identity } from "@twincell/core";
 import type { ObjectRecord } from "@twincell/project";
 import { useFrame } from "@react-three/fiber";
 import { useEffect, useMemo, useRef } from "react";
 import { type BufferGeometry, Color, EdgesGeometry, type Group, type LineSegments, type Mesh, Vector3 } from "three";
+import { partOffset, physicsNow } from "../../live/physics.ts";
+import { GraspMark } from "../physical/grasp-mark.tsx";
 import { paintTouching } from "../paint.ts";
 import { raycastByTree } from "../pick/raycast.ts";
 import { poseMatrix } from "../pose-matrix.ts";
@@ -10,17 +13,35 @@ import { shapeGeometry } from "./shape-geometry.ts";
 import { wallHides } from "./walls.ts";
 import type { SceneTheme } from "../theme.ts";
 
+/** Where a part is now; read and written within one frame. */
+const place = identity();
+
 /** One thing in the cell: furniture, work piece or wall. */
 export function ObjectView({ object, theme }: { readonly object: ObjectRecord; readonly theme: SceneTheme }) {
   const group = useRef<Group>(null);
   const geometry = useMemo(() => shapeGeometry(object.shape), [object.shape]);
   const edges = useMemo(() => new EdgesGeometry(geometry, 40), [geometry]);
   useEffect(() => () => { geometry.dispose(); edges.dispose(); }, [geometry, edges]);
+  const moved = useRef<object | null>(null);
   useEffect(() => {
     if (!group.current) return;
     poseMatrix(object.worldFromObject, group.current.matrix);
     group.current.matrixWorldNeedsUpdate = true;
   }, [object.worldFromObject]);
+  // While a program is played with contact, parts are where physics has them.
+  useFrame(() => {
+    const frame = physicsNow();
+    if (frame === moved.current || !group.current || object.role !== "workpiece") return;
+    moved.current = frame;
+    const at = frame === null ? -1 : partOffset(object.id);
+    if (frame === null || at < 0) poseMatrix(object.worldFromObject, group.current.matrix);
+    else {
+      for (let k = 0; k < 3; k++) place.position[k] = frame.parts[at + k]!;
+      for (let k = 0; k < 4; k++) place.quaternion[k] = frame.parts[at + 3 + k]!;
+      poseMatrix(place, group.current.matrix);
+    }
+    group.current.matrixWorldNeedsUpdate = true;
+  }, -9);
   useEffect(() => paintTouching(name => (name === object.name || name === object.id ? group.current : null)), [object.name, object.id]);
 
   const wall = object.role === "wall", box = object.shape.kind === "box" ? object.shape.size_m : null;
@@ -30,6 +51,7 @@ export function ObjectView({ object, theme }: { readonly object: ObjectRecord; r
       {wall ? <Wall geometry={geometry} edges={edges} color={object.color} size_m={box} theme={theme} />
         : cardboard ? <Carton geometry={geometry} size_m={box} color={object.color} />
           : <mesh geometry={geometry} castShadow receiveShadow raycast={raycastByTree}><meshStandardMaterial color={object.color} roughness={object.role === "furniture" ? 0.48 : 0.62} metalness={object.role === "furniture" ? 0.25 : 0.05} /></mesh>}
+      {object.role === "workpiece" && <GraspMark id={object.id} geometry={geometry} theme={theme} />}
     </group>
   );
 }
