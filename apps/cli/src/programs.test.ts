@@ -103,6 +103,19 @@ describe("post, run, parse", () => {
       expect(sentences).toEqual([expect.stringMatching(/line 2, column \d+:/) as string]);
     }
   });
+  test("--skip-unknown leaves out what is not understood and names it, motions above all", () => {
+    const path = join(folder, "unknown.v2");
+    writeFileSync(path, ".PROGRAM a()\n  MOVE #PPOINT(10,-90,90,0,45,0)\n  BREAK\n  FROBNICATE 5\n  MOVES nowhere\n  DELAY 1\n.END\n");
+    expect(twincell("parse", path, "--robot", "staubli_rx90l").code).toBe(2);
+    for (const command of ["parse", "run"]) {
+      const { code, out, err } = twincell(command, path, "--robot", "staubli_rx90l", "--dialect", "v-plus", "--skip-unknown");
+      expect(code, err).toBe(0);
+      expect(err).toMatch(/line 4, column 3: Line 4 is left out\. /);
+      expect(err).toMatch(/line 5, column \d+: The motion in line 5 is left out: /);
+      expect(err).toContain("1 of 2 places left out is a motion or a branch: the robot does not do what the text says.");
+      if (command === "parse") expect((JSON.parse(out) as { steps: { type: string }[] }).steps.map(({ type }) => type)).toEqual(["move", "wait"]);
+    }
+  });
   test("a program that cannot be carried out is not written, exit 1 with the step", () => {
     const path = changed("post-too-far", program => { pointed(program, "s4", [4, 0, 1]); }), target = join(folder, "none");
     const { code, sentences } = twincell("post", path, "--to", "v-plus", "-o", target);

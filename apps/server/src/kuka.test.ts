@@ -13,6 +13,8 @@ import { nodeScheduler } from "./clock.ts";
 import { nodeNetwork } from "./sockets/node-network.ts";
 
 const robot = robotById("kuka_kr6r900sixx")!, network = nodeNetwork(), scheduler = nodeScheduler, ACCURACY_RAD = 0.001 * Math.PI / 180;
+/** Robot and driver share one processor here with whatever else it does. */
+const PATIENT_S = 1;
 const open: { close(): void }[] = [];
 afterEach(() => { for (const each of open.splice(0).reverse()) each.close(); });
 
@@ -25,7 +27,7 @@ async function virtualKuka(host: string, port = 0): Promise<{ kuka: VirtualKuka;
   return { kuka, port: kuka.listening.address.port, log };
 }
 async function driver(host: string, port: number) {
-  const real = createRealController({ face: createKukaFace({ robot, scheduler, network, host, port }), scheduler });
+  const real = createRealController({ face: createKukaFace({ robot, scheduler, network, host, port, stale_s: PATIENT_S }), scheduler });
   open.push(real);
   expect(await real.connect()).toEqual({ kind: "done" });
   return real;

@@ -1,10 +1,12 @@
 import { createServer as createHttp, type IncomingMessage, type RequestListener, type ServerResponse } from "node:http";
 import { createServer as createHttps } from "node:https";
 import type { AddressInfo } from "node:net";
+import { join } from "node:path";
 import { accessCode, askForCode, type AccessCode } from "./access.ts";
 import { certificate, lanAddresses } from "./lan.ts";
 import { nodeScheduler } from "./clock.ts";
 import { stationHost } from "./stations/host.ts";
+import { recordHost } from "./stations/record-host.ts";
 import { stationSocket } from "./stations/socket.ts";
 import { staticFiles } from "./static-files.ts";
 
@@ -49,6 +51,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     server.listen(options.port, options.host ?? (options.lan ? "0.0.0.0" : "127.0.0.1"), resolve);
   });
   const stations = stationHost(nodeScheduler, options.version ?? "");
+  const recorder = options.data === undefined ? null : await recordHost(stations, join(options.data, "recordings"), nodeScheduler, sentence => { console.error(sentence); });
   const socket = stationSocket(server, stations, request => isServed(hosts, request) && (access === null || access.enter(request.headers.cookie, null).kind === "welcome"));
   const port = (server.address() as AddressInfo).port;
   const scheme = options.lan ? "https" : "http";
@@ -57,7 +60,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     url: `${scheme}://127.0.0.1:${port}${query}`,
     lanUrls: addresses.map(address => `${scheme}://${address}:${port}${query}`),
     code: access?.code ?? null,
-    close: () => new Promise(resolve => { stations.close(); socket.close(); server.closeAllConnections(); server.close(() => { resolve(); }); }),
+    close: () => new Promise(resolve => { recorder?.close(); stations.close(); socket.close(); server.closeAllConnections(); server.close(() => { resolve(); }); }),
   };
 }
 

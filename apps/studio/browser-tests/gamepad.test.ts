@@ -256,7 +256,7 @@ test("N-50…N-57 the four top edges of the carton at 45° by pad, as V+ text th
   await page.screenshot({ path: picture("gamepad-four-edges") });
   await page.keyboard.press("Control+e");
   const saved = page.waitForEvent("download", download => download.suggestedFilename().endsWith(".v2"));
-  await page.getByRole("button", { name: "Download all" }).click();
+  await page.getByRole("button", { name: "Single files" }).click();
   const text = await readFile(await (await saved).path(), "utf8");
   const program = await page.evaluate(() => window.twincell.stores.cellStore.getState().document!.programs[0]!);
   expect(program.steps).toHaveLength(8);

@@ -61,7 +61,7 @@ test("N-53 the four top edges of the carton, at 45°, by clicks alone; the expor
 
   await page.getByRole("button", { name: "Export V+" }).click();
   const waiting = [0, 1, 2].map(() => page.waitForEvent("download"));
-  await page.getByRole("button", { name: "Download all" }).click();
+  await page.getByRole("button", { name: "Single files" }).click();
   const files = new Map(await Promise.all(waiting.map(async (download, i) => {
     await waiting[i];
     const file = await download;

@@ -12,6 +12,7 @@ import { Notices } from "./features/notices/Notices.tsx";
 import { Overlay } from "./features/overlay/Overlay.tsx";
 import { Palette } from "./features/palette/Palette.tsx";
 import { Pendant } from "./features/pendant/Pendant.tsx";
+import { SavedPoses } from "./features/poses/SavedPoses.tsx";
 import { Timeline } from "./features/timeline/Timeline.tsx";
 import { TopBar } from "./features/topbar/TopBar.tsx";
 import { TracePanel } from "./features/trace/TracePanel.tsx";
@@ -76,7 +77,7 @@ const Honest = () => <p className="honest" title={words.app.notSafetyHint}>{word
 function RightSide() {
   const mode = useStore(viewStore, state => state.mode), tracing = useStore(traceStore, state => state.active);
   switch (mode) {
-    case "teach": return <>{tracing && <TracePanel />}<Pendant /><Inspector /></>;
+    case "teach": return <>{tracing && <TracePanel />}<Pendant /><SavedPoses /><Inspector /></>;
     case "check": return <><Check /><Inspector /></>;
     case "run": return <Suspense><Run /><Stations /></Suspense>;
     case "history": return <Suspense><History /></Suspense>;

@@ -4,6 +4,7 @@ import { useStore } from "zustand";
 import { Check } from "./features/check/Check.tsx";
 import { Inspector } from "./features/inspector/Inspector.tsx";
 import { Pendant } from "./features/pendant/Pendant.tsx";
+import { SavedPoses } from "./features/poses/SavedPoses.tsx";
 import { Timeline } from "./features/timeline/Timeline.tsx";
 import { TracePanel } from "./features/trace/TracePanel.tsx";
 import { Tree } from "./features/tree/Tree.tsx";
@@ -26,7 +27,7 @@ export function Sheet() {
   return (
     <Tabs.Root className="area-sheet" value={tab} onValueChange={value => { if (isTab(value)) { viewStore.setState({ sheet: value }); showMode(MODE[value]); } }}>
       <Tabs.List className="sheet-tabs" aria-label={words.sheet.label}>{TABS.map(each => <Tabs.Trigger key={each} className="sheet-tab" value={each}>{words.sheet[each]}</Tabs.Trigger>)}</Tabs.List>
-      <Tabs.Content value="jog" className="scroll sheet-body" tabIndex={-1}>{tracing && <TracePanel />}<Pendant /></Tabs.Content>
+      <Tabs.Content value="jog" className="scroll sheet-body" tabIndex={-1}>{tracing && <TracePanel />}<Pendant /><SavedPoses /></Tabs.Content>
       <Tabs.Content value="program" className="sheet-body sheet-program" tabIndex={-1}><Tree /><div className="scroll"><Inspector /></div></Tabs.Content>
       <Tabs.Content value="why" className="scroll sheet-body" tabIndex={-1}><Check /><Timeline /></Tabs.Content>
       <Tabs.Content value="run" className="scroll sheet-body" tabIndex={-1}><Suspense><Segments label={words.mode.label} value={mode === "history" ? "history" : "run"} onChange={showMode} options={[{ value: "run", words: words.mode.run }, { value: "history", words: words.mode.history }]} className="seg fill sheet-seg" />{mode === "history" ? <><Rewind /><History /></> : <><Run /><Stations /><Timeline /></>}</Suspense></Tabs.Content>

@@ -10,3 +10,4 @@ export * from "./transport/index.ts";
 export * from "./ur/index.ts";
 export * from "./kuka/index.ts";
 export * from "./yaskawa/index.ts";
+export * from "./fanuc/index.ts";

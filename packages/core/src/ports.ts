@@ -152,8 +152,21 @@ export interface EmittedFile {
 export type Emitted =
   | { readonly kind: "emitted"; readonly files: readonly EmittedFile[]; readonly warnings: readonly string[] }
   | { readonly kind: "cannot"; readonly step: string; readonly sentence: string; readonly hint: string };
+/** What a reader left out because it did not understand it: the fault there, and how much is missing. */
+export interface Skipped extends TextFault {
+  /** A motion that is not carried out, a block whose condition nobody asks, or anything else. */
+  readonly what: "motion" | "branch" | "statement";
+  /** The first line as it stands, and the last line that is left out with it. */
+  readonly text: string;
+  readonly lastLine: number;
+}
+/** How a text is read. */
+export interface ReadOptions {
+  /** Leaves out the statements that are not understood instead of refusing the text, and tells each of them. */
+  readonly skipUnknown?: boolean;
+}
 export type Parsed =
-  | { readonly kind: "parsed"; readonly program: Program; readonly warnings: readonly TextFault[] }
+  | { readonly kind: "parsed"; readonly program: Program; readonly warnings: readonly TextFault[]; readonly skipped?: readonly Skipped[] }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 /**
  * Statement by statement: the line being executed and the neutral step it amounts to, if any. Steps are primitive:
@@ -163,7 +176,7 @@ export interface Executed { readonly line: number; readonly step?: Step }
 /** What the steps of a text refer to. Signals are named as the text names them, with the controller's numbers as addresses. */
 export type TextContext = Pick<Program, "tools" | "frames"> & Partial<Pick<Program, "signals">>;
 export type Interpreted =
-  | { readonly kind: "ready"; readonly run: (signals?: Signals) => Iterator<Executed, void>; readonly context: TextContext }
+  | { readonly kind: "ready"; readonly run: (signals?: Signals) => Iterator<Executed, void>; readonly context: TextContext; readonly skipped?: readonly Skipped[] }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 /** Half a step of what a language can say of a number, and the most it can say. */
@@ -184,8 +197,24 @@ export interface Resolution {
   readonly angle_rad?: number;
   /** Joint angles are written as the pose they reach, with the posture. */
   readonly anglesAsPoses?: boolean;
+  /** The robot stands before the language takes another tool: points between two tools are not passed. */
+  readonly stopsAtNewTool?: boolean;
   /** Poses are written as joint angles that reach them. */
   readonly posesAsAngles?: boolean;
+}
+
+/** What lines of a language look like to whoever leaves out those that are not understood. Each pattern is tried on one line. */
+export interface LineShapes {
+  /** Moves the robot. */
+  readonly motion: RegExp;
+  /** Opens a block, goes on to another part of it, closes it. */
+  readonly opens: RegExp;
+  readonly parts: RegExp;
+  readonly closes: RegExp;
+  /** Without these the text is no program: they are never left out. */
+  readonly keeps: RegExp;
+  /** What stands in the place of a line that is left out; nothing when it is not given. */
+  readonly blank?: (line: string) => string;
 }
 
 /**
@@ -206,9 +235,11 @@ export interface Dialect {
   /** What a controller executes, as one text, where that is more than the first of the files: a program and its data list. */
   runnable?(files: readonly EmittedFile[]): EmittedFile;
   emit(program: Program, robot: Robot, worldFromBase?: Pose<"world", "base">): Emitted;
-  parse(text: string, robot: Robot, worldFromBase?: Pose<"world", "base">): Parsed;
+  /** Dialects with `lines` leave out what they do not understand when they are asked to. */
+  readonly lines?: LineShapes;
+  parse(text: string, robot: Robot, worldFromBase?: Pose<"world", "base">, options?: ReadOptions): Parsed;
   /** Executes the text with the vendor's own conventions. Written independently of `emit`. */
-  interpret(text: string, robot: Robot, worldFromBase?: Pose<"world", "base">): Interpreted;
+  interpret(text: string, robot: Robot, worldFromBase?: Pose<"world", "base">, options?: ReadOptions): Interpreted;
 }
 
 /** What the arm and its gripper are told for the next step of a physical cell. */

@@ -3,8 +3,11 @@ import { fanucLs } from "./fanuc-ls/index.ts";
 import { inform } from "./inform/index.ts";
 import { kawasakiAs } from "./kawasaki-as/index.ts";
 import { krl } from "./krl/index.ts";
+import { melfaBasic } from "./melfa-basic/index.ts";
 import { poseList } from "./l-irl/index.ts";
+import { pacScript } from "./pacscript/index.ts";
 import { rapid } from "./rapid/index.ts";
+import { spel } from "./spel/index.ts";
 import { urScript } from "./urscript/index.ts";
 import { val3 } from "./val3/index.ts";
 import { vPlus } from "./v-plus/index.ts";
@@ -12,8 +15,11 @@ import { vPlus } from "./v-plus/index.ts";
 export { EXAMPLE_PULSES, inform, informDialect, informExamplePulses, type InformOptions, type PulseData } from "./inform/index.ts";
 export { fanucLs } from "./fanuc-ls/index.ts";
 export { kawasakiAs } from "./kawasaki-as/index.ts";
+export { melfaBasic } from "./melfa-basic/index.ts";
 export { loadPoses, poseList, savePoses, type LoadedPoses, type SavedPose } from "./l-irl/index.ts";
+export { pacScript } from "./pacscript/index.ts";
 export { rapid } from "./rapid/index.ts";
+export { spel } from "./spel/index.ts";
 export { urScript } from "./urscript/index.ts";
 export { emitPtpAxis, krl } from "./krl/index.ts";
 export { val3 } from "./val3/index.ts";
@@ -21,7 +27,7 @@ export { vPlus } from "./v-plus/index.ts";
 export * from "./prove.ts";
 
 /** Every dialect. A new one is a folder and one line here. */
-export const DIALECTS: readonly Dialect[] = [vPlus, krl, inform, urScript, rapid, fanucLs, val3, kawasakiAs, poseList];
+export const DIALECTS: readonly Dialect[] = [vPlus, krl, inform, urScript, rapid, fanucLs, val3, kawasakiAs, spel, melfaBasic, pacScript, poseList];
 
 /** The dialect of that id, or undefined. */
 export const dialectById = (id: string): Dialect | undefined => DIALECTS.find(dialect => dialect.id === id);

@@ -178,7 +178,7 @@ function otherwise(wanted: Step, done: Step, next: Step | undefined, { mine, the
   if (!blends(wanted) && blends(done)) return "passes its target without a stop.";
   // Points of one spline are passed as they are.
   const isInSpline = wanted.path === "spline" && next?.type === "move" && next.path === "spline";
-  if (blends(wanted) && !blends(done) && !isInSpline && next?.type === "move" && sameTool(wanted, next)) return "stops at its target.";
+  if (blends(wanted) && !blends(done) && !isInSpline && next?.type === "move" && (resolution.stopsAtNewTool !== true || sameTool(wanted, next))) return "stops at its target.";
   if (wanted.until !== undefined || done.until !== undefined) {
     if (wanted.until === undefined || done.until === undefined || wanted.until.missing !== done.until.missing || !sameCondition(wanted.until.when, done.until.when, mine, theirs)) return "searches otherwise.";
   }
@@ -208,6 +208,8 @@ function sameCondition(a: Condition, b: Condition, mine: Program["signals"], the
 
 function samePayload(a: PayloadStep, b: PayloadStep): boolean {
   const numbers = ({ mass_kg, center_m, inertia_kgm2 = [0, 0, 0, 0, 0, 0] }: PayloadStep): readonly number[] => [mass_kg, ...center_m, ...inertia_kgm2];
+  // Nothing has no centre.
+  if (a.mass_kg === 0) return b.mass_kg === 0;
   const other = numbers(b);
   return numbers(a).every((x, i) => near(x, other[i]!));
 }

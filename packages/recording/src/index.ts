@@ -16,3 +16,4 @@ export { catalogue, type Catalogued, type CatalogueFile } from "./history/catalo
 export { dashboardOf, type AlarmCount, type Dashboard, type DashboardOptions, type Hint, type JointTravel, type Reported, type TrendPoint } from "./history/dashboard.ts";
 export { compareTraces, traceOf, type Comparison, type Trace } from "./history/compare.ts";
 export { playHistory, type HistoryPlayer } from "./history/player.ts";
+export { latencyMeter, type LatencyMeter } from "./latency.ts";

@@ -7,7 +7,7 @@ import { inputsFrom, ioOf, momentWriter } from "../io/moments.ts";
 import { readCell } from "../io/program.ts";
 import { robotOf, ROBOT_OPTIONS } from "../io/robot.ts";
 import { UseFault, type Command } from "../io/usage.ts";
-import { notUnderstood } from "./parse.ts";
+import { notUnderstood, tellSkipped } from "./parse.ts";
 
 /** A text that never ends is cut here. */
 const LONGEST_S = 24 * 3600;
@@ -15,18 +15,19 @@ const LONGEST_S = 24 * 3600;
 export const runCommand: Command = {
   name: "run",
   summary: "interpret a vendor's program text, one line per period",
-  usage: `twincell run FILE --robot R [--dialect D] [--cell CELL] [--period 0.01] [--inputs part=true]
+  usage: `twincell run FILE --robot R [--dialect D] [--cell CELL] [--period 0.01] [--inputs part=true] [--skip-unknown]
 
-Executes the text with the vendor's own conventions and writes the same lines as simulate, each with the text line under way.`,
+Executes the text with the vendor's own conventions and writes the same lines as simulate, each with the text line under way. With --skip-unknown what is not understood is left out and named on stderr.`,
   async run(args) {
-    const options = given(args, { ...ROBOT_OPTIONS, dialect: { type: "string" }, cell: { type: "string" }, period: { type: "string" }, inputs: { type: "string" }, json: { type: "boolean" } });
+    const options = given(args, { ...ROBOT_OPTIONS, dialect: { type: "string" }, cell: { type: "string" }, period: { type: "string" }, inputs: { type: "string" }, "skip-unknown": { type: "boolean" }, json: { type: "boolean" } });
     const [path] = options.positionals, period_s = options.number("period") ?? 0.01, cellPath = options.text("cell");
     if (path === undefined) throw new UseFault("FILE is missing.", "Give the path of a program text.");
     if (!(period_s >= 1e-4)) throw new UseFault(`--period wants at least 0.0001 s, not ${period_s}.`);
     const { robot } = await robotOf(options), dialect = dialectOf("dialect", options.text("dialect"), path);
     const worldFromBase = cellPath === undefined ? pose<"world", "base">() : (await readCell(cellPath)).robot.worldFromBase;
-    const interpreted = dialect.interpret(await readText(path), robot, worldFromBase);
+    const interpreted = dialect.interpret(await readText(path), robot, worldFromBase, { skipUnknown: options.flag("skip-unknown") });
     if (interpreted.kind === "not-understood") throw notUnderstood(path, interpreted.faults);
+    tellSkipped(path, interpreted.skipped ?? []);
 
     const seen = new Map<string, { readonly line: number; readonly tool: string }>();
     let tool = "flange";

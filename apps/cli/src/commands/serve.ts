@@ -15,7 +15,7 @@ export const serveCommand: Command = {
   usage: `twincell serve [--port P] [--data DIR] [--lan] [--open]
 
   --port P     port to listen on (default ${DEFAULT_PORT}, or the next free one)
-  --data DIR   where the server keeps what must survive it (its certificate)
+  --data DIR   where the server keeps what must survive it: its certificate, and the recordings of its stations
   --lan        also serve other machines: HTTPS, a QR code and an access code
   --open       open the address in a browser where there is one`,
   async run(args) {

@@ -1,11 +1,12 @@
 import { manualScheduler, robotById, type JointSample } from "@twincell/core";
-import { createRunRecorder, readRecording } from "@twincell/recording";
+import { createRunRecorder } from "@twincell/recording";
 import { expect, test } from "vitest";
-import { historyStore } from "../stores/history.ts";
+import { historyStore, windowAt, zoomTo } from "../stores/history.ts";
 import { noticeStore } from "../stores/notices.ts";
 import { viewStore } from "../stores/view.ts";
-import { listRuns, openRunFile, removeRun, type Shelf } from "./archive.ts";
+import { listRuns, openRunFile, removeRun, tidyRuns, type Shelf } from "./archive.ts";
 import { theLive } from "./live.ts";
+import { openHere } from "./recordings.ts";
 import { travelBack } from "./travel-back.ts";
 
 const robot = robotById("staubli_rx90l")!;
@@ -37,7 +38,7 @@ test("T-54 travel back: the pose at any moment is the recorded one", async () =>
   const shelf = memoryShelf();
   await recordInto(shelf, 201, true).settled();
   viewStore.setState({ mode: "history" });
-  const back = travelBack(shelf, manualScheduler(), bytes => Promise.resolve(readRecording(bytes)));
+  const back = travelBack(shelf, manualScheduler(), openHere, () => Date.parse(record.startedAt));
   await back.refresh();
   expect(historyStore.getState().runs).toMatchObject([{ id: "r1", ending: "done" }]);
   await back.open("r1");
@@ -46,14 +47,14 @@ test("T-54 travel back: the pose at any moment is the recorded one", async () =>
     back.seek(at);
     expect(theLive().q_rad[1]).toBeCloseTo(robot.home_rad[1]! + Math.floor(at / 0.01 + 1e-6) * 0.001, 12);
   }
-  expect(historyStore.getState()).toMatchObject({ step: "s2", t_s: 2 });
+  expect(historyStore.getState()).toMatchObject({ moment: { step: "s2", recorded: true }, t_s: 2 });
 });
 
 test("a closed tab loses at most the piece under way, and says that the run was cut off", async () => {
   const shelf = memoryShelf();
   await recordInto(shelf, 175, false).settled();
   expect(await listRuns(shelf)).toMatchObject([{ ending: "cut-off" }]);
-  const back = travelBack(shelf, manualScheduler(), bytes => Promise.resolve(readRecording(bytes)));
+  const back = travelBack(shelf, manualScheduler(), openHere, () => Date.parse(record.startedAt));
   await back.open("r1");
   expect(historyStore.getState().duration_s).toBeGreaterThanOrEqual(1.75 - 0.5 - 0.02);
 });
@@ -62,7 +63,7 @@ test("a full disk is one sentence; what was kept can be opened", async () => {
   const shelf = memoryShelf(4);
   const file = recordInto(shelf, 500, true);
   expect(await file.settled()).toBe("The browser has no room left for this recording.");
-  const back = travelBack(shelf, manualScheduler(), bytes => Promise.resolve(readRecording(bytes)));
+  const back = travelBack(shelf, manualScheduler(), openHere, () => Date.parse(record.startedAt));
   await back.open("r1");
   expect(historyStore.getState().duration_s).toBeGreaterThan(0);
 });
@@ -71,10 +72,33 @@ test("bytes that are no recording are told, and nothing stays open", async () =>
   const shelf = memoryShelf();
   await shelf.set("meta:bad", { ...record, id: "bad" });
   await shelf.set("piece:bad:00000000", new Uint8Array([1, 2, 3]));
-  const back = travelBack(shelf, manualScheduler(), bytes => Promise.resolve(readRecording(bytes)));
+  const back = travelBack(shelf, manualScheduler(), openHere, () => Date.parse(record.startedAt));
   await back.open("bad");
   expect(historyStore.getState().open).toBeNull();
   expect(noticeStore.getState().notices.at(-1)?.tone).toBe("bad");
   await removeRun(shelf, "bad");
   expect(await shelf.keys()).toEqual([]);
+});
+
+test("runs are kept for 90 days and up to 1 GB; the oldest go, the newest stays", async () => {
+  const shelf = memoryShelf(), now_ms = Date.parse("2026-06-01T00:00:00Z");
+  const keep = async (id: string, startedAt: string, bytes: number): Promise<void> => { await shelf.set(`meta:${id}`, { ...record, id, startedAt, bytes, ending: "done" }); await shelf.set(`piece:${id}:00000000`, new Uint8Array(3)); };
+  await keep("old", "2026-01-01T00:00:00Z", 10);
+  await keep("large", "2026-05-01T00:00:00Z", 600_000_000);
+  await keep("mid", "2026-05-20T00:00:00Z", 600_000_000);
+  await keep("new", "2026-05-30T00:00:00Z", 10);
+  expect(await tidyRuns(shelf, now_ms)).toBe(2);
+  expect((await shelf.keys()).filter(key => key.startsWith("meta:")).sort()).toEqual(["meta:mid", "meta:new"]);
+  await keep("new", "2020-01-01T00:00:00Z", 2e9);
+  await removeRun(shelf, "mid");
+  expect(await tidyRuns(shelf, now_ms)).toBe(0);
+});
+test("the time shown follows the moment that is looked at", () => {
+  historyStore.setState({ duration_s: 1000, t_s: 990, window: { from_s: 0, to_s: 1000 } });
+  zoomTo(60);
+  expect(historyStore.getState().window).toEqual({ from_s: 940, to_s: 1000 });
+  expect(windowAt(950, historyStore.getState())).toEqual({ from_s: 940, to_s: 1000 });
+  expect(windowAt(500, historyStore.getState())).toEqual({ from_s: 470, to_s: 530 });
+  zoomTo(null);
+  expect(historyStore.getState().window).toEqual({ from_s: 0, to_s: 1000 });
 });

@@ -65,14 +65,27 @@ export async function listRuns(shelf: Shelf): Promise<RunRecord[]> {
     .sort((a, b) => b.startedAt.localeCompare(a.startedAt));
 }
 
-/** The bytes of a run, in order. */
-export async function runBytes(shelf: Shelf, id: string): Promise<Uint8Array<ArrayBuffer>> {
+/** The file of a run. */
+export async function runBlob(shelf: Shelf, id: string): Promise<Blob> {
   const wanted = (await shelf.keys()).filter(key => key.startsWith(`${PIECE}${id}:`)).sort();
-  const pieces = await Promise.all(wanted.map(key => shelf.get(key) as Promise<Uint8Array>));
-  const all = new Uint8Array(pieces.reduce((sum, piece) => sum + piece.length, 0));
-  let at = 0;
-  for (const piece of pieces) { all.set(piece, at); at += piece.length; }
-  return all;
+  return new Blob(await Promise.all(wanted.map(key => shelf.get(key) as Promise<Uint8Array<ArrayBuffer>>)), { type: "application/octet-stream" });
+}
+
+/** Runs older than this go; while all together weigh more than that, the oldest go. */
+export const KEEP_RUNS = { days: 90, bytes: 1_000_000_000 } as const;
+const DAY_MS = 86_400_000;
+
+/** Removes what is kept no longer; the newest run always stays. @returns how many went. */
+export async function tidyRuns(shelf: Shelf, now_ms: number): Promise<number> {
+  const [newest, ...older] = await listRuns(shelf);
+  let bytes = newest?.bytes ?? 0, gone = 0;
+  for (const run of older) {
+    bytes += run.bytes;
+    if (bytes <= KEEP_RUNS.bytes && now_ms - Date.parse(run.startedAt) <= KEEP_RUNS.days * DAY_MS) continue;
+    await removeRun(shelf, run.id);
+    gone++;
+  }
+  return gone;
 }
 
 export async function removeRun(shelf: Shelf, id: string): Promise<void> {

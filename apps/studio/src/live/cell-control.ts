@@ -5,6 +5,7 @@ import { cellStore } from "../stores/cell.ts";
 import { registerCommands } from "../stores/commands.ts";
 import { controlStore } from "../stores/control.ts";
 import { flangeFromTcpOf, programOf, robotOf } from "../stores/document.ts";
+import { historyStore } from "../stores/history.ts";
 import { onInput } from "../stores/inputs.ts";
 import { theLanguage } from "../stores/languages.ts";
 import { notify } from "../stores/notices.ts";
@@ -15,8 +16,12 @@ import { viewStore } from "../stores/view.ts";
 import { words } from "../words/index.ts";
 import { browserShelf } from "./archive.ts";
 import { writtenProgram } from "./posting.ts";
+import { showJoints } from "./live.ts";
 import { leaveRobot, takeRobot } from "./owner.ts";
-import { readInWorker } from "./recording-reader.ts";
+import { branchOf, type Branch } from "./branch.ts";
+import { cellVersion } from "./cell-version.ts";
+import { momentFrom, momentHash, type MomentLink } from "./moment-link.ts";
+import { openInWorker } from "./recordings.ts";
 import { controlCell, type CellControl } from "./run.ts";
 import { pageScheduler } from "./scheduler.ts";
 import { startStations } from "./stations.ts";
@@ -37,23 +42,23 @@ export function theControl(): CellControl | null {
   control?.close();
   made = document;
   control = controlCell(
-    { dialect: theLanguage, write: program => writtenProgram(program, document), scheduler: pageScheduler, shelf, clock_ms: () => Date.now() },
+    { dialect: theLanguage, write: program => writtenProgram(program, document), scheduler: pageScheduler, shelf, clock_ms: () => Date.now(), cellVersion: () => cellVersion(document) },
     { robot, worldFromBase: document.robot.worldFromBase, flangeFromTcp: flangeFromTcpOf(document), isSafe: clearOf(cellGeometry(document, linkSolids(robot)), robot).isSafe },
   );
   control.setOverride(playStore.getState().speed);
   return control;
 }
 
-export const theHistory: TravelBack = travelBack(shelf, pageScheduler, readInWorker);
+export const theHistory: TravelBack = travelBack(shelf, pageScheduler, openInWorker, () => Date.now());
 
 /** Runs the program's exported text; says in words how it ended. */
-export async function startRun(): Promise<void> {
+export async function startRun(from?: Branch): Promise<void> {
   const { document } = cellStore.getState(), program = programOf(document), running = theControl();
   if (!document || !program || !running) return;
   if (program.steps.length === 0) { notify("info", words.run.nothing); return; }
   takeRobot("run", () => { running.stop(); });
   viewStore.setState({ mode: "run" });
-  const began = performance.now(), outcome = await running.run(program, document.name);
+  const began = performance.now(), outcome = await running.run(program, document.name, from);
   leaveRobot("run");
   switch (outcome.kind) {
     case "done": sound("done"); notify("done", words.run.done(((performance.now() - began) / 1000).toFixed(2)), words.run.kept); break;
@@ -64,10 +69,52 @@ export async function startRun(): Promise<void> {
   }
 }
 
+/** Goes on from the moment that is looked at, as a simulation of its own. */
+export async function branchFromHere(): Promise<void> {
+  const { document } = cellStore.getState(), program = programOf(document), robot = robotOf(document), { moment } = theHistory;
+  if (!document || !program || !robot || !moment) return;
+  if (theHistory.robot !== robot.id) { notify("bad", words.history.branchOther(theHistory.robot, robot.name), words.history.branchOtherHint); return; }
+  theHistory.pause();
+  const from = branchOf(moment, program);
+  if (from.step === "" && moment.state.step !== "") notify("info", words.history.branchNoStep(moment.state.step));
+  showJoints(moment.q_rad);
+  await startRun(from);
+}
+
+/** The address of the moment that is looked at goes to the clipboard. */
+export async function shareMoment(): Promise<void> {
+  const { open, name, t_s } = historyStore.getState(), { origin, pathname, search } = location;
+  const link = `${origin}${pathname}${search}${momentHash({ recording: open ?? name, t_s })}`;
+  history.replaceState(null, "", link);
+  try {
+    await navigator.clipboard.writeText(link);
+    notify("done", words.history.shared, open === null ? words.history.sharedFileHint(name) : words.history.sharedHint);
+  } catch { notify("info", words.history.sharedInBar, words.history.sharedHint); } // a browser may forbid the clipboard: the address bar has it too
+}
+
+/** Opens the moment that the address of the page names, if it names one. */
+async function openLinkedMoment(): Promise<void> {
+  const link = momentFrom(location.hash);
+  if (!link) return;
+  viewStore.setState({ mode: "history" });
+  if (!historyStore.getState().runs.some(({ id }) => id === link.recording)) { linkedMoment = link; notify("warn", words.history.notHere(link.recording), words.history.notHereHint); return; }
+  if (await theHistory.open(link.recording)) theHistory.seek(link.t_s);
+}
+let linkedMoment: MomentLink | null = null;
+
+/** Opens recordings from outside; one that a link waited for, at its moment. */
+export async function openRecordingFiles(files: readonly File[]): Promise<void> {
+  viewStore.setState({ mode: "history" });
+  if (!await theHistory.openFiles(files.map(file => ({ name: file.name, blob: file }))) || linkedMoment === null) return;
+  const { recording, t_s } = linkedMoment;
+  if (files.some(({ name }) => name === recording || name === `${recording}.mcap`)) { theHistory.seek(t_s); linkedMoment = null; }
+}
+
 /** Starts what runs and recordings need as long as the page lives. */
 export function startCellControl(): void {
   theControl();
-  void theHistory.refresh();
+  void theHistory.refresh().then(openLinkedMoment);
+  addEventListener("hashchange", () => { void openLinkedMoment(); });
   startStations();
   // Another robot is another controller, as the chip says at once.
   cellStore.subscribe((state, before) => { if (state.document?.robot.id !== before.document?.robot.id) theControl(); });

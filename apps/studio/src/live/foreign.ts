@@ -22,7 +22,7 @@ export function runForeign(single: boolean): void {
     if (controlStore.getState().running) { notify("info", words.robots.busy); return; }
     const dialect = dialectById(open.dialect);
     if (!dialect) return;
-    const made = textRun(control, dialect, open.text, { robot, worldFromBase: document.robot.worldFromBase, name: open.name, cellName: document.name },
+    const made = textRun(control, dialect, open.text, { robot, worldFromBase: document.robot.worldFromBase, name: open.name, cellName: document.name, skipUnknown: open.skipUnknown ?? false },
       () => foreignStore.getState().breakpoints, state => foreignStore.setState(state), ended);
     if ("kind" in made) {
       const [first] = made.faults;

@@ -5,7 +5,7 @@ import { openRecording } from "@twincell/recording";
 import { expect, test } from "vitest";
 import { controlStore } from "../stores/control.ts";
 import { historyStore } from "../stores/history.ts";
-import { listRuns, runBytes, type Shelf } from "./archive.ts";
+import { listRuns, runBlob, type Shelf } from "./archive.ts";
 import { showJoints, theLive } from "./live.ts";
 import { controlCell, prepareRun } from "./run.ts";
 import { writeProgram, type Written } from "./written.ts";
@@ -43,7 +43,7 @@ test("T-23 T-25 the exported text runs to its end, the twin within 0.001°, and 
   const [run] = await listRuns(shelf);
   expect(run).toMatchObject({ ending: "done", name: `${cell.name} · ${program.name}` });
   expect(historyStore.getState().runs.map(({ id }) => id)).toEqual([run!.id]);
-  const opened = openRecording(await runBytes(shelf, run!.id), { scheduler });
+  const opened = openRecording(new Uint8Array(await (await runBlob(shelf, run!.id)).arrayBuffer()), { scheduler });
   expect(opened.kind).toBe("recording");
   if (opened.kind !== "recording") return;
   expect(opened.recording.duration_s).toBeGreaterThan(5);

@@ -1,10 +1,11 @@
 import { createGuard, createTwin, createVirtualController, textSteps, type Guard, type Twin, type VirtualController } from "@twincell/controllers";
 import { unrolled, type CommandOutcome, type Dialect, type EmittedFile, type Pose, type Program, type Refusal, type Robot, type Scheduler, type Signals, type Step } from "@twincell/core";
-import { createRunRecorder, type RunRecorder } from "@twincell/recording";
+import { createRunRecorder, latencyMeter, type RunRecorder } from "@twincell/recording";
 import { controlStore } from "../stores/control.ts";
 import { historyStore, type RunEnding } from "../stores/history.ts";
 import { shortName } from "../stores/robot.ts";
 import { listRuns, openRunFile, type RunFile, type Shelf } from "./archive.ts";
+import { restoreSignals, stepsFrom, type Branch } from "./branch.ts";
 import { linkMeter } from "./link-meter.ts";
 import { showJoints, theLive } from "./live.ts";
 import type { Written } from "./written.ts";
@@ -27,6 +28,8 @@ export interface RunWorld {
   readonly shelf: Shelf;
   /** Wall clock, milliseconds since 1970. */
   readonly clock_ms: () => number;
+  /** Which cell a run is recorded of; left out where there is only one. */
+  readonly cellVersion?: () => string;
 }
 
 /** What runs: a text of which each line came from a step, or with no text the steps themselves. */
@@ -89,8 +92,12 @@ export interface RunSession {
 
 /** The virtual controller of the page, its guard and its twin, for as long as the cell is open. */
 export interface CellControl {
-  /** Carries out the program's exported text. Resolves when it is done, stopped or refused. */
-  run(program: Program, cellName: string): Promise<CommandOutcome | Exclude<Prepared, { kind: "ready" }>>;
+  /**
+   * Carries out the program's exported text. Resolves when it is done, stopped or refused.
+   *
+   * @param from  a past instant to go on from; the robot on screen stands there already.
+   */
+  run(program: Program, cellName: string, from?: Branch): Promise<CommandOutcome | Exclude<Prepared, { kind: "ready" }>>;
   /** Begins a run that is handed over in parts, one after the other: a text with breakpoints. Refused while one is under way. */
   begin(program: string, cellName: string): RunSession | Exclude<CommandOutcome, { kind: "done" }>;
   stop(emergency?: boolean): void;
@@ -120,7 +127,9 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
   const seat = guard.seat("you");
   seat.take();
   let running = false, starting: object | null = null, told_s = -1, recorder: RunRecorder | null = null;
-  const lines = new Map<string, number>();
+  const lines = new Map<string, number>(), late = latencyMeter("sample to picture", "from-robot");
+  /** What a person did, as the recording keeps it. */
+  const did = (action: string, detail: string): void => { recorder?.note("operator", { who: "you", action, detail }); };
   const twin = createTwin({
     real: seat.robot, scheduler,
     mirror: {
@@ -128,7 +137,9 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
       show: sample => {
         if (!running) return;
         showJoints(sample.q_rad);
-        linkMeter.add(sample.sequence, (scheduler.now_s() - begun_s - sample.time_s) * 1000);
+        const late_ms = (scheduler.now_s() - begun_s - sample.time_s) * 1000;
+        linkMeter.add(sample.sequence, late_ms);
+        late.add(Math.max(0, late_ms));
       },
       read: out => { out.set(running ? theLive().q_rad : virtual.jointAngles()); return out; },
     },
@@ -136,6 +147,8 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
 
   const off = twin.onSample(sample => {
     recorder?.record(sample);
+    const lateness = recorder ? late.due(scheduler.now_s()) : null;
+    if (lateness) recorder?.note("latency", lateness);
     const now_s = scheduler.now_s(), known = controlStore.getState();
     const urgent = sample.safety !== known.safety || sample.mode !== known.mode || (running && sample.step !== known.step && sample.step !== "");
     if (!urgent && now_s - told_s < TELL_EVERY_S) return;
@@ -151,7 +164,7 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
   const offNotice = guard.onNotice(why => { recorder?.event(why.code, why.sentence, "warning"); controlStore.setState({ message: why.sentence }); });
   controlStore.setState({ controller: virtual.name, running: false, message: "", safety: "normal", mode: "automatic", line: 0, step: "" });
 
-  async function run(program: Program, cellName: string): Promise<CommandOutcome | Exclude<Prepared, { kind: "ready" }>> {
+  async function run(program: Program, cellName: string, from?: Branch): Promise<CommandOutcome | Exclude<Prepared, { kind: "ready" }>> {
     if (starting || running) return { kind: "refused", why: UNDER_WAY };
     const mine = starting = {}, dialect = world.dialect();
     controlStore.setState({ running: true, message: "" });
@@ -168,7 +181,8 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
     const session = begin(program.name, cellName);
     if ("kind" in session) return notBegun(session);
     starting = null;
-    const outcome = await session.part(prepared.steps(), prepared.context);
+    if (from) restoreSignals(from, program, virtual.signals, virtual.atTheRobot.setInput);
+    const outcome = await session.part(from ? stepsFrom(prepared.steps(), from) : prepared.steps(), prepared.context);
     await session.end(outcome);
     return outcome;
   }
@@ -185,6 +199,7 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
     const from_s = scheduler.now_s();
     const note = (ending: RunEnding): void => { file.note({ id, name, startedAt: startedAt.toISOString(), duration_s: scheduler.now_s() - from_s, bytes: file.sink.position, ending }); };
     note("running");
+    recorder.note("cell", { name: cellName, version: world.cellVersion?.() ?? "" });
     recorder.event("run", `The run of ${program} began.`);
     running = true;
     twin.clearLog();
@@ -204,6 +219,7 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
   async function endRecording(file: RunFile, outcome: CommandOutcome, note: (ending: RunEnding) => void): Promise<void> {
     const done = recorder!;
     recorder = null;
+    done.note("command", { name: "run", by: "you", outcome: outcome.kind, sentence: outcome.kind === "done" ? "" : outcome.why.sentence, target: [] });
     done.event(outcome.kind, outcome.kind === "done" ? "The run is done." : outcome.why.sentence, outcome.kind === "done" ? "info" : "warning");
     done.finish();
     note(outcome.kind);
@@ -214,11 +230,11 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
 
   return {
     run, begin, twin, guard, signals: virtual.signals,
-    setInput: (signal, value) => { virtual.atTheRobot.setInput(signal, value); },
-    stop(emergency = false) { starting = null; guard.stop(emergency); },
+    setInput: (signal, value) => { did("input", `${signal} = ${value}`); virtual.atTheRobot.setInput(signal, value); },
+    stop(emergency = false) { did(emergency ? "emergency-stop" : "stop", ""); starting = null; guard.stop(emergency); },
     reset: () => seat.robot.reset(),
-    setOverride: part => twin.setSpeed(Math.round(Math.min(1, Math.max(0, part)) * 100)),
-    setMode: mode => { virtual.atTheRobot.setMode(mode); },
+    setOverride: part => { did("speed", `${Math.round(100 * part)} %`); return twin.setSpeed(Math.round(Math.min(1, Math.max(0, part)) * 100)); },
+    setMode: mode => { did("mode", mode); virtual.atTheRobot.setMode(mode); },
     close() { off(); offNotice(); guard.close(); twin.close(); virtual.close(); },
   };
 }

@@ -1,7 +1,7 @@
 import { Fault, type CommandOutcome, type Dialect, type Executed, type Pose, type Refusal, type Robot, type Step, type TextFault } from "@twincell/core";
 import type { CellControl, RunSession } from "./run.ts";
 
-export interface TextRunSetting { readonly robot: Robot; readonly worldFromBase: Pose<"world", "base">; readonly name: string; readonly cellName: string }
+export interface TextRunSetting { readonly robot: Robot; readonly worldFromBase: Pose<"world", "base">; readonly name: string; readonly cellName: string; readonly skipUnknown?: boolean }
 export type TextRunState = { readonly phase: "idle" | "running" | "paused"; readonly line: number };
 /** How a text ended: as a controller ends, or by what could not be executed in it. */
 export type TextEnding = CommandOutcome | { readonly kind: "fault"; readonly line: number; readonly sentence: string; readonly hint: string };
@@ -30,7 +30,7 @@ export function textRun(
   control: Pick<CellControl, "begin" | "signals" | "stop">, dialect: Pick<Dialect, "interpret">, text: string, setting: TextRunSetting,
   breakpoints: () => ReadonlySet<number>, tell: (state: TextRunState) => void, ended: (ending: TextEnding) => void,
 ): TextRun | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] } {
-  const interpreted = dialect.interpret(text, setting.robot, setting.worldFromBase);
+  const interpreted = dialect.interpret(text, setting.robot, setting.worldFromBase, { skipUnknown: setting.skipUnknown ?? false });
   if (interpreted.kind === "not-understood") return interpreted;
   const statements: Iterator<Executed, void> = interpreted.run(control.signals), { context } = interpreted;
   let session: RunSession | null = null, next: Executed | undefined, over = false, running = false, line = 0, trouble: Fault | undefined;

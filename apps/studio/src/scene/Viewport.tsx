@@ -17,6 +17,8 @@ import { Ghost, TcpHandle } from "./handle/tcp-handle.tsx";
 import { newInteraction, type PointerLabel } from "./interaction.ts";
 import { ObjectView } from "./objects/object-view.tsx";
 import { PathView } from "./path/path-view.tsx";
+import { PastView } from "./robot/past-view.tsx";
+import { OverlayView } from "./path/overlay-view.tsx";
 import { TcpTrace } from "./path/tcp-trace.tsx";
 import { Waypoints } from "./path/waypoints.tsx";
 import { EdgeView } from "./pick/edge-view.tsx";
@@ -77,6 +79,8 @@ export function Viewport() {
             <PathView theme={colours} />
             {document && <Waypoints document={document} />}
             <TcpTrace theme={colours} />
+            <PastView />
+            <OverlayView theme={colours} />
             <EdgeView theme={colours} />
             <TcpHandle interaction={interaction} shown={robot !== undefined && mode === "teach" && !playing && !tracing} theme={colours} targets={targets} />
             <Ghost interaction={interaction} tool={tool} theme={colours} />

@@ -1,7 +1,7 @@
 import { createStore } from "zustand/vanilla";
 
 /** A program text from elsewhere that is run as it stands (row L-67). */
-export interface ForeignText { readonly name: string; readonly dialect: string; readonly text: string }
+export interface ForeignText { readonly name: string; readonly dialect: string; readonly text: string; /** What is not understood is left out. */ readonly skipUnknown?: boolean }
 export interface ForeignState {
   readonly open: ForeignText | null;
   /** "paused": it stands before `line`, at a breakpoint or after a single step. */

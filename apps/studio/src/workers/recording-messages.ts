@@ -1,4 +1,4 @@
-import type { Read } from "@twincell/recording";
+import type { Catalogued } from "@twincell/recording";
 
-export type ToRecordingReader = Uint8Array<ArrayBuffer>;
-export type FromRecordingReader = Read;
+export interface ToRecordingReader { readonly name: string; readonly blob: Blob }
+export interface FromRecordingReader { readonly name: string; readonly said: Catalogued }

@@ -1,14 +1,11 @@
-import { readRecording } from "@twincell/recording";
+import { catalogue } from "@twincell/recording";
+import { zstd } from "@twincell/recording/zstd";
+import { blobFiles } from "../live/recordings.ts";
 import type { FromRecordingReader, ToRecordingReader } from "./recording-messages.ts";
 
-addEventListener("message", ({ data }: MessageEvent<ToRecordingReader>) => {
-  let answer: FromRecordingReader;
-  try {
-    answer = readRecording(data);
-  } catch (trouble) {
-    answer = { kind: "not-a-recording", sentence: `The recording cannot be read: ${trouble instanceof Error ? trouble.message : String(trouble)}.` };
-  }
-  // The arrays are handed over, not copied.
-  const arrays = answer.kind === "read" ? [answer.data.times_s, answer.data.q_rad, answer.data.sequences, answer.data.stateOf] : [];
-  postMessage(answer, { transfer: arrays.flatMap(({ buffer }) => (buffer instanceof ArrayBuffer ? [buffer] : [])) });
+addEventListener("message", ({ data: file }: MessageEvent<ToRecordingReader>) => {
+  const answer = (said: FromRecordingReader["said"]): void => { postMessage({ name: file.name, said } satisfies FromRecordingReader); };
+  zstd().then(packing => catalogue(blobFiles([file]), { name: file.name, bytes: file.blob.size }, packing)).then(answer, (trouble: unknown) => {
+    answer({ kind: "not-a-recording", sentence: `The recording cannot be read: ${trouble instanceof Error ? trouble.message : String(trouble)}.` });
+  });
 });

@@ -1,5 +1,6 @@
 import type { OperatingMode } from "@twincell/core";
 import type { Brand } from "../real/index.ts";
+import { kukaAxes } from "./axes.ts";
 import { C3_PORT } from "./codec-c3.ts";
 import { createKukaFace } from "./driver/face.ts";
 import { createVirtualKuka, startLoop } from "./virtual/controller.ts";
@@ -14,6 +15,7 @@ export const kuka: Brand = {
   id: "kuka", name: "KUKA", dialect: "krl", ports: { variables: C3_PORT }, vendor: "KUKA",
   face: ({ robot, scheduler, network, host, ports }) => createKukaFace({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT }),
   async virtual({ robot, scheduler, network, host, ports, interpret, start_rad, maxSpeed }) {
+    if (!kukaAxes(robot)) return { kind: "taken", sentence: `How a KUKA controller counts the axes of ${robot.name} is not known.` };
     const virtual = await createVirtualKuka({
       robot, scheduler, network, host, interpret, port: ports?.["variables"] ?? C3_PORT, ...(start_rad ? { start_rad } : {}), ...(maxSpeed === undefined ? {} : { maxSpeed }),
     });

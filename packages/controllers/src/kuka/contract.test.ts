@@ -2,7 +2,7 @@ import { manualScheduler } from "@twincell/core";
 import { createRealController } from "../real/index.ts";
 import { describeController } from "../testing/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
-import { createKukaFace, createVirtualKuka, kukaAxes, startLoop } from "./index.ts";
+import { axisConfig, createKukaFace, createKukaRsiFace, createVirtualKuka, kukaAxes, RSI_NAME, startLoop } from "./index.ts";
 import { HOST, interpretMoves, KR6 } from "./testing/bench.ts";
 
 describeController("KUKA driver on its virtual controller, over variables", {
@@ -16,6 +16,25 @@ describeController("KUKA driver on its virtual controller, over variables", {
     const kuka = await createVirtualKuka({ robot, scheduler, network, host: HOST, interpret: interpretMoves, axes, model, start_rad, digits: 14, ...(maxSpeed === undefined ? {} : { maxSpeed }) });
     startLoop(kuka);
     const face = createKukaFace({ robot, scheduler, network, host: HOST, axes, model, period_s: 0.004 });
+    const controller = createRealController({ face, scheduler, ...(initialize ? { initialize } : {}), ...(onMotion ? { onMotion } : {}) });
+    const connecting = controller.connect();
+    await scheduler.elapse(0.05);
+    await connecting;
+    await scheduler.elapse(0.02);
+    return controller;
+  },
+});
+
+describeController("KUKA driver on its virtual controller, over RSI", {
+  robot: KR6, scheduler: manualScheduler,
+  cannot: [
+    { test: "T-17", because: "The driver makes the path itself, at the speeds of the robot it was handed: what a virtual controller is slowed down to is not asked for." },
+  ],
+  async make({ robot, scheduler, start_rad, maxSpeed, initialize, onMotion }) {
+    const network = memoryNetwork(scheduler), axes = kukaAxes(KR6)!, model = "#KR6R900SIXX", config = axisConfig("127.0.0.1", 49_152);
+    const kuka = await createVirtualKuka({ robot, scheduler, network, host: HOST, interpret: interpretMoves, axes, model, start_rad, digits: 14, rsi: { config, decimals: 10 }, ...(maxSpeed === undefined ? {} : { maxSpeed }) });
+    startLoop(kuka, RSI_NAME);
+    const face = createKukaRsiFace({ robot, scheduler, network, host: HOST, axes, model, period_s: 0.012, config, decimals: 10 });
     const controller = createRealController({ face, scheduler, ...(initialize ? { initialize } : {}), ...(onMotion ? { onMotion } : {}) });
     const connecting = controller.connect();
     await scheduler.elapse(0.05);

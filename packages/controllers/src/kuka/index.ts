@@ -1,8 +1,11 @@
 export { kukaAxes, type KukaAxes } from "./axes.ts";
 export { C3_PORT } from "./codec-c3.ts";
-export { LOOP_FILES, LOOP_NAME } from "./loop.ts";
+export { LOOP_FILES, LOOP_NAME, RSI_FILE, RSI_NAME } from "./loop.ts";
 export { createVirtualKuka, startLoop, type KukaPendant, type VirtualKuka, type VirtualKukaOptions } from "./virtual/controller.ts";
 export { createKukaFace, type KukaFaceOptions } from "./driver/face.ts";
+export { createKukaRsiFace, type KukaRsiFaceOptions } from "./driver/rsi-face.ts";
+export { axisConfig, readRsiConfig, rsiConfigText, type RsiConfig } from "./codec-rsi.ts";
+export type { RsiOptions } from "./virtual/rsi-run.ts";
 export type { KukaFaults } from "./virtual/faults.ts";
 export type { KukaMode } from "./virtual/machine.ts";
 export { kuka } from "./brand.ts";

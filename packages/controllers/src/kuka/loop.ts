@@ -122,5 +122,34 @@ export const LOOP_GLOBALS: readonly (readonly [string, "INT" | "REAL" | "BOOL" |
 const DAT = [...HEADER, "DEFDAT TWINCELL PUBLIC", "EXT BAS(BAS_COMMAND :IN,REAL :IN)", ...LOOP_GLOBALS.map(([name, type, value]) => `DECL GLOBAL ${type} ${name}=${value}`), "ENDDAT"];
 
 const file = (name: string, lines: readonly string[]): EmittedFile => ({ name, text: `${lines.join("\r\n")}\r\n`, lines: lines.map(() => "") });
+/** The program under which a sensor moves the robot by corrections; it needs the RSI option and the signal flow TWINCELL.rsi. */
+export const RSI_NAME = "TWINCELL_RSI";
+export const RSI_FILE: EmittedFile = file("TWINCELL_RSI.src", [
+  "&ACCESS RVP", "&REL 1", "&COMMENT Lets Twincell move the robot by RSI",
+  "DEF TWINCELL_RSI( )",
+  "DECL INT RET",
+  "INTERRUPT DECL 20 WHEN TWC_STOP==TRUE DO TWC_RSI_END( )",
+  ";FOLD INI",
+  "BAS(#INITMOV,0)",
+  ";ENDFOLD (INI)",
+  "TWC_STOP=FALSE",
+  "INTERRUPT ON 20",
+  ";Coincidence with the path where the robot stands",
+  "PTP $AXIS_ACT",
+  "RET=RSI_CREATE(\"TWINCELL.rsi\")",
+  "RET=RSI_ON(#RELATIVE)",
+  "RSI_MOVECORR( )",
+  "RET=RSI_OFF( )",
+  "END",
+  "",
+  "DEF TWC_RSI_END( )",
+  "DECL INT RET",
+  "INTERRUPT OFF 20",
+  "BRAKE",
+  "RET=RSI_OFF( )",
+  "TWC_STOP=FALSE",
+  "HALT",
+  "END",
+]);
 /** The two files that a person puts on the controller once. */
 export const LOOP_FILES: readonly [EmittedFile, EmittedFile] = [file("TWINCELL.src", SRC), file("TWINCELL.dat", DAT)];

@@ -73,6 +73,29 @@ describe("a driver", () => {
     expect(real.jointAngles()).toEqual(rest);
   });
 
+  test("who slept himself does not take the silence for the robot's", async () => {
+    const clock = manualScheduler(), face = nearFace(robot, clock), links: string[] = [];
+    let asleep = false;
+    const scheduler = { now_s: () => clock.now_s(), every: (period_s: number, tick: () => void) => clock.every(period_s, () => { if (!asleep) tick(); }) };
+    const real = createRealController({ face, scheduler });
+    await real.connect();
+    await clock.elapse(0.1);
+    real.onLink(report => { links.push(report.state); });
+    asleep = face.silent = true;
+    await clock.elapse(2);
+    asleep = false;
+    // The first tick after sleep comes before what waits to be read.
+    await clock.elapse(face.stale_s / 4 + 0.001);
+    face.silent = false;
+    await clock.elapse(1);
+    expect([real.isConnected, links]).toEqual([true, []]);
+    asleep = face.silent = true;
+    await clock.elapse(2);
+    asleep = false;
+    await clock.elapse(face.stale_s);
+    expect(links[0]).toBe("lost");
+  });
+
   test("a lost link is tried again with pauses that grow to eight seconds", async () => {
     const { scheduler, face, real } = await bench();
     const tries_s: number[] = [];

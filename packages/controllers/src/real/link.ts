@@ -61,8 +61,13 @@ export function keepLink(face: Face, scheduler: Scheduler, name: string, listene
 
   function watch(): void {
     stopWaiting();
-    stopWaiting = scheduler.every(face.stale_s / LOOKS, () => {
-      const silent_s = scheduler.now_s() - heard_s;
+    const every_s = face.stale_s / LOOKS;
+    let looked_s = scheduler.now_s();
+    stopWaiting = scheduler.every(every_s, () => {
+      const now_s = scheduler.now_s(), silent_s = now_s - heard_s, wasAway = now_s - looked_s > 2 * every_s;
+      looked_s = now_s;
+      // After a stall of our own what came meanwhile is still to be read: it is looked again before anybody is blamed.
+      if (wasAway) return;
       if (silent_s > face.stale_s) lose(cameLate(name, silent_s));
     });
   }

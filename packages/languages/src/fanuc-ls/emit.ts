@@ -1,5 +1,5 @@
 import { everyStep, type Dialect, type Emitted, type MoveStep, type Pose, type Program, type Robot } from "@twincell/core";
-import { Place, tellsRobot, undeclared, writtenOr } from "../writing/index.ts";
+import { Place, TooLong, inParts, tellsRobot, undeclared, writtenOr } from "../writing/index.ts";
 import { GRIPPER_OUTPUT, pendantConvention } from "./robots.ts";
 import { ProgramWriter } from "./write/program.ts";
 
@@ -8,6 +8,8 @@ export const CANNOT: Dialect["cannot"] = [
   { what: "duration", because: "TP rounds the duration of a motion to tenths of a second or whole milliseconds, which is no speed to compute with." },
   { what: "payload", because: "A program only chooses a payload schedule; the masses in it are settings of the controller." },
 ];
+/** Steps of a part: with frame, tool, names and both lines of an arc they have fewer lines than a listing numbers. */
+const MOST_STEPS = 1500;
 /** The controller's constant path works on speeds up to here. */
 export const FASTEST_MMPS = 2000;
 
@@ -19,9 +21,18 @@ export function emitFanucLs(program: Program, robot: Robot, worldFromBase: Pose<
   }
   const cannot = undeclared(program, CANNOT);
   if (cannot !== undefined) return cannot;
+  const written = (whole: Program, more: readonly string[]): Emitted => {
+    const writer = new ProgramWriter(new Place(whole, robot, worldFromBase), convention, FASTEST_MMPS), files = writer.write();
+    return { kind: "emitted", files, warnings: [...tellsRobot(program, robot), ...more, ...writer.warnings, ...warnings(program)] };
+  };
   return writtenOr(() => {
-    const writer = new ProgramWriter(new Place(program, robot, worldFromBase), convention, FASTEST_MMPS), files = writer.write();
-    return { kind: "emitted", files, warnings: [...tellsRobot(program, robot), ...writer.warnings, ...warnings(program)] };
+    try {
+      return written(program, []);
+    } catch (cause) {
+      if (!(cause instanceof TooLong)) throw cause;
+      const parts = inParts(program, MOST_STEPS);
+      return written(parts, [`The program is longer than one listing: it was written as ${1 + Object.keys(parts.routines).length} programs that are called one after the other.`]);
+    }
   });
 }
 

@@ -1,14 +1,16 @@
 import { identity, type Dialect, type EmittedFile } from "@twincell/core";
+import { skippingDialect } from "../text/index.ts";
 import { CANNOT, FASTEST_MMPS, emitFanucLs } from "./emit.ts";
 import { interpretFanucLs } from "./interpret.ts";
 import { parseFanucLs } from "./parse.ts";
+import { LINES } from "./lines.ts";
 
 /** The main program and those that it calls, one behind the other: what the controller holds together. */
 const asOne = (files: readonly EmittedFile[]): EmittedFile =>
   ({ name: files[0]?.name ?? "", text: files.map(({ text }) => text).join(""), lines: files.flatMap(({ lines }) => lines) });
 
 /** TP programs of R-30iA, R-30iB and later controllers as ASCII listings. */
-export const fanucLs: Dialect = {
+export const fanucLs: Dialect = skippingDialect({
   id: "fanuc-ls",
   brand: "FANUC",
   name: "FANUC TP",
@@ -21,4 +23,5 @@ export const fanucLs: Dialect = {
   emit: (program, robot, worldFromBase = identity()) => emitFanucLs(program, robot, worldFromBase),
   parse: (text, robot, worldFromBase = identity()) => parseFanucLs(text, robot, worldFromBase),
   interpret: (text, robot, worldFromBase = identity()) => interpretFanucLs(text, robot, worldFromBase),
-};
+  lines: LINES,
+});

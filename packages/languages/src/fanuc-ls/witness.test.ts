@@ -115,6 +115,14 @@ describe("executing TP", () => {
     expect(faultOf(listing("A", ["LBL[1]", "R[1]=1", "JMP LBL[1]"]))).toMatchObject({ expected: "a motion, a wait or an end" });
   });
 
+  test("SELECT goes where the value says, ELSE where none does; registers of positions keep their names; a name may begin with a sign", () => {
+    const text = (value: number): string => listing("-BCKED2-", [
+      `R[1:KIND]=${value}`, "PR[5,3:ABOVE TABLE]=12", "SELECT R[1:KIND]=1,JMP LBL[1]", "       =2,JMP LBL[2]", "       ELSE,JMP LBL[9]", "LBL[1]", "DO[1]=ON", "END", "LBL[2]", "DO[2]=ON", "END", "LBL[9]", "DO[9]=ON",
+    ]);
+    const set = (value: number): unknown => executed(text(value)).map(step => step.type === "set" ? step.signal : step.type);
+    expect([set(1), set(2), set(7)]).toEqual([["DO[1]"], ["DO[2]"], ["DO[9]"]]);
+  });
+
   test("a search ends at its line; its label says what happens when nothing comes", () => {
     const positions = [at(1, [400, 0, 200, 180, 0, 0])];
     expect(moves(["SKIP CONDITION DI[5]=ON", "L P[1] 20mm/sec FINE ACC50 Skip,LBL[1]", "LBL[1]"], positions)).toMatchObject([{ acceleration: { ratio: 0.5 }, until: { when: { signal: "DI[5]", is: true }, missing: "continue" } }]);

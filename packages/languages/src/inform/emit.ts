@@ -1,9 +1,10 @@
 import { capabilitiesOf, everyStep, type Dialect, type Emitted, type MoveStep, type Pose, type Program, type Robot, type Step } from "@twincell/core";
-import { axisConvention, type PulseData } from "./robots.ts";
+import { axisConvention, type AxisConvention, type PulseData } from "./robots.ts";
 import { Controller } from "./write/controller.ts";
 import { JobWriter } from "./write/job.ts";
 import { jobName } from "./write/names.ts";
-import { Place, posturesOf } from "./write/postures.ts";
+import { WalkedPlace, inParts } from "../writing/index.ts";
+import { posturesOf } from "./write/postures.ts";
 import { FASTEST_MPS, pathSpeed } from "./write/speed.ts";
 
 /** What INFORM has no instruction for. */
@@ -22,6 +23,8 @@ const HINTS: Readonly<Record<string, string>> = {
 const LONGEST_WAIT_S = 655.35;
 /** Positions of one job. */
 const MOST_POSITIONS = 9999;
+/** Steps of a part: an arc has three positions. */
+const MOST_STEPS = 3000;
 
 type Refusal = Extract<Emitted, { kind: "cannot" }>;
 
@@ -41,7 +44,15 @@ export function emitInform(program: Program, robot: Robot, worldFromBase: Pose<"
   }
   const steps = [...everyStep(program)], refusal = refused(steps) ?? unresolved(program, steps, pulses);
   if (refusal !== undefined) return refusal;
-  const place = new Place(program, robot, worldFromBase), postures = posturesOf(place, pulses !== undefined);
+  const whole = written(program, robot, worldFromBase, convention, pulses);
+  if (whole.kind !== "too-long") return whole;
+  const parts = inParts(program, MOST_STEPS), again = written(parts, robot, worldFromBase, convention, pulses);
+  if (again.kind === "too-long") return { kind: "cannot", step: "", sentence: again.sentence, hint: "Put parts of it into routines of their own." };
+  return again.kind === "cannot" ? again : { ...again, warnings: [`The program has more positions than one job holds: it was written as ${1 + Object.keys(parts.routines).length} jobs that are called one after the other.`, ...again.warnings] };
+}
+
+function written(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">, convention: AxisConvention, pulses: PulseData | undefined): Emitted | { readonly kind: "too-long"; readonly sentence: string } {
+  const steps = [...everyStep(program)], place = new WalkedPlace(program, robot, worldFromBase), postures = posturesOf(place, convention, pulses !== undefined);
   if (postures.kind === "cannot") return postures;
 
   const controller = new Controller(place), taken = new Set<string>(), main = jobName(program.name, taken);
@@ -52,7 +63,7 @@ export function emitInform(program: Program, robot: Robot, worldFromBase: Pose<"
   for (const what of controller.spent) return { kind: "cannot", step: "", sentence: `The program needs more ${what} than the controller has.`, hint: "Export it in parts." };
   for (const { name, text } of files) {
     const count = Number(/^\/\/\/NPOS ([0-9]+)/m.exec(text)?.[1] ?? 0);
-    if (count > MOST_POSITIONS) return { kind: "cannot", step: "", sentence: `Job ${name} would have ${count} positions; a job holds ${MOST_POSITIONS}.`, hint: "Export it in parts." };
+    if (count > MOST_POSITIONS) return { kind: "too-long", sentence: `Job ${name} would have ${count} positions; a job holds ${MOST_POSITIONS}.` };
   }
   return { kind: "emitted", files: [...files, ...controller.files()], warnings: warnings(program, robot, steps, pulses, controller) };
 }

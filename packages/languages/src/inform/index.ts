@@ -1,6 +1,8 @@
 import { identity, type Dialect, type EmittedFile, type Resolution, type Robot } from "@twincell/core";
+import { skippingDialect } from "../text/index.ts";
 import { CANNOT, emitInform } from "./emit.ts";
 import { interpretInform } from "./interpret.ts";
+import { LINES } from "./lines.ts";
 import { parseInform } from "./parse.ts";
 import { EXAMPLE_PULSES, type PulseData } from "./robots.ts";
 
@@ -34,7 +36,7 @@ function pulseResolution(pulses: Readonly<Record<string, PulseData>>): Resolutio
 export function informDialect({ pulses = {}, positions = "rectan" }: InformOptions = {}): Dialect {
   const of = (robot: Robot): PulseData | undefined => Object.hasOwn(pulses, robot.id) ? pulses[robot.id] : undefined;
   const inPulses = positions === "pulse";
-  return {
+  return skippingDialect({
     id: inPulses ? "inform-pulse" : "inform",
     brand: "Yaskawa",
     name: inPulses ? "INFORM (pulses)" : "INFORM",
@@ -53,7 +55,8 @@ export function informDialect({ pulses = {}, positions = "rectan" }: InformOptio
     },
     parse: (text, robot, worldFromBase = identity()) => parseInform(text, robot, worldFromBase, of(robot)),
     interpret: (text, robot, worldFromBase = identity()) => interpretInform(text, robot, worldFromBase, of(robot)),
-  };
+    lines: LINES,
+  });
 }
 
 /** The jobs and what they mean by numbers, one behind the other. */

@@ -1,5 +1,6 @@
 import { pose, robotById } from "@twincell/core";
 import { kawasakiAs } from "./index.ts";
+import { linesOf } from "../testing/lines.ts";
 import { describeStructure } from "../testing/describe-structure.ts";
 import { describeDialect, describeMutations, type DialectBench } from "../testing/describe-dialect.ts";
 
@@ -8,7 +9,7 @@ const bench: DialectBench = {
   worldFromBase: pose([0.3, -0.2, 0.75], [0, 0, Math.sin(0.4), Math.cos(0.4)]),
   paths: ["ptp", "lin", "circ"],
   structured: true,
-  signals: { lamp: { kind: "digital-out", address: 5 }, "Blow off": { kind: "digital-out", address: 6 }, part: { kind: "digital-in", address: 1003 }, tray_full: { kind: "digital-in", address: 1004 } },
+  signals: linesOf("kawasaki-as"),
 };
 
 describeDialect(kawasakiAs, bench);

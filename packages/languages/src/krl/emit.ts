@@ -1,6 +1,7 @@
 import { capabilitiesOf, everyStep, type Dialect, type Emitted, type MoveStep, type Pose, type Program, type Robot, type Step } from "@twincell/core";
 import { axisConvention } from "./robots.ts";
-import { Place, posturesOf } from "./write/postures.ts";
+import { WalkedPlace } from "../writing/index.ts";
+import { posturesOf } from "./write/postures.ts";
 import { ModuleWriter } from "./write/program.ts";
 import { percentOf } from "./write/settings.ts";
 
@@ -28,7 +29,7 @@ export function emitKrl(program: Program, robot: Robot, worldFromBase: Pose<"wor
   }
   const steps = [...everyStep(program)], refusal = refused(steps) ?? unresolved(program, steps);
   if (refusal !== undefined) return refusal;
-  const place = new Place(program, robot, worldFromBase), postures = posturesOf(place, convention);
+  const place = new WalkedPlace(program, robot, worldFromBase), postures = posturesOf(place, convention);
   if (postures.kind === "cannot") return postures;
   const gripper = gripperOutput(program), files = new ModuleWriter(place, convention, postures.of, gripper).write();
   for (const { name, text, lines } of files) {

@@ -1,7 +1,9 @@
 import { identity, type Dialect, type EmittedFile } from "@twincell/core";
+import { skippingDialect } from "../text/index.ts";
 import { CANNOT, emitKrl } from "./emit.ts";
 import { interpretKrl } from "./interpret.ts";
 import { parseKrl } from "./parse.ts";
+import { LINES } from "./lines.ts";
 
 export { emitPtpAxis } from "./axis-list.ts";
 
@@ -13,7 +15,7 @@ function asOne(files: readonly EmittedFile[]): EmittedFile {
 }
 
 /** KRL of KR C2, KR C4 and KR C5 controllers. */
-export const krl: Dialect = {
+export const krl: Dialect = skippingDialect({
   id: "krl",
   brand: "KUKA",
   name: "KRL",
@@ -26,4 +28,5 @@ export const krl: Dialect = {
   emit: (program, robot, worldFromBase = identity()) => emitKrl(program, robot, worldFromBase),
   parse: (text, robot, worldFromBase = identity()) => parseKrl(text, robot, worldFromBase),
   interpret: (text, robot, worldFromBase = identity()) => interpretKrl(text, robot, worldFromBase),
-};
+  lines: LINES,
+});

@@ -171,6 +171,14 @@ describe("what the text means", () => {
     expect(steps.slice(0, 3).map(step => q_deg(step as MoveStep)[0])).toEqual([1.5, 3, 4.5]);
   });
 
+  test("arrays filled in the data list, structures declared without DECL, a motion along the axes of the tool, a text as an answer", () => {
+    const text = ["DEF a( )", "FRAME up", "ON_ERROR_PROCEED", "up={X 0,Y 0,Z 50,A 0,B 0,C 0}", "LIN spot[2]", "LIN_REL {Z -100} #TOOL", "LIN_REL {Z -100}", "END", "DEFFCT CHAR[8] word( )", "RETURN \"x\"", "ENDFCT",
+      "DEFDAT a", "DECL E6POS spot[2]", "spot[1]={X 0,Y 0,Z 0,A 0,B 0,C 0}", "spot[2]={X 900,Y 0,Z 1200,A 0,B 90,C 0}", "ENDDAT", ""].join("\r\n");
+    const xyz = (executed(text) as MoveStep[]).map(({ target }) => "q" in target ? [] : target.pose.position.map(v => Math.round(v * 1e6) / 1e3));
+    // The tool's z points along x of $WORLD: B turns z onto x.
+    expect(xyz).toEqual([[900, 0, 1200], [800, 0, 1200], [800, 0, 1100]]);
+  });
+
   test("what is not understood has its line, its column and what was expected", () => {
     expect(faultOf("LIN {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0}")).toEqual({ line: 2, column: 1, expected: "a position with X, Y, Z, A, B, C", sentence: "LIN does not take axis values." });
     expect(faultOf("PTP XP1")).toMatchObject({ line: 2, column: 5, expected: "a variable that has a value" });

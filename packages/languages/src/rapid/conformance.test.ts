@@ -6,6 +6,7 @@ import { pose, robotById } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { describeDialect, describeMutations, type DialectBench } from "../testing/describe-dialect.ts";
 import { describeStructure } from "../testing/describe-structure.ts";
+import { linesOf } from "../testing/lines.ts";
 import { randomProgram } from "../testing/programs.ts";
 import { structuredProgram } from "../testing/structured.ts";
 import { rapid } from "./index.ts";
@@ -15,9 +16,7 @@ const bench: DialectBench = {
   worldFromBase: pose([0.3, -0.2, 0.75], [0, 0, Math.sin(0.4), Math.cos(0.4)]),
   paths: ["ptp", "lin", "circ"],
   structured: true,
-  signals: {
-    lamp: { kind: "digital-out" }, BlowOff: { kind: "digital-out" }, part: { kind: "digital-in" }, tray_full: { kind: "digital-in" }, level: { kind: "analogue-in" }, valve: { kind: "analogue-out" },
-  },
+  signals: linesOf("rapid"),
 };
 
 describeDialect(rapid, bench);

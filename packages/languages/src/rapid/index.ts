@@ -1,10 +1,12 @@
 import { identity, type Dialect } from "@twincell/core";
+import { skippingDialect } from "../text/index.ts";
 import { CANNOT, emitRapid } from "./emit.ts";
 import { interpretRapid } from "./interpret.ts";
 import { parseRapid } from "./parse.ts";
+import { LINES } from "./lines.ts";
 
 /** RAPID of ABB's IRC5 and OmniCore controllers. */
-export const rapid: Dialect = {
+export const rapid: Dialect = skippingDialect({
   id: "rapid",
   brand: "ABB",
   name: "RAPID",
@@ -14,4 +16,5 @@ export const rapid: Dialect = {
   emit: (program, robot, worldFromBase = identity()) => emitRapid(program, robot, worldFromBase),
   parse: (text, robot, worldFromBase = identity()) => parseRapid(text, robot, worldFromBase),
   interpret: (text, robot, worldFromBase = identity()) => interpretRapid(text, robot, worldFromBase),
-};
+  lines: LINES,
+});

@@ -94,6 +94,11 @@ describe("executing RAPID", () => {
     ]);
   });
 
+  test("records and other names of types are passed by", () => {
+    const steps = executed(moduleOf("RECORD job\nnum count;\nstring name;\nENDRECORD\nALIAS num level;", "WaitTime 1.5;"));
+    expect(steps).toMatchObject([{ type: "wait", s: 1.5 }]);
+  });
+
   test("SearchL ends at the line; without an answer it is a fault, or goes on where the handler says so", () => {
     const text = (handler: string): string => `MODULE a\nVAR robtarget sp;\nPROC main()\nSearchL\\Stop,touch,sp,[[300,0,400],[0,1,0,0],[0,0,0,0],${AXES}],v50,tool0;\n${handler}ENDPROC\nENDMODULE\n`;
     expect(executed(text(""))).toMatchObject([{ path: "lin", until: { when: { signal: "touch", is: true }, missing: "fault" } }]);

@@ -64,6 +64,14 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
       expectProven(first, program);
     });
 
+    test("names of steps and groups come back from the text", () => {
+      const titles = (program: Program): unknown[] => program.steps.map(({ name, group }) => [name, group === undefined ? undefined : program.groups[group]?.name]);
+      for (const seed of SEEDS) {
+        const plain = randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths, cannot, ...(bench.branches === undefined ? {} : { branches: bench.branches }) });
+        expect(titles(parse(runnable(plain).text))).toEqual(titles(plain));
+      }
+    });
+
     test("an empty program is a text that does nothing", () => {
       expect(parse(runnable(emptyProgram(robot.id)).text).steps).toEqual([]);
     });
@@ -91,6 +99,25 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
         expect(dialect.cannot.map(({ what }) => what)).toContain(path);
         const emitted = dialect.emit({ ...emptyProgram(robot.id), steps: [step("a", "ptp"), step("b", path), step("c", "ptp")] }, robot, worldFromBase);
         expect(emitted).toMatchObject({ kind: "cannot", step: "b" });
+      }
+    });
+
+    test("a remark between two moves is no stop", () => {
+      if (cannot.includes("comment")) return;
+      const q = [...robot.home_rad], move = (id: string, turn_rad: number): MoveStep => ({ id, type: "move", path: "ptp", target: { q: q.map((angle, i) => i === 0 ? angle + turn_rad : angle) }, speed: { ratio: 0.5 }, blend_m: 0.01 });
+      const program: Program = { ...emptyProgram(robot.id), steps: [move("a", 0.1), { id: "c", type: "comment", text: "Now the other one" }, move("b", 0.3), move("d", 0.2)] };
+      expectProven(runnable(program), program);
+    });
+
+    test("a stop where a point should be passed is seen, between moves of two tools too", () => {
+      const q = [...robot.home_rad], tools: Program["tools"] = { one: { position: [0, 0, 0.1], quaternion: [0, 0, 0, 1] }, two: { position: [0, 0, 0.2], quaternion: [0, 0, 0, 1] } };
+      const move = (id: string, tool: string, turn_rad: number, blend_m: number): MoveStep => ({ id, type: "move", path: "ptp", target: { q: q.map((angle, i) => i === 0 ? angle + turn_rad : angle), tool }, speed: { ratio: 0.5 }, blend_m });
+      const across = (second: string, blend_m: number): Program => ({ ...emptyProgram(robot.id), tools, steps: [move("a", "one", 0.1, 0), move("b", "one", 0.3, blend_m), move("c", second, 0.2, 0)] });
+      for (const second of ["one", "two"]) {
+        expectProven(runnable(across(second, 0.01)), across(second, 0.01));
+        const stopping = proveText(dialect, runnable(across(second, 0)), across(second, 0.01), robot, worldFromBase);
+        if (second === "two" && dialect.resolution?.stopsAtNewTool === true) expect(stopping.kind).toBe("proven");
+        else expect(stopping.sentence).toMatch(/stops at its target\.$/);
       }
     });
 

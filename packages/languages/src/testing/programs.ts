@@ -1,5 +1,5 @@
 import {
-  PALLET_ORDERS, branchOf, compose, emptyProgram, flangePose, identity, inverse, seededRandom, solveAll,
+  PALLET_ORDERS, branchOf, compose, emptyProgram, flangePose, identity, inverse, palletPlaces, seededRandom, solveAll,
   type Capability, type Condition, type MoveStep, type Pallet, type PalletStep, type Pose, type Program, type Quaternion, type Random, type Robot, type SignalLine, type Speed, type Step, type Target,
 } from "@twincell/core";
 
@@ -67,13 +67,12 @@ class Maker {
   }
 
   private move(base: { readonly id: string }): MoveStep {
-    const { random, robot, tools, frames } = this, { worldFromBase, paths, can, cannot = [] } = this.choices;
+    const { random, robot, tools, frames } = this, { worldFromBase, paths, can } = this.choices;
     const q = easyPosture(robot, random, EASE_M);
     const tool = pick(random, ["flange", ...Object.keys(tools)]), frame = pick(random, ["world", ...Object.keys(frames)]);
     const worldFromTcp = compose(worldFromBase, compose(flangePose(robot.arm, q), tools[tool] ?? identity<"flange", "tcp">()));
     const branch = random() < 0.5 && this.choices.branches !== false ? branchOf(robot, q) : undefined;
-    const path = pick(random, paths), drawn = randomSpeed(random);
-    const speed = "time_s" in drawn && (path === "circ" || cannot.includes("duration")) ? { mps: 0.1 } : drawn;
+    const path = pick(random, paths), speed = this.speed(path);
     const target: Target = random() < 0.4
       ? { q, ...(random() < 0.5 ? { tool } : {}) }
       : { pose: compose(inverse(frames[frame] ?? identity()), worldFromTcp), frame, tool, ...(branch === undefined ? {} : { branch }) };
@@ -108,6 +107,11 @@ class Maker {
     }
   }
 
+  private speed(path: MoveStep["path"]): Speed {
+    const drawn = randomSpeed(this.random);
+    return "time_s" in drawn && (path === "circ" || this.choices.cannot?.includes("duration") === true) ? { mps: 0.1 } : drawn;
+  }
+
   private line(kind: SignalLine["kind"]): string {
     return pick(this.random, Object.entries(this.choices.signals ?? SIGNALS).flatMap(([name, line]) => line.kind === kind ? [name] : []));
   }
@@ -129,20 +133,37 @@ class Maker {
     return name;
   }
 
-  /** A small pallet around a posture with room on every side. */
+  /** A small pallet around a posture, every place of which that posture reaches. */
   private pallet(base: { readonly id: string }): PalletStep {
-    const { random, robot, frames } = this, { worldFromBase } = this.choices, name = `Tray ${Object.keys(this.pallets).length + 1}`;
-    const q = easyPosture(robot, random, ROOM_M, 0.1), frame = pick(random, ["world", ...Object.keys(frames)]);
+    const { random, robot } = this, name = `Tray ${Object.keys(this.pallets).length + 1}`;
+    let q: number[], pallet: Pallet;
+    do { q = easyPosture(robot, random, ROOM_M, 0.1); pallet = this.pattern(q); } while (!this.reachesAll(pallet, q));
+    this.pallets[name] = pallet;
+    const at = (z_m: number): MoveStep["target"] => ({ pose: { position: [0, 0, z_m], quaternion: [0, 0, 0, 1] }, frame: name, tool: "flange", ...(this.choices.branches === false ? {} : { branch: branchOf(robot, q)! }) });
+    const move = (path: MoveStep["path"], z_m: number): MoveStep => ({ id: `k${this.count++}`, type: "move", path, target: at(z_m), speed: this.speed(path), blend_m: 0 });
+    const paths = this.choices.paths.filter(path => path === "ptp" || path === "lin");
+    return { ...base, type: "pallet", pallet: name, steps: [move(pick(random, paths), -0.003), move(pick(random, paths), 0), { id: `k${this.count++}`, type: "gripper", closed: false }] };
+  }
+
+  private pattern(q: readonly number[]): Pallet {
+    const { random, robot, frames } = this, { worldFromBase } = this.choices, frame = pick(random, ["world", ...Object.keys(frames)]);
     const frameFromPlace = compose(inverse(frames[frame] ?? identity()), compose(worldFromBase, flangePose(robot.arm, q))) as Pose as Pose<"frame", "place">;
     const [x, y, z] = frameFromPlace.position, order = pick(random, PALLET_ORDERS), shifted = order.startsWith("rows") && random() < 0.4;
-    this.pallets[name] = {
+    return {
       frame, origin: frameFromPlace, rowEnd: [x + 0.004, y + 0.001, z], columnEnd: [x - 0.001, y + 0.003, z + 0.001],
       rows: pick(random, [1, 2, 3]), columns: pick(random, [2, 3]), layers: pick(random, [1, 2]), layer_m: 0.002, order, ...(shifted ? { interleave: "odd-rows-shifted" } : {}),
     };
-    const at = (z_m: number): MoveStep["target"] => ({ pose: { position: [0, 0, z_m], quaternion: [0, 0, 0, 1] }, frame: name, tool: "flange", ...(this.choices.branches === false ? {} : { branch: branchOf(robot, q)! }) });
-    const move = (path: MoveStep["path"], z_m: number): MoveStep => ({ id: `k${this.count++}`, type: "move", path, target: at(z_m), speed: randomSpeed(random), blend_m: 0 });
-    const paths = this.choices.paths.filter(path => path === "ptp" || path === "lin");
-    return { ...base, type: "pallet", pallet: name, steps: [move(pick(random, paths), -0.003), move(pick(random, paths), 0), { id: `k${this.count++}`, type: "gripper", closed: false }] };
+  }
+
+  /** Whether its places, and what lies 3 mm behind them, are reached in the posture of the first one and near to it. */
+  private reachesAll(pallet: Pallet, q: readonly number[]): boolean {
+    const { robot, frames } = this, branch = branchOf(robot, q);
+    if (branch === undefined) return true;
+    return palletPlaces(pallet).every(place => [0, -0.003].every(z_m => {
+      const worldFromFlange = compose(compose(frames[pallet.frame] ?? identity<"world", "frame">(), place) as Pose, { position: [0, 0, z_m], quaternion: [0, 0, 0, 1] });
+      const reach = solveAll(robot, compose(inverse(this.choices.worldFromBase) as Pose, worldFromFlange) as Pose as Pose<"base", "flange">, { near: q, branch });
+      return reach.kind === "reached" && reach.solutions[0]!.q_rad.every((angle, i) => Math.abs(angle - q[i]!) < NEAR_RAD);
+    }));
   }
 }
 
@@ -171,6 +192,8 @@ function hasRoom(robot: Robot, q: readonly number[], ease_m: number): boolean {
   }));
 }
 const EASE_M = 0.001, ROOM_M = 0.05;
+/** No axis turns further between the places of a pallet [rad]. */
+const NEAR_RAD = 0.3;
 
 /** A posture near by, inside the limits. */
 const beside = (robot: Robot, q: readonly number[], random: Random): number[] =>

@@ -4,3 +4,7 @@ export * from "./numbers.ts";
 export * from "./tokens.ts";
 export * from "./waits-outside.ts";
 export * from "./rehearse.ts";
+export * from "./line-cursor.ts";
+export * from "./jumps.ts";
+export * from "./skip.ts";
+export * from "./naming.ts";

@@ -2,6 +2,7 @@ import { pose, robotById } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { describeDialect, describeMutations, type DialectBench } from "../testing/describe-dialect.ts";
 import { describeStructure } from "../testing/describe-structure.ts";
+import { linesOf } from "../testing/lines.ts";
 import { randomProgram } from "../testing/programs.ts";
 import { flawsOf } from "../testing/strict-urscript.ts";
 import { structuredProgram } from "../testing/structured.ts";
@@ -12,10 +13,7 @@ const bench: DialectBench = {
   worldFromBase: pose([0.3, -0.2, 0.75], [0, 0, Math.sin(0.4), Math.cos(0.4)]),
   paths: ["ptp", "lin", "circ"],
   structured: true,
-  signals: {
-    lamp: { kind: "digital-out", address: 5 }, "Blow off": { kind: "digital-out", address: 16 + 1 }, part: { kind: "digital-in", address: 9 }, tray_full: { kind: "digital-in", address: 3 },
-    level: { kind: "analogue-in", address: 1 }, valve: { kind: "analogue-out", address: 0 },
-  },
+  signals: linesOf("urscript"),
 };
 
 describeDialect(urScript, bench);

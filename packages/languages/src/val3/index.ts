@@ -1,7 +1,9 @@
 import { identity, type Dialect, type EmittedFile } from "@twincell/core";
+import { skippingDialect } from "../text/index.ts";
 import { CANNOT, emitVal3 } from "./emit.ts";
 import { interpretVal3 } from "./interpret.ts";
 import { parseVal3 } from "./parse.ts";
+import { LINES } from "./lines.ts";
 
 /** Programs and data one behind the other: what the controller loads of an application. */
 function asOne(files: readonly EmittedFile[]): EmittedFile {
@@ -10,7 +12,7 @@ function asOne(files: readonly EmittedFile[]): EmittedFile {
 }
 
 /** VAL 3 of Stäubli's CS8 and CS9 controllers. */
-export const val3: Dialect = {
+export const val3: Dialect = skippingDialect({
   id: "val3",
   brand: "Stäubli",
   name: "VAL 3",
@@ -21,4 +23,5 @@ export const val3: Dialect = {
   emit: (program, robot, worldFromBase = identity()) => emitVal3(program, robot, worldFromBase),
   parse: (text, robot, worldFromBase = identity()) => parseVal3(text, robot, worldFromBase),
   interpret: (text, robot, worldFromBase = identity()) => interpretVal3(text, robot, worldFromBase),
-};
+  lines: LINES,
+});

@@ -12,6 +12,9 @@ export class CannotSay extends Error {
   }
 }
 
+/** A program that is longer than the controller holds: it may be written in parts. */
+export class TooLong extends CannotSay {}
+
 export const called = ({ id, name }: Pick<Step, "id" | "name">): string => `Step ${name ?? id}`;
 
 const WORDS: Partial<Record<Capability, string>> = {

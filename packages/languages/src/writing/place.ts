@@ -39,6 +39,11 @@ export class Place {
     return compose(this.baseFromWorld, compose(this.frame(target.frame), target.pose));
   }
 
+  /** The pose of a target in a frame that is not its own. */
+  seenIn(frame: string, { pose, frame: own }: PoseTarget): Pose<"frame", "tcp"> {
+    return compose(inverse(this.frame(frame)), compose(this.frame(own), pose)) as Pose as Pose<"frame", "tcp">;
+  }
+
   /**
    * The joint angles of a target: those that were taught, or the ones that reach the pose with least travel from `near`.
    * Undefined for an arm without a solver.

@@ -17,6 +17,7 @@ import { words } from "../../words/index.ts";
 import { ImportDialog } from "./ImportDialog.tsx";
 import { LanguageChoice } from "../../ui/LanguageChoice.tsx";
 import { manifestOf } from "./manifest.ts";
+import { zipped } from "./zip.ts";
 import "./export.css";
 
 /** The program in the controller's own language, proven by reading it back. */
@@ -43,10 +44,9 @@ function Body() {
   const copy = async (text: string): Promise<void> => {
     try { await navigator.clipboard.writeText(text); notify("done", words.export.copied); } catch { notify("warn", words.export.notCopied, words.export.notCopiedHint); }
   };
-  const downloadAll = (): void => {
-    for (const each of files) download(each.name, new Blob([each.text], { type: "text/plain" }));
-    download("manifest.json", new Blob([manifestOf(program, id, files, proof)], { type: "application/json" }));
-  };
+  const whole = (): readonly { readonly name: string; readonly text: string }[] => [...files, { name: "manifest.json", text: manifestOf(program, id, files, proof) }];
+  const downloadFiles = (): void => { for (const { name, text } of whole()) download(name, new Blob([text], { type: "text/plain" })); };
+  const downloadZip = (): void => download(`${files[0]?.name.replace(/\.[^.]*$/, "") ?? "program"}.zip`, new Blob([zipped(whole())], { type: "application/zip" }));
   return (
     <div className="export" aria-busy={working}>
       <div className="export-side stack">
@@ -65,7 +65,8 @@ function Body() {
               <Segments label={words.export.files} className="seg small-seg" value={String(Math.min(chosen, files.length - 1))} onChange={value => setChosen(Number(value))} options={files.map((each, i) => ({ value: String(i), words: each.name }))} />
               <span className="dim small">{words.export.lines(file.lines.length)}</span><span className="grow" />
               <button className="btn" onClick={() => void copy(file.text)}>{words.export.copy}</button>
-              <button className="btn primary" onClick={downloadAll}>{words.export.download}</button>
+              <button className="btn" onClick={downloadFiles}>{words.export.downloadFiles}</button>
+              <button className="btn primary" onClick={downloadZip}>{words.export.download}</button>
             </div>
             <CodeView text={file.text} dialect={id} label={`${words.export.text} ${file.name}`} height="min(54vh, 520px)" marked={line => selected !== "" && stepOf(line) === selected} onLine={line => { const step = stepOf(line); if (step) select({ kind: "step", id: step }); }} />
             <p className="small dim">{nameOfSelected(program, selected)}</p>

@@ -1,4 +1,4 @@
-import type { TextFault } from "@twincell/core";
+import type { Skipped, TextFault } from "@twincell/core";
 import { DIALECTS } from "@twincell/languages";
 import { useEffect, useRef, useState, type DragEvent } from "react";
 import { useStore } from "zustand";
@@ -27,14 +27,15 @@ export function ImportDialog({ open }: { open: boolean }) {
 
 function Body() {
   const { text, name } = useStore(foreignStore, state => state.draft), cell = useStore(cellStore, state => state.document), robot = robotOf(cell), running = useStore(controlStore, state => state.running);
-  const [wanted, setWanted] = useState(GUESS), [reading, setReading] = useState<Reading | null>(null), area = useRef<HTMLTextAreaElement>(null);
+  const [wanted, setWanted] = useState(GUESS), [skips, setSkips] = useState(false), [reading, setReading] = useState<Reading | null>(null), area = useRef<HTMLTextAreaElement>(null);
   const set = (next: string, file = ""): void => foreignStore.setState({ draft: { text: next, name: file } });
   useEffect(() => {
     if (!robot || !cell || text.trim() === "") { setReading(null); return undefined; }
-    const timer = setTimeout(() => setReading(readText(text, robot, cell.robot.worldFromBase, name, wanted === GUESS ? undefined : wanted) ?? null), WAIT_MS);
+    const timer = setTimeout(() => setReading(readText(text, robot, cell.robot.worldFromBase, name, wanted === GUESS ? undefined : wanted, skips) ?? null), WAIT_MS);
     return () => clearTimeout(timer);
-  }, [text, name, wanted, robot, cell]);
+  }, [text, name, wanted, skips, robot, cell]);
 
+  const skipped = reading?.parsed.kind === "parsed" ? [...reading.parsed.skipped ?? []].sort((a, b) => Number(a.what === "statement") - Number(b.what === "statement")) : [];
   const faults = reading === null ? [] : reading.parsed.kind === "parsed" ? reading.parsed.warnings : reading.parsed.faults, understood = reading?.parsed.kind === "parsed" && reading.parsed.program.steps.length > 0;
   const look = ({ line, column }: TextFault): void => {
     const element = area.current;
@@ -54,7 +55,7 @@ function Body() {
   const steps = (): void => { if (reading?.parsed.kind === "parsed" && importParsed(reading.parsed, name || reading.dialect.name)) { set(""); closeDialog(); } };
   const runIt = (): void => {
     if (!reading) return;
-    openForeign({ name: name || words.foreign.pasted, dialect: reading.dialect.id, text });
+    openForeign({ name: name || words.foreign.pasted, dialect: reading.dialect.id, text, skipUnknown: skips });
     closeDialog();
     showMode("run");
     viewStore.setState({ sheet: "run" });
@@ -70,14 +71,24 @@ function Body() {
         <Chooser label={words.export.dialect} value={wanted} onChange={setWanted} options={[{ value: GUESS, words: words.foreign.guess }, ...DIALECTS.map(each => ({ value: each.id, words: `${each.name} · ${each.brand}` }))]} />
         <p className="small" role="status">{reading === null ? words.foreign.nothing : understood && reading.parsed.kind === "parsed" ? words.foreign.reads(reading.dialect.name, reading.parsed.program.steps.length) : words.foreign.cannotRead(reading.dialect.name)}</p>
         {reading?.dialect.maturity === "experimental" && <p className="small muted"><i className="mark" data-verdict="warn" aria-hidden /> {words.export.experimental}</p>}
-        {faults.length > 0 && <ul className="notes import-faults" role={understood ? "status" : "alert"}>
-          {faults.slice(0, MOST_FAULTS).map((fault, i) => <li key={i}><button className="import-fault" data-bad={!understood} onClick={() => look(fault)}>{words.export.line(fault.line, fault.column, fault.sentence)}</button></li>)}
-          {faults.length > MOST_FAULTS && <li className="small dim">{words.check.more(faults.length - MOST_FAULTS)}</li>}
-        </ul>}
+        {reading?.dialect.lines !== undefined && (skips || !understood) && <label className="import-skip small"><input type="checkbox" checked={skips} onChange={event => setSkips(event.currentTarget.checked)} /><span><b>{words.foreign.skip}</b><br /><span className="muted">{words.foreign.skipSays}</span></span></label>}
+        {skipped.length > 0 && <>
+          <p className="small" role="alert"><i className="mark" data-verdict={skipped.some(({ what }) => what !== "statement") ? "bad" : "warn"} aria-hidden /> {words.foreign.skipped(skipped)}</p>
+          <Places faults={skipped} bad={each => "what" in each && each.what !== "statement"} look={look} />
+        </>}
+        {faults.length > 0 && <Places faults={faults} bad={() => !understood} look={look} role={understood ? "status" : "alert"} />}
         <button className="btn primary" disabled={!understood} onClick={steps}>{words.foreign.steps}</button>
         <button className="btn" disabled={reading === null || running} onClick={runIt}>{words.foreign.asText}</button>
         <p className="small muted">{words.foreign.asTextSays}</p>
       </div>
     </div>
   );
+}
+
+/** Places in the text; a click goes there. */
+function Places({ faults, bad, look, role }: { readonly faults: readonly (TextFault | Skipped)[]; readonly bad: (fault: TextFault | Skipped) => boolean; readonly look: (fault: TextFault) => void; readonly role?: "status" | "alert" }) {
+  return <ul className="notes import-faults" role={role}>
+    {faults.slice(0, MOST_FAULTS).map((fault, i) => <li key={i}><button className="import-fault" data-bad={bad(fault)} onClick={() => look(fault)}>{words.export.line(fault.line, fault.column, fault.sentence)}</button></li>)}
+    {faults.length > MOST_FAULTS && <li className="small dim">{words.check.more(faults.length - MOST_FAULTS)}</li>}
+  </ul>;
 }

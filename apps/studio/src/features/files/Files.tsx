@@ -7,10 +7,10 @@ import { notify } from "../../stores/notices.ts";
 import { openCell } from "../../stores/opening.ts";
 import { download } from "../../ui/download.ts";
 import { words } from "../../words/index.ts";
-import { openFile } from "./openFile.ts";
+import { openFile, openFiles } from "./openFile.ts";
 import "./files.css";
 
-const KINDS = [".json", ".txt", ".stl", ".obj", ".ply", ...new Set(DIALECTS.flatMap(({ extensions }) => extensions))].join();
+const KINDS = [".json", ".mcap", ".txt", ".stl", ".obj", ".ply", ...new Set(DIALECTS.flatMap(({ extensions }) => extensions))].join();
 
 /** Save, open and drop. */
 export function Files() {
@@ -30,7 +30,7 @@ export function Files() {
       if (!hasFiles(event)) return;
       event.preventDefault();
       setOver(false);
-      for (const file of event.dataTransfer?.files ?? []) void openFile(file);
+      void openFiles([...event.dataTransfer?.files ?? []]);
     };
     window.addEventListener("dragover", drag);
     window.addEventListener("dragleave", leave);

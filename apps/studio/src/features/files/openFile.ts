@@ -12,7 +12,8 @@ const isProgram = (kind: string): boolean => DIALECTS.some(({ extensions }) => e
 export async function openFile(file: File): Promise<void> {
   const kind = /\.([a-z0-9]+)$/i.exec(file.name)?.[1]?.toLowerCase() ?? "";
   try {
-    if (kind === "json") openCellText(await file.text(), file.name);
+    if (kind === "mcap") await (await import("../../live/cell-control.ts")).openRecordingFiles([file]);
+    else if (kind === "json") openCellText(await file.text(), file.name);
     else if (kind === "stl" || kind === "obj" || kind === "ply") await importMesh(file.name, kind, new Uint8Array(await file.arrayBuffer()));
     else if (kind === "txt" || isProgram(kind)) {
       const [fault] = importText(await file.text(), file.name);
@@ -21,4 +22,11 @@ export async function openFile(file: File): Promise<void> {
   } catch (trouble) {
     notify("bad", words.file.unreadable(file.name), trouble instanceof Error ? trouble.message : undefined);
   }
+}
+
+/** Opens what was dropped at once: recordings together, as one history, everything else one by one. */
+export async function openFiles(files: readonly File[]): Promise<void> {
+  const recordings = files.filter(({ name }) => /\.mcap$/i.test(name));
+  for (const file of files) if (!recordings.includes(file)) await openFile(file);
+  if (recordings.length > 0) await (await import("../../live/cell-control.ts")).openRecordingFiles(recordings);
 }

@@ -19,9 +19,9 @@ export function Foreign({ open }: { readonly open: ForeignText }) {
   const line = useStore(controlStore, state => state.line), safety = useStore(controlStore, state => state.safety), held = useStore(playStore, state => state.speed === 0);
   const moving = phase === "running", dialect = dialectById(open.dialect);
   const cell = useStore(cellStore, state => state.document), robot = robotOf(cell);
-  const signals = useMemo(() => {
-    const interpreted = robot && cell ? dialect?.interpret(open.text, robot, cell.robot.worldFromBase) : undefined;
-    return interpreted?.kind === "ready" ? interpreted.context.signals ?? {} : {};
+  const [signals, skipped] = useMemo(() => {
+    const interpreted = robot && cell ? dialect?.interpret(open.text, robot, cell.robot.worldFromBase, { skipUnknown: open.skipUnknown ?? false }) : undefined;
+    return interpreted?.kind === "ready" ? [interpreted.context.signals ?? {}, interpreted.skipped ?? []] as const : [{}, []] as const;
   }, [dialect, open, robot, cell]);
   return (
     <>
@@ -36,6 +36,7 @@ export function Foreign({ open }: { readonly open: ForeignText }) {
         {phase !== "idle" && <button className="btn" onClick={stopForeign}><Square />{words.run.stop}</button>}
       </div>
       <p className="small muted" role="status">{phase === "paused" ? words.foreign.paused(paused_line) : moving ? words.run.running(line) : words.foreign.idle}</p>
+      {skipped.length > 0 && <p className="small" role="alert"><i className="mark" data-verdict={skipped.some(({ what }) => what !== "statement") ? "bad" : "warn"} aria-hidden /> {words.foreign.skipped(skipped)}</p>}
       <SignalList signals={signals} />
       <CodeView text={open.text.replace(/\r?\n$/, "")} dialect={open.dialect} label={words.run.text(dialect?.name ?? open.dialect)} current={phase === "paused" ? paused_line : moving ? line : 0} height="min(52vh, 560px)"
         stops={{ at: at => breakpoints.has(at), toggle: toggleBreakpoint, words: words.foreign.breakpoint }} />

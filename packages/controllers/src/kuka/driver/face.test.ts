@@ -149,7 +149,7 @@ describe("motion", () => {
       await ended(bench, bench.real.moveJoints(far));
       return 0.004 * cycles;
     };
-    expect(Math.abs(await lasting(0.25) - 4 * await lasting(1))).toBeLessThanOrEqual(0.012);
+    expect(Math.abs(await lasting(0.25) - 4 * await lasting(1))).toBeLessThan(0.0125);
   });
 
   test("lines and arcs go where they should, at their speed; a spline is refused by name", async () => {

@@ -28,6 +28,10 @@ export interface KukaFaceOptions {
   readonly signals?: readonly string[];
   /** The robot brakes by itself when it hears nothing for so long during a motion [s]. */
   readonly watch_s?: number;
+  /** Without a new state for so long the link counts as lost [s]; 0.1, or four periods, when left out. */
+  readonly stale_s?: number;
+  /** The program that moves the robot for us; TWINCELL when left out. */
+  readonly program?: string;
 }
 interface Waiting { readonly number: number; readonly resolve: (outcome: CommandOutcome) => void; taken: boolean; cancelled: boolean }
 
@@ -54,7 +58,7 @@ const ON_PATH_S = 0.3;
  */
 export function createKukaFace(options: KukaFaceOptions): Face {
   const { robot, scheduler, network, host } = options, axes = options.axes ?? kukaAxes(robot), port = options.port ?? C3_PORT;
-  const period_s = options.period_s ?? 0.012, watch_s = options.watch_s ?? 0.5, gripper = options.gripperOutput === undefined ? "" : `$OUT[${options.gripperOutput}]`;
+  const program = options.program ?? LOOP_NAME, period_s = options.period_s ?? 0.012, watch_s = options.watch_s ?? 0.5, gripper = options.gripperOutput === undefined ? "" : `$OUT[${options.gripperOutput}]`;
   const lines = [...new Set([...options.signals ?? [], ...gripper === "" ? [] : [gripper]])], names = [...POLLED, ...lines];
   let client: C3Client | null = null, state: KukaState | null = null, stopPolling: (() => void) | null = null, waiting: Waiting | null = null;
   let types: readonly number[] = [], loop: Refusal | null = say.noLoop, polling = false, fed_s = 0, life = 0, drives = { on: 0, off: 0 };
@@ -140,7 +144,7 @@ export function createKukaFace(options: KukaFaceOptions): Face {
       const again = await own.ask({ kind: "read", wide: true, name: "$MODEL_NAME[]" });
       return fail(say.otherRobot(robot, model === "" ? "robot without a name" : model), again?.kind !== "value" || textIn(again.value) !== model);
     }
-    const now = state = new KukaState(axes, lines, gripper), wired = (i: number): number => { const n = numberIn(first.items[i]?.value ?? ""); return n > 0 ? n : 0; };
+    const now = state = new KukaState(program, axes, lines, gripper), wired = (i: number): number => { const n = numberIn(first.items[i]?.value ?? ""); return n > 0 ? n : 0; };
     drives = { on: wired(2), off: wired(3) };
     if (now.take(first.items.slice(HEAD.length), scheduler.now_s()) !== true) return fail(say.unreadable, true);
     loop = version.error !== 1 ? say.noLoop : version.value === String(LOOP_VERSION) ? null : say.otherLoop(version.value);
@@ -212,9 +216,9 @@ export function createKukaFace(options: KukaFaceOptions): Face {
   async function startLoop(own: C3Client, now: KukaState): Promise<CommandOutcome> {
     if (!types.includes(C3_TYPE.control)) return refused(say.noProgramControl);
     if (now.sample.mode === "manual") return refused(say.notAtPendant);
-    const ours = now.program === LOOP_NAME, free = now.programState === "P_FREE" || now.programState === "P_END";
+    const ours = now.program === program, free = now.programState === "P_FREE" || now.programState === "P_END";
     if (!ours && !free) return refused(say.loopRests(now.programState, now.program));
-    if (!ours && !await own.order({ kind: "select", run: false, name: LOOP_NAME, parameters: "", force: false })) return refused(say.startRefused(now.programState));
+    if (!ours && !await own.order({ kind: "select", run: false, name: program, parameters: "", force: false })) return refused(say.startRefused(now.programState));
     // From its first line: what it was stopped in is forgotten, and its first motion is none.
     else if (ours) await own.order({ kind: "control", command: C3_COMMAND.reset, interpreter: 1 });
     const start = (): Promise<boolean> => own.order({ kind: "control", command: C3_COMMAND.start, interpreter: 1 });
@@ -226,7 +230,7 @@ export function createKukaFace(options: KukaFaceOptions): Face {
   }
 
   return {
-    brand: "KUKA", robot, stale_s: Math.max(0.1, 4 * period_s),
+    brand: "KUKA", robot, stale_s: options.stale_s ?? Math.max(0.1, 4 * period_s),
     watchdog: { kind: "robot", within_s: watch_s },
     open, close, move, reset,
     stop(emergency) {
@@ -259,7 +263,7 @@ export function createKukaFace(options: KukaFaceOptions): Face {
       const outcome = await run.outcome;
       text = null;
       // Our own program has its place again; it moves nothing by itself.
-      if (client === own && loop === null) await own.order({ kind: "select", run: true, name: LOOP_NAME, parameters: "", force: true });
+      if (client === own && loop === null) await own.order({ kind: "select", run: true, name: program, parameters: "", force: true });
       return outcome;
     },
   };

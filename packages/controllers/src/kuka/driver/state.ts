@@ -2,12 +2,12 @@ import type { JointSample, OperatingMode, SafetyState } from "@twincell/core";
 import { AXES, AXIS_NAMES, jointsOf, type KukaAxes } from "../axes.ts";
 import type { C3Item } from "../codec-c3-replies.ts";
 import { boolIn, enumIn, numberIn, partsIn, textIn } from "../codec-values.ts";
-import { LOOP_NAME, TWC } from "../loop.ts";
+import { TWC } from "../loop.ts";
 
-/** Read in every poll, in this order; the lines in and out that somebody wants to see follow. */
+/** Read in every poll, one after the other in this order: whether a motion ended before where the robot stands. The lines in and out that somebody wants to see follow. */
 export const POLLED: readonly string[] = [
-  "$AXIS_ACT", "$ROB_TIMER", "$MODE_OP", "$PRO_STATE1", "$PRO_NAME1[]", "$OV_PRO", "$PERI_RDY", "$STOPMESS", "$ALARM_STOP", "$USER_SAF",
-  TWC.command, TWC.done, TWC.result, TWC.lock,
+  TWC.done, TWC.command, "$MODE_OP", "$PRO_STATE1", "$PRO_NAME1[]", "$OV_PRO", "$PERI_RDY", "$STOPMESS", "$ALARM_STOP", "$USER_SAF",
+  "$ROB_TIMER", "$AXIS_ACT", TWC.result, TWC.lock,
 ];
 /** The timer of the controller counts to 2³¹ − 1 ms and begins again. */
 const TIMER_TURN_MS = 0x80000000, NEAR_TURN_MS = 60_000;
@@ -26,6 +26,7 @@ export class KukaState {
   command = 0;
   done = 0;
   result = 0;
+  private readonly own: string;
   private readonly axes: KukaAxes;
   private readonly lines: readonly string[];
   private readonly gripper: string;
@@ -35,8 +36,9 @@ export class KukaState {
   private turns = 0;
   private timer_ms = NaN;
 
-  /** @param gripper  the line the gripper hangs on, or "". */
-  constructor(axes: KukaAxes, lines: readonly string[], gripper: string) {
+  /** @param own  the program that moves the robot for us. @param gripper  the line the gripper hangs on, or "". */
+  constructor(own: string, axes: KukaAxes, lines: readonly string[], gripper: string) {
+    this.own = own;
     this.axes = axes;
     this.lines = lines;
     this.gripper = gripper;
@@ -45,7 +47,7 @@ export class KukaState {
       signals: this.values,
     };
   }
-  get loopRuns(): boolean { return this.program === LOOP_NAME && this.programState === "P_ACTIVE"; }
+  get loopRuns(): boolean { return this.program === this.own && this.programState === "P_ACTIVE"; }
 
   /**
    * @param now_s  the time here, for a controller that has no timer.
@@ -54,8 +56,8 @@ export class KukaState {
   take(items: readonly C3Item[], now_s: number): boolean | null {
     const text = (i: number): string => items[i]?.error === 1 ? items[i].value : "";
     this.before_deg.set(this.a_deg);
-    if (!partsIn(text(0), AXIS_NAMES, this.a_deg)) return null;
-    const timer_ms = numberIn(text(1));
+    if (!partsIn(text(11), AXIS_NAMES, this.a_deg)) return null;
+    const timer_ms = numberIn(text(10));
     if (timer_ms === this.timer_ms) return false;
     if (timer_ms < this.timer_ms && this.timer_ms > TIMER_TURN_MS - NEAR_TURN_MS) this.turns++;
     else if (timer_ms < this.timer_ms) this.turns = 0;
@@ -66,8 +68,8 @@ export class KukaState {
     if (this.mode === "" || this.programState === "") return null;
     this.program = textIn(text(4));
     this.ready = boolIn(text(6)) === true;
-    this.command = numberIn(text(10));
-    this.done = numberIn(text(11));
+    this.command = numberIn(text(1));
+    this.done = numberIn(text(0));
     this.result = numberIn(text(12));
     this.lines.forEach((line, i) => {
       const said = text(POLLED.length + i), bool = boolIn(said);

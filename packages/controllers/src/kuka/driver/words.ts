@@ -28,3 +28,7 @@ export const fileRefused = (name: string): Refusal => refusal("kuka.file", `The 
 export const programRefused = (name: string): Refusal => refusal("kuka.program", `The controller did not select and start ${name}.`, "Look at the messages on its pendant: it names the line it does not understand.");
 export const noSuchLine = (name: string): Refusal => refusal("kuka.line", `“${name}” is no output of the controller.`, "Name it $OUT[1] to $OUT[4096], or $ANOUT[1] to $ANOUT[32].");
 export const noGripper = refusal("kuka.gripper", "Which output the gripper hangs on is not given.", "Give the number of its output.");
+export const rsiRests = refusal("kuka.rsi-rests", "RSI does not run: nothing is heard from the controller's sensor interface.", "Reset the robot here, or select and start TWINCELL_RSI at the pendant.");
+export const rsiEnded = refusal("kuka.rsi-ended", "RSI ended before the motion did; the robot stopped.", "Look at the messages on the pendant, then reset the robot.");
+export const onlySends = refusal("kuka.rsi-only-sends", "The controller's RSI only sends; it takes no corrections.", "Set ONLYSEND to FALSE on both sides, or move the robot over its variables.");
+export const notReached = (off_deg: number): Refusal => refusal("kuka.not-reached", `The robot stands ${off_deg.toFixed(3)}° beside its target.`, "Look whether the limits of the corrections are too narrow.");

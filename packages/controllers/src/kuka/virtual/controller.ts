@@ -4,15 +4,17 @@ import { createVirtualController, type VirtualController } from "../../virtual/i
 import { kukaAxes, type KukaAxes } from "../axes.ts";
 import { C3_PORT } from "../codec-c3.ts";
 import { hereIAmText, OLD_ANSWER_PORT, OLD_DISCOVERY_PORT, WHERE_ARE_YOU } from "../codec-discovery.ts";
-import { LOOP_GLOBALS, LOOP_NAME, TWC } from "../loop.ts";
+import { LOOP_GLOBALS, LOOP_NAME, RSI_NAME, TWC } from "../loop.ts";
 import { kukaModel } from "../models.ts";
 import { C3_TYPES, serveC3, type C3Server } from "./c3-server.ts";
 import { noFaults, type KukaFaults } from "./faults.ts";
+import type { Builtin } from "./builtin.ts";
 import { Globals, Timers, type GlobalType } from "./globals.ts";
 import { slowed } from "./job.ts";
 import { LoopRun } from "./loop-run.ts";
 import { Machine, type KukaMode, type Message } from "./machine.ts";
 import { Programs, type ProgramState } from "./programs.ts";
+import { RsiRun, type RsiOptions } from "./rsi-run.ts";
 import { kukaVariables, type Now, type Variables } from "./variables.ts";
 
 export interface VirtualKukaOptions {
@@ -39,6 +41,8 @@ export interface VirtualKukaOptions {
   readonly globals?: readonly (readonly [string, GlobalType, string])[];
   /** Outputs that the cell has wired to $DRIVES_ON and, inverted, to $DRIVES_OFF; those of the example when left out, null for none. */
   readonly wiring?: { readonly drivesOn: number; readonly drivesOff: number } | null;
+  /** RobotSensorInterface, under the program TWINCELL_RSI; without it the controller has none. */
+  readonly rsi?: RsiOptions;
   readonly log?: (sentence: string) => void;
 }
 /** The wiring of the example cell. */
@@ -80,6 +84,8 @@ export interface VirtualKuka {
   readonly program: { readonly state: ProgramState; readonly name: string };
   readonly messages: readonly Message[];
   readonly drivesOn: boolean;
+  /** Late or wrong answers of the sensor so far; null without RSI. */
+  readonly rsiDelay: number | null;
   /** Power off and on: connections cut, program deselected, the clock begins at 0. */
   reboot(): void;
   close(): void;
@@ -102,7 +108,14 @@ export async function createVirtualKuka(options: VirtualKukaOptions): Promise<Vi
   const timers = new Timers(() => 1000 * now.time_s), globals = new Globals([...LOOP_GLOBALS, ...options.globals ?? []], options.digits);
   const machine = new Machine(arm, options.mode ?? "EX", () => { programs.interrupted(); });
   const slow = (step: MoveStep): MoveStep => machine.mode === "T1" ? slowed(robot, step, arm.jointAngles()) : step;
-  const programs = new Programs(arm, machine, new LoopRun(globals, timers, arm, machine, axes, slow), robot, options.interpret);
+  const builtins = new Map<string, Builtin>([[LOOP_NAME, new LoopRun(globals, timers, arm, machine, axes, slow)]]);
+  const rsi = options.rsi ? new RsiRun({ robot, axes, arm, machine, scheduler, network, host, faults, globals, log }, options.rsi) : null;
+  if (rsi) {
+    builtins.set(RSI_NAME, rsi);
+    const why = await rsi.open();
+    if (why) log(why);
+  }
+  const programs = new Programs(arm, machine, builtins, robot, options.interpret);
   const identity = { model: options.model ?? kukaModel(robot), serial: options.serial ?? "800001", name: options.name ?? "VIRTUAL" };
   const proxy = new Map([
     ["PING", "PONG"], ["@PROXY_TYPE", "C3 BRIDGE INTERFACE"], ["@PROXY_VERSION", "1.5.0"], ["@PROXY_HOSTNAME", identity.name], ["@PROXY_ADDRESS", host], ["@PROXY_ENABLED", "TRUE"],
@@ -143,6 +156,7 @@ export async function createVirtualKuka(options: VirtualKukaOptions): Promise<Vi
     program: programs,
     get messages() { return machine.messages; },
     get drivesOn() { return machine.drivesOn; },
+    get rsiDelay() { return rsi ? rsi.delay : null; },
     pendant: {
       setMode(mode) { machine.setMode(mode); }, setEnabling(pressed) { machine.setEnabling(pressed); }, setDrives: on => machine.setDrives(on),
       select: name => programs.select(name), start: () => programs.start(), stop() { programs.hold(); }, reset: () => programs.reset(), cancel: () => programs.cancel(),
@@ -168,17 +182,18 @@ export async function createVirtualKuka(options: VirtualKukaOptions): Promise<Vi
     },
     close() {
       server.close();
+      rsi?.close();
       for (const socket of sockets) socket.close();
       arm.close();
     },
   };
 }
 
-/** What a person does in the morning: messages confirmed, drives on, the loop selected and started. Null, or what stands in the way. */
-export function startLoop(kuka: VirtualKuka): string | null {
+/** What a person does in the morning: messages confirmed, drives on, our program selected and started. Null, or what stands in the way. */
+export function startLoop(kuka: VirtualKuka, name: typeof LOOP_NAME | typeof RSI_NAME = LOOP_NAME): string | null {
   const { pendant, program } = kuka;
   pendant.confirm();
-  const why = pendant.setDrives(true) ?? (program.name === LOOP_NAME ? null : pendant.select(LOOP_NAME)) ?? pendant.start();
+  const why = pendant.setDrives(true) ?? (program.name === name ? null : pendant.select(name)) ?? pendant.start();
   // On the path a person starts once more; EXT goes on by itself.
   return why ?? (kuka.mode === "EX" ? null : pendant.start());
 }

@@ -3,6 +3,7 @@ import type { VirtualController } from "../../virtual/index.ts";
 import { AXES, AXIS_NAMES, jointsOf, poseIn, type KukaAxes } from "../axes.ts";
 import { partsIn } from "../codec-values.ts";
 import { TWC, TWC_KIND, TWC_RESULT, WATCH_TIMER } from "../loop.ts";
+import type { Builtin } from "./builtin.ts";
 import type { Globals, Timers } from "./globals.ts";
 import type { Machine } from "./machine.ts";
 
@@ -16,7 +17,7 @@ const LEAST_MPS = 1e-6;
  * moves, and brakes by interrupt. A motion that something else stopped goes on when the program is started again, unless
  * TWC_STOP has been set by then.
  */
-export class LoopRun {
+export class LoopRun implements Builtin {
   private readonly globals: Globals;
   private readonly timers: Timers;
   private readonly arm: VirtualController;

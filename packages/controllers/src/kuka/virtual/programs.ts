@@ -1,9 +1,10 @@
 import type { CommandOutcome, Interpreted, Robot, Step } from "@twincell/core";
 import type { VirtualController } from "../../virtual/index.ts";
 
-import { LOOP_FILES, LOOP_NAME } from "../loop.ts";
+import { LOOP_FILES } from "../loop.ts";
+import type { Builtin } from "./builtin.ts";
 import { Job } from "./job.ts";
-import { BY_MACHINE, type LoopRun } from "./loop-run.ts";
+import { BY_MACHINE } from "./loop-run.ts";
 import type { Machine } from "./machine.ts";
 
 /** $PRO_STATE1 without its #P_. */
@@ -21,7 +22,8 @@ export const moduleOf = (path: string): string => (path.split(/[\\/]/).at(-1) ??
 export class Programs {
   private readonly arm: VirtualController;
   private readonly machine: Machine;
-  private readonly loop: LoopRun;
+  private readonly builtins: ReadonlyMap<string, Builtin>;
+  private builtin: Builtin | null = null;
   private readonly robot: Robot;
   private readonly interpret: (text: string) => Interpreted;
   private readonly files = new Map<string, string>();
@@ -33,10 +35,10 @@ export class Programs {
   private run = 0;
   private step = "";
 
-  constructor(arm: VirtualController, machine: Machine, loop: LoopRun, robot: Robot, interpret: (text: string) => Interpreted) {
+  constructor(arm: VirtualController, machine: Machine, builtins: ReadonlyMap<string, Builtin>, robot: Robot, interpret: (text: string) => Interpreted) {
     this.arm = arm;
     this.machine = machine;
-    this.loop = loop;
+    this.builtins = builtins;
     this.robot = robot;
     this.interpret = interpret;
     for (const { name, text } of LOOP_FILES) this.write(name, text);
@@ -44,7 +46,6 @@ export class Programs {
 
   get state(): ProgramState { return this.isState; }
   get name(): string { return this.isName; }
-  get isLoop(): boolean { return this.isName === LOOP_NAME; }
 
   write(path: string, text: string): string | null {
     const key = path.split(/[\\/]/).at(-1)!.toUpperCase();
@@ -63,11 +64,11 @@ export class Programs {
   }
 
   select(path: string): string | null {
-    const name = moduleOf(path), src = this.files.get(`${name}.SRC`);
+    const name = moduleOf(path), src = this.files.get(`${name}.SRC`), builtin = this.builtins.get(name) ?? null;
     if (this.isState === "ACTIVE") return "A program is running.";
-    if (src === undefined) return `There is no program ${name}.`;
-    if (name !== LOOP_NAME) {
-      const read = this.interpret(src + (this.files.get(`${name}.DAT`) ?? ""));
+    if (src === undefined && !builtin) return `There is no program ${name}.`;
+    if (!builtin) {
+      const read = this.interpret(src! + (this.files.get(`${name}.DAT`) ?? ""));
       if (read.kind === "not-understood") {
         const fault = read.faults[0];
         this.machine.say(`${name}, line ${fault?.line ?? 1}: ${fault?.sentence ?? "not understood"}`);
@@ -75,13 +76,15 @@ export class Programs {
       }
       this.job = new Job(read, this.robot, this.arm.signals, () => this.arm.jointAngles());
     } else this.job = null;
+    this.builtin?.abandon();
+    this.builtin = builtin;
     this.isName = name;
     this.rewind();
     return null;
   }
   private rewind(): void {
     this.run++;
-    this.loop.abandon();
+    this.builtin?.abandon();
     this.isState = "RESET";
     this.onPath = this.begun = false;
     this.machine.hold(false);
@@ -95,7 +98,8 @@ export class Programs {
     if (this.isState === "FREE") return null;
     this.arm.stop();
     this.run++;
-    this.loop.abandon();
+    this.builtin?.abandon();
+    this.builtin = null;
     this.isState = "FREE";
     this.isName = "";
     this.job = null;
@@ -111,15 +115,16 @@ export class Programs {
     if (this.isState === "ACTIVE") return null;
     if (this.machine.isHeld) { this.machine.hold(false); this.isState = "ACTIVE"; return null; }
     this.isState = "ACTIVE";
-    if (!this.job) {
-      if (this.begun) this.loop.goOn();
-      else { this.begun = true; this.loop.begin(); }
+    if (this.builtin) {
+      if (this.begun) this.builtin.goOn();
+      else { this.begun = true; this.builtin.begin(); }
       // Its first motion is none: it is on its path at once.
       if (!this.onPath) this.reachedPath();
       return null;
     }
-    if (!this.onPath) this.carryOut(this.job.toThePath(true), () => { this.reachedPath(); });
-    else this.carryOut(this.job.rest(this.machine.mode === "T1"), () => { this.isState = "END"; });
+    const job = this.job!;
+    if (!this.onPath) this.carryOut(job.toThePath(true), () => { this.reachedPath(); });
+    else this.carryOut(job.rest(this.machine.mode === "T1"), () => { this.isState = "END"; });
     return null;
   }
   /** The stop key: the robot stops on its path and goes on from there. */
@@ -133,12 +138,13 @@ export class Programs {
   interrupted(): void {
     if (this.isState !== "ACTIVE" && !this.machine.isHeld) return;
     this.isState = "STOP";
+    this.builtin?.interrupted?.();
     this.machine.hold(false);
   }
   /** Once a cycle. @param step  what the arm carries out. */
   cycle(step: string): void {
     if (step !== "") this.step = step;
-    if (this.isState === "ACTIVE" && this.isLoop) this.loop.cycle();
+    if (this.isState === "ACTIVE") this.builtin?.cycle();
   }
 
   private carryOut(steps: Iterator<Step, void>, then: () => void): void {

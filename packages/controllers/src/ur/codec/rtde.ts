@@ -115,7 +115,7 @@ export interface Recipe { readonly id: number; readonly fields: readonly Field[]
 export const recipeOf = (id: number, fields: readonly Field[]): Recipe => ({ id, fields, bytes: fields.reduce((sum, { type }) => sum + SHAPES[type].bytes, 0) });
 /** Types answered are those that were expected, or the names that are not. */
 export const unexpected = (fields: readonly Field[], types: readonly string[]): string[] =>
-  fields.length === types.length ? fields.filter(({ type }, i) => type !== types[i]).map(({ name }, i) => `${name} (${types[i] ?? "nothing"})`) : [`${fields.length} variables, ${types.length} types`];
+  fields.length === types.length ? fields.flatMap(({ name, type }, i) => type === types[i] ? [] : [`${name} (${types[i] ?? "nothing"})`]) : [`${fields.length} variables, ${types.length} types`];
 
 export const viewOf = (bytes: Uint8Array): DataView => new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
 

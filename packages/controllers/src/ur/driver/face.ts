@@ -82,7 +82,11 @@ export function createUrFace(options: FaceOptions): Face {
     if (!settle) return;
     const { reading } = at;
     if (textRunning) return;
-    if (reading.listens) { if (reading.ended === awaited) end(goal); } else end(stopped(words.ended(robot, message(at))));
+    if (!reading.listens) {
+      // Whatever the state is worth: nothing is to move when a motion is said to have ended.
+      stop(false);
+      end(stopped(words.ended(robot, message(at))));
+    } else if (reading.ended === awaited) end(goal);
   }
 
   async function connected(port: number): Promise<ByteStream | string> {

@@ -9,6 +9,8 @@ export const LONGEST_SCRIPT = 1 << 20;
 /** Blocks and brackets inside each other. */
 const DEEPEST = 100;
 const BLOCK_ENDS: ReadonlySet<string> = new Set(["end", "elif", "else"]);
+/** Words that are no names. */
+const KEYWORDS: ReadonlySet<string> = new Set(["def", "sec", "thread", "end", "if", "elif", "else", "while", "return", "kill", "join", "global", "local", "and", "or", "xor", "not"]);
 const BARE: ReadonlySet<string> = new Set(["break", "continue", "halt", "pass", "enter_critical", "exit_critical"]);
 const LEVELS: readonly (readonly string[])[] = [["or", "xor"], ["and"], ["==", "!=", "<", ">", "<=", ">="], ["+", "-"], ["*", "/", "%"]];
 /** "not" binds weaker than comparisons and stronger than "and". */
@@ -169,7 +171,7 @@ class Reader {
     if (token.kind === "text") return { ...at, kind: "constant", value: token.text, calls: false };
     if (token.text === "(" && token.kind === "sign") { const value = this.expression(); this.expect(")"); return value; }
     if (token.text === "[" && token.kind === "sign") return this.list(at, false);
-    if (token.kind === "word") {
+    if (token.kind === "word" && !KEYWORDS.has(token.text) && !BARE.has(token.text)) {
       if (token.text === "True" || token.text === "False") return { ...at, kind: "constant", value: token.text === "True", calls: false };
       if (token.text === "p" && this.is("[") && this.token.column === column + 1 && this.token.line === line && this.isPoseAhead()) { this.at++; return this.list(at, true); }
       if (token.text === "run") { const name = this.word("The name of a thread"); return { ...at, kind: "run", name, args: this.arguments(), calls: true }; }

@@ -1,7 +1,7 @@
 import type { ByteStream } from "../../transport/index.ts";
 import { accepted, dataBuffer, namesIn, outputsAsked, packData, readText, recipeAnswer, recipeOf, RTDE, rtdeFrames, textFrame, unpackData, versionAnswer, viewOf, type NotHad, type Recipe, type Version } from "../codec/rtde.ts";
 import { INPUT_FIELDS, OUTPUT_FIELDS, type Field } from "../codec/rtde-fields.ts";
-import type { Outbox } from "./faults.ts";
+import { MOST_WAITING, type Outbox } from "./faults.ts";
 import type { Memory } from "./memory.ts";
 
 export interface RtdeServerOptions {
@@ -17,6 +17,8 @@ export interface RtdeServerOptions {
 
 /** More recipes or names than any client has: an attack, or a fault. */
 const MOST_RECIPES = 255, MOST_NAMES = 400;
+/** A client that has not read for this long is gone, and its inputs are free again [s]. */
+const GONE_S = 2;
 
 interface Connection {
   readonly stream: ByteStream;
@@ -28,6 +30,8 @@ interface Connection {
   every: number;
   started: boolean;
   sent: number;
+  /** Cycles in which the client has not read. */
+  stuck: number;
   readonly inputs: Map<number, Recipe>;
 }
 
@@ -45,7 +49,7 @@ export class RtdeServer {
 
   accept(stream: ByteStream): void {
     const frames = rtdeFrames(), bytes = new Uint8Array(0);
-    const connection: Connection = { stream, protocol: 1, outputs: null, buffer: bytes, view: viewOf(bytes), every: 1, started: false, sent: 0, inputs: new Map() };
+    const connection: Connection = { stream, protocol: 1, outputs: null, buffer: bytes, view: viewOf(bytes), every: 1, started: false, sent: 0, stuck: 0, inputs: new Map() };
     this.connections.add(connection);
     stream.onEnd(() => { this.forget(connection); });
     stream.onBytes(lent => {
@@ -139,6 +143,8 @@ export class RtdeServer {
     for (const connection of this.connections) {
       const { outputs } = connection;
       if (!connection.started || !outputs || cycles % connection.every !== 0) continue;
+      connection.stuck = connection.stream.waiting > MOST_WAITING ? connection.stuck + connection.every : 0;
+      if (connection.stuck * this.options.cycle_s > GONE_S) { this.reset(connection, `a client has not read for ${GONE_S} s.`); continue; }
       packData(outputs, memory.slots, connection.buffer, connection.view);
       outbox.send(connection.stream, connection.buffer, true);
       if (outbox.faults.dropAfter > 0 && ++connection.sent >= outbox.faults.dropAfter) { connection.stream.close(); this.forget(connection); }

@@ -8,7 +8,8 @@ type Wanted =
 
 /**
  * Motion whose target changes while it moves: what servoj, speedj, speedl and their stops ask for. Every joint keeps its speed
- * and acceleration and stops in front of its limit; a tool's motion that a joint cannot follow is slowed as a whole.
+ * and acceleration and stops in front of its limit. A tool's motion begins from rest; where a joint cannot follow its speed it is
+ * slowed as a whole, and where no posture follows it the joints come to rest.
  */
 export class Stream {
   private readonly robot: Robot;
@@ -18,6 +19,7 @@ export class Stream {
   readonly qd: Float64Array;
   /** Speed and turning rate of the tool in the robot's base [m/s, rad/s]. */
   private readonly twist = new Float64Array(6);
+  private toolMoves = false;
   private wanted: Wanted = { kind: "rest", deceleration: 4 };
   tool: Pose<"flange", "tcp"> = identity();
 
@@ -36,7 +38,7 @@ export class Stream {
   speed(qd_rad_s: ArrayLike<number>, acceleration: number): void { this.wanted = { kind: "speed", qd_rad_s: Float64Array.from(qd_rad_s), acceleration }; }
   /** @param twist  of the tool in the robot's base. */
   moveTool(twist: ArrayLike<number>, acceleration: number): void {
-    if (this.wanted.kind !== "tool") this.twist.fill(0);
+    if (this.wanted.kind !== "tool") { this.twist.fill(0); this.toolMoves = false; }
     this.wanted = { kind: "tool", twist: Float64Array.from(twist), acceleration };
   }
   /** Whether the wanted speed is there, where one is wanted. */
@@ -51,7 +53,8 @@ export class Stream {
   advance(q: Float64Array): Float64Array | null {
     if (this.isAtRest) return null;
     const { dt_s, robot, next, qd } = this, joints = robot.arm.joints;
-    if (this.wanted.kind === "tool" && this.followTool(q, this.wanted)) return next;
+    this.toolMoves ||= this.wanted.kind === "tool" && qd.every(speed => speed === 0);
+    if (this.wanted.kind === "tool" && this.toolMoves && this.followTool(q, this.wanted)) return next;
     const { wanted } = this;
     for (let i = 0; i < joints.length; i++) {
       const { limits } = joints[i]!, most = limits.acceleration_rad_s2;
@@ -62,7 +65,8 @@ export class Stream {
         speed = Math.sign(error) * Math.min(direct, stoppable);
       } else if (wanted.kind === "speed") { speed = wanted.qd_rad_s[i]!; acceleration = Math.min(most, wanted.acceleration); }
       else if (wanted.kind === "rest") acceleration = Math.min(most, wanted.deceleration);
-      const room = Math.max(0, speed > 0 ? limits.upper_rad - q[i]! : q[i]! - limits.lower_rad), stoppable = Math.sqrt(2 * most * room);
+      // v²/2a + v·dt ≤ room: the cycle under way is driven as well.
+      const room = Math.max(0, speed > 0 ? limits.upper_rad - q[i]! : q[i]! - limits.lower_rad), step = most * dt_s, stoppable = Math.sqrt(step * step + 2 * most * room) - step;
       speed = Math.sign(speed) * Math.min(Math.abs(speed), limits.speed_rad_s, stoppable);
       const change = acceleration * dt_s;
       qd[i] = qd[i]! + Math.max(-change, Math.min(change, speed - qd[i]!));

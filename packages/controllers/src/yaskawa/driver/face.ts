@@ -124,7 +124,8 @@ export function yaskawaFace(options: YaskawaFaceOptions): YaskawaFace {
     if (model !== "" && !plain(model).includes(plain(wanted))) return { why: otherModel(robot, wanted, model), again: false };
     const names = await ask(client, COMMAND.axisNames, 1, OPEN_PATIENCE_S);
     if (names.kind === "silent") return { why: noWay(to, names), again: true };
-    const axes = isWell(names) ? Array.from({ length: 8 }, (_, i) => textAt(names.reply.data, 4 * i, 4).trim()).filter(name => name !== "").length : 0;
+    // Eight names, or seven of an older controller, of four letters each; an answer of another size names none.
+    const axes = isWell(names) && names.reply.data.length <= 32 ? Array.from({ length: 8 }, (_, i) => textAt(names.reply.data, 4 * i, 4).trim()).filter(name => name !== "").length : 0;
     if (axes !== 0 && axes !== n) return { why: otherAxes(robot, model || "robot", axes), again: false };
     const first = await poll(client);
     return first ? { why: first, again: true } : null;

@@ -1,6 +1,6 @@
 import type { CommandOutcome, Refusal, Robot, Scheduler } from "@twincell/core";
 import type { FaceMotion } from "../../real/index.ts";
-import { COMMAND, ON, SERVICE, word, type PulseScale } from "../codec/index.ts";
+import { ADDED, COMMAND, ON, SERVICE, word, type PulseScale } from "../codec/index.ts";
 import type { Client, Question } from "./client.ts";
 import { cancelError, holdOff, holdOn, resetAlarm, sayHold, saySevered, servoOff, servoOn } from "./holds.ts";
 import { commandOf, endOf } from "./motion.ts";
@@ -10,6 +10,8 @@ import { endedEarly, jobPace, linkClosed, neverOn, noArc, noSoftness, notTaken, 
 /** An order that must not be carried out twice is said once, and looked after before it is said again [s]. */
 const ONCE_S = [0.3];
 const MOST_TRIES = 3;
+/** Refusals that pass by themselves, as just after a stop: busy, still moving. Nothing was carried out, so it is said again, so often. */
+const PASSING: readonly number[] = [ADDED.moving, ADDED.busy, 0xD8F1, 0xD8FA], MOST_PASSING = 20;
 /** From the acceptance of a motion until it must be seen running [s]; the drives may take so long to come on. */
 const START_S = 0.3, SERVO_S = 5;
 /** A robot that is not where it should end is looked at twice: states may be damaged on their way. */
@@ -173,7 +175,7 @@ export class Hand {
     const { client, options: { robot, scale, state, scheduler } } = this, command = going.motion ? commandOf(going.motion, robot, scale, this.override) : START;
     if (!client || !command) return;
     going.phase = "asking";
-    for (let tries = 1; ; tries++) {
+    for (let tries = 1, passed = 0; ; tries++) {
       const answer = await client.ask({ ...command, patience_s: ONCE_S });
       if (this.going !== going || this.client !== client) return;
       const isTaken = answer.kind === "answer" && answer.reply.status === 0;
@@ -189,6 +191,11 @@ export class Hand {
       // A hold of ours was quicker: it is told again when the hold is let go.
       if (this.hold) { going.phase = "waiting"; return; }
       if (answer.kind === "silent" && tries < MOST_TRIES) continue;
+      if (answer.kind === "answer" && PASSING.includes(answer.reply.added) && passed++ < MOST_PASSING) {
+        await this.nextLook();
+        if (this.going !== going || this.client !== client) return;
+        continue;
+      }
       this.end({ kind: going.accepted ? "stopped" : "refused", why: notTaken(going.motion ? "The motion" : "Starting the job", answer) });
       return;
     }

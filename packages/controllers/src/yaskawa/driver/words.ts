@@ -43,7 +43,9 @@ export function standsBecause(status: Status): string | undefined {
   if (status.heldOutside) return "An external signal holds the robot.";
   if (status.heldByPendant) return "The teach pendant holds the robot.";
   if (status.heldByCommand) return "A command holds the robot.";
-  return status.servo ? undefined : "The servo power is off.";
+  if (!status.servo) return "The servo power is off.";
+  if (status.teach) return "The key switch was turned to TEACH.";
+  return status.remote ? undefined : "The controller is not in remote mode any more.";
 }
 export const stands = (robot: Robot, because: string): Refusal => refusal("yaskawa.stands", `${robot.name} stopped. ${because}`, "Clear the cause, reset the robot, then command the move again.");
 export const noSoftness = (robot: Robot): Refusal => refusal("yaskawa.acceleration", `${robot.name} cannot be told an acceleration by a command of its Ethernet server.`, "Run the program as a job: INFORM has ACC= and DEC=.");

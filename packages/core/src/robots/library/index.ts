@@ -1,12 +1,15 @@
 import type { Robot } from "../robot.ts";
 import { abbCrb15000 } from "./abb-crb15000.ts";
 import { abbIrb120 } from "./abb-irb120.ts";
+import { densoVs060 } from "./denso-vs060.ts";
+import { epsonC4A601s } from "./epson-c4-a601s.ts";
 import { fanucLrmate200id } from "./fanuc-lrmate200id.ts";
 import { kawasakiRs007l } from "./kawasaki-rs007l.ts";
 import { kukaKr6R900 } from "./kuka-kr6-r900.ts";
 import { kukaKr6p2 } from "./kuka-kr6-2.ts";
 import { kukaLbrIiwa14 } from "./kuka-lbr-iiwa14.ts";
 import { lolaRl15 } from "./lola-rl15.ts";
+import { mitsubishiRv7fl } from "./mitsubishi-rv7fl.ts";
 import { staubliRx160 } from "./staubli-rx160.ts";
 import { staubliRx90l } from "./staubli-rx90l.ts";
 import { ur10e } from "./ur10e.ts";
@@ -14,7 +17,7 @@ import { yaskawaGp8 } from "./yaskawa-gp8.ts";
 
 /** Every robot of the library. A new robot is one data file and one line here. */
 export const LIBRARY: readonly Robot[] = [
-  staubliRx90l, staubliRx160, yaskawaGp8, kukaKr6R900, kukaKr6p2, kukaLbrIiwa14, abbIrb120, abbCrb15000, fanucLrmate200id, ur10e, kawasakiRs007l, lolaRl15,
+  staubliRx90l, staubliRx160, yaskawaGp8, kukaKr6R900, kukaKr6p2, kukaLbrIiwa14, abbIrb120, abbCrb15000, fanucLrmate200id, ur10e, kawasakiRs007l, mitsubishiRv7fl, densoVs060, epsonC4A601s, lolaRl15,
 ];
 
 /** The robot of that id, or undefined. */

@@ -26,7 +26,7 @@ export const REMARK = "\u0002", MESSAGE = "\u0001";
 
 const SECTION = /^\s*\/(PROG|ATTR|APPL|MN|POS|END)\b\s*(.*)$/i;
 const NUMBERED = /^\s*[0-9]*\s*:/;
-const LABEL = /(\[\s*(?:[A-Za-z]+\[[0-9]+\]|[0-9]+))\s*:([^\]]*)(?=\])/g;
+const LABEL = /(\[\s*(?:[A-Za-z]+\[[0-9]+\]|[0-9]+)(?:\s*,\s*[0-9]+)?)\s*:([^\]]*)(?=\])/g;
 const blank = (text: string): string => " ".repeat(text.length);
 
 /**
@@ -46,7 +46,7 @@ export function readListings(text: string, label: (word: string, number: number,
       if (record !== undefined) throw new TextError(place, "};", "The position is not closed.");
       if (next === "PROG") {
         if (section !== "") throw new TextError(place, "/END", "A program begins inside another.");
-        const found = /^([A-Za-z_][A-Za-z0-9_-]*)/.exec(rest)?.[1];
+        const found = /^([A-Za-z_-][A-Za-z0-9_-]*)/.exec(rest)?.[1];
         if (found === undefined) throw new TextError(place, "the name of the program", "The program has no name.");
         name = found; comment = ""; code = []; positions = new Map(); from = i; opened = place;
       } else if (section === "") throw new TextError(place, "/PROG", `/${next} stands outside a program.`);

@@ -31,6 +31,8 @@ class StatementReader {
   private readonly actions = new Map<Statement, Action>();
   private readonly faults: TextFault[] = [];
   private depth = 0;
+  /** The line of the statement has been left already. */
+  private isOver = false;
 
   constructor(code: string) { this.cursor = new TokenCursor(code, LEXICON, word => word.toLowerCase()); }
 
@@ -68,7 +70,8 @@ class StatementReader {
       if (cursor.isAt("line-end")) continue;
       const statement = this.guard(() => {
         const read = this.statement();
-        if (!cursor.isAt("line-end") && !cursor.done) throw cursor.unexpected("the end of the line");
+        if (!cursor.isAt("line-end") && !cursor.done && !this.isOver) throw cursor.unexpected("the end of the line");
+        this.isOver = false;
         return read;
       });
       if (statement !== undefined) statements.push(statement);
@@ -123,6 +126,7 @@ class StatementReader {
         return this.act({ kind: "offset-condition", register: this.indexed() }, at);
       }
       case "if": return this.decision(at);
+      case "select": return this.selection(at);
       case "for": return this.counting(at);
       case "lbl": {
         const number = this.indexed();
@@ -201,6 +205,26 @@ class StatementReader {
     const body = this.block(["endif", "else"], at), otherwise = cursor.accept("else") ? this.block(["endif"], at) : undefined;
     cursor.expect("endif");
     return { kind: "if", branches: [{ when, body }], ...(otherwise === undefined ? {} : { otherwise }), ...at };
+  }
+
+  /** SELECT R[1]=1,JMP LBL[1] and on the lines below it =2,CALL PICK and ELSE,JMP LBL[9]: a chain of comparisons. */
+  private selection(at: TextPlace): Statement {
+    const { cursor } = this, first = this.value(), branches: { when: Expression; body: Block }[] = [];
+    if (first.kind !== "binary" || first.sign !== "=") throw new TextError(at, "R[n]=value", "SELECT compares a register with a value.");
+    const branch = (when: Expression): void => { cursor.expect(","); branches.push({ when, body: [this.statement()] }); };
+    branch(first);
+    let otherwise: Block | undefined;
+    for (;;) {
+      const below: string = cursor.isAt("line-end") ? cursor.second : "";
+      if (below !== "=" && below !== "else") break;
+      cursor.advance();
+      if (cursor.accept("=")) { branch({ ...first, right: this.value() }); continue; }
+      // The ELSE of an IF around it stands alone in its line.
+      this.isOver = true;
+      if (cursor.second === ",") { this.isOver = false; cursor.advance(); cursor.advance(); otherwise = [this.statement()]; }
+      break;
+    }
+    return { kind: "if", branches, ...(otherwise === undefined ? {} : { otherwise }), ...at };
   }
 
   private counting(at: TextPlace): Statement {

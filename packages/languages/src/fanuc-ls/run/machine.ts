@@ -1,11 +1,12 @@
-import type { Condition, Executed, MoveStep, Pose, Robot, SignalLine, Signals, Speed, Step, Target, TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import type { Condition, Executed, MoveStep, Pose, Robot, SignalLine, Signals, Step, Target, TextPlace } from "@twincell/core";
+import { TextError, nameIn } from "../../text/index.ts";
 import { BlockMachine, type Block, type Do, type Expression, type Flow, type Statement, type WaitUntil } from "../../text/structured/index.ts";
 import type { Action, Motion, Point } from "../read/actions.ts";
 import type { PositionRecord } from "../read/listing.ts";
 import type { Source } from "../read/source.ts";
 import { ControllerArm } from "./arm.ts";
 import { NOTHING, fromSix, inverted, times, toPose, toSix, type Matrix } from "./matrix.ts";
+import { keep, speedOf } from "./pace.ts";
 import { asNumber, binary, isSix, type Value } from "./values.ts";
 
 /** What the steps of a run refer to; filled while it goes on. */
@@ -314,7 +315,7 @@ export class Machine extends BlockMachine<Value> {
 
   private motion(motion: Motion, at: Do, id: string): MoveStep {
     const { path, goal, via, cnt, acceleration, offset } = motion, shifted = this.shift(offset, at);
-    const speed = this.speed(motion, at), ratio = acceleration === undefined ? 1 : Math.min(1, this.numberOf(acceleration) / 100), share = cnt === undefined ? 0 : this.numberOf(cnt) / 100;
+    const speed = speedOf(this.numberOf(motion.speed), motion, at), ratio = acceleration === undefined ? 1 : Math.min(1, this.numberOf(acceleration) / 100), share = cnt === undefined ? 0 : this.numberOf(cnt) / 100;
     if (!(share >= 0 && share <= 1)) throw new TextError(at, "CNT0 … CNT100", `CNT${share * 100} is no share of 100.`);
     const passing = via === undefined ? {} : { via: this.target(via, shifted, "on-the-way", at) };
     const common = { id, type: "move", speed, ...(ratio < 1 ? { acceleration: { ratio } } : {}), blend_m: 0, ...(share > 0 ? { blend_ratio: share } : {}) } as const;
@@ -328,20 +329,6 @@ export class Machine extends BlockMachine<Value> {
     if (when === undefined) throw new TextError(at, "SKIP CONDITION of one line before it", "The search has no condition of one line.");
     if (fate === "elsewhere" || fate === undefined) throw new TextError(at, "a label in the next line, or one before ABORT", "A search that goes on elsewhere is not executed here.");
     return { until: { when, missing: fate === "abort" ? "fault" : "continue" } };
-  }
-
-  private speed({ speed, unit, path }: Motion, at: TextPlace): Speed {
-    const value = this.numberOf(speed);
-    if (!(value > 0)) throw new TextError(at, "a speed above 0", `The speed is ${value} ${unit}.`);
-    switch (unit) {
-      case "%": if (value > 100) throw new TextError(at, "1 % … 100 %", `The speed is ${value} %.`); return { ratio: value / 100 };
-      case "mm/sec": return { mps: value / 1000 };
-      case "cm/min": return { mps: value / 6000 };
-      case "inch/min": return { mps: value * 0.0254 / 60 };
-      case "sec": case "msec":
-        if (path === "C") throw new TextError(at, "a speed", "An arc with a duration is not executed here.");
-        return { time_s: unit === "sec" ? value : value / 1000 };
-    }
   }
 
   /** How far the positions of a motion are shifted along the axes of the frame in use, and by which register. */
@@ -381,20 +368,10 @@ export class Machine extends BlockMachine<Value> {
   }
 
   private toolName(tool: Setup): string {
-    return tool.name === "flange" ? "flange" : this.named(this.surroundings.tools, toPose<"flange", "tcp">(tool.matrix), tool.name);
+    return tool.name === "flange" ? "flange" : nameIn(this.surroundings.tools, toPose<"flange", "tcp">(tool.matrix), tool.name, " ");
   }
   private frameName(frame: Setup): string {
-    return frame.name === "world" ? "world" : this.named(this.surroundings.frames, this.arm.cell<"world", "frame">(frame.matrix), frame.name);
-  }
-
-  /** A thing met before keeps its name; two things never share one. */
-  private named<T>(table: Record<string, T>, value: T, wanted: string): string {
-    const text = JSON.stringify(value);
-    for (let i = 1; ; i++) {
-      const name = i === 1 ? wanted : `${wanted} ${i}`, known = Object.hasOwn(table, name) ? table[name] : undefined;
-      if (known === undefined) table[name] = value;
-      if (known === undefined || JSON.stringify(known) === text) return name;
-    }
+    return frame.name === "world" ? "world" : nameIn(this.surroundings.frames, this.arm.cell<"world", "frame">(frame.matrix), frame.name, " ");
   }
 
   // --- writing a program down -------------------------------------------------------------------------------------
@@ -419,9 +396,4 @@ export class Machine extends BlockMachine<Value> {
       this.uframe = uframe; this.utool = utool; this.timeout = timeout; this.skip = skip; this.offset = offset; this.jump = jump;
     };
   }
-}
-
-function keep<K, V>(map: Map<K, V>): () => void {
-  const kept = [...map];
-  return () => { map.clear(); for (const [key, value] of kept) map.set(key, value); };
 }

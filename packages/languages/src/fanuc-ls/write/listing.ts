@@ -1,6 +1,6 @@
 import type { EmittedFile } from "@twincell/core";
 import { asciiText } from "../../text/index.ts";
-import { CannotSay } from "../../writing/index.ts";
+import { TooLong } from "../../writing/index.ts";
 import { positionLines, type Position } from "./positions.ts";
 
 /** Lines have four places for their number. */
@@ -46,7 +46,7 @@ export class Listing {
   file(): EmittedFile {
     if (this.abort !== undefined) for (const line of ["END", `LBL[${this.abort}]`, "ABORT"]) this.add(line);
     const { statements, name } = this, last = statements.at(-1), texts: string[] = [], lines: string[] = [];
-    if (statements.length > MOST_LINES) throw new CannotSay(last!.step, `The program ${name} has ${statements.length} lines; a listing numbers ${MOST_LINES}.`, "Put parts of it into routines of their own.");
+    if (statements.length > MOST_LINES) throw new TooLong(last!.step, `The program ${name} has ${statements.length} lines; a listing numbers ${MOST_LINES}.`, "Put parts of it into routines of their own.");
     const put = (text: string, step = ""): void => { texts.push(`${text}\r\n`); lines.push(step); };
     put(`/PROG  ${name}`);
     for (const line of [

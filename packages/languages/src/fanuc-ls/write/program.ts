@@ -1,8 +1,8 @@
 import {
-  branchOf, compose, everyStep, inverse, palletPitch, pose, rotate, type Condition, type EmittedFile, type MoveStep, type Pallet, type PalletStep, type Pose, type SignalLine, type Step, type Target, type Vector3,
+  branchOf, compose, everyStep, inverse, pose, rotate, type Condition, type EmittedFile, type MoveStep, type PalletStep, type Pose, type SignalLine, type Step, type Target, type Vector3,
 } from "@twincell/core";
 import { asciiText } from "../../text/index.ts";
-import { CannotSay, Names, called, fixed, remark, type Place } from "../../writing/index.ts";
+import { CannotSay, Names, StepWriter, called, fixed, patternOf, pitchTerm, type Place } from "../../writing/index.ts";
 import { GRIPPER_OUTPUT, type PendantConvention } from "../robots.ts";
 import { Listing } from "./listing.ts";
 import { configOf, pendantJoints, xyzwpr, type Position } from "./positions.ts";
@@ -10,15 +10,16 @@ import { Registers } from "./registers.ts";
 import { RESERVED, labelled } from "./words.ts";
 
 const NAME_LENGTH = 36, REMARK_LENGTH = 32, MESSAGE_LENGTH = 23, LONGEST_WAIT_S = 327.67;
+/** A pitch is added many times over: it is written to ten nanometres. */
+const fine = (length_m: number): string => fixed(length_m * 1000, 5);
 const SHORT: Readonly<Record<SignalLine["kind"], string>> = { "digital-in": "DI", "digital-out": "DO", "analogue-in": "AI", "analogue-out": "AO" };
 
 /** A pallet being visited: its first place in the frame in use, and the register that holds how far off the present one is. */
 interface Visit { readonly first: Pose<"frame", "place">; readonly frame: string; readonly offset: string }
 
 /** Writes the programs; each says what changes from one step to the next, and everything anew where it may be entered another way. */
-export class ProgramWriter {
+export class ProgramWriter extends StepWriter {
   readonly warnings = new Set<string>();
-  private readonly place: Place;
   private readonly convention: PendantConvention;
   private readonly fastest_mmps: number;
   private readonly names = new Names({ most: NAME_LENGTH, reserved: RESERVED, first: "P_", foldsCase: true });
@@ -27,15 +28,11 @@ export class ProgramWriter {
   private out = new Listing("", "");
   private tool: number | undefined;
   private frame: number | undefined;
-  private group = "";
-  private near: readonly number[] | undefined;
-  private before: MoveStep | undefined;
 
   constructor(place: Place, convention: PendantConvention, fastest_mmps: number) {
-    this.place = place;
+    super(place);
     this.convention = convention;
     this.fastest_mmps = fastest_mmps;
-    this.near = place.robot.home_rad;
     this.registers = new Registers(place);
   }
 
@@ -59,33 +56,15 @@ export class ProgramWriter {
     return listing;
   }
 
-  /** What is said at one place holds nowhere else. */
-  private begin(): void {
+  protected override begin(): void {
+    super.begin();
     this.tool = undefined;
     this.frame = undefined;
-    this.before = undefined;
   }
 
-  private steps(steps: readonly Step[]): void {
-    const outer = this.group;
-    for (const [i, step] of steps.entries()) {
-      this.heading(step);
-      this.step(step, steps.slice(i + 1).find(({ type }) => type !== "comment"));
-      if (step.type !== "comment" && step.type !== "wait") this.before = step.type === "move" ? step : undefined;
-    }
-    this.group = outer;
-  }
+  protected remark(text: string, step: string): void { this.out.add(`!${text.trimStart()}`.slice(0, REMARK_LENGTH + 1).trimEnd(), step); }
 
-  private heading(step: Step): void {
-    const { groups } = this.place.program, add = (line: string): void => { this.out.add(line.slice(0, REMARK_LENGTH + 1).trimEnd(), step.id); };
-    const group = step.group === undefined ? "" : remark(groups[step.group]?.name ?? step.group);
-    if (group !== this.group) add(`!== ${group}`);
-    this.group = group;
-    const name = remark(step.name ?? "");
-    if (name !== "" && step.type !== "comment") add(`!${name}`);
-  }
-
-  private step(step: Step, next: Step | undefined): void {
+  protected step(step: Step, next: Step | undefined): void {
     const add = (line: string): void => { this.out.add(line, step.id); };
     switch (step.type) {
       case "move": return this.move(step, next);
@@ -131,41 +110,30 @@ export class ProgramWriter {
 
   /** Loops over layers, lines and places: the present place is worked out, and its distance from the first shifts the taught points. */
   private pallet(step: PalletStep, add: (line: string) => void): void {
-    const { program: { pallets }, baseFromWorld, robot } = this.place, { registers } = this, pallet = Object.hasOwn(pallets, step.pallet) ? pallets[step.pallet] : undefined;
-    if (pallet === undefined) throw new CannotSay(step.id, `${called(step)} works on the pallet ${step.pallet}, which the program does not have.`, "Choose another pallet.");
-    const order = pallet.order ?? "rows", byRows = order.startsWith("rows"), isShifted = pallet.interleave === "odd-rows-shifted";
-    if (isShifted && !byRows) throw new CannotSay(step.id, `${called(step)} visits the interleaved pallet ${step.pallet} by columns, which no plain loop does.`, "Visit it by rows.");
+    const { program, baseFromWorld, robot } = this.place, { registers } = this, { pallet, lines, inLine, isShifted, isZigzag, ...pitch } = patternOf(step, program);
     const vendorFromFrame: Pose<"frame", "frame"> = pallet.frame === "world" ? compose(compose(pose<"frame", "base">(), compose(inverse(robot.baseFromVendorWorld as Pose as Pose<"base", "base">), baseFromWorld)), pose<"world", "frame">()) : pose();
-    const first = compose(vendorFromFrame, pallet.origin), seen = (v: Vector3): Vector3 => rotate(vendorFromFrame.quaternion, v);
+    const first = compose(vendorFromFrame, pallet.origin), [along_m, away_m, up_m] = [pitch.along_m, pitch.away_m, pitch.up_m].map(v => rotate(vendorFromFrame.quaternion, v)) as [Vector3, Vector3, Vector3];
     const origin = registers.position(`${step.pallet} 1`), present = registers.position(`${step.pallet} now`), offset = registers.position(step.pallet);
     const [layer, line, along, at, last] = ["layer", "line", "along", "at", "last"].map(word => registers.number(word)) as [string, string, string, string, string];
     this.useFrame(registers.frameNumber(pallet.frame, step), step.id);
     for (const own of [origin, present]) for (const each of registers.values(own, xyzwpr(first))) add(each);
-    const lines = byRows ? pallet.rows : pallet.columns, inLine = byRows ? pallet.columns : pallet.rows;
     add(`FOR ${layer}=0 TO ${pallet.layers - 1}`);
     add(`FOR ${line}=0 TO ${lines - 1}`);
     add(isShifted ? `${last}=(${inLine - 1}-${line} MOD 2)` : `${last}=${inLine - 1}`);
     add(`FOR ${along}=0 TO ${last}`);
     add(`${at}=${along}`);
-    if (order.endsWith("zigzag")) for (const each of [`IF (${line} MOD 2=1) THEN`, `${at}=(${last}-${along})`, "ENDIF"]) add(each);
-    for (const each of this.placeLines(pallet, present, xyzwpr(first), seen, [layer, line, at], byRows, isShifted)) add(each);
+    if (isZigzag) for (const each of [`IF (${line} MOD 2=1) THEN`, `${at}=(${last}-${along})`, "ENDIF"]) add(each);
+    for (const [i, text] of xyzwpr(first).slice(0, 3).entries()) {
+      // Packed rows count in half pitches, so that both are the same number.
+      const inLine = isShifted ? pitchTerm(along_m[i]! / 2, `(2*${at}+${line} MOD 2)`, fine) : pitchTerm(along_m[i]!, at, fine);
+      add(`${element(present, i + 1)}=(${text}${inLine}${pitchTerm(away_m[i]!, line, fine)}${pitchTerm(up_m[i]!, layer, fine)})`);
+    }
     add(`${offset}=${present}-${origin}`);
     this.visits.set(step.pallet, { first, frame: pallet.frame, offset });
     this.block(step.steps);
     this.visits.delete(step.pallet);
     for (let i = 0; i < 3; i++) add("ENDFOR");
     this.begin();
-  }
-
-  private placeLines(pallet: Pallet, present: string, first: readonly string[], seen: (v: Vector3) => Vector3, [layer, line, at]: readonly [string, string, string], byRows: boolean, isShifted: boolean): string[] {
-    const pitch = palletPitch(pallet), along = seen(byRows ? pitch.column : pitch.row), away = seen(byRows ? pitch.row : pitch.column), up = seen(pallet.layers > 1 ? pitch.layer : [0, 0, 0]);
-    const fine = (pitch_m: number): string => fixed(pitch_m * 1000, 5);
-    const term = (pitch_m: number, factor: string): string => fine(pitch_m) === "0" ? "" : `${pitch_m < 0 ? "-" : "+"}${fine(Math.abs(pitch_m))}*${factor}`;
-    return ([0, 1, 2] as const).map(i => {
-      // Packed rows count in half pitches, so that both are the same number.
-      const inLine = isShifted ? term(along[i] / 2, `(2*${at}+${line} MOD 2)`) : term(along[i], at);
-      return `${element(present, i + 1)}=(${first[i]!}${inLine}${term(away[i], line)}${term(up[i], layer)})`;
-    });
   }
 
   // --- lines ------------------------------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 import { compose, type EmittedFile, type Pose } from "@twincell/core";
 import { rectanText } from "./location.ts";
 import { titleText } from "./names.ts";
-import type { Place } from "./postures.ts";
+import type { WalkedPlace } from "../../writing/index.ts";
 import { TextWriter } from "./text-writer.ts";
 
 /** Tools 0 … 63 and user frames 1 … 63; variables of a kind 0 … 99. */
@@ -11,12 +11,12 @@ const LAST_FRAME = 63, LAST_VARIABLE = 99;
 export class Controller {
   /** Numbers that ran out. */
   readonly spent = new Set<string>();
-  private readonly place: Place;
+  private readonly place: WalkedPlace;
   private readonly tools = new Map<string, number>([["flange", 0]]);
   private readonly users = new Map<string, number>();
   private readonly used: Record<"I" | "D" | "P", number> = { I: 0, D: 0, P: 0 };
 
-  constructor(place: Place) { this.place = place; }
+  constructor(place: WalkedPlace) { this.place = place; }
 
   tool(name: string): number { return this.numbered(this.tools, name, this.tools.size, "tools"); }
   user(name: string): number { return this.numbered(this.users, name, this.users.size + 1, "user frames"); }

@@ -5,7 +5,8 @@ import { fixed } from "./location.ts";
 import { commentText, titleText } from "./names.ts";
 import { PalletLoop } from "./pallet.ts";
 import { Points, type Arrival } from "./points.ts";
-import type { Place, PostureMap } from "./postures.ts";
+import type { WalkedPlace } from "../../writing/index.ts";
+import type { PostureMap } from "./postures.ts";
 import { accelerationText, cornerText, speedText } from "./speed.ts";
 import { TextWriter } from "./text-writer.ts";
 
@@ -13,7 +14,7 @@ import { TextWriter } from "./text-writer.ts";
 const DATE = "2000/01/01 00:00";
 
 export interface JobSetting {
-  readonly place: Place;
+  readonly place: WalkedPlace;
   readonly controller: Controller;
   readonly convention: AxisConvention;
   readonly pulses: PulseData | undefined;
@@ -69,7 +70,7 @@ export class JobWriter {
   private steps(steps: readonly Step[], after: Step | undefined): void {
     for (const [i, step] of steps.entries()) {
       const next = steps.slice(i + 1).find(({ type }) => type !== "comment") ?? after;
-      this.step(step, next, steps[i - 1]);
+      this.step(step, next, steps.slice(0, i).findLast(({ type }) => type !== "comment"));
     }
   }
 

@@ -2,7 +2,7 @@ import { compose, inverse, type MoveStep, type Pose, type Robot, type Target } f
 import type { AxisConvention, PulseData } from "../robots.ts";
 import type { Controller } from "./controller.ts";
 import { axisValues, pulseText, rconfText, rectanPose, rectanText } from "./location.ts";
-import type { Place } from "./postures.ts";
+import type { WalkedPlace } from "../../writing/index.ts";
 import { TextWriter } from "./text-writer.ts";
 
 /** Where the robot is after a motion, as the text says it: what arcs and curves begin with once more. */
@@ -16,7 +16,7 @@ export interface Arrival {
 export class Points {
   readonly out = new TextWriter();
   count = 0;
-  private readonly place: Place;
+  private readonly place: WalkedPlace;
   private readonly controller: Controller;
   private readonly convention: AxisConvention;
   private readonly pulses: PulseData | undefined;
@@ -26,7 +26,7 @@ export class Points {
   private type = "";
   private rconf = "";
 
-  constructor(place: Place, controller: Controller, convention: AxisConvention, pulses: PulseData | undefined) {
+  constructor(place: WalkedPlace, controller: Controller, convention: AxisConvention, pulses: PulseData | undefined) {
     this.place = place;
     this.robot = place.robot;
     this.controller = controller;

@@ -1,5 +1,5 @@
 import type { Condition, Executed, MoveStep, Pose, Robot, Signals, Speed, Step, Target, TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError, nameIn } from "../../text/index.ts";
 import { BlockMachine, type Do, type Expression, type Flow, type WaitUntil } from "../../text/structured/index.ts";
 import type { Source } from "../read/grammar.ts";
 import { MOTIONS, SPEED_UNITS } from "../read/words.ts";
@@ -262,14 +262,14 @@ export class Machine extends BlockMachine<Value> {
     this.arm.tool = asPlace(this.evaluate(of), of).at;
     this.hasTool = true;
     const isNull = (of.kind === "variable" && of.name === "null") || this.arm.tool === NULL;
-    this.tool = isNull ? "flange" : named(this.surroundings.tools, toPose(this.arm.tool), of.kind === "variable" ? of.name : "tool");
+    this.tool = isNull ? "flange" : nameIn(this.surroundings.tools, toPose(this.arm.tool), of.kind === "variable" ? of.name : "tool", "_");
   }
 
   private setBase(of: Expression | undefined, at: TextPlace): void {
     if (of === undefined) throw new TextError(at, "a transformation", "BASE is said without a transformation.");
     const base = asPlace(this.evaluate(of), of).at, name = of.kind === "variable" ? of.name : "base";
     this.arm.base = NULL;
-    this.baseName = base === NULL ? undefined : named(this.surroundings.frames, this.arm.inWorld(base), name);
+    this.baseName = base === NULL ? undefined : nameIn(this.surroundings.frames, this.arm.inWorld(base), name, "_");
     this.arm.base = base;
   }
 
@@ -342,14 +342,4 @@ export class Machine extends BlockMachine<Value> {
 function atLeast0(value: number, at: TextPlace): number {
   if (value >= 0) return value;
   throw new TextError(at, "a value of 0 or more", `The value is ${value}.`);
-}
-
-/** A place met before keeps its name; two never share one. */
-function named<T>(table: Record<string, T>, value: T, wanted: string): string {
-  const text = JSON.stringify(value);
-  for (let i = 1; ; i++) {
-    const name = i === 1 ? wanted : `${wanted}_${i}`, known = Object.hasOwn(table, name) ? table[name] : undefined;
-    if (known === undefined) table[name] = value;
-    if (known === undefined || JSON.stringify(known) === text) return name;
-  }
 }

@@ -1,8 +1,8 @@
 import {
-  branchOf, compose, identity, inverse, rotate, palletPitch, type Branch, type Condition, type EmittedFile, type MoveStep, type Pallet, type Pose, type Robot, type Step, type Target, type Vector3,
+  branchOf, compose, identity, inverse, rotate, type Branch, type Condition, type EmittedFile, type MoveStep, type Pose, type Robot, type Step, type Target,
 } from "@twincell/core";
 import { asciiText } from "../../text/index.ts";
-import { BlockWriter, CannotSay, Names, Place, called, remark } from "../../writing/index.ts";
+import { BlockStepWriter, CannotSay, Names, Place, called, patternOf, pitchTerm, type Pattern } from "../../writing/index.ts";
 import { LINES, type Spoken } from "../robots.ts";
 import { jointsText, mm, num, oatText, transText } from "./pose.ts";
 import { RESERVED } from "./reserved.ts";
@@ -12,26 +12,20 @@ import { usedNames } from "./used.ts";
 const LONGEST_NAME = 15;
 
 /** The file: one program and those that it calls; says only what changes from one step to the next. */
-export class ProgramWriter {
-  private readonly place: Place;
+export class ProgramWriter extends BlockStepWriter {
   private readonly robot: Robot;
   private readonly spoken: Spoken;
-  private readonly out = new BlockWriter();
   private readonly names = new Names({ most: LONGEST_NAME - 1, reserved: RESERVED, first: "p_", foldsCase: true });
   private readonly saysAcceleration: boolean;
   private tool = "";
   private speed = "";
   private accuracy = "";
   private acceleration = "";
-  private group = "";
-  private near: readonly number[] | undefined;
-  private before: MoveStep | undefined;
 
   constructor(place: Place, spoken: Spoken) {
-    this.place = place;
+    super(place);
     this.robot = place.robot;
     this.spoken = spoken;
-    this.near = place.robot.home_rad;
     this.saysAcceleration = usedNames(place.program).accelerates;
   }
 
@@ -69,35 +63,17 @@ export class ProgramWriter {
 
   private inBase<From extends string>(pose: Pose<"world", From>): string { return transText(compose(this.place.baseFromWorld, pose)); }
 
-  /** What is said at one place holds nowhere else: routines and blocks say it anew. */
-  private begin(): void {
+  protected override begin(): void {
+    super.begin();
     this.tool = "";
     this.speed = "";
     this.accuracy = "";
     this.acceleration = "";
-    this.before = undefined;
   }
 
-  private steps(steps: readonly Step[]): void {
-    const outer = this.group;
-    for (const [i, step] of steps.entries()) {
-      this.heading(step);
-      this.step(step, steps[i + 1]);
-      if (step.type !== "comment" && step.type !== "wait") this.before = step.type === "move" ? step : undefined;
-    }
-    this.group = outer;
-  }
+  protected remark(text: string, step: string): void { this.out.add(`;${text}`, step); }
 
-  private heading(step: Step): void {
-    const { groups } = this.place.program, add = (line: string): void => { this.out.add(line.trimEnd(), step.id); };
-    const group = step.group === undefined ? "" : remark(groups[step.group]?.name ?? step.group);
-    if (group !== this.group) add(`;== ${group}`);
-    this.group = group;
-    const name = remark(step.name ?? "");
-    if (name !== "" && step.type !== "comment") add(`; ${name}`);
-  }
-
-  private step(step: Step, next: Step | undefined): void {
+  protected step(step: Step, next: Step | undefined): void {
     const add = (line: string): void => { this.out.add(line, step.id); };
     switch (step.type) {
       case "move": return this.move(step, next, add);
@@ -111,7 +87,7 @@ export class ProgramWriter {
       case "comment": return add(`;- ${asciiText(step.text)}`.trimEnd());
       case "call": add(`CALL ${this.named("routine", step.routine)}`); return this.begin();
       case "repeat": return this.repeat(step);
-      case "if": return this.decision(step);
+      case "if": return this.choice(step, `IF SIG(${this.line(step.when, step)}) THEN`, "ELSE", "END");
       case "pallet": return this.pallet(step);
     }
   }
@@ -123,41 +99,24 @@ export class ProgramWriter {
   }
 
   private repeat(step: Extract<Step, { type: "repeat" }>): void {
-    const inside = (): void => { this.begin(); this.steps(step.steps); };
-    if (step.times === "forever") this.out.block("WHILE TRUE DO", "END", step.id, inside);
-    else this.out.block(`FOR .${this.names.fresh("count")} = 1 TO ${step.times}`, "END", step.id, inside);
-    this.begin();
-  }
-
-  private decision(step: Extract<Step, { type: "if" }>): void {
-    const { out } = this, inside = (steps: readonly Step[]) => (): void => { this.begin(); this.steps(steps); };
-    out.add(`IF SIG(${this.line(step.when, step)}) THEN`, step.id);
-    out.indented(inside(step.then));
-    if (step.else !== undefined) {
-      out.add("ELSE", step.id);
-      out.indented(inside(step.else));
-    }
-    out.add("END", step.id);
-    this.begin();
+    this.loop(step.times === "forever" ? "WHILE TRUE DO" : `FOR .${this.names.fresh("count")} = 1 TO ${step.times}`, "END", step);
   }
 
   /** A loop over layers, lines and places; the place is a location that changes with them. */
   private pallet(step: Extract<Step, { type: "pallet" }>): void {
-    const { program } = this.place, pallet = Object.hasOwn(program.pallets, step.pallet) ? program.pallets[step.pallet] : undefined;
-    if (pallet === undefined) throw new CannotSay(step.id, `${called(step)} works on the pallet ${step.pallet}, which the program does not have.`, "Choose another pallet.");
-    const order = pallet.order ?? "rows", byRows = order.startsWith("rows"), isShifted = pallet.interleave === "odd-rows-shifted" && pallet.rows > 1;
-    if (isShifted && !byRows) throw new CannotSay(step.id, `${called(step)} visits the interleaved pallet ${step.pallet} by columns, which no plain loop does.`, "Visit it by rows.");
+    const { baseFromWorld, program } = this.place;
+    // A pallet of the world is counted in the base of the robot, which turns its pitches.
+    const pattern = patternOf(step, program, (v, { frame }) => frame === "world" ? rotate(baseFromWorld.quaternion, v) : v), { pallet, lines, inLine, isShifted } = pattern;
     const { out } = this, variable = this.named("frame", step.pallet), local = (name: string): string => `.${this.names.fresh(name)}`;
     const layer = local("layer"), line = local("line"), along = local("along"), at = local("at");
-    const lines = byRows ? pallet.rows : pallet.columns, inLine = byRows ? pallet.columns : pallet.rows;
     const loop = (name: string, last: string, inside: () => void): void => { out.block(`FOR ${name} = 0 TO ${last}`, "END", step.id, inside); };
     const last = isShifted ? `${inLine - 1}-${line} MOD 2` : `${inLine - 1}`;
     const visit = (): void => {
       out.add(`${at} = ${along}`, step.id);
-      if (order.endsWith("zigzag")) {
+      if (pattern.isZigzag) {
         out.block(`IF ${line} MOD 2 == 1 THEN`, "END", step.id, () => { out.add(`${at} = ${isShifted ? inLine - 2 : inLine - 1}-${along}`, step.id); });
       }
-      out.add(`POINT ${variable} = ${this.placeText(pallet, isShifted ? `(${at}+(${line} MOD 2)/2)` : at, line, layer)}`, step.id);
+      out.add(`POINT ${variable} = ${this.placeText(pattern, isShifted ? `(${at}+(${line} MOD 2)/2)` : at, line, layer)}`, step.id);
       this.begin();
       this.steps(step.steps);
     };
@@ -165,14 +124,9 @@ export class ProgramWriter {
     this.begin();
   }
 
-  /** A pallet of the world is counted in the base of the robot, which turns its pitches. */
-  private placeText(pallet: Pallet, along: string, line: string, layer: string): string {
-    const inWorld = pallet.frame === "world", byRows = (pallet.order ?? "rows").startsWith("rows"), { baseFromWorld } = this.place, pitch = palletPitch(pallet);
-    const origin: Pose = inWorld ? compose(baseFromWorld, pallet.origin as Pose as Pose<"world", "place">) : pallet.origin;
-    const turned = (v: Vector3): Vector3 => inWorld ? rotate(baseFromWorld.quaternion, v) : v;
-    const alongPitch = turned(byRows ? pitch.column : pitch.row), linePitch = turned(byRows ? pitch.row : pitch.column), layerPitch = turned(pallet.layers > 1 ? pitch.layer : [0, 0, 0]);
-    const term = (step_m: number, factor: string): string => mm(step_m) === "0" ? "" : `${step_m < 0 ? "-" : "+"}${mm(Math.abs(step_m))}*${factor}`;
-    const place = ([0, 1, 2] as const).map(i => `${mm(origin.position[i])}${term(alongPitch[i], along)}${term(linePitch[i], line)}${term(layerPitch[i], layer)}`);
+  private placeText({ pallet, along_m, away_m, up_m }: Pattern, along: string, line: string, layer: string): string {
+    const inWorld = pallet.frame === "world", origin: Pose = inWorld ? compose(this.place.baseFromWorld, pallet.origin as Pose as Pose<"world", "place">) : pallet.origin;
+    const place = ([0, 1, 2] as const).map(i => `${mm(origin.position[i])}${pitchTerm(along_m[i], along, mm)}${pitchTerm(away_m[i], line, mm)}${pitchTerm(up_m[i], layer, mm)}`);
     return `${inWorld ? "" : `${this.named("frame", pallet.frame)}+`}TRANS(${place.join(",")},${oatText(origin.quaternion)})`;
   }
 

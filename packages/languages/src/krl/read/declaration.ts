@@ -6,6 +6,8 @@ import type { Declaration, Expression, Parameter, SignalDeclaration } from "./sy
 
 /** Types whose declaration needs no DECL. */
 const SIMPLE = new Set(["INT", "REAL", "BOOL", "CHAR"]);
+/** Structures of the controller, which older programs declare without it too. */
+const STRUCTURES = new Set(["FRAME", "POS", "E3POS", "E6POS", "AXIS", "E3AXIS", "E6AXIS"]);
 /** Words that declare something which has no effect on where the robot goes. */
 const QUIET = new Set(["EXT", "EXTFCT", "STRUC", "ENUM", "IMPORT"]);
 
@@ -19,7 +21,8 @@ export function readDeclarations(cursor: Cursor): Declaration[] | undefined {
     if (QUIET.has(cursor.next)) { cursor.skip(); return []; }
   }
   const spelled = cursor.accept("DECL");
-  if (!spelled && !SIMPLE.has(cursor.next)) return global ? [] : undefined;
+  const isPlain = SIMPLE.has(cursor.next) || (STRUCTURES.has(cursor.next) && cursor.secondKind === "word");
+  if (!spelled && !isPlain) return global ? [] : undefined;
   cursor.accept("GLOBAL");
   cursor.accept("CONST");
   if (QUIET.has(cursor.next)) { cursor.skip(); return []; }
@@ -63,7 +66,11 @@ export function readSignal(cursor: Cursor): SignalDeclaration {
 
 /** `NAME( a :IN, b :OUT )`, with the type of the result before the name of a function. */
 export function readHeader(cursor: Cursor, isFunction: boolean): { readonly name: string; readonly place: TextPlace; readonly parameters: readonly Parameter[] } {
-  if (isFunction) cursor.name("the type of the result");
+  if (isFunction) {
+    cursor.name("the type of the result");
+    // CHAR[32]: a text of so many signs.
+    if (cursor.accept("[")) { if (cursor.nextKind === "number") cursor.take(); cursor.expect("]"); }
+  }
   const place = cursor.here, name = cursor.name("the name of the routine"), parameters: Parameter[] = [];
   checkName(name, place);
   if (cursor.accept("(") && !cursor.accept(")")) {

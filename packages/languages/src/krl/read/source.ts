@@ -3,7 +3,8 @@ import { TextError, textLines } from "../../text/index.ts";
 import { RoutineBuilder } from "./blocks.ts";
 import { Cursor } from "./cursor.ts";
 import { readDeclarations, readHeader, readSignal } from "./declaration.ts";
-import type { Declaration, Routine, SignalDeclaration, Source } from "./syntax.ts";
+import { readStatement } from "./statement.ts";
+import type { Declaration, Routine, SignalDeclaration, Source, Statement } from "./syntax.ts";
 
 export type SourceAnswer = { readonly kind: "source"; readonly source: Source } | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
@@ -25,14 +26,15 @@ export function readSource(text: string): SourceAnswer {
   }
   reader.guard(() => { reader.end(lines.length + 1); });
   if (reader.faults.length > 0) return { kind: "not-understood", faults: reader.faults };
-  const { routines, data, signals, dataLine } = reader;
-  return { kind: "source", source: { routines, data, signals, dataLine } };
+  const { routines, data, elements, signals, dataLine } = reader;
+  return { kind: "source", source: { routines, data, elements, signals, dataLine } };
 }
 
 class SourceReader {
   readonly faults: TextFault[] = [];
   readonly routines = new Map<string, Routine>();
   readonly data: Declaration[] = [];
+  readonly elements: Extract<Statement, { kind: "assign" }>[] = [];
   readonly signals: SignalDeclaration[] = [];
   dataLine: number | undefined;
   private section: "outside" | "data" | "routine" = "outside";
@@ -60,8 +62,15 @@ class SourceReader {
     if (first === "SIGNAL") { this.signals.push(readSignal(cursor)); return; }
     const declared = readDeclarations(cursor);
     if (declared !== undefined) (this.section === "data" ? this.data : this.builder!.declarations).push(...declared);
-    else if (this.section === "data") throw cursor.unexpected("a declaration");
+    else if (this.section === "data") this.element(cursor);
     else this.builder!.line(cursor);
+  }
+
+  /** An element of an array in the data list. */
+  private element(cursor: Cursor): void {
+    if (cursor.second !== "[" && cursor.second !== "=" && cursor.second !== ".") throw cursor.unexpected("a declaration");
+    const statement = readStatement(cursor);
+    if (statement.kind === "assign") this.elements.push(statement);
   }
 
   end(line: number): void {

@@ -31,7 +31,7 @@ function readSettings(cursor: Cursor): Motion["settings"] {
 }
 
 const motion = (kind: MotionKind, { relative = false, spline = false } = {}): Reader => cursor => {
-  let via: Expression | undefined, target = readExpression(cursor);
+  let via: Expression | undefined, inTool = false, target = readExpression(cursor);
   if (kind === "CIRC") {
     via = target;
     cursor.expect(",");
@@ -43,10 +43,9 @@ const motion = (kind: MotionKind, { relative = false, spline = false } = {}): Re
   const before = approximations(cursor), settings = readSettings(cursor);
   // What a relative motion counts from.
   if (relative && (cursor.next === "#TOOL" || cursor.next === "#BASE")) {
-    if (cursor.next === "#TOOL") throw new TextError(cursor.here, "#BASE", "A motion relative to the tool is not understood here.");
-    cursor.take();
+    inTool = cursor.take().toUpperCase() === "#TOOL";
   }
-  return { kind: "motion", motion: kind, relative, spline, target, via, approximation: [...before, ...approximations(cursor)], settings };
+  return { kind: "motion", motion: kind, relative, inTool, spline, target, via, approximation: [...before, ...approximations(cursor)], settings };
 };
 
 const call = (name: string, cursor: Cursor): Body<Statement> => {
@@ -100,7 +99,7 @@ const READERS: Readonly<Record<string, Reader>> = {
   RESUME: () => ({ kind: "resume" }),
   HALT: () => ({ kind: "halt" }),
   RETURN: cursor => ({ kind: "return", value: cursor.done ? undefined : readExpression(cursor) }),
-  CONTINUE: () => ({ kind: "nothing" }),
+  CONTINUE: () => ({ kind: "nothing" }), ON_ERROR_PROCEED: () => ({ kind: "nothing" }),
   ANOUT: nothing, ANIN: nothing, IMPORT: nothing,
 };
 

@@ -1,4 +1,5 @@
 import type { TextPlace } from "@twincell/core";
+import type { JumpInstruction } from "../../text/index.ts";
 
 /** Names are upper case throughout: KRL knows no case. */
 export type Expression = TextPlace & (
@@ -20,6 +21,8 @@ export type MotionKind = "PTP" | "LIN" | "CIRC" | "SPL";
 export interface Motion {
   readonly motion: MotionKind;
   readonly relative: boolean;
+  /** A relative motion that counts along the axes of the tool. */
+  readonly inTool: boolean;
   /** A statement of its own that is planned as a spline: SPTP, SLIN, SCIRC. */
   readonly spline: boolean;
   readonly target: Expression;
@@ -47,17 +50,8 @@ export type Statement = TextPlace & (
   | { readonly kind: "nothing" }
 );
 
-/** A program as a list of statements and jumps; `to` is an index into the list, -1 only while the list is being made. */
-export type Instruction =
-  | { readonly kind: "statement"; readonly statement: Statement }
-  | { readonly kind: "jump"; to: number; readonly at: TextPlace }
-  | { readonly kind: "unless"; readonly condition: Expression; to: number }
-  | { readonly kind: "for"; readonly variable: Variable; readonly from: Expression; readonly last: Expression; readonly step: Expression | undefined; readonly slot: number }
-  | { readonly kind: "for-check"; readonly variable: Variable; readonly slot: number; to: number }
-  | { readonly kind: "for-next"; readonly variable: Variable; readonly slot: number; to: number }
-  | { readonly kind: "switch"; readonly value: Expression; readonly slot: number }
-  /** Jumps when the value of that switch is none of these. */
-  | { readonly kind: "case-unless"; readonly values: readonly Expression[]; readonly slot: number; to: number };
+/** A program as a list of statements and jumps. */
+export type Instruction = JumpInstruction<Expression, Variable, Statement>;
 
 /** `DECL INT A, B[3]` or `DECL FRAME F={…}`. */
 export interface Declaration extends TextPlace { readonly type: string; readonly name: string; readonly isArray: boolean; readonly value: Expression | undefined; readonly index: readonly Expression[] }
@@ -79,6 +73,8 @@ export interface Routine {
 export interface Source {
   readonly routines: ReadonlyMap<string, Routine>;
   readonly data: readonly Declaration[];
+  /** Elements of its arrays, in their order: `POINT[3]={X 1,Y 2}`. */
+  readonly elements: readonly Extract<Statement, { kind: "assign" }>[];
   readonly signals: readonly SignalDeclaration[];
   /** Line of the text in which the data list begins, or undefined. */
   readonly dataLine: number | undefined;

@@ -42,6 +42,7 @@ export class Machine implements Memory {
   /** @throws {TextError} where the text cannot be executed further. */
   *run(): Generator<Executed, void> {
     for (const declaration of this.source.data) this.define(declaration, this.globals, this.types);
+    for (const { to, value } of this.source.elements) this.assign(to, evaluate(value, this), "");
     const main = this.source.routines.values().next();
     if (main.done !== true) {
       this.enter(main.value, [], main.value.place);

@@ -78,7 +78,7 @@ export class ControllerState {
 
   private toPosition(target: Structure, motion: Motion, at: TextPlace): Target {
     const { tool, base } = this.system;
-    const baseFromTcp = motion.relative ? this.shifted(target) : toFrame(target, this.here(), at);
+    const baseFromTcp = motion.relative ? (motion.inTool ? this.shiftedInTool(target) : this.shifted(target)) : toFrame(target, this.here(), at);
     this.flange = times(times(base.frame, baseFromTcp), inverted(tool.frame));
     const status = component(target, "S"), turn = motion.motion === "PTP" ? component(target, "T") : undefined;
     const before = this.axes_deg, all = this.axes.reaching(compose(inverse(this.rootFromBase), toPose<"root", "flange">(this.flange)), before);
@@ -118,6 +118,12 @@ export class ControllerState {
     const now = componentsOf(this.here());
     const [x, y, z, a, b, c] = (["X", "Y", "Z", "A", "B", "C"] as const).map((name, i) => now[i]! + (component(by, name) ?? 0));
     return frameOf(x!, y!, z!, a!, b!, c!);
+  }
+
+  /** `LIN_REL {Z -50} #TOOL`: what is given is a pose seen from the tool as it stands. */
+  private shiftedInTool(by: Structure): Frame {
+    const [x, y, z, a, b, c] = (["X", "Y", "Z", "A", "B", "C"] as const).map(name => component(by, name) ?? 0);
+    return times(this.here(), frameOf(x!, y!, z!, a!, b!, c!));
   }
 
   private flangeAt(axes_deg: readonly number[]): Frame {

@@ -3,7 +3,7 @@ import { singleText } from "../../text/index.ts";
 import type { DataList } from "./data.ts";
 import { frameText } from "./location.ts";
 import { krlName } from "./names.ts";
-import type { Place } from "./postures.ts";
+import type { WalkedPlace } from "../../writing/index.ts";
 import type { TextWriter } from "./text-writer.ts";
 
 const AXES = ["X", "Y", "Z"] as const;
@@ -24,11 +24,11 @@ export class PalletLoop {
   private readonly along: string;
   private readonly ends: string[] = [];
 
-  constructor({ id, pallet: name }: PalletStep, pallet: Pallet, out: TextWriter, data: DataList, place: Place) {
+  constructor({ id, pallet: name }: PalletStep, pallet: Pallet, out: TextWriter, data: DataList, place: WalkedPlace) {
     this.pallet = pallet;
     this.step = id;
     this.out = out;
-    const parentPose: Pose = compose(place.rootFromWorld, place.worldFromFrame(pallet.frame));
+    const parentPose: Pose = compose(place.vendorFromWorld, place.worldFromFrame(pallet.frame));
     this.parent = data.frame("BASE_", pallet.frame, () => parentPose);
     const frame = (prefix: string, pose: Pose): string => {
       const variable = krlName(name, data.taken, prefix);

@@ -8,7 +8,8 @@ import { principal } from "./inertia.ts";
 import { axisText, frameText, lengthText } from "./location.ts";
 import { commentText, krlName } from "./names.ts";
 import { PalletLoop } from "./pallet.ts";
-import type { Place, PostureMap } from "./postures.ts";
+import type { WalkedPlace } from "../../writing/index.ts";
+import type { PostureMap } from "./postures.ts";
 import { Settings } from "./settings.ts";
 import { TextWriter } from "./text-writer.ts";
 
@@ -24,7 +25,7 @@ const INI = [
 export class ModuleWriter {
   readonly data = new DataList();
   private readonly program: Program;
-  private readonly place: Place;
+  private readonly place: WalkedPlace;
   private readonly convention: AxisConvention;
   private readonly postures: PostureMap;
   private readonly name: string;
@@ -40,7 +41,7 @@ export class ModuleWriter {
   private searches = 0;
   private isMain = true;
 
-  constructor(place: Place, convention: AxisConvention, postures: PostureMap, gripper: number) {
+  constructor(place: WalkedPlace, convention: AxisConvention, postures: PostureMap, gripper: number) {
     this.program = place.program;
     this.place = place;
     this.convention = convention;
@@ -85,7 +86,7 @@ export class ModuleWriter {
   private steps(steps: readonly Step[], after: Step | undefined): void {
     for (let i = 0; i < steps.length; i++) {
       const step = steps[i]!, next = steps.slice(i + 1).find(({ type }) => type !== "comment") ?? after;
-      if (step.type !== "move" || step.path !== "spline") { this.step(step, next, i > 0 ? steps[i - 1] : undefined); continue; }
+      if (step.type !== "move" || step.path !== "spline") { this.step(step, next, steps.slice(0, i).findLast(({ type }) => type !== "comment")); continue; }
       const block = [step];
       for (let following = steps[i + 1]; following?.type === "move" && following.path === "spline" && toolName(following) === toolName(step); following = steps[i + 1]) {
         block.push(following);
@@ -223,7 +224,7 @@ export class ModuleWriter {
     settings.tool = tool;
     if (base === undefined || base === settings.base) return;
     const pallet = this.palletBases.get(base);
-    this.out.add(base === "world" ? "$BASE=$NULLFRAME" : `$BASE=${pallet ?? data.frame("BASE_", base, () => compose(place.rootFromWorld, place.worldFromFrame(base)))}`, id);
+    this.out.add(base === "world" ? "$BASE=$NULLFRAME" : `$BASE=${pallet ?? data.frame("BASE_", base, () => compose(place.vendorFromWorld, place.worldFromFrame(base)))}`, id);
     settings.base = base;
   }
 
@@ -249,7 +250,7 @@ export class ModuleWriter {
 
   private inBase(target: Target, base: string, tool: string): Pose {
     if ("pose" in target && target.frame === base && base !== "world") return target.pose;
-    const { place } = this, rootFromTcp: Pose = compose(place.rootFromWorld, place.worldFromTarget(target, tool));
+    const { place } = this, rootFromTcp: Pose = compose(place.vendorFromWorld, place.worldFromTarget(target, tool));
     if (base === "world") return rootFromTcp;
     return compose(inverse(place.worldFromFrame(base)) as Pose, place.worldFromTarget(target, tool) as Pose);
   }

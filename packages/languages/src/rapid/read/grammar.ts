@@ -125,7 +125,8 @@ class Reader {
     while (cursor.next === "local" || cursor.next === "task") cursor.advance();
     switch (cursor.next) {
       case "const": case "pers": case "var": this.datum(this.data); return;
-      case "record": case "alias": cursor.skip(each => each.next === "endrecord" || each.next === ";"); cursor.accept("endrecord"); cursor.accept(";"); return;
+      case "record": cursor.skip(each => each.next === "endrecord"); cursor.accept("endrecord"); return;
+      case "alias": cursor.skip(each => each.next === ";"); cursor.accept(";"); return;
       case "proc": this.routine("endproc", false); return;
       case "func": this.routine("endfunc", true); return;
       case "trap": this.routine("endtrap", false); return;

@@ -1,15 +1,16 @@
 import { type Condition, type Executed, type MoveStep, type Pose, type Robot, type SignalLine, type Signals, type Speed, type Step, type Target, type TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError, nameIn } from "../../text/index.ts";
 import { BlockMachine, type Block, type Do, type Expression, type Flow, type Routine, type WaitUntil } from "../../text/structured/index.ts";
 import type { Datum, Source } from "../read/grammar.ts";
 import { ControllerArm } from "./arm.ts";
 import { Arguments } from "./arguments.ts";
 import type { Confdata } from "./configuration.ts";
-import { inverted, times, toPose, turned, type Frame } from "./frame.ts";
+import { inverted, times, toPose, type Frame } from "./frame.ts";
 import { FUNCTIONS } from "./functions.ts";
 import { KIND_OF_FUNCTION, Lines } from "./lines.ts";
+import { jointsOf, loadOf, toolFrameOf, zoneOf } from "./records.ts";
 import { predefined } from "./predefined.ts";
-import { asFrame, asNumber, asNumbers, asPosition, asRecord, asTruth, binary, fromFrame, placeOf, type Value } from "./values.ts";
+import { asFrame, asNumber, asNumbers, asRecord, asTruth, binary, fromFrame, placeOf, type Value } from "./values.ts";
 
 /** What the steps of a run refer to; filled while it goes on. */
 export interface Surroundings {
@@ -168,7 +169,7 @@ export class Machine extends BlockMachine<Value> {
       }
       case "cjointt": return [this.jointsNow(expression), NO_AXES];
       case "cpos": return [...times(this.arm.flange, this.tool).mm];
-      case "calcrobt": return [...asRecord(fromFrame(times(this.arm.flangeAt(this.joints(args.value(0, "a jointtarget"), expression)), this.toolFrame(args.value(1, "a tool"), expression))), expression, 2, "a pose"), [0, 0, 0, 0], NO_AXES];
+      case "calcrobt": return [...asRecord(fromFrame(times(this.arm.flangeAt(jointsOf(args.value(0, "a jointtarget"), expression)), toolFrameOf(args.value(1, "a tool"), expression))), expression, 2, "a pose"), [0, 0, 0, 0], NO_AXES];
       case "testdi": case "dinput": case "doutput": case "ainput": case "aoutput": {
         const value = this.lines.read(this.lines.line(args.nameOf(0, "a line"), KIND_OF_FUNCTION[name]!));
         return name === "testdi" ? value === true : Number(value);
@@ -240,7 +241,7 @@ export class Machine extends BlockMachine<Value> {
         const pulse_s = args.option("plength") ?? 0.2, signal = this.lines.line(args.nameOf(0, "a line"), "digital-out");
         return { id: id(), type: "set", signal, to: true, pulse_s };
       }
-      case "gripload": return this.payload(args.value(0, "a load"), at);
+      case "gripload": return { id: this.stepId(at), type: "payload", ...loadOf(args.value(0, "a load"), this.tool, at) };
       case "tpwrite": {
         const text = args.value(0, "a text");
         if (typeof text !== "string") throw new TextError(at, "a text", "TPWrite writes a text.");
@@ -280,17 +281,6 @@ export class Machine extends BlockMachine<Value> {
     return { id: this.stepId(at), type: "set", signal, to };
   }
 
-  /** A load is given in the tool; the step counts from the flange. */
-  private payload(load: Value, at: TextPlace): Step {
-    const [mass, cog, aom, ix, iy, iz] = asRecord(load, at, 6, "a load"), flange = times(this.tool, { mm: asPosition(cog, at), wxyz: [1, 0, 0, 0] }).mm;
-    const inertia = [ix, iy, iz].map(each => asNumber(each!, at)), axes = times(this.tool, asFrame([[0, 0, 0], aom!], at)).wxyz;
-    const base = { id: this.stepId(at), type: "payload", mass_kg: asNumber(mass!, at), center_m: [flange[0] / 1000, flange[1] / 1000, flange[2] / 1000] } satisfies Step;
-    if (inertia.every(each => each === 0)) return base;
-    // I = Σ I_k a_k a_kᵀ over the axes of moment.
-    const columns = ([[1, 0, 0], [0, 1, 0], [0, 0, 1]] as const).map(axis => turned(axes, [...axis])), entry = (i: number, j: number): number => columns.reduce((sum, axis, k) => sum + inertia[k]! * axis[i]! * axis[j]!, 0);
-    return { ...base, inertia_kgm2: [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)] };
-  }
-
   // --- moves ------------------------------------------------------------------------------------------------------
 
   private move(name: "moveabsj" | "movej" | "movel" | "movec", args: Arguments, id: string): MoveStep {
@@ -315,10 +305,10 @@ export class Machine extends BlockMachine<Value> {
 
   private motion(name: "moveabsj" | "movej" | "movel" | "movec", motion: Motion, args: Arguments, id: string): MoveStep {
     const { goal, via } = motion, tool = this.useTool(motion.tool), object = args.optionGiven("wobj"), speed = this.speed(motion.speed, args);
-    const blend_m = motion.zone === undefined ? 0 : this.zone(motion.zone, args), acceleration = this.acceleration < 1 ? { acceleration: { ratio: this.acceleration } } : {};
+    const blend_m = motion.zone === undefined ? 0 : zoneOf(this.evaluate(motion.zone), args.option("z"), motion.zone), acceleration = this.acceleration < 1 ? { acceleration: { ratio: this.acceleration } } : {};
     const common = { id, type: "move", speed, ...acceleration, blend_m } as const;
     if (name === "moveabsj") {
-      const joints = this.joints(this.evaluate(goal), goal);
+      const joints = jointsOf(this.evaluate(goal), goal);
       this.arm.atJoints(joints);
       return { ...common, path: "ptp", target: { q: joints.map(angle => angle / 180 * Math.PI), tool } };
     }
@@ -327,22 +317,11 @@ export class Machine extends BlockMachine<Value> {
     return { ...common, path: name === "movej" ? "ptp" : name === "movel" ? "lin" : "circ", target, ...passing };
   }
 
-  private joints(value: Value, at: TextPlace): readonly number[] {
-    const [robax] = asRecord(value, at, 2, "a jointtarget [[…],[…]]");
-    return asNumbers(robax, at, 6, "six joint angles");
-  }
-
-  private toolFrame(value: Value, at: TextPlace): Frame {
-    const [holds, frame] = asRecord(value, at, 3, "a tool");
-    if (holds !== true) throw new TextError(at, "a tool that the robot holds", "Tools that stand still are not executed here.");
-    return asFrame(frame, at);
-  }
-
   private useTool(tool: Expression): string {
-    this.tool = this.toolFrame(this.evaluate(tool), tool);
+    this.tool = toolFrameOf(this.evaluate(tool), tool);
     this.arm.tool = this.tool;
     if (tool.kind === "variable" && tool.name === "tool0") return "flange";
-    return this.named(this.surroundings.tools, toPose<"flange", "tcp">(this.tool), tool.kind === "variable" ? this.spelt(tool.name) : "tool");
+    return nameIn(this.surroundings.tools, toPose<"flange", "tcp">(this.tool), tool.kind === "variable" ? this.spelt(tool.name) : "tool", "_");
   }
 
   /** A work object: where it is in the base of the robot, and which frame it is for the steps. */
@@ -375,23 +354,6 @@ export class Machine extends BlockMachine<Value> {
     const [tcp] = asNumbers(this.evaluate(expression), expression, 4, "a speed [v_tcp,v_ori,v_leax,v_reax]"), v_mmps = Math.min((args.option("v") ?? tcp!) * this.override, this.fastest_mmps);
     if (!(v_mmps > 0)) throw new TextError(expression, "a speed above 0", `The speed is ${v_mmps} mm/s.`);
     return { mps: v_mmps / 1000 };
-  }
-
-  private zone(expression: Expression, args: Arguments): number {
-    const [isStop, radius] = asRecord(this.evaluate(expression), expression, 7, "a zone");
-    const zone_mm = args.option("z") ?? asNumber(radius!, expression);
-    if (!(zone_mm >= 0)) throw new TextError(expression, "a zone of 0 mm or more", `The zone is ${zone_mm} mm.`);
-    return isStop === true ? 0 : zone_mm / 1000;
-  }
-
-  /** A tool met before keeps its name; two tools never share one. */
-  private named<T>(table: Record<string, T>, value: T, wanted: string): string {
-    const text = JSON.stringify(value);
-    for (let i = 1; ; i++) {
-      const name = i === 1 ? wanted : `${wanted}_${i}`, known = Object.hasOwn(table, name) ? table[name] : undefined;
-      if (known === undefined) table[name] = value;
-      if (known === undefined || JSON.stringify(known) === text) return name;
-    }
   }
 
   // --- writing a program down -------------------------------------------------------------------------------------

@@ -8,12 +8,15 @@ const ZONES: readonly (readonly [tool: number, orient: number, turn: number])[] 
   [80, 120, 12], [100, 150, 15], [150, 225, 23], [200, 300, 30],
 ];
 
+/** A load of nothing must not have no mass: load0 weighs this [kg]. */
+export const NOTHING_KG = 0.001;
+
 /** Data that every controller has. Names are lower case. */
 export function predefined(fullSpeed_mps: number): ReadonlyMap<string, Value> {
   const data = new Map<string, Value>([
-    ["tool0", [true, IDENTITY, [0.001, [0, 0, 0.001], [1, 0, 0, 0], 0, 0, 0]]],
+    ["tool0", [true, IDENTITY, [NOTHING_KG, [0, 0, 0.001], [1, 0, 0, 0], 0, 0, 0]]],
     ["wobj0", [false, true, "", IDENTITY, IDENTITY]],
-    ["load0", [0.001, [0, 0, 0.001], [1, 0, 0, 0], 0, 0, 0]],
+    ["load0", [NOTHING_KG, [0, 0, 0.001], [1, 0, 0, 0], 0, 0, 0]],
     ["fine", [true, 0, 0, 0, 0, 0, 0]],
     ["vmax", [fullSpeed_mps * 1000, 500, 5000, 1000]],
     ["pi", Math.PI], ["high", 1], ["low", 0], ["edge", 2],

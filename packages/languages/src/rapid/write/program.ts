@@ -1,8 +1,8 @@
 import {
-  branchOf, compose, inverse, palletPitch, pose, rotate, type Condition, type EmittedFile, type MoveStep, type Pallet, type PayloadStep, type Pose, type Robot, type SignalLine, type Speed, type Step, type Target, type Vector3,
+  branchOf, compose, inverse, pose, rotate, type Condition, type EmittedFile, type MoveStep, type PayloadStep, type Pose, type Robot, type SignalLine, type Speed, type Step, type Target,
 } from "@twincell/core";
 import { asciiText } from "../../text/index.ts";
-import { BlockWriter, CannotSay, Place, called, fixed, remark } from "../../writing/index.ts";
+import { BlockStepWriter, BlockWriter, CannotSay, Place, called, fixed, patternOf, pitchTerm, remark, type Pattern } from "../../writing/index.ts";
 import { GRIPPER_SIGNAL, type Configuration } from "../robots.ts";
 import { confText, jointsText, mm, objectText, orientText, part, posText, targetText, toolText } from "./data.ts";
 import { Declarations } from "./declarations.ts";
@@ -12,12 +12,11 @@ const LONGEST_TEXT = 80;
 const LEAST_ACCELERATION = 0.2;
 
 /** The module: data first, then the routines; says only what changes from one step to the next. */
-export class ProgramWriter {
+export class ProgramWriter extends BlockStepWriter {
   readonly warnings = new Set<string>();
-  private readonly place: Place;
   private readonly robot: Robot;
   private readonly data = new Declarations();
-  private readonly code = new BlockWriter();
+  private readonly code = this.out;
   private readonly local = new Set<string>();
   /** Whether postures are known: without one there is no configuration to ask for. */
   private readonly solves: boolean;
@@ -25,14 +24,10 @@ export class ProgramWriter {
   /** The tool of the last move; undefined where another routine or another round may have used another. */
   private tool: string | undefined;
   private acceleration = 1;
-  private group = "";
-  private near: readonly number[] | undefined;
-  private before: MoveStep | undefined;
 
   constructor(place: Place, configuration: Configuration) {
-    this.place = place;
+    super(place);
     this.robot = place.robot;
-    this.near = place.robot.home_rad;
     this.solves = configuration.hasCfx;
   }
 
@@ -76,7 +71,6 @@ export class ProgramWriter {
     code.add("ENDPROC");
   }
 
-  private out: BlockWriter = this.code;
   private swap(to: BlockWriter): BlockWriter {
     const { out } = this;
     this.out = to;
@@ -99,33 +93,15 @@ export class ProgramWriter {
     return found[0]?.until?.missing === "continue";
   }
 
-  /** What is said at one place holds nowhere else: routines and blocks say it anew. */
-  private begin(): void {
+  protected override begin(): void {
+    super.begin();
     this.acceleration = Number.NaN;
     this.tool = undefined;
-    this.before = undefined;
   }
 
-  private steps(steps: readonly Step[]): void {
-    const outer = this.group;
-    for (const [i, step] of steps.entries()) {
-      this.heading(step);
-      this.step(step, steps[i + 1]);
-      if (step.type !== "comment" && step.type !== "wait") this.before = step.type === "move" ? step : undefined;
-    }
-    this.group = outer;
-  }
+  protected remark(text: string, step: string): void { this.out.add(`!${text}`, step); }
 
-  private heading(step: Step): void {
-    const { groups } = this.place.program, add = (line: string): void => { this.out.add(line.trimEnd(), step.id); };
-    const group = step.group === undefined ? "" : remark(groups[step.group]?.name ?? step.group);
-    if (group !== this.group) add(`!== ${group}`);
-    this.group = group;
-    const name = remark(step.name ?? "");
-    if (name !== "" && step.type !== "comment") add(`! ${name}`);
-  }
-
-  private step(step: Step, next: Step | undefined): void {
+  protected step(step: Step, next: Step | undefined): void {
     const add = (line: string): void => { this.out.add(line, step.id); };
     switch (step.type) {
       case "move": return this.move(step, next, add);
@@ -143,7 +119,7 @@ export class ProgramWriter {
       case "comment": return add(`!- ${asciiText(step.text)}`.trimEnd());
       case "call": add(`${this.data.names.of("routine", step.routine)};`); return this.begin();
       case "repeat": return this.repeat(step);
-      case "if": return this.decision(step);
+      case "if": return this.choice(step, `IF ${this.condition(step.when, step)} THEN`, "ELSE", "ENDIF");
       case "pallet": return this.pallet(step);
     }
   }
@@ -151,35 +127,18 @@ export class ProgramWriter {
   // --- blocks -----------------------------------------------------------------------------------------------------
 
   private repeat(step: Extract<Step, { type: "repeat" }>): void {
-    const inside = (): void => { this.begin(); this.steps(step.steps); };
-    if (step.times === "forever") this.out.block("WHILE TRUE DO", "ENDWHILE", step.id, inside);
-    else this.out.block(`FOR ${this.data.names.fresh("count")} FROM 1 TO ${step.times} DO`, "ENDFOR", step.id, inside);
-    this.begin();
-  }
-
-  private decision(step: Extract<Step, { type: "if" }>): void {
-    const { out } = this, inside = (steps: readonly Step[]) => (): void => { this.begin(); this.steps(steps); };
-    out.add(`IF ${this.condition(step.when, step)} THEN`, step.id);
-    out.indented(inside(step.then));
-    if (step.else !== undefined) {
-      out.add("ELSE", step.id);
-      out.indented(inside(step.else));
-    }
-    out.add("ENDIF", step.id);
-    this.begin();
+    if (step.times === "forever") this.loop("WHILE TRUE DO", "ENDWHILE", step);
+    else this.loop(`FOR ${this.data.names.fresh("count")} FROM 1 TO ${step.times} DO`, "ENDFOR", step);
   }
 
   /** A loop over layers, lines and places; the place is the object frame of a work object that changes with them. */
   private pallet(step: Extract<Step, { type: "pallet" }>): void {
-    const { program } = this.place, { names } = this.data, pallet = Object.hasOwn(program.pallets, step.pallet) ? program.pallets[step.pallet] : undefined;
-    if (pallet === undefined) throw new CannotSay(step.id, `${called(step)} works on the pallet ${step.pallet}, which the program does not have.`, "Choose another pallet.");
-    const order = pallet.order ?? "rows", byRows = order.startsWith("rows"), isShifted = pallet.interleave === "odd-rows-shifted" && pallet.rows > 1;
-    if (isShifted && !byRows) throw new CannotSay(step.id, `${called(step)} visits the interleaved pallet ${step.pallet} by columns, which no plain loop does.`, "Visit it by rows.");
+    const { program, baseFromWorld } = this.place, { names } = this.data;
+    const pattern = patternOf(step, program, (v, { frame }) => frame === "world" ? rotate(baseFromWorld.quaternion, v) : v), { pallet, lines, inLine, isShifted } = pattern;
     const object = names.of("frame", step.pallet), { out } = this, add = (line: string): void => { out.add(line, step.id); };
     if (pallet.frame !== "world") this.frame(pallet.frame, step.id);
     this.data.add(`frame ${step.pallet}`, `PERS wobjdata ${object}:=${objectText(pallet.frame === "world" ? pose() : this.inBase(this.place.frame(pallet.frame)))};`, step.id);
     const layer = names.fresh(`${object}_layer`), line = names.fresh(`${object}_line`), along = names.fresh(`${object}_along`), at = names.fresh(`${object}_at`);
-    const lines = byRows ? pallet.rows : pallet.columns, inLine = byRows ? pallet.columns : pallet.rows;
     this.local.add(at);
     const loop = (name: string, last: string, inside: () => void): void => { out.block(`FOR ${name} FROM 0 TO ${last} STEP 1 DO`, "ENDFOR", step.id, inside); };
     const last = isShifted ? `${inLine - 1}-${line} MOD 2` : `${inLine - 1}`;
@@ -187,8 +146,8 @@ export class ProgramWriter {
       loop(line, `${lines - 1}`, () => {
         loop(along, last, () => {
           add(`${at}:=${along};`);
-          if (order.endsWith("zigzag") && lines > 1 && inLine > 1) out.block(`IF ${line} MOD 2=1 THEN`, "ENDIF", step.id, () => { add(`${at}:=${isShifted ? inLine - 2 : inLine - 1}-${along};`); });
-          add(`${object}.oframe:=${this.placeText(pallet, layer, line, at)};`);
+          if (pattern.isZigzag) out.block(`IF ${line} MOD 2=1 THEN`, "ENDIF", step.id, () => { add(`${at}:=${isShifted ? inLine - 2 : inLine - 1}-${along};`); });
+          add(`${object}.oframe:=${this.placeText(pattern, layer, line, at)};`);
           this.begin();
           this.steps(step.steps);
         });
@@ -198,14 +157,10 @@ export class ProgramWriter {
   }
 
   /** Where a place is: so far along its line, so many lines and layers away, and every second line half a step further where they are packed. */
-  private placeText(pallet: Pallet, layer: string, line: string, at: string): string {
-    const isFree = pallet.frame === "world", { baseFromWorld } = this.place, seen = (v: Vector3): Vector3 => isFree ? rotate(baseFromWorld.quaternion, v) : v;
-    const origin = isFree ? compose(baseFromWorld, compose(pose<"world", "frame">(), pallet.origin)) : pallet.origin, pitch = palletPitch(pallet);
-    const byRows = (pallet.order ?? "rows").startsWith("rows"), along = seen(byRows ? pitch.column : pitch.row), away = seen(byRows ? pitch.row : pitch.column);
-    const up = seen(pallet.layers > 1 ? pitch.layer : [0, 0, 0]), isShifted = pallet.interleave === "odd-rows-shifted" && pallet.rows > 1, fine = (value_m: number): string => fixed(value_m * 1000, 5);
-    const term = (pitch_m: number, factor: string): string => fine(pitch_m) === "0" ? "" : `${pitch_m < 0 ? "-" : "+"}${fine(Math.abs(pitch_m))}*${factor}`;
-    const parts = ([0, 1, 2] as const).map(i =>
-      `${fine(origin.position[i])}${term(along[i], isShifted ? `(${at}+0.5*(${line} MOD 2))` : at)}${term(away[i], line)}${term(up[i], layer)}`);
+  private placeText({ pallet, along_m, away_m, up_m, isShifted }: Pattern, layer: string, line: string, at: string): string {
+    const origin = pallet.frame === "world" ? compose(this.place.baseFromWorld, compose(pose<"world", "frame">(), pallet.origin)) : pallet.origin, fine = (value_m: number): string => fixed(value_m * 1000, 5);
+    const along = isShifted ? `(${at}+0.5*(${line} MOD 2))` : at;
+    const parts = ([0, 1, 2] as const).map(i => `${fine(origin.position[i])}${pitchTerm(along_m[i], along, fine)}${pitchTerm(away_m[i], line, fine)}${pitchTerm(up_m[i], layer, fine)}`);
     return `[[${parts.join(",")}],${orientText(origin.quaternion)}]`;
   }
 

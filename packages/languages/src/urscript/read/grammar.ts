@@ -167,7 +167,7 @@ class Reader {
       if (!cursor.accept(",") && cursor.next !== ")") throw cursor.unexpected("\",\" or \")\"");
     }
     cursor.expect(":");
-    if (this.routines.has(name)) this.faults.push(new TextError(place, "a name used once", `The program ${name} is defined twice.`).fault);
+    // Script files that are taken in twice define their programs anew: the last one counts.
     const body = this.body(`def ${name}`, at, ["end"]);
     cursor.expect("end");
     this.routines.set(name, { name, parameters, body, ...place });

@@ -1,5 +1,5 @@
 import { type Executed, type MoveStep, type Pose, type Robot, type Signals, type Speed, type Step, type Target, type TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError, nameIn } from "../../text/index.ts";
 import { BlockMachine, type Do, type Expression, type Flow, type WaitUntil } from "../../text/structured/index.ts";
 import type { Source } from "../read/grammar.ts";
 import { ControllerArm } from "./arm.ts";
@@ -25,6 +25,11 @@ const SILENT = new Set([
   "sync", "set_gravity", "popup", "set_tool_voltage", "set_tool_communication", "set_input_actions_to_default", "set_runstate_standard_digital_output_to_value",
   "set_standard_analog_input_domain", "set_tool_analog_input_domain", "set_analog_outputdomain", "set_safety_mode_transition_hardness", "zero_ftsensor",
   "step_count_reset", "modbus_add_signal", "request_boolean_from_primary_client", "reset_world_model", "set_target_payload_inertia", "stopj", "stopl", "textmsg_debug",
+  // Said to other machines and to the operator.
+  "socket_open", "socket_close", "socket_send_string", "socket_send_line", "socket_send_byte", "socket_send_int", "socket_set_var", "modbus_set_output_register", "modbus_set_output_signal",
+  "modbus_set_signal_update_frequency", "modbus_set_runstate_dependent_choice", "modbus_delete_signal", "rtde_set_watchdog", "write_output_integer_register", "write_output_float_register",
+  "write_output_boolean_register", "set_analog_inputrange", "set_standard_analog_inputrange", "set_runstate_outputs", "set_runstate_configurable_digital_output_to_value", "set_runstate_tool_digital_output_to_value",
+  "set_runstate_gp_boolean_output_to_value", "set_tool_analog_inputrange", "set_tool_digital_output_mode", "set_tool_output_mode", "set_tool_digital_input_action", "set_safety_mode_transition_hardness", "set_digital_input_action", "popup_close", "varmsg", "set_joint_limits",
 ]);
 const THREADED = "is followed in real time by the controller's other tasks and cannot be written as steps.";
 const REFUSED: Readonly<Record<string, string>> = Object.fromEntries(
@@ -240,7 +245,7 @@ export class Machine extends BlockMachine<Value> {
     const pose = asPose(args.required(0, "pose"), at), given = args.given(0, "pose");
     this.arm.tcp = matrixOf(pose.six);
     this.hasTool = true;
-    this.tool = pose.six.every(x => x === 0) ? "flange" : named(this.surroundings.tools, toPose(this.arm.tcp), given.kind === "variable" && given.name !== "flange" ? given.name : "tool");
+    this.tool = pose.six.every(x => x === 0) ? "flange" : nameIn(this.surroundings.tools, toPose(this.arm.tcp), given.kind === "variable" && given.name !== "flange" ? given.name : "tool", "_");
   }
 
   private payload(args: Arguments, id: string): Step {
@@ -302,15 +307,5 @@ export class Machine extends BlockMachine<Value> {
     }
     if (typeof goal !== "object") throw new TextError(at, "a pose or joint angles", `${kindOf(goal)} is no place to move to.`);
     this.arm.atPose(asPose(goal, at));
-  }
-}
-
-/** A tool met before keeps its name; two tools never share one. */
-export function named<T>(table: Record<string, T>, value: T, wanted: string): string {
-  const text = JSON.stringify(value);
-  for (let i = 1; ; i++) {
-    const name = i === 1 ? wanted : `${wanted}_${i}`, known = Object.hasOwn(table, name) ? table[name] : undefined;
-    if (known === undefined) table[name] = value;
-    if (known === undefined || JSON.stringify(known) === text) return name;
   }
 }

@@ -1,6 +1,6 @@
-import { branchOf, compose, flangeOfTcp, nearestSolution, palletPitch, pose, rotate, type Condition, type EmittedFile, type MoveStep, type Pallet, type Pose, type Robot, type SignalLine, type Step, type Target, type Vector3 } from "@twincell/core";
+import { branchOf, compose, flangeOfTcp, nearestSolution, pose, rotate, type Condition, type EmittedFile, type MoveStep, type Pose, type Robot, type SignalLine, type Step, type Target } from "@twincell/core";
 import { asciiText } from "../../text/index.ts";
-import { BlockWriter, CannotSay, Names, Place, called, remark } from "../../writing/index.ts";
+import { BlockStepWriter, CannotSay, Names, Place, called, patternOf, pitchTerm, type Pattern } from "../../writing/index.ts";
 import { DIGITAL_LINES, fullJointSpeed } from "../robots.ts";
 import { RESERVED, TAKEN } from "./reserved.ts";
 import { controllerFromBase, listText, num, poseText } from "./pose.ts";
@@ -9,22 +9,16 @@ import { controllerFromBase, listText, num, poseText } from "./pose.ts";
 const LONGEST_NAME = 40;
 
 /** The script: one program, its routines inside it; says only what changes from one step to the next. */
-export class ProgramWriter {
+export class ProgramWriter extends BlockStepWriter {
   readonly warnings = new Set<string>();
-  private readonly place: Place;
   private readonly robot: Robot;
-  private readonly out = new BlockWriter();
   private readonly names = new Names({ most: LONGEST_NAME, reserved: new Set([...RESERVED, ...TAKEN]), first: "p_", foldsCase: false });
   private readonly loops = new Names({ most: LONGEST_NAME, reserved: new Set(), first: "i_", foldsCase: false });
   private tool = "";
-  private group = "";
-  private near: readonly number[] | undefined;
-  private before: MoveStep | undefined;
 
   constructor(place: Place) {
-    this.place = place;
+    super(place);
     this.robot = place.robot;
-    this.near = place.robot.home_rad;
   }
 
   write(): EmittedFile {
@@ -61,32 +55,14 @@ export class ProgramWriter {
     return poseText(compose(compose(controllerFromBase(this.robot), place.baseFromWorld), pose));
   }
 
-  /** What is said at one place holds nowhere else: routines and blocks say it anew. */
-  private begin(): void {
+  protected override begin(): void {
+    super.begin();
     this.tool = "";
-    this.before = undefined;
   }
 
-  private steps(steps: readonly Step[]): void {
-    const outer = this.group;
-    for (const [i, step] of steps.entries()) {
-      this.heading(step);
-      this.step(step, steps[i + 1]);
-      if (step.type !== "comment" && step.type !== "wait") this.before = step.type === "move" ? step : undefined;
-    }
-    this.group = outer;
-  }
+  protected remark(text: string, step: string): void { this.out.add(`#${text}`, step); }
 
-  private heading(step: Step): void {
-    const { groups } = this.place.program, add = (line: string): void => { this.out.add(line.trimEnd(), step.id); };
-    const group = step.group === undefined ? "" : remark(groups[step.group]?.name ?? step.group);
-    if (group !== this.group) add(`#== ${group}`);
-    this.group = group;
-    const name = remark(step.name ?? "");
-    if (name !== "" && step.type !== "comment") add(`# ${name}`);
-  }
-
-  private step(step: Step, next: Step | undefined): void {
+  protected step(step: Step, next: Step | undefined): void {
     const { out } = this, add = (line: string): void => { out.add(line, step.id); };
     switch (step.type) {
       case "move": return this.move(step, next, add);
@@ -103,20 +79,18 @@ export class ProgramWriter {
       case "comment": return add(`#- ${asciiText(step.text)}`.trimEnd());
       case "call": add(`${this.names.of("routine", step.routine)}()`); return this.begin();
       case "repeat": return this.repeat(step);
-      case "if": return this.decision(step);
+      case "if": return this.choice(step, `if ${this.condition(step.when, step)}:`, "else:", "end");
       case "pallet": return this.pallet(step);
     }
   }
 
   private repeat(step: Extract<Step, { type: "repeat" }>): void {
-    const inside = (): void => { this.begin(); this.steps(step.steps); };
-    if (step.times === "forever") this.out.block("while True:", "end", step.id, inside);
-    else this.counted(this.loops.fresh("count"), `${step.times}`, step.id, inside);
+    if (step.times === "forever") return this.loop("while True:", "end", step);
+    this.counted(this.names.fresh(this.loops.fresh("count")), `${step.times}`, step.id, () => { this.inside(step.steps, step.id); });
     this.begin();
   }
 
-  private counted(name: string, times: string, id: string, inside: () => void): void {
-    const variable = this.names.fresh(name);
+  private counted(variable: string, times: string, id: string, inside: () => void): void {
     this.out.add(`${variable} = 0`, id);
     this.out.block(`while ${variable} < ${times}:`, "end", id, () => {
       inside();
@@ -124,55 +98,31 @@ export class ProgramWriter {
     });
   }
 
-  private decision(step: Extract<Step, { type: "if" }>): void {
-    const { out } = this;
-    const inside = (steps: readonly Step[]) => (): void => { this.begin(); this.steps(steps); };
-    out.add(`if ${this.condition(step.when, step)}:`, step.id);
-    out.indented(inside(step.then));
-    if (step.else !== undefined) {
-      out.add("else:", step.id);
-      out.indented(inside(step.else));
-    }
-    out.add("end", step.id);
-    this.begin();
-  }
-
   /** A loop over layers, lines and places; the place is a frame that changes with them. */
   private pallet(step: Extract<Step, { type: "pallet" }>): void {
-    const { program } = this.place, pallet = Object.hasOwn(program.pallets, step.pallet) ? program.pallets[step.pallet] : undefined;
-    if (pallet === undefined) throw new CannotSay(step.id, `${called(step)} works on the pallet ${step.pallet}, which the program does not have.`, "Choose another pallet.");
-    const order = pallet.order ?? "rows", byRows = order.startsWith("rows"), isShifted = pallet.interleave === "odd-rows-shifted" && pallet.rows > 1;
-    if (isShifted && !byRows) throw new CannotSay(step.id, `${called(step)} visits the interleaved pallet ${step.pallet} by columns, which no plain loop does.`, "Visit it by rows.");
+    const { program, baseFromWorld } = this.place, controllerFromWorld = compose(controllerFromBase(this.robot), baseFromWorld);
+    const pattern = patternOf(step, program, (v, { frame }) => frame === "world" ? rotate(controllerFromWorld.quaternion, v) : v), { pallet, lines, inLine, isShifted } = pattern;
     const variable = this.names.of("frame", step.pallet), { out } = this;
     const line = this.names.fresh(`${variable}_line`), along = this.names.fresh(`${variable}_along`), layer = this.names.fresh(`${variable}_layer`), at = this.names.fresh(`${variable}_at`);
-    const lines = byRows ? pallet.rows : pallet.columns, inLine = byRows ? pallet.columns : pallet.rows;
-    const loop = (name: string, times: string, inside: () => void): void => {
-      out.add(`${name} = 0`, step.id);
-      out.block(`while ${name} < ${times}:`, "end", step.id, () => { inside(); out.add(`${name} = ${name} + 1`, step.id); });
-    };
     const count = isShifted ? `${inLine} - ${line} % 2` : `${inLine}`;
     const visit = (): void => {
       out.add(`${at} = ${along}`, step.id);
-      if (order.endsWith("zigzag") && lines > 1 && inLine > 1) {
+      if (pattern.isZigzag) {
         out.block(`if ${line} % 2 == 1:`, "end", step.id, () => { out.add(`${at} = ${isShifted ? inLine - 2 : inLine - 1} - ${along}`, step.id); });
       }
-      out.add(`global ${variable} = ${this.placeText(pallet, layer, line, at)}`, step.id);
+      out.add(`global ${variable} = ${this.placeText(pattern, controllerFromWorld, layer, line, at)}`, step.id);
       this.begin();
       this.steps(step.steps);
     };
-    loop(layer, `${pallet.layers}`, () => { loop(line, `${lines}`, () => { loop(along, count, visit); }); });
+    this.counted(layer, `${pallet.layers}`, step.id, () => { this.counted(line, `${lines}`, step.id, () => { this.counted(along, count, step.id, visit); }); });
     this.begin();
   }
 
   /** Where a place is: so far along its line, so many lines and layers away, and every second line half a step further where they are packed. */
-  private placeText(pallet: Pallet, layer: string, line: string, at: string): string {
-    const isFree = pallet.frame === "world", toController = compose(controllerFromBase(this.robot), this.place.baseFromWorld);
-    const seen = (v: Vector3): Vector3 => isFree ? rotate(toController.quaternion, v) : v, origin = isFree ? compose(toController, compose(pose<"world", "frame">(), pallet.origin)) : pallet.origin;
-    const pitch = palletPitch(pallet), byRows = (pallet.order ?? "rows").startsWith("rows"), along = seen(byRows ? pitch.column : pitch.row), away = seen(byRows ? pitch.row : pitch.column);
-    const up = seen(pallet.layers > 1 ? pitch.layer : [0, 0, 0]), isShifted = pallet.interleave === "odd-rows-shifted" && pallet.rows > 1;
-    const term = (step_m: number, factor: string): string => fine(step_m) === "0" ? "" : ` ${step_m < 0 ? "-" : "+"} ${fine(Math.abs(step_m))} * ${factor}`;
-    const place = ([0, 1, 2] as const).map(i =>
-      `${fine(origin.position[i])}${term(along[i], isShifted ? `(${at} + 0.5 * (${line} % 2))` : at)}${term(away[i], line)}${term(up[i], layer)}`);
+  private placeText({ pallet, along_m, away_m, up_m, isShifted }: Pattern, controllerFromWorld: Pose<"controller", "world">, layer: string, line: string, at: string): string {
+    const isFree = pallet.frame === "world", origin = isFree ? compose(controllerFromWorld, compose(pose<"world", "frame">(), pallet.origin)) : pallet.origin;
+    const term = (pitch_m: number, factor: string): string => pitchTerm(pitch_m, factor, fine, " "), along = isShifted ? `(${at} + 0.5 * (${line} % 2))` : at;
+    const place = ([0, 1, 2] as const).map(i => `${fine(origin.position[i])}${term(along_m[i], along)}${term(away_m[i], line)}${term(up_m[i], layer)}`);
     const turn = poseText(pose([0, 0, 0], origin.quaternion)).slice("p[0, 0, 0, ".length, -1), text = `p[${place.join(", ")}, ${turn}]`;
     return isFree ? text : `pose_trans(${this.names.of("frame", pallet.frame)}, ${text})`;
   }

@@ -1,67 +1,20 @@
-import type { TextPlace } from "@twincell/core";
-import { TextError, lineTokens, plainText, type Token, type TokenRules } from "../../text/index.ts";
+import { LineCursor, type LineRules } from "../../text/index.ts";
 
 type Kind = "word" | "number" | "text" | "sign";
-const RULES: TokenRules<Kind> = [
-  [null, / +/y],
-  [null, /;.*/y],
-  ["word", /[$#]?[A-Za-z][A-Za-z0-9_.]*/y],
-  ["number", /(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[Ee][+-]?[0-9]+)?/y],
-  ["text", /"[^"]*"/y],
-  ["sign", /==|<>|<=|>=|\*\*|[-+*/=<>()[\],:]/y],
-];
+const RULES: LineRules<Kind> = {
+  longest: 1024,
+  called: "statement",
+  tokens: [
+    [null, / +/y],
+    [null, /;.*/y],
+    ["word", /[$#]?[A-Za-z][A-Za-z0-9_.]*/y],
+    ["number", /(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[Ee][+-]?[0-9]+)?/y],
+    ["text", /"[^"]*"/y],
+    ["sign", /==|<>|<=|>=|\*\*|[-+*/=<>()[\],:]/y],
+  ],
+};
 
-/** Longer than any statement; it also bounds how deep an expression can be. */
-const LINE_LENGTH = 1024;
-
-/** Walks over the tokens of one line. Words compare without regard to case. */
-export class Cursor {
-  private readonly tokens: readonly Token<Kind>[];
-  private readonly end: TextPlace;
-  private at = 0;
-
-  /** @throws {TextError} at a character that has no meaning in V+, or when the line is too long for anybody. */
-  constructor(text: string, line: number) {
-    if (text.length > LINE_LENGTH) throw new TextError({ line, column: LINE_LENGTH + 1 }, `a line of at most ${LINE_LENGTH} characters`, `Line ${line} has ${text.length} characters.`);
-    this.tokens = lineTokens(plainText(text), line, RULES);
-    this.end = { line, column: text.length + 1 };
-  }
-
-  get here(): TextPlace { return this.tokens[this.at] ?? this.end; }
-  get done(): boolean { return this.at >= this.tokens.length; }
-  /** The next token in upper case, or "" at the end. */
-  get next(): string { return this.tokens[this.at]?.text.toUpperCase() ?? ""; }
-  get nextKind(): Kind | "end" { return this.tokens[this.at]?.kind ?? "end"; }
-  /** The token after the next, in upper case. */
-  get second(): string { return this.tokens[this.at + 1]?.text.toUpperCase() ?? ""; }
-
-  /** The next token as it stands. */
-  take(): string {
-    const token = this.tokens[this.at];
-    if (token === undefined) throw this.unexpected("more of the statement");
-    this.at++;
-    return token.text;
-  }
-
-  /** Goes past the token when it is that one. */
-  accept(text: string): boolean {
-    if (this.next !== text) return false;
-    this.at++;
-    return true;
-  }
-
-  expect(text: string): void {
-    if (!this.accept(text)) throw this.unexpected(`"${text}"`);
-  }
-
-  expectEnd(): void {
-    if (!this.done) throw this.unexpected("the end of the statement");
-  }
-
-  unexpected(expected: string): TextError {
-    const token = this.tokens[this.at];
-    return new TextError(this.here, expected, token === undefined
-      ? `The line ends where ${expected} is expected.`
-      : `"${token.text}" stands where ${expected} is expected.`);
-  }
+/** Walks over the tokens of one line. */
+export class Cursor extends LineCursor<Kind> {
+  constructor(text: string, line: number) { super(text, line, RULES); }
 }

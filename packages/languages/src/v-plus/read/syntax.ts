@@ -1,4 +1,5 @@
 import type { TextPlace } from "@twincell/core";
+import type { JumpInstruction } from "../../text/index.ts";
 
 /** The sorts of names: `a` a real or a transformation, `$a` a string, `#a` a precision point (joint values). */
 export type Expression = TextPlace & (
@@ -46,18 +47,8 @@ export type Statement = TextPlace & (
   | { readonly kind: "nothing" }
 );
 
-/** A program as a list of statements and jumps; `to` is an index into the list, -1 only while the list is being made. */
-export type Instruction =
-  | { readonly kind: "statement"; readonly statement: Statement }
-  | { readonly kind: "jump"; to: number; readonly at: TextPlace }
-  | { readonly kind: "unless"; readonly condition: Expression; to: number }
-  | { readonly kind: "for"; readonly variable: Variable; readonly from: Expression; readonly last: Expression; readonly step: Expression | undefined; readonly slot: number }
-  /** Jumps out when the variable of loop `slot` has passed its last value. */
-  | { readonly kind: "for-check"; readonly variable: Variable; readonly slot: number; to: number }
-  | { readonly kind: "for-next"; readonly variable: Variable; readonly slot: number; to: number }
-  | { readonly kind: "case"; readonly value: Expression; readonly slot: number }
-  /** Jumps when the value of case `slot` is none of these. */
-  | { readonly kind: "case-unless"; readonly values: readonly Expression[]; readonly slot: number; to: number };
+/** A program as a list of statements and jumps. */
+export type Instruction = JumpInstruction<Expression, Variable, Statement>;
 
 export interface Routine {
   readonly name: string;

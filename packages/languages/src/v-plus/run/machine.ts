@@ -88,7 +88,7 @@ export class Machine {
         state.write(keyOf(instruction.variable, state), Math.fround(number(instruction.variable, state) + frame.step[instruction.slot]!));
         frame.at = instruction.to;
         return;
-      case "case":
+      case "switch":
         frame.chosen[instruction.slot] = evaluate(instruction.value, state);
         return;
       case "case-unless":

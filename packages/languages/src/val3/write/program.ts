@@ -1,8 +1,8 @@
 import {
-  branchOf, compose, inverse, palletPitch, pose, rotate, type Condition, type EmittedFile, type MoveStep, type Pallet, type PalletStep, type Pose, type SignalLine, type Step, type Target, type Vector3,
+  branchOf, compose, inverse, pose, rotate, type Condition, type EmittedFile, type MoveStep, type PalletStep, type Pose, type SignalLine, type Step, type Target, type Vector3,
 } from "@twincell/core";
 import { asciiText } from "../../text/index.ts";
-import { BlockWriter, CannotSay, called, fixed, remark, type Place } from "../../writing/index.ts";
+import { BlockStepWriter, BlockWriter, CannotSay, called, fixed, patternOf, pitchTerm, remark } from "../../writing/index.ts";
 import { GRIPPER, VALVE, configWords } from "../robots.ts";
 import { DataList, RESERVED, attributes, jointAttributes, sixOf, trsfAttributes } from "./data.ts";
 
@@ -10,26 +10,18 @@ const HEADER = "<?xml version=\"1.0\" encoding=\"utf-8\"?>", XSI = "xmlns:xsi=\"
 /** No limit of the tool's speed, in mm/s and degrees a second. */
 const UNLIMITED = "99999";
 const LONGEST_TEXT = 127;
+/** A pitch is added many times over: it is written to ten nanometres. */
+const fine = (length_m: number): string => fixed(length_m * 1000, 5);
 
 /** Writes the programs, the data and the project of an application. */
-export class ApplicationWriter {
-  private readonly place: Place;
+export class ApplicationWriter extends BlockStepWriter {
   private readonly data = new DataList();
-  private out = new BlockWriter();
   private local: string[] = [];
   private inMain = true;
   private points = 0;
   private tool: string | undefined;
-  private group = "";
-  private near: readonly number[] | undefined;
-  private before: MoveStep | undefined;
   /** Whether motions may be under way that what follows must not overtake. */
   private moving = false;
-
-  constructor(place: Place) {
-    this.place = place;
-    this.near = place.robot.home_rad;
-  }
 
   write(): readonly EmittedFile[] {
     const { program } = this.place, { names } = this.data, title = names.of("project", program.name), programs: EmittedFile[] = [];
@@ -93,11 +85,13 @@ export class ApplicationWriter {
 
   // --- steps ------------------------------------------------------------------------------------------------------
 
-  private begin(): void {
+  protected override begin(): void {
+    super.begin();
     this.tool = undefined;
-    this.before = undefined;
     this.moving = true;
   }
+
+  protected remark(text: string, step: string): void { this.out.add(`//${text}`, step); }
 
   /** Motions are put on a list and carried out beside the program: what is no motion waits for their end. */
   private settle(step: string): void {
@@ -105,25 +99,12 @@ export class ApplicationWriter {
     this.moving = false;
   }
 
-  private steps(steps: readonly Step[]): void {
-    const outer = this.group;
-    for (const [i, step] of steps.entries()) {
-      this.heading(step);
-      this.step(step, steps.slice(i + 1).find(({ type }) => type !== "comment"));
-      if (step.type !== "comment" && step.type !== "wait") this.before = step.type === "move" ? step : undefined;
-    }
-    this.group = outer;
+  protected override inside(steps: readonly Step[], step: string): void {
+    super.inside(steps, step);
+    this.settle(step);
   }
 
-  private heading(step: Step): void {
-    const { groups } = this.place.program, group = step.group === undefined ? "" : remark(groups[step.group]?.name ?? step.group);
-    if (group !== this.group) this.out.add(`//== ${group}`.trimEnd(), step.id);
-    this.group = group;
-    const name = remark(step.name ?? "");
-    if (name !== "" && step.type !== "comment") this.out.add(`// ${name}`, step.id);
-  }
-
-  private step(step: Step, next: Step | undefined): void {
+  protected step(step: Step, next: Step | undefined): void {
     const add = (line: string): void => { this.out.add(line, step.id); };
     if (step.type !== "move" && step.type !== "comment") this.settle(step.id);
     switch (step.type) {
@@ -145,7 +126,7 @@ export class ApplicationWriter {
       case "comment": return add(`//- ${asciiText(step.text).replaceAll("]]>", "]] >")}`.trimEnd());
       case "call": add(`call ${this.data.names.of("routine", step.routine)}()`); return this.begin();
       case "repeat": return this.repeat(step);
-      case "if": return this.decision(step);
+      case "if": return this.choice(step, `if ${this.condition(step.when, step)}`, "else", "endIf");
       case "pallet": return this.pallet(step, add);
       // Declared under `cannot`.
       case "payload": throw new CannotSay(step.id, `${called(step)} says a load.`, "Set the load in the settings of the arm.");
@@ -163,53 +144,32 @@ export class ApplicationWriter {
   }
 
   private repeat(step: Extract<Step, { type: "repeat" }>): void {
-    const inside = (): void => { this.begin(); this.steps(step.steps); this.settle(step.id); };
-    if (step.times === "forever") this.out.block("while true", "endWhile", step.id, inside);
-    else this.out.block(`for ${this.counter("count")}=1 to ${step.times} step 1`, "endFor", step.id, inside);
-    this.begin();
-  }
-
-  private decision(step: Extract<Step, { type: "if" }>): void {
-    const { out } = this, inside = (steps: readonly Step[]) => (): void => { this.begin(); this.steps(steps); this.settle(step.id); };
-    out.add(`if ${this.condition(step.when, step)}`, step.id);
-    out.indented(inside(step.then));
-    if (step.else !== undefined) { out.add("else", step.id); out.indented(inside(step.else)); }
-    out.add("endIf", step.id);
-    this.begin();
+    if (step.times === "forever") this.loop("while true", "endWhile", step);
+    else this.loop(`for ${this.counter("count")}=1 to ${step.times} step 1`, "endFor", step);
   }
 
   /** Loops over layers, lines and places; the place is a frame that is put from one to the next. */
   private pallet(step: PalletStep, add: (line: string) => void): void {
-    const { program: { pallets }, baseFromWorld, robot } = this.place, pallet = Object.hasOwn(pallets, step.pallet) ? pallets[step.pallet] : undefined;
-    if (pallet === undefined) throw new CannotSay(step.id, `${called(step)} works on the pallet ${step.pallet}, which the program does not have.`, "Choose another pallet.");
-    const order = pallet.order ?? "rows", byRows = order.startsWith("rows"), isShifted = pallet.interleave === "odd-rows-shifted";
-    if (isShifted && !byRows) throw new CannotSay(step.id, `${called(step)} visits the interleaved pallet ${step.pallet} by columns, which no plain loop does.`, "Visit it by rows.");
+    const { program, baseFromWorld, robot } = this.place, { pallet, lines, inLine, isShifted, isZigzag, ...pitch } = patternOf(step, program);
     const vendorFromFrame: Pose<"frame", "frame"> = pallet.frame === "world" ? compose(compose(pose<"frame", "base">(), compose(inverse(robot.baseFromVendorWorld as Pose as Pose<"base", "base">), baseFromWorld)), pose<"world", "frame">()) : pose();
     const first = compose(vendorFromFrame, pallet.origin), frame = this.frame(step.pallet, step.id);
     const [layer, line, along, at] = ["layer", "line", "along", "at"].map(word => this.counter(word)) as [string, string, string, string];
-    const lines = byRows ? pallet.rows : pallet.columns, inLine = byRows ? pallet.columns : pallet.rows, last = isShifted ? `${inLine - 1}-(${line}%2)` : `${inLine - 1}`;
+    const last = isShifted ? `${inLine - 1}-(${line}%2)` : `${inLine - 1}`;
+    const [along_m, away_m, up_m] = [pitch.along_m, pitch.away_m, pitch.up_m].map(v => rotate(vendorFromFrame.quaternion, v)) as [Vector3, Vector3, Vector3];
+    const place = `{${sixOf(first).map((text, i) => i > 2 ? text : `${text}${isShifted ? pitchTerm(along_m[i]! / 2, `(2*${at}+(${line}%2))`, fine) : pitchTerm(along_m[i]!, at, fine)}${pitchTerm(away_m[i]!, line, fine)}${pitchTerm(up_m[i]!, layer, fine)}`).join(",")}}`;
     const loop = (name: string, to: string, inside: () => void): void => { this.out.block(`for ${name}=0 to ${to} step 1`, "endFor", step.id, inside); };
     loop(layer, `${pallet.layers - 1}`, () => {
       loop(line, `${lines - 1}`, () => {
         loop(along, last, () => {
           add(`${at}=${along}`);
-          if (order.endsWith("zigzag")) this.out.block(`if (${line}%2)==1`, "endIf", step.id, () => { add(`${at}=${last}-${along}`); });
+          if (isZigzag) this.out.block(`if (${line}%2)==1`, "endIf", step.id, () => { add(`${at}=${last}-${along}`); });
           this.settle(step.id);
-          add(`${frame}.trsf=${this.placeText(pallet, first, v => rotate(vendorFromFrame.quaternion, v), [layer, line, at], byRows, isShifted)}`);
-          this.begin();
-          this.steps(step.steps);
-          this.settle(step.id);
+          add(`${frame}.trsf=${place}`);
+          this.inside(step.steps, step.id);
         });
       });
     });
     this.begin();
-  }
-
-  private placeText(pallet: Pallet, first: Pose, seen: (v: Vector3) => Vector3, [layer, line, at]: readonly [string, string, string], byRows: boolean, isShifted: boolean): string {
-    const pitch = palletPitch(pallet), along = seen(byRows ? pitch.column : pitch.row), away = seen(byRows ? pitch.row : pitch.column), up = seen(pallet.layers > 1 ? pitch.layer : [0, 0, 0]), six = sixOf(first);
-    const fine = (pitch_m: number): string => fixed(pitch_m * 1000, 5);
-    const term = (pitch_m: number, factor: string): string => fine(pitch_m) === "0" ? "" : `${pitch_m < 0 ? "-" : "+"}${fine(Math.abs(pitch_m))}*${factor}`;
-    return `{${six.map((text, i) => i > 2 ? text : `${text}${isShifted ? term(along[i]! / 2, `(2*${at}+(${line}%2))`) : term(along[i]!, at)}${term(away[i]!, line)}${term(up[i]!, layer)}`).join(",")}}`;
   }
 
   // --- lines ------------------------------------------------------------------------------------------------------

@@ -1,0 +1,38 @@
+import type { Brand } from "../real/index.ts";
+import { RMI_PORT, RMI_SESSION_PORT } from "./codec-rmi.ts";
+import { createFanucFace } from "./driver.ts";
+import { createVirtualFanuc, fanucInput } from "./virtual/controller.ts";
+
+const PORTS = { connect: RMI_PORT, session: RMI_SESSION_PORT };
+
+/** FANUC as apps meet it: the Remote Motion Interface of R-30iB controllers and later. */
+export const fanuc: Brand = {
+  id: "fanuc", name: "FANUC", dialect: "fanuc-ls", vendor: "FANUC", ports: PORTS,
+  face: ({ robot, scheduler, network, host, ports }) => createFanucFace({ robot, scheduler, network, host, port: ports?.["connect"] ?? RMI_PORT }),
+  async virtual({ robot, scheduler, network, host, ports, start_rad, maxSpeed }) {
+    const started = await createVirtualFanuc({
+      robot, scheduler, network, host, port: ports?.["connect"] ?? RMI_PORT, sessionPort: ports?.["session"] ?? RMI_SESSION_PORT,
+      ...(start_rad ? { start_rad } : {}), ...(maxSpeed === undefined ? {} : { maxSpeed }),
+    });
+    if (started.kind === "taken") return started;
+    const { virtual } = started, { pendant, arm } = virtual;
+    return {
+      kind: "started",
+      virtual: {
+        name: `Virtual ${robot.name}`, robot, ports: virtual.ports, brakingTime_s: arm.brakingTime_s,
+        jointAngles: out => arm.jointAngles(out), reboot() { virtual.reboot(); }, close() { virtual.close(); },
+        pendant: {
+          setMode(mode) { pendant.setKey(mode === "manual" ? "T1" : "AUTO"); },
+          jog: q_rad => pendant.jog(q_rad),
+          emergencyStop(pressed) { pendant.setEmergencyStop(pressed); },
+          setGuardOpen(open) { pendant.setGuardOpen(open); },
+          protectiveStop(because) { pendant.fault(because); },
+          setInput(signal, value) {
+            const n = fanucInput(signal);
+            if (n > 0) pendant.setInput(n, value === true || (typeof value === "number" && value !== 0));
+          },
+        },
+      },
+    };
+  },
+};

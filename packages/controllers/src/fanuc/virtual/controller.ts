@@ -1,0 +1,235 @@
+import { compose, flangePose, inverse, toFanucWpr, type CommandOutcome, type MoveStep, type Pose, type Robot, type Scheduler } from "@twincell/core";
+import { jointMoveSpeed } from "../../guard/index.ts";
+import type { ByteStream, Network } from "../../transport/index.ts";
+import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
+import { jointPart, MOST_WAITING, RMI_ERROR, RMI_PORT, RMI_SESSION_PORT, RmiReader, rmiBytes, rmiNumber, type RmiPacket } from "../codec-rmi.ts";
+import { fanucJoints, JOINTS, shownOf, type FanucJoints } from "../joints.ts";
+import { instructionOf, type Instruction } from "./instructions.ts";
+import { FanucMachine, T1_MPS, type FanucKey } from "./machine.ts";
+
+export interface VirtualFanucOptions {
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly network: Network;
+  readonly host: string;
+  /** 16001, where clients ask, and 16002, where the one that is let in goes. */
+  readonly port?: number;
+  readonly sessionPort?: number;
+  readonly joints?: FanucJoints;
+  readonly start_rad?: ArrayLike<number>;
+  readonly maxSpeed?: number;
+  readonly digits?: number;
+  readonly log?: (sentence: string) => void;
+}
+export interface FanucPendant {
+  setKey(key: FanucKey): void;
+  jog(q_rad: ArrayLike<number>): Promise<CommandOutcome>;
+  setEmergencyStop(pressed: boolean): void;
+  setGuardOpen(open: boolean): void;
+  fault(text: string): void;
+  reset(): string | null;
+  setInput(n: number, value: boolean): void;
+}
+export interface FanucFaults { refusing: boolean; silent: boolean; delay_s: number; frozen: boolean }
+export interface VirtualFanuc {
+  readonly robot: Robot; readonly arm: VirtualController; readonly pendant: FanucPendant; readonly faults: FanucFaults;
+  readonly ports: { readonly connect: number; readonly session: number };
+  readonly servosOn: boolean;
+  reboot(): void;
+  close(): void;
+}
+export type FanucStarted = { readonly kind: "started"; readonly virtual: VirtualFanuc } | { readonly kind: "taken"; readonly sentence: string };
+interface Waiting { readonly name: string; readonly sequence: number; readonly instruction: Instruction }
+
+const FLANGE: Pose<"flange", "tcp"> = { position: [0, 0, 0], quaternion: [0, 0, 0, 1] };
+const VERSION = { MajorVersion: 5, MinorVersion: 0 } as const;
+const WIRE = /^(DI|DO)\[([0-9]{1,4})\]$/;
+
+/** A FANUC controller of numbers behind its Remote Motion Interface: one client, eight instructions waiting, servos, pendant, fence. */
+export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<FanucStarted> {
+  const { robot, scheduler, network, host } = options, joints = options.joints ?? fanucJoints(robot), digits = options.digits ?? 5;
+  if (!joints || robot.arm.joints.length !== JOINTS) return { kind: "taken", sentence: `How a FANUC controller shows the joints of ${robot.name} is not known.` };
+  const log = options.log ?? ((): void => { /* Nobody asked for it. */ });
+  const arm = createVirtualController({ robot, scheduler, name: `Virtual ${robot.name}`, ...(options.start_rad ? { start_rad: options.start_rad } : {}), ...(options.maxSpeed === undefined ? {} : { maxSpeed: options.maxSpeed }) });
+  const faults: FanucFaults = { refusing: false, silent: false, delay_s: 0, frozen: false }, now_rad = arm.jointAngles(), shown = new Float64Array(JOINTS);
+  let session: ByteStream | null = null, expected = false, running = false, next = 1, queue: Waiting[] = [], busy: Waiting | null = null, life = 0, time_s = 0, booted_s = 0, last_s = 0;
+
+  const send = (packet: RmiPacket, to = session): void => {
+    if (!to || faults.silent) return;
+    const bytes = rmiBytes(packet);
+    if (!(faults.delay_s > 0)) { to.send(bytes); return; }
+    const stop = scheduler.every(faults.delay_s, () => { stop(); to.send(bytes); });
+  };
+  const answer = ({ name, sequence }: Waiting, ErrorID: number): void => { send({ key: "Instruction", name, fields: { ErrorID, SequenceID: sequence } }); };
+
+  /** RMI_MOVE ends; what waited is forgotten. */
+  function abort(): void {
+    life++;
+    running = false;
+    queue = [];
+    busy = null;
+    machine.hold(false);
+  }
+  const machine = new FanucMachine(arm, () => {
+    if (!running) return;
+    const SequenceID = busy?.sequence ?? next - 1;
+    abort();
+    send({ key: "Communication", name: "FRC_SystemFault", fields: { SequenceID } });
+  });
+  arm.onSample(sample => {
+    last_s = sample.time_s;
+    if (faults.frozen) return;
+    now_rad.set(sample.q_rad);
+    time_s = sample.time_s - booted_s;
+  });
+
+  function work(): void {
+    if (busy) return;
+    const waiting = queue.shift(), mine = life;
+    if (!waiting) return;
+    busy = waiting;
+    const end = (id: number): void => {
+      if (mine !== life) return;
+      busy = null;
+      answer(waiting, id);
+      work();
+    };
+    if (waiting.instruction.kind !== "step") { end(waiting.instruction.kind === "error" ? waiting.instruction.id : RMI_ERROR.ok); return; }
+    void arm.run([waiting.instruction.make(arm.jointAngles())], { tools: {}, frames: {} }).then(outcome => {
+      if (mine !== life) return;
+      if (outcome.kind === "done") { end(RMI_ERROR.ok); return; }
+      answer(waiting, RMI_ERROR.position);
+      machine.fault(outcome.why.sentence);
+    });
+  }
+
+  const whyNot = (): number => machine.pendant ? RMI_ERROR.pendant : !machine.ready ? RMI_ERROR.servoOff : RMI_ERROR.ok;
+  function command(name: string, fields: Readonly<Record<string, unknown>>): Readonly<Record<string, unknown>> {
+    const only = (ErrorID: number): { ErrorID: number } => ({ ErrorID }), TimeTag = Math.round(1000 * time_s);
+    switch (name) {
+      case "FRC_Initialize": {
+        const why = whyNot();
+        if (why !== RMI_ERROR.ok) return only(why);
+        if (running || arm.isMoving()) return only(RMI_ERROR.program);
+        abort();
+        running = true;
+        next = 1;
+        return { ...only(RMI_ERROR.ok), GroupMask: 1 };
+      }
+      case "FRC_Abort":
+        if (!running) return only(RMI_ERROR.notRunning);
+        abort();
+        arm.stop();
+        return only(RMI_ERROR.ok);
+      case "FRC_Pause":
+        if (!running) return only(RMI_ERROR.notRunning);
+        machine.hold(true);
+        return only(RMI_ERROR.ok);
+      case "FRC_Continue":
+        if (!machine.isHeld) return only(RMI_ERROR.notPaused);
+        machine.hold(false);
+        return only(RMI_ERROR.ok);
+      case "FRC_Reset": return only(machine.reset() === null ? RMI_ERROR.ok : RMI_ERROR.failed);
+      case "FRC_ReadError": return { ...only(RMI_ERROR.ok), Count: Math.min(1, machine.faults.length), ErrorData: machine.faults.at(-1) ?? "" };
+      case "FRC_GetStatus": return {
+        ...only(RMI_ERROR.ok), ServoReady: machine.ready ? 1 : 0, TPMode: machine.pendant ? 1 : 0, RMIMotionStatus: running ? 1 : 0, ProgramStatus: machine.isHeld ? 1 : 0, SingleStepMode: 0,
+        NumberUTool: 10, NumberUFrame: 9, NextSequenceID: next, Override: machine.override,
+      };
+      case "FRC_ReadJointAngles": return { ...only(RMI_ERROR.ok), TimeTag, JointAngle: jointPart(shownOf(now_rad, joints!, shown), digits), Group: 1 };
+      case "FRC_ReadCartesianPosition": {
+        const at = compose(inverse(robot.baseFromVendorWorld as Pose), flangePose(robot.arm, now_rad) as Pose), [w, p, r] = toFanucWpr(at.quaternion);
+        const [X, Y, Z] = at.position.map(value => Number((1000 * value).toFixed(digits))), [W, P, R] = [w, p, r].map(value => Number(value.toFixed(digits)));
+        return { ...only(RMI_ERROR.ok), TimeTag, Configuration: { UToolNumber: 1, UFrameNumber: 0 }, Position: { X, Y, Z, W, P, R, Ext1: 0, Ext2: 0, Ext3: 0 }, Group: 1 };
+      }
+      case "FRC_SetOverRide": return only(machine.setOverride(rmiNumber(fields, "Value")) ? RMI_ERROR.ok : RMI_ERROR.override);
+      case "FRC_SetUFrameUTool": return only(RMI_ERROR.ok);
+      case "FRC_GetUFrameUTool": return { ...only(RMI_ERROR.ok), UFrameNumber: 0, UToolNumber: 1, Group: 1 };
+      case "FRC_ReadDIN": {
+        const n = rmiNumber(fields, "PortNumber");
+        return Number.isInteger(n) && n > 0 ? { ...only(RMI_ERROR.ok), PortNumber: n, PortValue: arm.signals.read(`DI[${n}]`) === true ? 1 : 0 } : only(RMI_ERROR.value);
+      }
+      case "FRC_WriteDOUT": {
+        const n = rmiNumber(fields, "PortNumber"), value = fields["PortValue"];
+        if (!(Number.isInteger(n) && n > 0) || (value !== "ON" && value !== "OFF")) return only(RMI_ERROR.value);
+        arm.signals.write(`DO[${n}]`, value === "ON");
+        return only(RMI_ERROR.ok);
+      }
+      default: return only(RMI_ERROR.command);
+    }
+  }
+
+  function take(packet: RmiPacket): boolean {
+    const { key, name, fields } = packet;
+    if (key === "Command") send({ key, name, fields: command(name, fields) });
+    else if (key === "Instruction") {
+      const sequence = rmiNumber(fields, "SequenceID"), reply = { name, sequence: Number.isFinite(sequence) ? sequence : 0, instruction: instructionOf(packet, robot, joints!) };
+      const why = !running ? RMI_ERROR.notRunning : sequence !== next ? RMI_ERROR.sequence : queue.length >= MOST_WAITING ? RMI_ERROR.failed : RMI_ERROR.ok;
+      if (why !== RMI_ERROR.ok) { answer(reply, why); return true; }
+      next++;
+      queue.push(reply);
+      work();
+    } else if (name === "FRC_Disconnect") { send({ key, name, fields: { ErrorID: RMI_ERROR.ok } }); return false; }
+    return true;
+  }
+
+  /** Lines into packets; whoever sends what is none is logged once and cut off. */
+  function attend(stream: ByteStream, onPacket: (packet: RmiPacket) => boolean, over: () => void): void {
+    const reader = new RmiReader();
+    let isOver = false;
+    const end = (): void => { if (!isOver) { isOver = true; over(); stream.close(); } };
+    stream.onEnd(end);
+    stream.onBytes(lent => {
+      if (isOver) return;
+      const why = reader.push(lent, packet => { if (!onPacket(packet)) end(); return !isOver; });
+      if (why) { log(`${stream.peer.host}:${stream.peer.port}: ${why} The connection is reset.`); end(); }
+    });
+  }
+
+  const second = await network.listen({ host, port: options.sessionPort ?? RMI_SESSION_PORT }, stream => {
+    if (!expected || session || faults.refusing) { stream.close(); return; }
+    expected = false;
+    session = stream;
+    // A motion that was sent is carried out to its end; what waited behind it is not.
+    attend(stream, take, () => { session = null; queue = []; });
+  });
+  if (second.kind === "taken") { arm.close(); return second; }
+  const first = await network.listen({ host, port: options.port ?? RMI_PORT }, stream => {
+    if (faults.refusing) { stream.close(); return; }
+    attend(stream, ({ key, name }) => {
+      if (key !== "Communication" || name !== "FRC_Connect") { send({ key, name, fields: { ErrorID: RMI_ERROR.command } }, stream); return true; }
+      const taken = session !== null;
+      if (!taken) expected = true;
+      send({ key, name, fields: { ErrorID: taken ? RMI_ERROR.connected : RMI_ERROR.ok, PortNumber: taken ? 0 : second.address.port, ...VERSION } }, stream);
+      return true;
+    }, () => { /* It goes to the other port. */ });
+  });
+  if (first.kind === "taken") { second.close(); arm.close(); return first; }
+
+  return {
+    kind: "started",
+    virtual: {
+      robot, arm, faults, ports: { connect: first.address.port, session: second.address.port },
+      get servosOn() { return machine.ready; },
+      pendant: {
+        setKey(key) { machine.setKey(key); }, setEmergencyStop(pressed) { machine.setEmergency(pressed); }, setGuardOpen(open) { machine.setFence(open); },
+        fault(text) { machine.fault(text); }, reset: () => machine.reset(), setInput(n, value) { arm.signals.write(`DI[${n}]`, value); },
+        async jog(q_rad) {
+          if (!machine.pendant || !machine.ready) return { kind: "refused", why: { code: "controller.not-manual", sentence: machine.pendant ? "The servos are off." : "The pendant is not enabled.", hint: "Turn the key to T1 and reset the faults." } };
+          const full_mps = jointMoveSpeed(robot, arm.jointAngles(), q_rad, FLANGE);
+          const step: MoveStep = { id: "jog", type: "move", path: "ptp", target: { q: Array.from(q_rad) }, speed: { ratio: machine.key === "T1" && full_mps > T1_MPS ? T1_MPS / full_mps : 1 }, blend_m: 0 };
+          return arm.run([step], { tools: {}, frames: {} });
+        },
+      },
+      reboot() {
+        session?.close();
+        session = null;
+        abort();
+        machine.fault("SYST-026 System normal power up");
+        booted_s = last_s;
+        time_s = 0;
+      },
+      close() { first.close(); second.close(); session?.close(); arm.close(); },
+    },
+  };
+}
+export const fanucInput = (signal: string): number => { const match = WIRE.exec(signal); return match?.[1] === "DI" ? Number(match[2]) : NaN; };
