@@ -48,6 +48,7 @@ export interface VirtualAbb {
 }
 export type AbbStart = { readonly kind: "started"; readonly controller: VirtualAbb } | { readonly kind: "taken"; readonly sentence: string };
 
+const LONGEST_CYCLE_S = 0.04;
 const GAIN_PER_S = 20, MOST_LOGGED = 100, CONVERGED_DEG = 0.01;
 /** Beyond its limit a target is a fault; rounding is none [rad]. */
 const SLACK_RAD = 1e-7;
@@ -55,7 +56,7 @@ const SLACK_RAD = 1e-7;
 /** A controller that is guided from outside: it tells where it is in every cycle and goes where it is told, with a lag, until targets fail to come. */
 export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbStart> {
   const { robot, scheduler, network } = options, { joints } = robot.arm, n = joints.length, cycle_s = options.cycle_s ?? EGM_CYCLE_S;
-  const to = options.sensor ?? { host: options.host, port: EGM_PORT }, gain_per_s = options.gain_per_s ?? GAIN_PER_S, timeout_s = options.commTimeout_s ?? COMM_TIMEOUT_S, maxSpeed = options.maxSpeed ?? 1;
+  const to = options.sensor ?? { host: options.host, port: EGM_PORT }, gain_per_s = Math.min(1 / LONGEST_CYCLE_S, options.gain_per_s ?? GAIN_PER_S), timeout_s = options.commTimeout_s ?? COMM_TIMEOUT_S, maxSpeed = options.maxSpeed ?? 1;
   const bound = await network.bind({ host: options.host, port: 0 });
   if (bound.kind === "taken") return bound;
   const { socket } = bound, { start_rad, initialize } = options;
@@ -63,7 +64,7 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
   const q_rad = neutral.jointAngles(), v_rad_s = new Float64Array(n), target_rad = q_rad.slice(), wanted_rad_s = new Float64Array(n);
   const out = noEgmRobot(), heard = noEgmSensor(), write = egmRobotWriter(), logged = new Set<string>();
   let motors: number = MOTORS.on, state: number = EGM_STATE.running, mode: OperatingMode = "remote", pressed = false, guardOpen = false, frozen = false, isOff = false, message = "";
-  let silent_s = -Infinity, sequence = 0, powered_s = scheduler.now_s(), stopWaiting: () => void = () => { /* Nothing is waited for yet. */ };
+  let silent_s = -Infinity, sequence = 0, powered_s = scheduler.now_s(), cycled_s = powered_s, stopWaiting: () => void = () => { /* Nothing is waited for yet. */ };
   out.axes = n;
 
   /** The program that waits for targets is started: the robot stays where it is until the first one comes. */
@@ -82,17 +83,17 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
   }
 
   /** One cycle of motion towards the target, or of braking. */
-  function follow(): void {
+  function follow(dt_s: number): void {
     for (let i = 0; i < n; i++) {
       const { limits } = joints[i]!, most = limits.speed_rad_s * maxSpeed;
       if (state === EGM_STATE.running) {
         const to_rad_s = wanted_rad_s[i]! + gain_per_s * (target_rad[i]! - q_rad[i]!);
         v_rad_s[i] = Math.min(most, Math.max(-most, to_rad_s));
       } else {
-        const less = limits.acceleration_rad_s2 * cycle_s, v = v_rad_s[i]!;
+        const less = limits.acceleration_rad_s2 * dt_s, v = v_rad_s[i]!;
         v_rad_s[i] = Math.abs(v) <= less ? 0 : v - Math.sign(v) * less;
       }
-      const q = q_rad[i]! + v_rad_s[i]! * cycle_s;
+      const q = q_rad[i]! + v_rad_s[i]! * dt_s;
       q_rad[i] = Math.min(limits.upper_rad, Math.max(limits.lower_rad, q));
     }
   }
@@ -109,12 +110,15 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
   }
 
   const stopCycle = scheduler.every(cycle_s, () => {
+    // A clock that ticks late is made good in one longer cycle, up to a bound that keeps the lag stable.
+    const now_s = scheduler.now_s(), dt_s = Math.min(LONGEST_CYCLE_S, now_s - cycled_s);
+    cycled_s = now_s;
     if (isOff) return;
     if (neutral.isMoving()) neutral.jointAngles(q_rad);
     else {
-      silent_s += cycle_s;
+      silent_s += dt_s;
       if (state === EGM_STATE.running && silent_s > timeout_s) giveUp(EGM_STATE.error, `No target came for ${timeout_s} s.`);
-      follow();
+      follow(dt_s);
       neutral.jumpTo(q_rad);
     }
     if (!frozen) tell();
