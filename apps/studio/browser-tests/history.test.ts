@@ -120,7 +120,7 @@ test("T-54 from any past instant a run goes on: posture and step as they were, r
   const ended = (runs: number) => page.waitForFunction(count => { const { historyStore, controlStore } = window.twincell.stores; return historyStore.getState().runs.filter(({ ending }) => ending !== "running").length === count && !controlStore.getState().running; }, runs, { timeout: 120_000, polling: 200 });
   await ended(1);
   await page.evaluate(() => { window.twincell.stores.viewStore.setState({ mode: "history" }); });
-  await page.getByRole("listitem").getByRole("button").first().click();
+  await page.getByRole("listitem").filter({ has: page.getByRole("button", { name: /Download/ }) }).first().getByRole("button").first().click();
   await page.waitForFunction(() => window.twincell.stores.historyStore.getState().duration_s > 0, null, { polling: 100 });
   const slider = page.getByRole("slider", { name: "Moment of the run" });
   for (const key of ["End", "PageDown", "PageDown", "PageDown"]) await slider.press(key);
@@ -132,7 +132,7 @@ test("T-54 from any past instant a run goes on: posture and step as they were, r
   expect(await page.evaluate(() => window.twincell.stores.controlStore.getState().step)).toBe(moment.step);
   await ended(2);
   await page.evaluate(() => { window.twincell.stores.viewStore.setState({ mode: "history" }); });
-  await page.getByRole("listitem").getByRole("button").first().click();
+  await page.getByRole("listitem").filter({ has: page.getByRole("button", { name: /Download/ }) }).first().getByRole("button").first().click();
   await page.waitForFunction(before => { const state = window.twincell.stores.historyStore.getState(); return state.duration_s > 0 && state.duration_s < before; }, duration_s, { polling: 100 });
   const first = await page.evaluate(() => Array.from(window.twincell.live.now().q_rad)), branch = await history(page);
   first.forEach((q, j) => { expect(Math.abs(q - stood[j]!)).toBeLessThan(1e-6); });
