@@ -59,7 +59,7 @@ async function standsThere(page: Page): Promise<number> {
 }
 
 test("T-54 T-56 X-43 a day is scrubbed, its last alarm found, two cycles laid over each other, its figures read", async () => {
-  const { page, problems } = await studio.open();
+  const { page, problems } = await studio.open({ width: 1120, height: 700 });
   await opened(page);
   expect((await history(page)).cycles.length).toBe(DAY_S / CYCLE_S);
   const slider = page.getByRole("slider", { name: "Moment of the run" });
@@ -75,7 +75,7 @@ test("T-54 T-56 X-43 a day is scrubbed, its last alarm found, two cycles laid ov
   await page.getByRole("group", { name: "Time shown" }).getByRole("button", { name: "10 min" }).dispatchEvent("click");
   const { window: shown } = await history(page);
   expect(shown.to_s - shown.from_s).toBeCloseTo(600, 6);
-  await page.screenshot({ path: picture("history-day") });
+  await page.screenshot({ path: picture("history-day"), timeout: 90_000 });
 
   await page.getByRole("radio", { name: "Cycles" }).dispatchEvent("click");
   await page.getByRole("button", { name: "Cycle 2", exact: true }).dispatchEvent("click");
@@ -83,15 +83,15 @@ test("T-54 T-56 X-43 a day is scrubbed, its last alarm found, two cycles laid ov
   await page.getByRole("button", { name: `Cycle ${DAY_S / CYCLE_S - 1}`, exact: true }).dispatchEvent("click");
   await page.getByText(/at most [\d.]+ mm apart, after/).waitFor();
   expect((await history(page)).overlay?.ways.every(way => way.length > 50)).toBe(true);
-  await page.screenshot({ path: picture("history-cycles") });
+  await page.screenshot({ path: picture("history-cycles"), timeout: 90_000 });
 
   await page.getByRole("radio", { name: "Figures" }).dispatchEvent("click");
   await page.getByText(/2159 cycles, 40\.00 s in the middle/).waitFor();
   await page.getByText(/The load of joint 2 rose by/).waitFor();
   expect(await page.getByText("Service intervals: not reported.").count()).toBe(1);
-  await page.screenshot({ path: picture("history-figures") });
+  await page.screenshot({ path: picture("history-figures"), timeout: 90_000 });
   expect(problems).toEqual([]);
-}, 180_000);
+}, 300_000);
 
 test("X-43 a moment is shared as a link; where the recording is missing it asks for the file and opens there", async () => {
   const { page, context, problems } = await studio.open();
