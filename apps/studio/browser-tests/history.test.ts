@@ -82,7 +82,7 @@ test("T-54 T-56 X-43 a day is scrubbed, its last alarm found, two cycles laid ov
   await page.evaluate(() => { document.querySelector("[aria-label=Cycles][role=list]")?.scrollTo(0, 1e9); });
   await page.getByRole("button", { name: `Cycle ${DAY_S / CYCLE_S - 1}`, exact: true }).dispatchEvent("click");
   await page.getByText(/at most [\d.]+ mm apart, after/).waitFor();
-  expect((await history(page)).overlay?.ways.every(way => way.length > 50)).toBe(true);
+  expect((await history(page)).overlay?.ways.every(way => way.length > 20)).toBe(true);
   await page.screenshot({ path: picture("history-cycles"), timeout: 90_000 });
 
   await page.getByRole("radio", { name: "Figures" }).dispatchEvent("click");
