@@ -1,7 +1,9 @@
 import { existsSync, readFileSync } from "node:fs";
-import { boxMesh, CellCollider, checkJointLine, clearance, pose, type CellGeometry, type CellObject, type Vector3 } from "@twincell/core";
+import { fileURLToPath } from "node:url";
+import { boxMesh, CellCollider, checkJointLine, clearance, pose, type CellGeometry, type CellObject, type SerialArm, type Vector3 } from "@twincell/core";
 import { armFromUrdf, readStl, readUrdf, urdfSolids } from "@twincell/formats";
 import { figure, microseconds, type Figure } from "./figure.ts";
+import { planningFigures, type PlanningCell } from "./planning.ts";
 
 interface SharedCell {
   readonly boxes: readonly { readonly center_m: Vector3; readonly half_size_m: Vector3 }[];
@@ -18,7 +20,7 @@ function meshAt(place: URL) {
 }
 
 /** The KR 6 R900 among five boxes and the concave jig, and what the witness says of 1,000 postures. */
-export function sharedCell(): { readonly collider: CellCollider; readonly cases: SharedCell["cases"] } {
+export function sharedCell(): { readonly collider: CellCollider; readonly arm: SerialArm; readonly cases: SharedCell["cases"]; readonly peer: PlanningCell["peer"] } {
   const { boxes, cases } = JSON.parse(readFileSync(new URL("bench/kr6-cell.json", shared), "utf8")) as SharedCell;
   const urdf = readUrdf(readFileSync(new URL("robot.urdf", robotFolder), "utf8"));
   const chain = urdf.kind === "read" ? armFromUrdf(urdf.robot) : urdf;
@@ -29,7 +31,10 @@ export function sharedCell(): { readonly collider: CellCollider; readonly cases:
   }));
   objects.push({ id: "jig", name: "jig", worldFromObject: pose(), mesh: meshAt(new URL("bench/fixture.stl", shared)) });
   const cell: CellGeometry = { worldFromBase: pose(), links: solids, objects, allowedPairs: [], shapeError_m: 0 };
-  return { collider: new CellCollider(cell, chain.arm), cases };
+  return {
+    collider: new CellCollider(cell, chain.arm), arm: chain.arm, cases,
+    peer: { urdf: fileURLToPath(new URL("robot.urdf", robotFolder)), folder: fileURLToPath(robotFolder), jig: fileURLToPath(new URL("bench/fixture.stl", shared)), boxes },
+  };
 }
 
 const ROUNDS = 15;
@@ -40,7 +45,7 @@ export function run(): Promise<readonly Figure[]> {
     process.stderr.write("collision: the shared KR 6 cell is not beside the checkout and is left out.\n");
     return Promise.resolve([]);
   }
-  const { collider, cases } = sharedCell(), near = clearance();
+  const { collider, arm, cases, peer } = sharedCell(), near = clearance();
   const agreeing = cases.filter(({ q_rad, collides }) => collider.collides(q_rad) === collides).length;
   const perPosture = (ask: (q: readonly number[]) => unknown): number[] => microseconds(cases.length, ROUNDS, i => { ask(cases[i]!.q_rad); });
   const free = cases.filter(({ collides }) => !collides).map(({ q_rad }) => q_rad);
@@ -51,5 +56,6 @@ export function run(): Promise<readonly Figure[]> {
     figure("collision/kr6-clearance", "us", perPosture(q => collider.clearance(q, 0.05, near)), "smallest distance below 50 mm with its points"),
     figure("collision/kr6-motion", "us", motions, "whole joint-space line between two random free postures, proven or stopped at its first contact"),
     figure("collision/kr6-agreement", "of 1000", [agreeing], "verdicts equal to coal's on exact meshes"),
+    ...planningFigures({ collider, arm, free, peer }),
   ]);
 }

@@ -47,6 +47,19 @@ describe("check", () => {
     expect(xml).toContain(`failures="${bad.length}"`);
     expect(readdirSync(join(folder, "deep"))).toEqual(["report.xml"]);
   });
+  test("M-49 a certificate is written, proven again, and refuted for a cell that has changed", () => {
+    const file = join(folder, "certificate.json"), crowded = join(folder, "crowded.json");
+    expect(twincell("check", PROGRAM, ...IN_CELL, "--certificate", file).code).toBe(0);
+    expect(twincell("check", PROGRAM, ...IN_CELL, "--verify", file)).toMatchObject({ code: 0, sentences: [expect.stringMatching(/^All [0-9]+ motions are proven clear a second time, in [0-9]+ looks\.$/)] });
+    const cell = JSON.parse(readFileSync(`${root}${CELL}`, "utf8")) as { objects: { id: string; worldFromObject: { position: number[] } }[] };
+    cell.objects.find(({ id }) => id === "carton")!.worldFromObject.position[2]! += 0.05;
+    writeFileSync(crowded, JSON.stringify(cell));
+    const refuted = twincell("check", PROGRAM, "--cell", crowded, "--verify", file);
+    expect(refuted.code).toBe(1);
+    expect(refuted.sentences[0]).toMatch(/^The certificate does not hold for step /);
+    expect(twincell("check", PROGRAM, "--certificate", file)).toMatchObject({ code: 2, sentences: [expect.stringContaining("A certificate is about a cell.")] });
+    expect(twincell("check", PROGRAM, ...IN_CELL, "--verify", PROGRAM)).toMatchObject({ code: 2 });
+  });
   test("names with marks of XML do not break the report", () => {
     const path = changed("marks", program => { program.name = `a<b & "c"`; }), report = join(folder, "marks.xml");
     expect(twincell("check", path, "--junit", report).code).toBe(0);

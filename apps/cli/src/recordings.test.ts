@@ -1,9 +1,10 @@
-import { spawnSync } from "node:child_process";
+import { spawn, spawnSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { robotById } from "@twincell/core";
+import { serve } from "@twincell/server";
 import { afterAll, beforeAll, expect, test } from "vitest";
 import { killOnce } from "../../../scripts/soak/kill-recorder.ts";
 import { stateLines } from "./io/state-lines.ts";
@@ -25,7 +26,7 @@ beforeAll(() => {
   simulated = lines(run.out);
   const kept = twincell(["record", "--to", file, "--robot", "staubli_rx90l", "--cell", "Edge trace"], run.out);
   expect({ code: kept.code, err: kept.err }).toEqual({ code: 0, err: `Recording Stäubli RX90L to ${file}.\n${simulated.length} samples recorded.\n` });
-});
+}, 60_000);
 
 test("X-43 what simulate wrote is recorded, and replay gives the same stream", () => {
   const { code, out, err } = twincell(["replay", file]), replayed = lines(out);
@@ -59,7 +60,7 @@ test("a folder takes file after file; alarms are marks, and replay begins before
   expect(before.some(line => line.safety === "protective-stop")).toBe(true);
 });
 
-test("wrong use and unreadable input: exit 2 with the line, and what came before is kept", () => {
+test("wrong use and unreadable input: exit 2 with the line, and what came before is kept", { timeout: 60_000 }, () => {
   const bad = join(folder, "bad.mcap"), stream = [...Array.from({ length: 50 }, (_, k) => JSON.stringify({ t: k, q: [0, 0, 0, 0, 0, k / 100] })), '{"t":50,"q":[1,2]}'].join("\n");
   const recorded = twincell(["record", "--to", bad, "--robot", "ur10e"], stream);
   expect(recorded.code).toBe(2);
@@ -93,4 +94,33 @@ test("kill -9 costs less than a second, and leaves no hole", async () => {
     expect(lost_s).toBeLessThan(1);
     expect(whole).toBe(true);
   }
+}, 60_000);
+
+test("T-61 the stations of a server are recorded from outside, until it goes", async () => {
+  const studio = mkdtempSync(join(folder, "studio-"));
+  writeFileSync(join(studio, "index.html"), "");
+  const served = await serve({ studio, port: 0 }), to = join(folder, "stations");
+  const recorder = spawn(process.execPath, ["apps/cli/src/main.ts", "record", "--to", `${to}/`, "--from", served.url], { cwd: root, stdio: ["ignore", "ignore", "pipe"] });
+  let said = "";
+  recorder.stderr.on("data", (part: Buffer) => { said += part.toString(); });
+  const ended = new Promise<number | null>(resolve => { recorder.once("close", resolve); });
+  try {
+    const socket = new WebSocket(served.url.replace("http", "ws").replace(/\/$/, "/stations")), answers = new Map<number, string>();
+    socket.addEventListener("message", ({ data }) => { const message = JSON.parse(String(data)) as { type: string; id: number; outcome: { kind: string } }; if (message.type === "answer") answers.set(message.id, message.outcome.kind); });
+    await new Promise(resolve => { socket.addEventListener("open", resolve); });
+    socket.send(JSON.stringify({ type: "open", id: 1, station: "left", brand: "ur", robot: "ur10e" }));
+    await expect.poll(() => answers.get(1), { timeout: 20_000 }).toBe("done");
+    socket.send(JSON.stringify({ type: "connect", id: 2, station: "left" }));
+    await expect.poll(() => [answers.get(2), said.includes("Recording")], { timeout: 20_000 }).toEqual(["done", true]);
+    await new Promise(resolve => { setTimeout(resolve, 1500); });
+    socket.close();
+  } finally {
+    await served.close();
+  }
+  expect(await ended).toBe(1);
+  expect(said).toMatch(/Recording .* to .*left\. A new file begins every 1 h/);
+  expect(said).toMatch(/ended the connection\.\n$/);
+  const replayed = lines(twincell(["replay", join(to, "left")]).out);
+  expect(replayed.at(-1)!.t).toBeGreaterThan(1);
+  expect(replayed.at(-1)!.q.length).toBe(6);
 }, 60_000);

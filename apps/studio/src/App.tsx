@@ -29,6 +29,7 @@ import "./app.css";
 
 const Viewport = lazy(() => import("./scene/Viewport.tsx").then(scene => ({ default: scene.Viewport })));
 const Export = lazy(() => import("./features/export/Export.tsx"));
+const CollisionDialog = lazy(() => import("./features/collide/CollisionDialog.tsx"));
 const Robots = lazy(() => import("./features/robots/Robots.tsx"));
 const AddStation = lazy(() => import("./features/stations/AddStation.tsx"));
 const Stations = lazy(() => import("./features/stations/Stations.tsx").then(part => ({ default: part.Stations })));
@@ -64,6 +65,7 @@ export function App() {
         <Suspense><Export /></Suspense>
         <Suspense><Robots /></Suspense>
         <Suspense><AddStation /></Suspense>
+        <Suspense><CollisionDialog /></Suspense>
         <Files />
         <Shortcuts />
         <GamepadWatch />

@@ -1,3 +1,4 @@
+import { abb } from "./abb/index.ts";
 import { fanuc } from "./fanuc/index.ts";
 import { kuka } from "./kuka/index.ts";
 import type { Brand } from "./real/index.ts";
@@ -5,7 +6,7 @@ import { universalRobots } from "./ur/index.ts";
 import { yaskawa } from "./yaskawa/index.ts";
 
 /** Every brand there is a driver and a virtual controller for. */
-export const BRANDS: readonly Brand[] = [universalRobots, kuka, yaskawa, fanuc];
+export const BRANDS: readonly Brand[] = [universalRobots, kuka, yaskawa, fanuc, abb];
 export const brandById = (id: string): Brand | undefined => BRANDS.find(brand => brand.id === id);
 /** Brands whose robots that one is. */
 export const brandsFor = (vendor: string): readonly Brand[] => BRANDS.filter(brand => brand.vendor === vendor);

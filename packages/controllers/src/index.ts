@@ -11,3 +11,4 @@ export * from "./ur/index.ts";
 export * from "./kuka/index.ts";
 export * from "./yaskawa/index.ts";
 export * from "./fanuc/index.ts";
+export * from "./abb/index.ts";

@@ -9,6 +9,7 @@ export * from "./torque/index.ts";
 export * from "./trajectory/index.ts";
 export * from "./dynamics/index.ts";
 export * from "./collision/index.ts";
+export * from "./planning/index.ts";
 export * from "./shapes/index.ts";
 export * from "./paths/index.ts";
 export * from "./program/index.ts";

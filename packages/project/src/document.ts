@@ -1,4 +1,4 @@
-import type { Belt, Gripper, PeopleZone, Person, Pose, Program, Sensor, Vector3 } from "@twincell/core";
+import type { Belt, Gripper, PairMatrix, PeopleZone, Person, Pose, Program, Sensor, Vector3 } from "@twincell/core";
 
 /** How a solid is described in a saved cell. Origin and axes are the object's own frame, z up. */
 export type Shape =
@@ -42,6 +42,9 @@ export interface ObjectRecord {
 /** A user frame; `saved`: a pose of the tool tip that a person saved, to go through it later (rows L-44 … L-49). */
 export interface FrameRecord { readonly name: string; readonly worldFromFrame: Pose<"world", "frame">; readonly saved?: true }
 
+/** Which parts of the robot are checked against which, and the robot and tool it was learnt with. */
+export interface PairsRecord extends PairMatrix { readonly robot: string; readonly tool: string }
+
 /** Everything a person saves: one robot, its tools, what stands around it, and the programs taught there. */
 export interface CellDocument {
   readonly format: "twincell.cell";
@@ -59,6 +62,8 @@ export interface CellDocument {
   readonly sensors?: readonly Sensor[];
   readonly people?: readonly Person[];
   readonly zones?: readonly PeopleZone[];
+  /** The matrix of the robot's own pairs, once a person has learnt or edited it; without it what touches at home is left out. */
+  readonly pairs?: PairsRecord;
   readonly programs: readonly Program[];
   /** Name of the program being worked on. */
   readonly program: string;

@@ -3,7 +3,7 @@ import type { CellDocument } from "./document.ts";
 /** Keys in this order come first; the others follow by alphabet. So a saved cell reads from top to bottom and two versions differ only where they differ. */
 const FIRST = [
   "format", "version", "id", "type", "name", "kind", "role", "group", "path", "robot", "worldFromBase", "flangeFromTcp", "worldFromObject", "worldFromFrame",
-  "position", "quaternion", "q", "pose", "frame", "tool", "target", "via", "speed", "blend_m", "tools", "objects", "frames", "allowedPairs", "programs", "program",
+  "position", "quaternion", "q", "pose", "frame", "tool", "target", "via", "speed", "blend_m", "tools", "objects", "frames", "allowedPairs", "pairs", "programs", "program",
 ];
 /** A list of numbers or words up to this long stays on one line. */
 const LINE = 140;

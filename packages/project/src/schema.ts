@@ -72,6 +72,13 @@ export const cellSchema = z.strictObject({
   frames: z.array(z.strictObject({ name: text, worldFromFrame: poseOf<"world", "frame">(), saved: z.exactOptional(z.literal(true)) })),
   allowedPairs: z.array(z.tuple([text, text])),
   sensors: z.exactOptional(z.array(sensor)), people: z.exactOptional(z.array(person)), zones: z.exactOptional(z.array(zone)),
+  pairs: z.exactOptional(z.strictObject({
+    robot: text, tool: text, seed: number,
+    entries: z.array(z.strictObject({
+      a: text, b: text, reason: z.enum(["adjacent", "always", "at home", "allowed", "sometimes", "never seen"]),
+      samples: z.number().nonnegative(), touches: z.number().nonnegative(), watched: z.boolean(),
+    })).max(1000),
+  })),
   programs: z.array(z.unknown()),
   program: z.string(),
 });

@@ -1,7 +1,8 @@
-import { checkProgram, type Verdict } from "@twincell/core";
+import { checkProgram, readCertificate, verifyProgram, writeCertificate, type ProgramCertificateVerdict, type Verdict } from "@twincell/core";
 import { cellGeometry } from "@twincell/project";
 import { given } from "../io/arguments.ts";
 import { writeOne } from "../io/output.ts";
+import { readText } from "../io/files.ts";
 import { readCell, readProgram } from "../io/program.ts";
 import { programRobot, ROBOT_HELP, ROBOT_OPTIONS } from "../io/robot.ts";
 import { UseFault, type Command } from "../io/usage.ts";
@@ -9,7 +10,7 @@ import { UseFault, type Command } from "../io/usage.ts";
 export const checkCommand: Command = {
   name: "check",
   summary: "judge a program: reach, limits, speed, torques, branches, collision",
-  usage: `twincell check PROGRAM [--robot R] [--cell CELL] [--margin M] [--junit FILE]
+  usage: `twincell check PROGRAM [--robot R] [--cell CELL] [--margin M] [--junit FILE] [--certificate FILE | --verify FILE]
 
 Writes VERDICT {"ok","steps":[{"id","verdict","findings":[…]}],"torque":…,…} and ends with 1 when any step is bad. Where torques are
 known, which joint is asked most goes to stderr as well; where they are not, "torque" says why.
@@ -18,22 +19,45 @@ known, which joint is asked most goes to stderr as well; where they are not, "to
   --cell CELL     the saved cell to keep clear of; without it collisions are not looked at
   --margin M      distance to keep from everything, in metres (default 0)
   --junit FILE    the same as a JUnit report, one test case per step
+  --certificate FILE  writes what proves the program clear of contact: for every motion and pair of solids, stretches of time
+                  and the distance that is proven for them; wants --cell
+  --verify FILE   does not judge, but proves such a file again by another method, for this program in this cell; ends with 1 when it
+                  does not hold
 
 ${ROBOT_HELP}`,
   async run(args) {
-    const options = given(args, { ...ROBOT_OPTIONS, cell: { type: "string" }, margin: { type: "string" }, junit: { type: "string" }, json: { type: "boolean" } });
+    const options = given(args, { ...ROBOT_OPTIONS, cell: { type: "string" }, margin: { type: "string" }, junit: { type: "string" }, certificate: { type: "string" }, verify: { type: "string" }, json: { type: "boolean" } });
     const [path] = options.positionals, cellPath = options.text("cell"), margin_m = options.number("margin") ?? 0, junit = options.text("junit");
+    const certificatePath = options.text("certificate"), verifyPath = options.text("verify");
     if (path === undefined) throw new UseFault("PROGRAM is missing.", "Give the path of a program file.");
     if (margin_m < 0) throw new UseFault(`--margin wants 0 or more, not ${margin_m}.`);
     const chosen = await programRobot(options), { program, robot, solids } = await readProgram(path, chosen);
     const cell = cellPath === undefined ? undefined : cellGeometry(await readCell(cellPath), solids());
-    const { verdict } = checkProgram(program, robot, { margin_m, ...(cell ? { cell } : {}) });
+    if ((certificatePath ?? verifyPath) !== undefined && cell === undefined) throw new UseFault("A certificate is about a cell.", "Name it with --cell.");
+    if (verifyPath !== undefined && cell !== undefined) {
+      const read = readCertificate(await readText(verifyPath));
+      if (read.kind === "not-a-certificate") throw new UseFault(`${verifyPath}: ${read.sentence}`);
+      const { plan } = checkProgram(program, robot, { worldFromBase: cell.worldFromBase }), answer = verifyProgram(read.certificate, plan, robot, cell);
+      process.stdout.write(`${JSON.stringify(answer)}\n`);
+      process.stderr.write(`${verified(answer)}\n`);
+      return answer.kind === "confirmed" ? 0 : 1;
+    }
+    const { verdict, certificate } = checkProgram(program, robot, { margin_m, certify: certificatePath !== undefined, ...(cell ? { cell } : {}) });
+    if (certificatePath !== undefined && certificate !== undefined) await writeOne(certificatePath, writeCertificate(certificate));
     if (junit !== undefined) await writeOne(junit, junitReport(program.name, verdict));
     process.stdout.write(`${JSON.stringify(verdict)}\n`);
     if (verdict.torque.kind === "known") process.stderr.write(`${verdict.torque.sentence}\n`);
     return verdict.ok ? 0 : 1;
   },
 };
+
+function verified(answer: ProgramCertificateVerdict): string {
+  switch (answer.kind) {
+    case "confirmed": return `All ${answer.segments} motions are proven clear a second time, in ${answer.looks} looks.`;
+    case "missing": return `The motion of step ${answer.step} at ${answer.start_s.toFixed(2)} s has no certificate.`;
+    case "refuted": return `The certificate does not hold for step ${answer.step}: ${answer.a} and ${answer.b} at ${answer.at_s.toFixed(2)} s (${answer.reason}).`;
+  }
+}
 
 const escaped = (text: string): string => text.replace(/[<>&"']/g, char => `&#${char.charCodeAt(0)};`);
 

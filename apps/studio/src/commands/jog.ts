@@ -1,4 +1,4 @@
-import { glideTo } from "../live/glide.ts";
+import { goThere } from "../live/go.ts";
 import type { Command } from "../stores/commands.ts";
 import { cycleAid } from "../live/aids.ts";
 import { cancelTrace, makeTrace } from "../live/trace-command.ts";
@@ -11,8 +11,8 @@ import { words } from "../words/index.ts";
 const FRAMES: readonly JogFrame[] = ["joint", "base", "tool", "user", "world"];
 
 export const jogCommands = (): readonly Command[] => [
-  { id: "jog.ready", group: "jog", words: words.commands.ready, keys: ["H"], can: () => theRobot() !== null, run: () => { const robot = theRobot(); if (robot) { jogStore.setState({ aid: null, blocked: null }); glideTo(robot, robot.home_rad); } } },
-  { id: "jog.zero", group: "jog", words: words.commands.zero, can: () => theRobot() !== null, run: () => { const robot = theRobot(); if (robot) glideTo(robot, robot.home_rad.map(() => 0)); } },
+  { id: "jog.ready", group: "jog", words: words.commands.ready, keys: ["H"], can: () => theRobot() !== null, run: () => { const robot = theRobot(); if (robot) { jogStore.setState({ aid: null, blocked: null }); goThere(robot, robot.home_rad); } } },
+  { id: "jog.zero", group: "jog", words: words.commands.zero, can: () => theRobot() !== null, run: () => { const robot = theRobot(); if (robot) goThere(robot, robot.home_rad.map(() => 0)); } },
   { id: "jog.aid-next", group: "jog", words: words.commands.aidNext, keys: ["N"], can: () => theRobot() !== null, run: () => cycleAid(1) },
   { id: "jog.aid-previous", group: "jog", words: words.commands.aidPrevious, keys: ["B"], can: () => theRobot() !== null, run: () => cycleAid(-1) },
   ...FRAMES.map((frame): Command => ({ id: `jog.frame-${frame}`, group: "jog", words: words.commands.frame(words.jog.frames[frame]), run: () => jogStore.setState({ frame, blocked: null }) })),

@@ -1,7 +1,9 @@
-import { glideTo } from "../live/glide.ts";
+import { goThere } from "../live/go.ts";
+import { contactAt, namesOf } from "../live/hand.ts";
 import { theLive } from "../live/live.ts";
 import { solveStep } from "../live/solve.ts";
 import { cellStore } from "../stores/cell.ts";
+import { collideStore } from "../stores/collide.ts";
 import type { Command } from "../stores/commands.ts";
 import { theProgram, theRobot } from "../stores/document.ts";
 import { notify } from "../stores/notices.ts";
@@ -21,7 +23,17 @@ const nameOf = (id: string): string => {
   return found ? stepWords(found.step, found.index) : id;
 };
 
+/** Row T-42: a point in contact is not taught, unless a contact is to be an alert only. Says what touches what. */
+function refused(): boolean {
+  const contact = collideStore.getState().behaviour === "alert" ? null : contactAt(theLive().q_rad);
+  if (contact === null) return false;
+  const [a, b] = namesOf(contact);
+  sound("limit");
+  notify("bad", words.collide.refused(a, b), words.collide.refusedHint);
+  return true;
+}
 function record(path: "ptp" | "lin"): void {
+  if (refused()) return;
   const tool = cellStore.getState().document?.tool ?? "flange";
   if (!recordPoint(path, theLive().q_rad, tool)) return;
   const id = selectedStep();
@@ -37,7 +49,7 @@ export const programCommands = (): readonly Command[] => [
   { id: "program.record-moving", group: "program", words: words.commands.recordMoving, keys: ["Shift+R"], can: hasProgram, run: () => recordMoving(!recordStore.getState().moving) },
   {
     id: "program.touch-up", group: "program", words: words.commands.touchUp, keys: ["Shift+U"], can: () => isMove(selectedStep()),
-    run: () => { const id = selectedStep(); if (id && touchUp(id, theLive().q_rad, cellStore.getState().document?.tool ?? "flange")) notify("done", words.jog.touched(nameOf(id))); },
+    run: () => { const id = selectedStep(); if (id && !refused() && touchUp(id, theLive().q_rad, cellStore.getState().document?.tool ?? "flange")) notify("done", words.jog.touched(nameOf(id))); },
   },
   { id: "program.wait", group: "program", words: words.commands.wait, can: hasProgram, run: () => { addWait(0.5); } },
   { id: "program.wait-for", group: "program", words: words.commands.waitFor, can: hasProgram, run: () => { addWaitFor(); } },
@@ -52,7 +64,7 @@ export const programCommands = (): readonly Command[] => [
       const id = selectedStep(), robot = theRobot(), step = stepOf(id)?.step;
       if (step?.type !== "move" || !robot) { if (id) seekStep(id); return; }
       const there = solveStep(step, theLive().q_rad);
-      if (there.kind === "reached") glideTo(robot, there.q_rad); else notify("warn", there.sentence);
+      if (there.kind === "reached") goThere(robot, there.q_rad); else notify("warn", there.sentence);
     },
   },
   { id: "program.duplicate", group: "program", words: words.commands.duplicate, keys: ["Mod+D"], can: () => selectedStep() !== null, run: () => { const id = selectedStep(); if (id) copySteps([id]); } },

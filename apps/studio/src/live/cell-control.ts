@@ -1,4 +1,5 @@
-import { CellCollider, linkSolids, type Robot } from "@twincell/core";
+import { clearOf } from "@twincell/controllers";
+import { linkSolids } from "@twincell/core";
 import { cellGeometry, type CellDocument } from "@twincell/project";
 import { cellStore } from "../stores/cell.ts";
 import { registerCommands } from "../stores/commands.ts";
@@ -30,15 +31,8 @@ const shelf = browserShelf();
 let control: CellControl | null = null, made: Solids | null = null;
 
 /** What the controller and its guard are made from. */
-type Solids = Pick<CellDocument, "robot" | "objects" | "tools" | "tool" | "allowedPairs">;
-const same = (a: Solids, b: Solids): boolean => a.robot === b.robot && a.objects === b.objects && a.tools === b.tools && a.tool === b.tool && a.allowedPairs === b.allowedPairs;
-
-/** Contact of the robot with itself or its surroundings. */
-function contactTest(document: CellDocument, robot: Robot): (q_rad: Float64Array) => boolean {
-  const collider = new CellCollider(cellGeometry(document, linkSolids(robot)), robot.arm);
-  collider.allowContactsAt(robot.home_rad);
-  return q_rad => !collider.collides(q_rad);
-}
+type Solids = Pick<CellDocument, "robot" | "objects" | "tools" | "tool" | "allowedPairs" | "pairs">;
+const same = (a: Solids, b: Solids): boolean => a.robot === b.robot && a.objects === b.objects && a.tools === b.tools && a.tool === b.tool && a.allowedPairs === b.allowedPairs && a.pairs === b.pairs;
 
 /** The controller of the open cell; made anew when robot, tool or surroundings change, but never under a run. */
 export function theControl(): CellControl | null {
@@ -49,7 +43,7 @@ export function theControl(): CellControl | null {
   made = document;
   control = controlCell(
     { dialect: theLanguage, write: program => writtenProgram(program, document), scheduler: pageScheduler, shelf, clock_ms: () => Date.now(), cellVersion: () => cellVersion(document) },
-    { robot, worldFromBase: document.robot.worldFromBase, flangeFromTcp: flangeFromTcpOf(document), isSafe: contactTest(document, robot) },
+    { robot, worldFromBase: document.robot.worldFromBase, flangeFromTcp: flangeFromTcpOf(document), isSafe: clearOf(cellGeometry(document, linkSolids(robot)), robot).isSafe },
   );
   control.setOverride(playStore.getState().speed);
   return control;

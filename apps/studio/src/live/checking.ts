@@ -80,4 +80,4 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
 }
 
 const solidsDiffer = (a: CellDocument, b: CellDocument): boolean =>
-  a.objects !== b.objects || a.tools !== b.tools || a.tool !== b.tool || a.robot !== b.robot || a.allowedPairs !== b.allowedPairs;
+  a.objects !== b.objects || a.tools !== b.tools || a.tool !== b.tool || a.robot !== b.robot || a.allowedPairs !== b.allowedPairs || a.pairs !== b.pairs;

@@ -76,7 +76,7 @@ const withoutParts = (document: CellDocument): CellDocument => ({ ...document, o
 
 /** Editing a program leaves the solids as they are. */
 function solidsDiffer(a: CellDocument | null, b: CellDocument | null): boolean {
-  return a === null || b === null || a.objects !== b.objects || a.tools !== b.tools || a.tool !== b.tool || a.robot !== b.robot || a.allowedPairs !== b.allowedPairs;
+  return a === null || b === null || a.objects !== b.objects || a.tools !== b.tools || a.tool !== b.tool || a.robot !== b.robot || a.allowedPairs !== b.allowedPairs || a.pairs !== b.pairs;
 }
 
 function watched(document: CellDocument, robot: Robot): Extract<ToWatcher, { kind: "cell" }>["cell"] {

@@ -5,7 +5,8 @@ import {
 import { jogStore } from "../stores/jog.ts";
 import { sound } from "../stores/sound.ts";
 import { onStop } from "../stores/stop.ts";
-import { showJoints, theLive } from "./live.ts";
+import { moveByHand } from "./hand.ts";
+import { theLive } from "./live.ts";
 import { leaveRobot, takeRobot } from "./owner.ts";
 
 /** Where a drag got to: all the way, or as far as the robot can, with the reason. */
@@ -103,7 +104,12 @@ export function dragTcp(worldFromTcp: Pose<"world", "tcp">): DragOutcome {
   const share = Math.min(1, LONGEST_STEP_M / Math.max(length, 1e-12), LONGEST_TURN_RAD / Math.max(turn, 1e-12));
   lerp(from.position, worldFromTcp.position, share, step.position);
   slerp(from.quaternion, worldFromTcp.quaternion, share, step.quaternion);
-  if (reaches(followed, step, best)) { showJoints(q); free(); return share < 1 ? ON_THE_WAY : MOVED; }
+  if (reaches(followed, step, best)) {
+    const met = moveByHand(q);
+    if (met.kind === "stopped") { const contact: Blocked = { kind: "blocked", sentence: met.sentence }; block(contact); return contact; }
+    free();
+    return share < 1 ? ON_THE_WAY : MOVED;
+  }
 
   const why = reason(followed, step, live.q_rad);
   const target: Pose<"world", "tcp"> = { position: [from.position[0], from.position[1], from.position[2]], quaternion: [from.quaternion[0], from.quaternion[1], from.quaternion[2], from.quaternion[3]] };
@@ -115,7 +121,7 @@ export function dragTcp(worldFromTcp: Pose<"world", "tcp">): DragOutcome {
   }
   slerp(from.quaternion, worldFromTcp.quaternion, Math.min(1, LONGEST_TURN_RAD / Math.max(turn, 1e-12)), target.quaternion);
   advance(followed, target);
-  showJoints(best);
+  moveByHand(best);
   block(why);
   return why;
 }

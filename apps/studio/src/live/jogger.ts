@@ -7,7 +7,8 @@ import { sound } from "../stores/sound.ts";
 import { words } from "../words/index.ts";
 import { onFrame } from "./frames.ts";
 import { heldNow, MOST_COORDINATES } from "./held.ts";
-import { showJoints, theLive } from "./live.ts";
+import { moveByHand } from "./hand.ts";
+import { theLive } from "./live.ts";
 import { leaveRobot, moverNow, takeRobot } from "./owner.ts";
 
 /** Manual mode: the TCP never goes faster (ISO 10218-1). */
@@ -17,6 +18,8 @@ const TURN_RAD_S = (40 * Math.PI) / 180;
 const JOINT_PART = 0.15;
 /** Row N-40: time to let go after a limit was met. Nothing freezes meanwhile. */
 export const LOCK_MS = 500;
+/** How long the sentence stays after a stop before a contact. */
+const STOPPED_MS = 2500;
 /** One step of step jogging is taken in this time. */
 const STEP_S = 0.12;
 
@@ -31,7 +34,8 @@ export function createJogger(): Jogger {
   const linear: Vector3 = [0, 0, 0], angular: Vector3 = [0, 0, 0];
   const told = new Set<Coordinate>();
   let q = new Float64Array(6);
-  let left_s = 0, known = "", cell: JogCell | null = null, document: unknown = null;
+  // Stopped before a contact it waits for the hand to let go: pushing on would only meet it again.
+  let left_s = 0, letGo = false, known = "", cell: JogCell | null = null, document: unknown = null;
 
   const cellNow = (): JogCell | null => {
     const now = cellStore.getState().document;
@@ -68,11 +72,12 @@ export function createJogger(): Jogger {
       if (!any && !(stepping && left_s > 0)) {
         if (moverNow() === "jog") leaveRobot("jog");
         known = "";
+        letGo = false;
         told.clear();
         if (jog.blocked && !locked) jogStore.setState({ blocked: null });
         return;
       }
-      if (!on || locked || dt_s <= 0 || (stepping && left_s <= 0)) return;
+      if (!on || locked || letGo || dt_s <= 0 || (stepping && left_s <= 0)) return;
       if (controlStore.getState().running) {
         if (known !== "busy") { known = "busy"; sound("limit"); jogStore.setState({ blocked: { sentence: words.jog.busy, until_ms: now_ms + LOCK_MS } }); }
         return;
@@ -83,7 +88,13 @@ export function createJogger(): Jogger {
       q.set(theLive().q_rad);
       const done = jogStep(on, q, command(on, jog, stepping ? pending : held), part_s, q, scratch);
       if (stepping) left_s = done.kind === "blocked" ? 0 : left_s - part_s;
-      if (done.kind === "moved") showJoints(q);
+      const met = done.kind === "moved" ? moveByHand(q) : null;
+      if (met?.kind === "stopped") {
+        letGo = true;
+        left_s = 0;
+        jogStore.setState({ blocked: { sentence: met.sentence, until_ms: now_ms + STOPPED_MS } });
+        return;
+      }
       known = tell(done, known, told, now_ms);
     },
   };

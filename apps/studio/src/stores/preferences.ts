@@ -1,9 +1,11 @@
+import { COLLISION_BEHAVIOURS, type CollisionBehaviour } from "@twincell/core";
+import { collideStore } from "./collide.ts";
 import { bindingStore, type Bindings } from "./bindings.ts";
 import { languageStore } from "./languages.ts";
 import { viewStore, type ViewState } from "./view.ts";
 
 /** Choices of the person, not of the cell: kept beside the document, never in it. */
-interface Preferences { readonly theme?: ViewState["theme"]; readonly muted?: boolean; readonly coachDone?: boolean; readonly plots?: boolean; readonly bindings?: Bindings; readonly languages?: Readonly<Record<string, string>> }
+interface Preferences { readonly theme?: ViewState["theme"]; readonly muted?: boolean; readonly coachDone?: boolean; readonly plots?: boolean; readonly bindings?: Bindings; readonly languages?: Readonly<Record<string, string>>; readonly collision?: CollisionBehaviour }
 export interface TextStore { getItem(key: string): string | null; setItem(key: string, text: string): void }
 const KEY = "twincell.preferences";
 
@@ -15,13 +17,14 @@ export function keepPreferences(store: TextStore, prefersLight: boolean): () => 
   });
   if (kept.bindings) bindingStore.setState(kept.bindings);
   if (kept.languages) languageStore.setState({ chosen: kept.languages });
+  if (kept.collision) collideStore.setState({ behaviour: kept.collision });
   const write = (): void => {
     const { theme, muted, coachDone, plots } = viewStore.getState();
     const { keyboard, buttons, axes } = bindingStore.getState();
-    try { store.setItem(KEY, JSON.stringify({ theme, muted, coachDone, plots, bindings: { keyboard, buttons, axes }, languages: languageStore.getState().chosen })); }
+    try { store.setItem(KEY, JSON.stringify({ theme, muted, coachDone, plots, bindings: { keyboard, buttons, axes }, languages: languageStore.getState().chosen, collision: collideStore.getState().behaviour })); }
     catch { return; } // a full or forbidden store: the choice holds until the page closes
   };
-  const stops = [viewStore.subscribe(write), bindingStore.subscribe(write), languageStore.subscribe(write)];
+  const stops = [viewStore.subscribe(write), bindingStore.subscribe(write), languageStore.subscribe(write), collideStore.subscribe(write)];
   return () => { for (const stop of stops) stop(); };
 }
 
@@ -30,9 +33,10 @@ function read(store: TextStore): Preferences {
   try { raw = JSON.parse(store.getItem(KEY) ?? "{}"); } catch { return {}; } // damaged: start with defaults
   if (typeof raw !== "object" || raw === null) return {};
   const has = (key: string): unknown => Reflect.get(raw, key);
-  const theme = has("theme"), bindings = readBindings(has("bindings")), languages = has("languages");
+  const theme = has("theme"), bindings = readBindings(has("bindings")), languages = has("languages"), collision = COLLISION_BEHAVIOURS.find(behaviour => behaviour === has("collision"));
   return {
     ...(theme === "dark" || theme === "light" ? { theme } : {}),
+    ...(collision ? { collision } : {}),
     ...(bindings ? { bindings } : {}),
     ...(typeof languages === "object" && languages !== null ? { languages: Object.fromEntries(Object.entries(languages).filter((entry): entry is [string, string] => typeof entry[1] === "string")) } : {}),
     muted: has("muted") === true, coachDone: has("coachDone") === true, plots: has("plots") === true,

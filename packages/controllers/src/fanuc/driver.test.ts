@@ -109,6 +109,16 @@ describe("the driver", () => {
     expect(real.isConnected).toBe(false);
   });
 
+  test("half open: the place that nobody speaks from any more is given to who asks", async () => {
+    const { scheduler, network, real, ended } = await bench();
+    network.cut(true);
+    await scheduler.elapse(20);
+    expect(real.isConnected).toBe(true);
+    real.reset();
+    await scheduler.elapse(0.1);
+    expect(await ended(real.moveJoints(shifted(0.1)))).toEqual({ kind: "done" });
+  });
+
   test("T-23 T-24 T-25 FANUC: commanded, measured and mirrored angles agree to 0.001°; the robot is commanded first", async () => {
     const made = await bench(), twin = createTwin({ real: made.real, scheduler: made.scheduler });
     for (const by of [0.4, -0.3, 0.123456]) {

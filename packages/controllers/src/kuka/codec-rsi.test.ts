@@ -39,7 +39,7 @@ test("the file of the robot: keywords, own tags, channels, HOLDON; written and r
     "Digout.o1", "Digout.o2", "Source1",
   ]);
   expect(rsiKeys(read.config.receive)).toEqual([{ key: "EStr", type: "STRING", holdOn: 0 }, { key: "RKorr.X", type: "DOUBLE", holdOn: 1 }, { key: "FREE", type: "LONG", holdOn: 0 }]);
-  expect(rsiWriter("Rob", "KUKA", read.config.send.slice(2))(new Map([["Digout.o1", true], ["Source1", 7]]), 1)).toBe('<Rob Type="KUKA"><Digout o1="1" o2="0"/><Source1>7</Source1><IPOC>1</IPOC></Rob>');
+  expect(rsiWriter("Rob", "KUKA", read.config.send.slice(2))(new Map<string, boolean | number>([["Digout.o1", true], ["Source1", 7]]), 1)).toBe('<Rob Type="KUKA"><Digout o1="1" o2="0"/><Source1>7</Source1><IPOC>1</IPOC></Rob>');
   expect(readRsiConfig(rsiConfigText(read.config))).toEqual(read);
 });
 

@@ -49,6 +49,7 @@ export class CellCollider {
   readonly #shelf: SolidShelf;
   readonly #bodies: Body[];
   readonly #allowed = new Set<string>();
+  readonly #decided = new Set<string>();
   readonly #worldFromBase: Pose<"world", "base">;
   readonly #baseFromLinks: Pose<"base", "link">[];
   readonly #worldFromLink: Pose = identity();
@@ -57,6 +58,7 @@ export class CellCollider {
   readonly #scratch = pairScratch();
   readonly #points = new Float64Array(6);
   #pairs: SolidPair[] = [];
+  #edition = 0;
 
   /** @param shelf  where built trees are kept; pass the same one when a cell is built again after an edit. */
   constructor(cell: CellGeometry, arm: SerialArm, shelf = new SolidShelf()) {
@@ -67,11 +69,18 @@ export class CellCollider {
     this.#baseFromLinks = Array.from({ length: arm.joints.length + 1 }, () => identity<"base", "link">());
     this.#bodies = bodiesOf(cell, arm, shelf);
     for (const [a, b] of cell.allowedPairs) this.#allowed.add(keyOf(a, b));
+    for (const { a, b, watched } of cell.pairs?.entries ?? []) {
+      this.#decided.add(keyOf(a, b));
+      if (!watched) this.#allowed.add(keyOf(a, b));
+    }
     this.#arrange();
   }
 
   /** Every pair that is watched. The list is replaced when objects come, go or change hands. */
   get pairs(): readonly SolidPair[] { return this.#pairs; }
+
+  /** Grows whenever an object comes, goes, moves or changes hands, or pairs become allowed: what was proven before may be wrong then. */
+  get edition(): number { return this.#edition; }
 
   /** Puts the robot in this posture. The queries below do it themselves; `distanceOf` answers for the last one placed. */
   place(q: ArrayLike<number>): void {
@@ -183,12 +192,12 @@ export class CellCollider {
 
   /**
    * Contacts of the robot with itself at q from now on count as part of the design: drawn shapes overlap in joints.
-   * Call it at a posture known to be free, such as home.
+   * Call it at a posture known to be free, such as home. Pairs that the cell's matrix speaks of stay as it says.
    *
    * @returns the pairs that were learnt.
    */
   allowContactsAt(q: ArrayLike<number>): readonly Contact[] {
-    const learnt = this.check(q).filter(({ a, b }) => this.#isRobot(a) && this.#isRobot(b));
+    const learnt = this.check(q).filter(({ a, b }) => this.#isRobot(a) && this.#isRobot(b) && !this.#decided.has(keyOf(a, b)));
     for (const { a, b } of learnt) this.#allowed.add(keyOf(a, b));
     if (learnt.length > 0) this.#arrange();
     return learnt;
@@ -214,6 +223,7 @@ export class CellCollider {
     if (body?.carrier !== WORLD) return;
     copyPose(worldFromObject as Pose, body.carrierFromBody);
     placeBody(body, HERE, this.#turn);
+    this.#edition++;
   }
 
   /** From now on the object moves with the flange, as gripped things do. */
@@ -251,6 +261,7 @@ export class CellCollider {
 
   /** Places what stands still and lists the pairs to watch. */
   #arrange(): void {
+    this.#edition++;
     const known = new Map(this.#pairs.map(pair => [keyOf(pair.contact.a, pair.contact.b), pair]));
     for (const body of this.#bodies) if (body.carrier === WORLD) placeBody(body, HERE, this.#turn);
     this.#pairs = [];

@@ -1,5 +1,6 @@
 import type { Pose } from "../spatial/pose.ts";
 import type { TriangleMesh } from "./mesh.ts";
+import type { PairMatrix } from "./pairs.ts";
 
 /** A solid in the cell that does not belong to the robot. */
 export interface CellObject {
@@ -23,6 +24,8 @@ export interface CellGeometry {
   readonly objects: readonly CellObject[];
   /** Pairs that may touch, by link name, "tool" or object id (the tool tip and the work piece it traces, for instance). */
   readonly allowedPairs: readonly (readonly [string, string])[];
+  /** Which parts of the robot are checked against which, as learnt and edited. What it says of a pair is final; other pairs are checked. */
+  readonly pairs?: PairMatrix;
   /** Uncertainty of the drawn robot shape [m], added to every margin. */
   readonly shapeError_m: number;
 }

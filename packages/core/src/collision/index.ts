@@ -1,5 +1,6 @@
 export * from "./mesh.ts";
 export * from "./cell.ts";
+export * from "./pairs.ts";
 export * from "./bvh.ts";
 export * from "./relative.ts";
 export * from "./triangles.ts";
@@ -10,6 +11,7 @@ export * from "./inside.ts";
 export * from "./solid.ts";
 export { SolidShelf } from "./bodies.ts";
 export * from "./cell-collider.ts";
+export * from "./clearance-map.ts";
 export * from "./motion.ts";
 export * from "./certificate.ts";
 export * from "./matrix.ts";

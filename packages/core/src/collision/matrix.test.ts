@@ -34,3 +34,30 @@ describe("pairs of the robot that need no look are learnt", () => {
     expect(editPair(learnt, "link 1", "link 2", true)).toEqual(learnt);
   });
 });
+
+describe("the matrix in a cell", () => {
+  const robot = robotById("ur10e")!, cell: CellGeometry = { worldFromBase: pose(), links: linkSolids(robot), objects: [], allowedPairs: [], shapeError_m: 0 };
+  const FOLDED = [0, -1.2, 2.9, 0, 0, 0], meet = (geometry: CellGeometry): string[] => {
+    const collider = new CellCollider(geometry, robot.arm);
+    collider.allowContactsAt(robot.home_rad);
+    return collider.check(FOLDED).map(({ a, b }) => `${a} ${b}`);
+  };
+
+  test("leaves out what a person left out, in the collider and with it in every check", () => {
+    const matrix = learnPairs(cell, robot.arm, 84, 300, robot.home_rad), [first] = meet(cell);
+    expect(first).toBeDefined();
+    const [a, b] = [first!.slice(0, 6), first!.slice(7)];
+    expect(meet({ ...cell, pairs: matrix })).toEqual(meet(cell));
+    expect(meet({ ...cell, pairs: editPair(matrix, a, b, false) })).toEqual(meet(cell).filter(pair => pair !== first));
+  });
+
+  test("what touches in the free posture is left out by design, and is watched again when a person says so", () => {
+    const collider = new CellCollider(cell, robot.arm), touching = collider.check(FOLDED);
+    const matrix = learnPairs(cell, robot.arm, 85, 300, FOLDED), designed = matrix.entries.filter(({ reason }) => reason === "at home");
+    expect(designed.map(({ a, b }) => [a, b])).toEqual(touching.map(({ a, b }) => [a, b]).filter(([a, b]) => matrix.entries.some(entry => entry.a === a && entry.b === b && entry.touches < 300)));
+    expect(designed.every(({ watched }) => !watched)).toBe(true);
+    const { a, b } = designed[0]!, again = new CellCollider({ ...cell, pairs: editPair(matrix, a, b, true) }, robot.arm);
+    again.allowContactsAt(FOLDED);
+    expect(again.check(FOLDED)).toContainEqual({ a, b, between: "self" });
+  });
+});

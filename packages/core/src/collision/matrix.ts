@@ -2,30 +2,15 @@ import type { SerialArm } from "../robots/arm.ts";
 import { seededRandom } from "../random.ts";
 import { CellCollider } from "./cell-collider.ts";
 import type { CellGeometry } from "./cell.ts";
+import type { PairEntry, PairMatrix, PairReason } from "./pairs.ts";
 
 /**
- * What is known of two parts of the robot: they follow each other along the arm; they touched in every posture that was tried, so
- * drawn shapes overlap there by design; the cell allows them; they touched in some postures, or in none that was tried.
+ * Learns the matrix of links and tool from random postures inside the joint limits. The same seed gives the same matrix.
+ *
+ * @param free_rad  a posture known to be free, such as home: what touches there does so by design.
  */
-export type PairReason = "adjacent" | "always" | "allowed" | "sometimes" | "never seen";
-
-export interface PairEntry {
-  readonly a: string;
-  readonly b: string;
-  readonly reason: PairReason;
-  /** Postures tried and postures in contact; 0 and 0 where none had to be tried. */
-  readonly samples: number;
-  readonly touches: number;
-  /** Whether the pair is looked at. A pair never seen in contact still is: samples prove nothing, and boxes far apart cost nothing. */
-  readonly watched: boolean;
-}
-
-/** Which parts of a robot are checked against which. Plain data: may be kept, shown as a matrix and edited. */
-export interface PairMatrix { readonly seed: number; readonly entries: readonly PairEntry[] }
-
-/** Learns the matrix of links and tool from random postures inside the joint limits. The same seed gives the same matrix. */
-export function learnPairs(cell: CellGeometry, arm: SerialArm, seed: number, samples: number): PairMatrix {
-  const collider = new CellCollider({ ...cell, objects: [] }, arm), random = seededRandom(seed), q = new Float64Array(arm.joints.length);
+export function learnPairs(cell: CellGeometry, arm: SerialArm, seed: number, samples: number, free_rad?: ArrayLike<number>): PairMatrix {
+  const collider = new CellCollider({ ...cell, objects: [], pairs: { seed, entries: [] } }, arm), random = seededRandom(seed), q = new Float64Array(arm.joints.length);
   const parts = [...new Set(cell.links.map(({ link }) => link))].sort((a, b) => a - b).map(link => `link ${link}`);
   if (cell.tool) parts.push("tool");
   const touches = new Map<string, number>(collider.pairs.map(({ contact: { a, b } }) => [keyOf(a, b), 0]));
@@ -33,13 +18,14 @@ export function learnPairs(cell: CellGeometry, arm: SerialArm, seed: number, sam
     arm.joints.forEach(({ limits: { lower_rad, upper_rad } }, k) => { q[k] = lower_rad + random() * (upper_rad - lower_rad); });
     for (const { a, b } of collider.check(q)) touches.set(keyOf(a, b), touches.get(keyOf(a, b))! + 1);
   }
+  const atHome = new Set(free_rad === undefined ? [] : collider.check(free_rad).map(({ a, b }) => keyOf(a, b)));
   const allowed = new Set(cell.allowedPairs.map(([a, b]) => keyOf(a, b))), entries: PairEntry[] = [];
   parts.forEach((a, i) => {
     for (const b of parts.slice(i + 1)) {
       const met = touches.get(keyOf(a, b));
       if (met === undefined) { entries.push({ a, b, reason: allowed.has(keyOf(a, b)) ? "allowed" : "adjacent", samples: 0, touches: 0, watched: false }); continue; }
-      const reason: PairReason = met === 0 ? "never seen" : met === samples ? "always" : "sometimes";
-      entries.push({ a, b, reason, samples, touches: met, watched: reason !== "always" });
+      const reason: PairReason = met === 0 ? "never seen" : met === samples ? "always" : atHome.has(keyOf(a, b)) ? "at home" : "sometimes";
+      entries.push({ a, b, reason, samples, touches: met, watched: reason === "sometimes" || reason === "never seen" });
     }
   });
   return { seed, entries };

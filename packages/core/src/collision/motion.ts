@@ -1,6 +1,7 @@
 import type { Body } from "./bodies.ts";
 import type { Contact } from "./cell.ts";
 import type { CellCollider, SolidPair } from "./cell-collider.ts";
+import type { ClearanceMaps } from "./clearance-map.ts";
 
 /** A motion of the joints in time. */
 export interface JointMotion {
@@ -28,6 +29,8 @@ export interface MotionOptions {
   readonly maxChecks?: number;
   /** Receives what was proven, piece by piece; with the verdict "clear" it is the certificate (see `certificate.ts`). */
   readonly proof?: CertifiedPiece[];
+  /** What is known of this collider from before; asked first, unless a proof is wanted: that one must stand by itself. */
+  readonly maps?: ClearanceMaps;
 }
 
 /** A pair and a stretch of the motion during which it is proven to be more than `atLeast_m` apart [m]. */
@@ -46,7 +49,7 @@ export interface CertifiedPiece { readonly a: string; readonly b: string; readon
 export function checkMotion(
   collider: CellCollider, motion: JointMotion, from: number, to: number, options: MotionOptions = {},
 ): MotionVerdict {
-  const { margin_m = 0, resolution_m = 0.0002, maxChecks = 100_000, keepsMargin = () => true, proof } = options;
+  const { margin_m = 0, resolution_m = 0.0002, maxChecks = 100_000, keepsMargin = () => true, proof } = options, maps = proof === undefined ? options.maps : undefined;
   const pairs = collider.pairs, rates = pairs.map(pair => relativeRate(pair, motion.maxRate));
   const turns = pairs.map(pair => relativeTurn(pair, motion.maxRate));
   const margins = pairs.map(pair => (keepsMargin(pair) ? marginOf(pair, margin_m, collider.shapeError_m) : 0));
@@ -62,6 +65,7 @@ export function checkMotion(
     checks++;
     for (const i of interval.open) {
       const pair = pairs[i]!, margin = margins[i]!, drift = rates[i]! * half;
+      if (maps?.provenAround(pair, margin, q, motion.maxRate, half) === true) continue;
       if (collider.keepsApart(pair, margin + drift - turns[i]! * half * radiusOf(pair), turns[i]! * half)) {
         proof?.push({ a: pair.contact.a, b: pair.contact.b, from: interval.from, to: interval.to, atLeast_m: provenAt(collider, pair, margin, drift) });
         continue;

@@ -20,6 +20,7 @@ import { checkSignals } from "./checks/signals.ts";
 import { checkStand } from "./checks/stand.ts";
 import { checkTorque } from "./checks/torque.ts";
 import { checkWorkspace } from "./checks/workspace.ts";
+import type { ProgramCertificate, SegmentCertificate } from "./certificate.ts";
 import type { Program, Step } from "./program.ts";
 import type { Verdict } from "./verdict.ts";
 import { everyStep } from "./walk.ts";
@@ -33,6 +34,8 @@ export interface CheckOptions {
   readonly start_rad?: ArrayLike<number>;
   /** Distance the robot keeps from the cell [m], its shape error on top; 0 asks for no contact only. */
   readonly margin_m?: number;
+  /** Whether to keep what proves every motion clear of contact, for `verifyProgram`. */
+  readonly certify?: boolean;
   /** What the flange carries before the first payload step; nothing by default. */
   readonly payload?: Payload;
   /** Called with 0 … 1 now and then. */
@@ -41,7 +44,12 @@ export interface CheckOptions {
   readonly cancelled?: () => boolean;
 }
 
-export interface Checked { readonly verdict: Verdict; readonly plan: Plan }
+export interface Checked {
+  readonly verdict: Verdict;
+  readonly plan: Plan;
+  /** With `certify` and a cell: motions that are not clear have none. Steps are named as they are in the plan. */
+  readonly certificate?: ProgramCertificate;
+}
 
 /** The part of the work that laying out is when a cell is checked as well. */
 const LAYOUT_SHARE = 0.4;
@@ -78,8 +86,9 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
   checkFlow(scene);
   const torque = checkTorque(scene, options.payload);
   const unjudged = cell === undefined ? [] : checkStand(scene, cell, options.payload?.mass_kg);
+  const margin_m = options.margin_m ?? 0, certificates: SegmentCertificate[] | undefined = options.certify === true && cell !== undefined ? [] : undefined;
   const collision = cell === undefined ? undefined : checkCollision(scene, {
-    cell, margin_m: options.margin_m ?? 0,
+    cell, margin_m, ...(certificates === undefined ? {} : { certificates }),
     ...(onProgress === undefined ? {} : { onProgress: (share: number) => { onProgress(layoutShare + share * (1 - layoutShare)); } }),
     ...(cancelled === undefined ? {} : { cancelled }),
   });
@@ -99,7 +108,10 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
       cell === undefined ? "Collisions were not looked at: no cell was given." : "Objects stand where the cell draws them; gripped objects are not carried along.",
     ],
   };
-  return { verdict, plan: asWritten(layout) };
+  const plan = asWritten(layout);
+  if (certificates === undefined) return { verdict, plan };
+  const segments = certificates.map(each => ({ ...each, step: writtenId(layout, each.step) }));
+  return { verdict, plan, certificate: { robot: robot.id, program: program.name, margin_m, segments } };
 }
 
 const writtenId = (layout: Layout, id: string): string => layout.turns.get(id)?.written.id ?? id;

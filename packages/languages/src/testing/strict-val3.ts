@@ -112,7 +112,7 @@ function statements(code: string, names: ReadonlyMap<string, string>, programs: 
   const lines = code.split(/\r?\n/).map(line => line.replace(/^\s*\/\/.*$/, "").replace(/\s\/\/.*$/, "").trim()).filter(line => line !== ""), open: string[] = [];
   if (lines[0] !== "begin" || lines.at(-1) !== "end") say("the code does not begin with begin, or not end with end");
   for (const line of lines.slice(1, -1)) {
-    const wrong = (): void => { say(`no statement: ${line}`); }, reader = new Reader(line, names, programs), [word = ""] = /^[A-Za-z]+/.exec(line) ?? [];
+    const wrong = (): void => { say(`no statement: ${line}`); }, reader = new Reader(line, names), [word = ""] = /^[A-Za-z]+/.exec(line) ?? [];
     const condition = (behind = ""): boolean => reader.expression(0) && (behind === "" || reader.take() === behind) && reader.isDone;
     if (reader.isBroken) { wrong(); continue; }
     switch (word) {
@@ -148,12 +148,10 @@ class Reader {
   readonly isBroken: boolean;
   private readonly tokens: string[] = [];
   private readonly names: ReadonlyMap<string, string>;
-  private readonly programs: ReadonlySet<string>;
   private at = 0;
 
-  constructor(line: string, names: ReadonlyMap<string, string>, programs: ReadonlySet<string>) {
+  constructor(line: string, names: ReadonlyMap<string, string>) {
     this.names = names;
-    this.programs = programs;
     let from = 0;
     while (from < line.length) {
       TOKEN.lastIndex = from;

@@ -39,6 +39,16 @@ export function cellGeometry(document: CellDocument, links: readonly LinkSolid[]
       ...(object.carries_kg === undefined ? {} : { carries_kg: object.carries_kg }),
     })),
     allowedPairs: document.allowedPairs,
+    ...pairsOf(document),
     shapeError_m: robotById(document.robot.id)?.shapeError_m ?? 0,
   };
+}
+
+/**
+ * The matrix as far as it was learnt for what stands there now: of another robot it says nothing, and with another tool nothing of
+ * that tool, because a pair that was left out for one shape may not be left out for the next.
+ */
+function pairsOf({ pairs, robot, tool }: CellDocument): Pick<CellGeometry, "pairs"> {
+  if (pairs?.robot !== robot.id) return {};
+  return { pairs: { seed: pairs.seed, entries: pairs.tool === tool ? pairs.entries : pairs.entries.filter(({ a, b }) => a !== "tool" && b !== "tool") } };
 }

@@ -4,6 +4,8 @@ import { useStore } from "zustand";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { programOf } from "../../stores/document.ts";
+import { cancelSearch, findWayRound } from "../../live/planning.ts";
+import { collideStore } from "../../stores/collide.ts";
 import { firstRepairs, repairStep, findStep, stepWords } from "../../stores/program.ts";
 import { select } from "../../stores/selection.ts";
 import { previewStep, seek } from "../../stores/seek.ts";
@@ -54,7 +56,19 @@ function WhyCard({ card, subject }: { card: Why; subject: string }) {
           <button className="btn tight primary" onClick={() => { previewStep(null); repairStep(id, repair); }}>{words.common.apply}</button>
         </div>
       ))}
+      {card.finding.code === "collision.contact" && <WayRound step={card.step} />}
       {shown && <p className="small muted">{words.check.shown}</p>}
     </article>
+  );
+}
+
+/** One click: a search away from the page, with its progress, and what it finds as one edit. */
+function WayRound({ step }: { step: string }) {
+  const searching = useStore(collideStore, state => state.searching), mine = searching?.kind === "way" && searching.step === step;
+  return (
+    <div className="why-repair" aria-busy={mine}>
+      {mine ? <><span className="muted" role="status">{words.collide.searching(Math.round(searching.share * 100))}</span><button className="btn tight" onClick={cancelSearch}>{words.common.cancel}</button></>
+        : <><span /><button className="btn tight" disabled={searching !== null} onClick={() => findWayRound(step)}>{words.collide.wayRound}</button></>}
+    </div>
   );
 }

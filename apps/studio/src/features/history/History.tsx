@@ -26,10 +26,10 @@ export default function History() {
   return (
     <section aria-label={words.history.title}>
       <h2 className="heading"><span className="grow">{words.history.title}</span>
-        <button className="btn quiet tight" title={words.history.dropHint} onClick={() => input.current?.click()}><FolderOpen />{words.history.openFile}</button></h2>
+        <button className="btn quiet tight history-file" title={words.history.dropHint} onClick={() => input.current?.click()}><FolderOpen />{words.history.openFile}</button></h2>
       <input ref={input} type="file" accept=".mcap" multiple hidden aria-label={words.history.openFile} data-recording-input onChange={event => { const files = [...event.currentTarget.files ?? []]; event.currentTarget.value = ""; if (files.length > 0) void openRecordingFiles(files); }} />
       <div className="section history">
-        {runs.length === 0 && <p className="muted">{words.history.none}</p>}
+        {runs.length === 0 && !shown && <p className="muted">{words.history.none}</p>}
         {runs.length > 0 && !shown && <p className="small muted">{words.history.choose}</p>}
         {opening && <p role="status" className="muted">{words.history.loading}</p>}
         {shown && !opening && <>

@@ -39,4 +39,4 @@ export function Moment() {
   );
 }
 
-const Line = ({ name, value }: { readonly name: string; readonly value: boolean | number }) => <><dt>{name}</dt><dd>{typeof value === "boolean" ? (value ? "1" : "0") : value.toFixed(2)}</dd></>;
+const Line = ({ name, value }: { readonly name: string; readonly value: boolean | number }) => <><dt>{name}</dt><dd>{typeof value === "boolean" ? (value ? "1" : "0") : Number.isInteger(value) ? value : value.toFixed(2)}</dd></>;

@@ -11,11 +11,12 @@ import { traceStore } from "../../stores/trace.ts";
 import { viewStore } from "../../stores/view.ts";
 import { showNumber } from "../../ui/expression.ts";
 import { words } from "../../words/index.ts";
+import { ClearanceTag } from "./ClearanceTag.tsx";
 import "./overlay.css";
 
 /** What floats over the view: what a click does, and where the TCP is. */
 export function Overlay({ phone }: { phone: boolean }) {
-  return <>{!phone && <Hint />}<Readout /><TraceTool /></>;
+  return <>{!phone && <Hint />}<Readout /><ClearanceTag /><TraceTool /></>;
 }
 
 function Hint() {

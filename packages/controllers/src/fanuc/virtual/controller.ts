@@ -43,6 +43,8 @@ interface Waiting { readonly name: string; readonly sequence: number; readonly i
 
 const FLANGE: Pose<"flange", "tcp"> = { position: [0, 0, 0], quaternion: [0, 0, 0, 1] };
 const VERSION = { MajorVersion: 5, MinorVersion: 0 } as const;
+/** Clients ask for states all the time: who says nothing for so long is gone [s]. */
+const KEEP_ALIVE_S = 5;
 const WIRE = /^(DI|DO)\[([0-9]{1,4})\]$/;
 
 /** A FANUC controller of numbers behind its Remote Motion Interface: one client, eight instructions waiting, servos, pendant, fence. */
@@ -52,7 +54,7 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
   const log = options.log ?? ((): void => { /* Nobody asked for it. */ });
   const arm = createVirtualController({ robot, scheduler, name: `Virtual ${robot.name}`, ...(options.start_rad ? { start_rad: options.start_rad } : {}), ...(options.maxSpeed === undefined ? {} : { maxSpeed: options.maxSpeed }) });
   const faults: FanucFaults = { refusing: false, silent: false, delay_s: 0, frozen: false }, now_rad = arm.jointAngles(), shown = new Float64Array(JOINTS);
-  let session: ByteStream | null = null, expected = false, running = false, next = 1, queue: Waiting[] = [], busy: Waiting | null = null, life = 0, time_s = 0, booted_s = 0, last_s = 0;
+  let session: ByteStream | null = null, expected = false, running = false, next = 1, queue: Waiting[] = [], busy: Waiting | null = null, life = 0, time_s = 0, booted_s = 0, last_s = 0, heard_s = 0;
 
   const send = (packet: RmiPacket, to = session): void => {
     if (!to || faults.silent) return;
@@ -189,14 +191,17 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
     if (!expected || session || faults.refusing) { stream.close(); return; }
     expected = false;
     session = stream;
+    heard_s = scheduler.now_s();
     // A motion that was sent is carried out to its end; what waited behind it is not.
-    attend(stream, take, () => { session = null; queue = []; });
+    attend(stream, packet => { heard_s = scheduler.now_s(); return take(packet); }, () => { if (session === stream) { session = null; queue = []; } });
   });
   if (second.kind === "taken") { arm.close(); return second; }
   const first = await network.listen({ host, port: options.port ?? RMI_PORT }, stream => {
     if (faults.refusing) { stream.close(); return; }
     attend(stream, ({ key, name }) => {
       if (key !== "Communication" || name !== "FRC_Connect") { send({ key, name, fields: { ErrorID: RMI_ERROR.command } }, stream); return true; }
+      // A client that went without a word holds its place until the system notices; when another asks, so long a silence is taken for that.
+      if (session && scheduler.now_s() - heard_s > KEEP_ALIVE_S) { session.close(); session = null; queue = []; }
       const taken = session !== null;
       if (!taken) expected = true;
       send({ key, name, fields: { ErrorID: taken ? RMI_ERROR.connected : RMI_ERROR.ok, PortNumber: taken ? 0 : second.address.port, ...VERSION } }, stream);

@@ -20,6 +20,8 @@ const stopped = (why: Refusal): CommandOutcome => ({ kind: "stopped", why });
 const STALE_S = 0.08, BEAT_S = WATCHDOG_S / 5;
 /** A stop that the program on the robot does not confirm in this time goes through the dashboard as well [s]. */
 const STOP_CONFIRMED_S = 0.05;
+/** So many heartbeats that the controller does not hear, while its states come, and the line is good in one direction only. */
+const DEAF = 40;
 const LOOK_S = 0.004, ASK_REMOTE_S = 0.1;
 /** The program on the robot takes so long to begin at most; drives and brakes [s]. */
 const PROGRAM_S = 3, POWER_S = 60;
@@ -34,6 +36,9 @@ interface Open {
   readonly stops: (() => void)[];
   remote: boolean;
   said: string;
+  /** Heartbeats since the controller last told that it heard one, and the one that it told. */
+  unheard: number;
+  echo: number;
 }
 
 /**
@@ -79,6 +84,7 @@ export function createUrFace(options: FaceOptions): Face {
 
   /** What an order waits for: its number among those that have ended, or the end of the program. */
   function onState(at: Open): void {
+    if (at.reading.echo !== at.echo) { at.echo = at.reading.echo; at.unheard = 0; }
     if (!settle) return;
     const { reading } = at;
     if (textRunning) return;
@@ -124,15 +130,20 @@ export function createUrFace(options: FaceOptions): Face {
       lost,
     });
     if (rtde.kind === "failed" || !isMine()) { dashboard.close(); return failed(words.noAnswer(rtde.kind === "failed" ? rtde.sentence : "The attempt was given up.")); }
-    const { client } = rtde, reading = new UrReading(client.slots, robot);
+    const { client } = rtde, reading = new UrReading(client.state, robot);
     at = {
-      rtde: client, dashboard, reading, orders: new Orders(client.slots, robot, Math.floor(scheduler.now_s() * 1000) % 1_000_000), stops: [],
+      rtde: client, dashboard, reading, orders: new Orders(client.inputs, robot, Math.floor(scheduler.now_s() * 1000) % 1_000_000), stops: [],
       primary: primaryClient(second!, said => { if (isMine()) onMessage(() => at, said); }, lost),
       // Controllers before 5.6 know no local control, and do not understand the question.
-      remote: isRemote !== "false", said: "",
+      remote: isRemote !== "false", said: "", unheard: 0, echo: NaN,
     };
     open = at;
-    at.stops.push(scheduler.every(BEAT_S, () => { if (at) { at.orders.beat(); at.rtde.send(GROUPS.heartbeat); } }));
+    at.stops.push(scheduler.every(BEAT_S, () => {
+      if (!at) return;
+      at.orders.beat();
+      at.rtde.send(GROUPS.heartbeat);
+      if (++at.unheard > DEAF) lost("The controller sends states and does not hear what is sent to it.");
+    }));
     let asking = false;
     at.stops.push(scheduler.every(ASK_REMOTE_S, () => {
       if (asking) return;

@@ -6,8 +6,10 @@ import {
 import { INPUT_FIELDS, OUTPUT_FIELDS, SLOTS, type Field } from "../codec/rtde-fields.ts";
 
 export interface RtdeClient {
-  /** The last state, and what is written; by the slots of the fields. */
-  readonly slots: Float64Array;
+  /** The last state that came, by the slots of the fields. */
+  readonly state: Float64Array;
+  /** What is written next, by the slots of the fields. */
+  readonly inputs: Float64Array;
   readonly version: Version;
   /** Bytes not yet taken: a line that is stuck. */
   readonly waiting: number;
@@ -16,7 +18,7 @@ export interface RtdeClient {
   close(): void;
 }
 export interface RtdeEvents {
-  /** A state has come into the slots. */
+  /** A state has come. */
   state(): void;
   says(message: string): void;
   lost(sentence: string): void;
@@ -29,7 +31,7 @@ const named = (table: ReadonlyMap<string, Field>, names: readonly string[]): Fie
 
 /** Sets up protocol 2 with these outputs and groups of inputs, and starts. The stream is this client's from here on. */
 export async function openRtde(stream: ByteStream, scheduler: Scheduler, outputs: readonly string[], groups: readonly (readonly string[])[], frequency_Hz: number, events: RtdeEvents): Promise<RtdeOpened> {
-  const frames = rtdeFrames(), slots = new Float64Array(SLOTS), recipes: { recipe: Recipe; buffer: Uint8Array; view: DataView }[] = [];
+  const frames = rtdeFrames(), state = new Float64Array(SLOTS), inputs = new Float64Array(SLOTS), recipes: { recipe: Recipe; buffer: Uint8Array; view: DataView }[] = [];
   let waitsFor = 0, answer: ((payload: Uint8Array | null) => void) | null = null, output: Recipe | null = null, running = false, over = false, version: Version = [0, 0, 0, 0];
 
   function end(sentence: string | null): void {
@@ -46,7 +48,7 @@ export async function openRtde(stream: ByteStream, scheduler: Scheduler, outputs
     if (over) return;
     if (type === RTDE.data) {
       // Packages under way while a recipe changes are of another length.
-      if (output && running && payload[0] === output.id && unpackData(output, payload.subarray(1), slots)) events.state();
+      if (output && running && payload[0] === output.id && unpackData(output, payload.subarray(1), state)) events.state();
       return;
     }
     if (type === RTDE.text) { events.says(readText(payload, 2).message); return; }
@@ -100,12 +102,12 @@ export async function openRtde(stream: ByteStream, scheduler: Scheduler, outputs
   return {
     kind: "open",
     client: {
-      slots, version,
+      state, inputs, version,
       get waiting() { return stream.waiting; },
       send(group) {
         const entry = recipes[group];
         if (!entry || over) return;
-        packData(entry.recipe, slots, entry.buffer, entry.view);
+        packData(entry.recipe, inputs, entry.buffer, entry.view);
         stream.send(entry.buffer);
       },
       close() { end(null); },

@@ -7,13 +7,13 @@ import { LISTENING, REGISTERS } from "./control-program.ts";
 /** What the driver asks the controller to tell, 500 times a second. */
 export const OUTPUTS = [
   "timestamp", "actual_q", "target_q", "target_qd", "robot_mode", "safety_mode", "runtime_state", "target_speed_fraction", "actual_digital_input_bits", "actual_digital_output_bits",
-  "standard_analog_input0", "standard_analog_input1", "standard_analog_output0", "standard_analog_output1", `output_int_register_${REGISTERS.ended}`, `output_int_register_${REGISTERS.listening}`,
+  "standard_analog_input0", "standard_analog_input1", "standard_analog_output0", "standard_analog_output1", `output_int_register_${REGISTERS.ended}`, `output_int_register_${REGISTERS.listening}`, `input_int_register_${REGISTERS.heartbeat}`,
 ] as const;
 export const RATE_HZ = 500;
 const AT = {
   time: slotOf("timestamp"), q: slotOf("actual_q"), target: slotOf("target_q"), speed: slotOf("target_qd"), mode: slotOf("robot_mode"), safety: slotOf("safety_mode"), runtime: slotOf("runtime_state"),
   fraction: slotOf("target_speed_fraction"), inputs: slotOf("actual_digital_input_bits"), outputs: slotOf("actual_digital_output_bits"), ended: slotOf(`output_int_register_${REGISTERS.ended}`),
-  listening: slotOf(`output_int_register_${REGISTERS.listening}`), analogue: ["standard_analog_input0", "standard_analog_input1", "standard_analog_output0", "standard_analog_output1"].map(slotOf),
+  listening: slotOf(`output_int_register_${REGISTERS.listening}`), echo: slotOf(`input_int_register_${REGISTERS.heartbeat}`), analogue: ["standard_analog_input0", "standard_analog_input1", "standard_analog_output0", "standard_analog_output1"].map(slotOf),
 } as const;
 /** Slower joints stand [rad/s]. */
 const STANDS_RAD_S = 1e-6;
@@ -42,6 +42,8 @@ export class UrReading {
   get robotMode(): number { return this.slots[AT.mode]!; }
   get safetyMode(): number { return this.slots[AT.safety]!; }
   get runtime(): number { return this.slots[AT.runtime]!; }
+  /** The last heartbeat that the controller has heard. */
+  get echo(): number { return this.slots[AT.echo]!; }
   get ended(): number { return this.slots[AT.ended]!; }
   get isPlaying(): boolean { return this.runtime === RUNTIME.PLAYING || this.runtime === RUNTIME.RESUMING; }
   get isIdle(): boolean { return this.runtime === RUNTIME.STOPPED; }

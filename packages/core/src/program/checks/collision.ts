@@ -1,20 +1,27 @@
 import { CellCollider, clearance as noClearance, robotAndCell } from "../../collision/cell-collider.ts";
 import type { CellGeometry } from "../../collision/cell.ts";
-import { checkMotion, type JointMotion, type MotionVerdict } from "../../collision/motion.ts";
+import { certifyMotion } from "../../collision/certificate.ts";
+import { ClearanceMaps } from "../../collision/clearance-map.ts";
+import { checkMotion, type MotionVerdict } from "../../collision/motion.ts";
+import type { SerialArm } from "../../robots/arm.ts";
 import { resolveMove, type Move } from "../../trajectory/moves.ts";
 import type { MotionSegment } from "../../trajectory/plan.ts";
 import { RunPlanner } from "../../trajectory/run.ts";
 import { sampleSegment } from "../../trajectory/sample.ts";
+import { motionOf, type SegmentCertificate } from "../certificate.ts";
 import { freshStepIds } from "../edit.ts";
 import type { MoveStep } from "../program.ts";
 import type { Repair } from "../verdict.ts";
 import { raised } from "./repairs.ts";
+import { nameOf } from "./solid-names.ts";
 import { motions, seconds, type CheckScene } from "./scene.ts";
 
 export interface CollisionOptions {
   readonly cell: CellGeometry;
   /** Distance the robot keeps from the cell [m]; 0 asks for no contact only. Its own parts must not touch. */
   readonly margin_m: number;
+  /** Receives the proof of every motion that is clear. */
+  readonly certificates?: SegmentCertificate[];
   readonly onProgress?: (share: number) => void;
   readonly cancelled?: () => boolean;
 }
@@ -35,7 +42,7 @@ const CLEARANCE_CUTOFF_M = 0.5;
  * @returns the least clearance seen between robot and cell [m]; null when there is nothing to keep clear of.
  */
 export function checkCollision(scene: CheckScene, options: CollisionOptions): { readonly clearance_m: number | null; readonly unproven: ReadonlySet<string> } {
-  const collider = new CellCollider(options.cell, scene.robot.arm), prover = new Prover(collider, options.margin_m, scene.robot.arm.joints.length);
+  const collider = new CellCollider(options.cell, scene.robot.arm), prover = new Prover(collider, options.margin_m, scene.robot.arm);
   collider.allowContactsAt(scene.robot.home_rad);
   const unproven = new Set<string>(), found = new Set<string>(), all = [...motions(scene)];
   let repaired = 0;
@@ -43,7 +50,8 @@ export function checkCollision(scene: CheckScene, options: CollisionOptions): { 
     const segment = all[i]!;
     if (options.cancelled?.() === true) { for (const rest of all.slice(i)) unproven.add(rest.step); break; }
     options.onProgress?.(i / all.length);
-    const verdict = prover.prove(segment);
+    const { verdict, certificate } = options.certificates === undefined ? { verdict: prover.prove(segment), certificate: null } : prover.certify(segment);
+    if (certificate !== null) options.certificates?.push({ step: segment.step, start_s: segment.start_s, ...certificate });
     if (verdict.kind === "undecided") unproven.add(segment.step);
     if (verdict.kind !== "contact" || found.has(segment.step)) continue;
     found.add(segment.step);
@@ -64,30 +72,18 @@ class Prover {
   private readonly collider: CellCollider;
   private readonly margin_m: number;
   private readonly rates: Float64Array;
-  constructor(collider: CellCollider, margin_m: number, joints: number) {
-    this.collider = collider; this.margin_m = margin_m; this.rates = new Float64Array(joints);
+  private readonly maps: ClearanceMaps;
+  constructor(collider: CellCollider, margin_m: number, arm: SerialArm) {
+    this.collider = collider; this.margin_m = margin_m; this.rates = new Float64Array(arm.joints.length); this.maps = new ClearanceMaps(collider, arm);
   }
 
   prove(segment: MotionSegment): MotionVerdict {
-    topSpeeds(segment, this.rates);
-    const motion: JointMotion = { sample: (t, out) => { sampleSegment(segment, t, out); }, maxRate: this.rates };
-    return checkMotion(this.collider, motion, 0, segment.duration_s, { margin_m: this.margin_m, keepsMargin: robotAndCell });
+    return checkMotion(this.collider, motionOf(segment, this.rates), 0, segment.duration_s, { margin_m: this.margin_m, keepsMargin: robotAndCell, maps: this.maps });
   }
-}
 
-/**
- * Bounds on the joint speeds of a motion. A cubic's speed in Bernstein form is q̇₀, 3 Δq/h − q̇₀ − q̇₁, q̇₁ and stays within
- * the largest of them.
- */
-function topSpeeds({ times_s, q_rad, qd_rad_s }: MotionSegment, out: Float64Array): void {
-  const n = out.length;
-  out.fill(0);
-  for (let i = 0; i + 1 < times_s.length; i++) {
-    const h = times_s[i + 1]! - times_s[i]!;
-    for (let j = 0; j < n; j++) {
-      const a = i * n + j, d0 = qd_rad_s[a]!, d1 = qd_rad_s[a + n]!, m = h > 0 ? (3 * (q_rad[a + n]! - q_rad[a]!)) / h - d0 - d1 : 0;
-      out[j] = Math.max(out[j]!, Math.abs(d0), Math.abs(d1), Math.abs(m));
-    }
+  /** As `prove`, and what proves it; slower, because nothing that was found before is used. */
+  certify(segment: MotionSegment): ReturnType<typeof certifyMotion> {
+    return certifyMotion(this.collider, motionOf(segment, this.rates), 0, segment.duration_s, { margin_m: this.margin_m, keepsMargin: robotAndCell });
   }
 }
 
@@ -142,12 +138,6 @@ function collisionRepairs(scene: CheckScene, move: Move, prover: Prover, segment
     }
   }
   return found;
-}
-
-function nameOf(id: string, cell: CellGeometry): string {
-  const object = cell.objects.find(candidate => candidate.id === id);
-  if (object !== undefined) return `“${object.name}”`;
-  return id === "tool" ? "the tool" : id;
 }
 
 const mm = (length_m: number): string => `${(length_m * 1000).toFixed(length_m < 0.01 ? 1 : 0)} mm`;

@@ -1,0 +1,50 @@
+import { brakingDistance_m, COLLISION_BEHAVIOURS, hardBrakingTime_s, type Robot } from "@twincell/core";
+import { useStore } from "zustand";
+import { learnMatrix } from "../../live/planning.ts";
+import { cellStore } from "../../stores/cell.ts";
+import { chooseBehaviour, collideStore } from "../../stores/collide.ts";
+import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
+import { robotOf } from "../../stores/document.ts";
+import { showNumber } from "../../ui/expression.ts";
+import { Frame } from "../../ui/Frame.tsx";
+import { words } from "../../words/index.ts";
+import { PairTable } from "./PairTable.tsx";
+import "./collide.css";
+
+/** What the hand guard keeps from the cell [m]. */
+const KEPT_M = 0.002;
+
+/** What happens where something would touch, what that rests on, and which parts of the robot are checked against which. */
+export default function CollisionDialog() {
+  const open = useStore(dialogStore, state => state.open === "collision"), robot = useStore(cellStore, state => robotOf(state.document));
+  return <Frame open={open} title={words.collide.title} onClose={closeDialog} width={720}>{open && robot && <Body robot={robot} />}</Frame>;
+}
+
+function Body({ robot }: { robot: Robot }) {
+  const behaviour = useStore(collideStore, state => state.behaviour), learning = useStore(collideStore, state => state.searching?.kind === "learn");
+  const pairs = useStore(cellStore, state => state.document?.pairs), tool = useStore(cellStore, state => state.document?.tool), known = pairs?.robot === robot.id ? pairs : undefined;
+  const mm = (length_m: number): string => showNumber(length_m, "length", 0), braking_s = hardBrakingTime_s(robot);
+  const facts = [
+    [words.collide.kept, words.collide.keptSays(mm(KEPT_M))], [words.collide.shapeError, words.collide.keptSays(mm(robot.shapeError_m))],
+    [words.collide.braking, words.collide.brakingSays(braking_s.toFixed(2), mm(brakingDistance_m(robot, robot.maxTcpSpeed_mps)))],
+  ] as const;
+  return (
+    <div className="stack collide">
+      <fieldset className="collide-choice"><legend className="label">{words.collide.behaviour}</legend>
+        {COLLISION_BEHAVIOURS.map(value => (
+          <label key={value} className="collide-option" data-on={value === behaviour}>
+            <input type="radio" name="collision-behaviour" value={value} checked={value === behaviour} onChange={() => chooseBehaviour(value)} />
+            <span><b>{words.collide.behaviours[value]}</b><span className="small muted">{words.collide.says[value]}</span></span>
+          </label>
+        ))}
+      </fieldset>
+      <dl className="facts">{facts.map(([name, value]) => <div key={name}><dt>{name}</dt><dd>{value}</dd></div>)}</dl>
+      <p className="small muted">{words.collide.precision}</p>
+      <section aria-label={words.collide.matrix} aria-busy={learning}>
+        <div className="collide-head"><h3 className="label">{words.collide.matrix}</h3>
+          <button className="btn tight" disabled={learning} onClick={learnMatrix}>{learning ? words.collide.learning : known ? words.collide.learn : words.collide.learnFirst}</button></div>
+        {known ? <PairTable pairs={known} stale={known.tool !== tool} /> : <p className="small muted">{words.collide.matrixNone}</p>}
+      </section>
+    </div>
+  );
+}

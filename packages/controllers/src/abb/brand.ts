@@ -1,0 +1,29 @@
+import type { Brand } from "../real/index.ts";
+import { EGM_PORT } from "./codec/index.ts";
+import { abbFace } from "./driver/index.ts";
+import { createVirtualAbb } from "./virtual/index.ts";
+
+const PORTS = { egm: EGM_PORT }, REBOOT_S = 2;
+
+/** Controllers with externally guided motion: IRC5 and OmniCore. The controller sends to the port; it listens on none. */
+export const abb: Brand = {
+  id: "abb", name: "ABB (EGM)", dialect: "rapid", vendor: "ABB", ports: PORTS,
+  face: ({ ports, ...options }) => abbFace({ ...options, ports: { ...PORTS, ...ports } }),
+  async virtual({ ports, robot, scheduler, network, host, start_rad, maxSpeed }) {
+    const started = await createVirtualAbb({
+      robot, scheduler, network, host, sensor: { host, port: ports?.["egm"] ?? EGM_PORT }, ...(start_rad ? { start_rad } : {}), ...(maxSpeed === undefined ? {} : { maxSpeed }),
+    });
+    if (started.kind === "taken") return started;
+    const { controller } = started;
+    return {
+      kind: "started",
+      virtual: {
+        name: `Virtual ABB ${robot.name.replace(/^ABB /, "")}`, robot, ports: { ...PORTS, ...ports }, brakingTime_s: controller.brakingTime_s,
+        pendant: { ...controller.pendant, setInput() { /* EGM carries no signals. */ } },
+        jointAngles: out => controller.neutral.jointAngles(out),
+        reboot() { controller.reboot(REBOOT_S); },
+        close() { controller.close(); },
+      },
+    };
+  },
+};

@@ -1,0 +1,1 @@
+export { abbFace, type AbbFaceOptions } from "./face.ts";

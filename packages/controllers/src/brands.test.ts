@@ -1,0 +1,81 @@
+import { LIBRARY, manualScheduler, type CommandOutcome } from "@twincell/core";
+import { describe, expect, test } from "vitest";
+import { BRANDS, createRealController, memoryNetwork, type Brand } from "./index.ts";
+
+const HOST = "127.0.0.9";
+/** Where the controller itself goes on with what it held, and why. */
+const GOES_ON: Readonly<Record<string, readonly string[]>> = { ur: ["guard: a safeguard stop of a UR is a hold, which ends with its cause"] };
+/** A brand's virtual controller with a robot of the library, and its driver, as apps start them. */
+async function bench(brand: Brand) {
+  const robot = LIBRARY.find(({ vendor, arm }) => vendor === brand.vendor && arm.joints.length === 6)!, scheduler = manualScheduler(), network = memoryNetwork(scheduler);
+  const started = await brand.virtual({ robot, scheduler, network, host: HOST, interpret: () => ({ kind: "not-understood", faults: [] }) });
+  if (started.kind === "taken") throw new Error(started.sentence);
+  const { virtual } = started, real = createRealController({ face: brand.face({ robot, scheduler, network, host: HOST }), scheduler });
+  const ended = async <T>(command: Promise<T>): Promise<T> => {
+    let over = false;
+    void command.then(() => { over = true; });
+    for (let t = 0; t < 60 && !over; t += 0.05) await scheduler.elapse(0.05);
+    if (!over) throw new Error("The command took more than a minute.");
+    return command;
+  };
+  expect(await ended(real.connect())).toEqual({ kind: "done" });
+  await scheduler.elapse(0.2);
+  const near = (by_rad: number): number[] => robot.home_rad.map((q, i) => i < 3 ? q + by_rad : q);
+  /** A person's reset, as often as it takes, then a move. */
+  const goesAgain = async (): Promise<CommandOutcome> => {
+    let outcome: CommandOutcome = { kind: "done" };
+    for (let i = 0; i < 10; i++) {
+      real.reset();
+      await scheduler.elapse(1);
+      outcome = await ended(real.moveJoints(near(i % 2 === 0 ? 0.05 : -0.05)));
+      if (outcome.kind === "done") break;
+    }
+    return outcome;
+  };
+  return { robot, scheduler, network, virtual, real, ended, near, goesAgain };
+}
+const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number => Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
+
+describe.each(BRANDS.map(brand => [brand.id, brand] as const))("the cabinet and the pendant of %s", (_, brand) => {
+  test("T-26 by hand and back: jogged at the pendant, refused from here, then reset and moved from here", async () => {
+    const { scheduler, virtual, real, ended, near, goesAgain } = await bench(brand);
+    virtual.pendant.setMode("manual");
+    await scheduler.elapse(1);
+    expect((await real.moveJoints(near(0.05))).kind).toBe("refused");
+    expect((await ended(virtual.pendant.jog(near(0.03)))).kind).toBe("done");
+    virtual.pendant.setMode("remote");
+    await scheduler.elapse(1);
+    expect(await goesAgain()).toEqual({ kind: "done" });
+  });
+
+  test("T-27 every way to stop it at the robot ends a motion, starts none when it is taken back, and gives way to a person's reset", async () => {
+    for (const [name, stop, release] of [["emergency stop", true, true], ["guard", false, true], ["protective stop", false, false]] as const) {
+      const { scheduler, virtual, real, ended, near, goesAgain } = await bench(brand), moving = real.moveJoints(near(0.6));
+      await scheduler.elapse(0.3);
+      if (stop) virtual.pendant.emergencyStop(true);
+      else if (release) virtual.pendant.setGuardOpen(true);
+      else virtual.pendant.protectiveStop("it met something");
+      expect((await ended(moving)).kind, name).toBe("stopped");
+      await scheduler.elapse(1);
+      const rest = virtual.jointAngles().slice();
+      if (stop) virtual.pendant.emergencyStop(false);
+      else if (release) virtual.pendant.setGuardOpen(false);
+      await scheduler.elapse(6);
+      if (!GOES_ON[brand.id]?.some(each => each.startsWith(name))) expect(farthest(virtual.jointAngles(), rest), name).toBe(0);
+      expect(await goesAgain(), name).toEqual({ kind: "done" });
+    }
+  });
+
+  test("off and on again: the link comes back, the motion does not, a person's reset brings it up", async () => {
+    const { scheduler, virtual, real, ended, near, goesAgain } = await bench(brand), moving = real.moveJoints(near(0.6));
+    await scheduler.elapse(0.3);
+    virtual.reboot();
+    expect((await ended(moving)).kind).toBe("stopped");
+    await scheduler.elapse(12);
+    expect(real.isConnected).toBe(true);
+    const rest = virtual.jointAngles().slice();
+    await scheduler.elapse(2);
+    expect(farthest(virtual.jointAngles(), rest)).toBe(0);
+    expect(await goesAgain()).toEqual({ kind: "done" });
+  });
+});

@@ -1,0 +1,77 @@
+import { CellCollider, robotAndCell } from "../collision/cell-collider.ts";
+import type { CellGeometry } from "../collision/cell.ts";
+import { verifyCertificate, type CertificateVerdict, type MotionCertificate } from "../collision/certificate.ts";
+import { marginOf, type JointMotion } from "../collision/motion.ts";
+import type { Robot } from "../robots/robot.ts";
+import type { MotionSegment, Plan } from "../trajectory/plan.ts";
+import { sampleSegment } from "../trajectory/sample.ts";
+
+/** The proof of one motion of a plan: t is seconds after its start. */
+export interface SegmentCertificate extends MotionCertificate {
+  readonly step: string;
+  readonly start_s: number;
+}
+
+/** What proves a whole program clear of contact: one certificate for each of its motions. Plain data. */
+export interface ProgramCertificate {
+  readonly robot: string;
+  readonly program: string;
+  /** The distance asked for between robot and cell [m]. */
+  readonly margin_m: number;
+  readonly segments: readonly SegmentCertificate[];
+}
+
+export type ProgramCertificateVerdict =
+  | { readonly kind: "confirmed"; readonly segments: number; readonly looks: number }
+  /** A motion of the plan that no certificate is about. */
+  | { readonly kind: "missing"; readonly step: string; readonly start_s: number }
+  /** A claim that does not hold, or is less than the margin. */
+  | { readonly kind: "refuted"; readonly step: string; readonly reason: Extract<CertificateVerdict, { kind: "refuted" }>["reason"] | "below margin"; readonly a: string; readonly b: string; readonly at_s: number };
+
+/** Segments start at the same time when they differ by less [s]. */
+const SAME_TIME_S = 1e-9;
+
+/** The motion of a segment with bounds on its joint speeds. `rates` receives them and is kept by the motion. */
+export function motionOf(segment: MotionSegment, rates: Float64Array): JointMotion {
+  topSpeeds(segment, rates);
+  return { sample: (t, out) => { sampleSegment(segment, t, out); }, maxRate: rates };
+}
+
+/**
+ * Proves a program's certificate again, motion by motion, with a collider made anew and by the other method of `verifyCertificate`.
+ *
+ * @param plan  laid out again from the program: a certificate of another program or another cell does not fit it.
+ */
+export function verifyProgram(certificate: ProgramCertificate, plan: Plan, robot: Robot, cell: CellGeometry): ProgramCertificateVerdict {
+  const collider = new CellCollider(cell, robot.arm), rates = new Float64Array(robot.arm.joints.length);
+  collider.allowContactsAt(robot.home_rad);
+  const wanted = new Map(collider.pairs.map(pair => [`${pair.contact.a}\n${pair.contact.b}`, robotAndCell(pair) ? marginOf(pair, certificate.margin_m, cell.shapeError_m) : 0]));
+  let segments = 0, looks = 0;
+  for (const segment of plan.segments) {
+    if (segment.kind !== "motion" || segment.times_s.length < 2) continue;
+    const own = certificate.segments.find(({ step, start_s }) => step === segment.step && Math.abs(start_s - segment.start_s) < SAME_TIME_S);
+    if (own === undefined || own.from > 0 || own.to < segment.duration_s) return { kind: "missing", step: segment.step, start_s: segment.start_s };
+    const low = own.pieces.find(({ a, b, atLeast_m }) => atLeast_m < (wanted.get(`${a}\n${b}`) ?? 0));
+    if (low !== undefined) return { kind: "refuted", step: segment.step, reason: "below margin", a: low.a, b: low.b, at_s: segment.start_s + low.from };
+    const verdict = verifyCertificate(collider, robot.arm, motionOf(segment, rates), own);
+    if (verdict.kind === "refuted") return { kind: "refuted", step: segment.step, reason: verdict.reason, a: verdict.a, b: verdict.b, at_s: segment.start_s + verdict.at };
+    segments++; looks += verdict.looks;
+  }
+  return { kind: "confirmed", segments, looks };
+}
+
+/**
+ * Bounds on the joint speeds of a motion. A cubic's speed in Bernstein form is q̇₀, 3 Δq/h − q̇₀ − q̇₁, q̇₁ and stays within
+ * the largest of them.
+ */
+function topSpeeds({ times_s, q_rad, qd_rad_s }: MotionSegment, out: Float64Array): void {
+  const n = out.length;
+  out.fill(0);
+  for (let i = 0; i + 1 < times_s.length; i++) {
+    const h = times_s[i + 1]! - times_s[i]!;
+    for (let j = 0; j < n; j++) {
+      const a = i * n + j, d0 = qd_rad_s[a]!, d1 = qd_rad_s[a + n]!, m = h > 0 ? (3 * (q_rad[a + n]! - q_rad[a]!)) / h - d0 - d1 : 0;
+      out[j] = Math.max(out[j]!, Math.abs(d0), Math.abs(d1), Math.abs(m));
+    }
+  }
+}
