@@ -34,7 +34,7 @@ function loadOf(plan: Plan, kg: number): number {
   return most;
 }
 
-describe("X-10 speed reflects joint torque limits", () => {
+describe("X-10, M-48 speed reflects joint torque limits", () => {
   test("a heavier load is flagged with the joint and its torque, and the repair holds", () => {
     const free = checkProgram(swing({ kg: 0 }), ur10e, { start_rad: UP }), heavy = checkProgram(swing({ kg: 10 }), ur10e, { start_rad: UP });
     if (free.verdict.torque.kind === "unknown" || heavy.verdict.torque.kind === "unknown") throw new Error("The masses of the UR10e are published.");
