@@ -60,7 +60,7 @@ for (let cell = 0; done < FAULTS; cell++) {
     "single bytes": { act() { network.weather.pieces = 1; }, kind: "weather" },
     "delay and jitter": { act() { Object.assign(network.weather, { delay_s: 0.01 * random(), jitter_s: 0.02 * random() }); }, kind: "weather" },
     "some states lost": { act() { faults.loss = 0.3 * random(); }, kind: "weather" },
-    "speed changed": { act() { real.setSpeed(100 * random()); }, kind: "weather" },
+    "speed changed": { act() { real.setSpeed(20 + 80 * random()); }, kind: "weather" },
   };
   const names = Object.keys(acts);
   let lost_s = Infinity;
