@@ -101,5 +101,5 @@ const result = {
   date: new Date().toISOString().slice(0, 10), machine: `${cpus()[0]?.model ?? "unknown"}, Node ${process.versions.node}`,
   seed: SEED, faults: done, seconds: Math.round((performance.now() - begun_ms) / 1000), brakingTime_s: braking_s, newMotions, unended, notBack, worst, counts, outcomes,
 };
-if (process.argv[2] === undefined) writeFileSync(new URL("yaskawa-faults.json", import.meta.url), `${JSON.stringify(result, null, 2)}\n`);
+writeFileSync(new URL("yaskawa-faults.json", import.meta.url), `${JSON.stringify(result, null, 2)}\n`);
 process.stdout.write(`${JSON.stringify(result, null, 2)}\n`);
