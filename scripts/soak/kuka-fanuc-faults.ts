@@ -112,7 +112,7 @@ async function soak(make: (typeof CELLS)[string]) {
         await until(() => again !== null, 20, 0.02);
       }
       const end = again as CommandOutcome | null;
-      if (end?.kind !== "done") { notBack++; const what = `${name}: not back, ${end === null ? "no end" : end.kind === "done" ? "" : end.why.code}`; odd[what] = (odd[what] ?? 0) + 1; done++; break; }
+      if (end?.kind !== "done") { notBack++; const what = `${name}: not back, ${end?.why.code ?? "no end"}`; odd[what] = (odd[what] ?? 0) + 1; done++; break; }
     }
     real.close(); made.close(); network.close();
   }

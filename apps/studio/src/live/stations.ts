@@ -6,6 +6,7 @@ import { programOf, robotOf } from "../stores/document.ts";
 import { historyStore, type RunEnding } from "../stores/history.ts";
 import { notify } from "../stores/notices.ts";
 import { changeStation, stationOf, stationStore, type HostPlace, type StationState } from "../stores/stations.ts";
+import { shortName } from "../stores/robot.ts";
 import { onStop } from "../stores/stop.ts";
 import { words } from "../words/index.ts";
 import { browserShelf, listRuns, openRunFile, type RunFile } from "./archive.ts";
@@ -158,7 +159,7 @@ function appear(place: HostPlace, { id, name, brand, robot: robotId, virtual, wa
   if (!lives.has(id)) lives.set(id, { robot, q_rad: Float64Array.from(robot.home_rad), revision: 0, received_s: 0, sent_s: 0 });
   const stand = stands.get(id) ?? document!.robot.worldFromBase;
   const station: StationState = {
-    id, name, brand, robot: robotId, virtual, watchdog, place, stand, link: NO_LINK, guard: AT_REST, mode: "automatic", safety: "normal", moving: false, override: 1,
+    id, name: virtual ? shortName(robot) : name, brand, robot: robotId, virtual, watchdog, place, stand, link: NO_LINK, guard: AT_REST, mode: "automatic", safety: "normal", moving: false, override: 1,
     step: "", message: "", plan_rad: null, command_rad: null, running: false, unplugged: false, notice: "",
   };
   stationStore.setState(({ stations }) => ({ stations: [...stations, station] }));

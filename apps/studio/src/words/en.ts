@@ -46,7 +46,7 @@ export const en = {
     stand: "Stands at", x: "x", y: "y", turned: "Turned", connecting: "Connecting …", addAndConnect: "Add and connect",
     connect: "Connect", disconnect: "Disconnect", run: "Run here", runAll: "Run on all", stop: "Stop", reset: "Reset", remove: "Remove", confirm: "Go on", confirmTip: "The link is back. Motion goes on only after a person says so.",
     pull: "Pull the plug", plugIn: "Put the plug back", hold: "Hold to move", holdTip: "A real robot moves only while this is held.",
-    links: { closed: "not connected", connecting: "connecting", open: "connected", lost: "connection lost" },
+    virtual: "virtual", links: { closed: "not connected", connecting: "connecting", open: "connected", lost: "connection lost" },
     figures: (hz: string, late: string, missing: number) => `${hz} Hz · ${late} late · ${missing} missing`, trip: (ms: string) => `answers in ${ms}`,
     plan: "From the plan", command: "From the command", watchdog: "If nobody commands", mode: "Mode", safety: "Safety", step: "Step", ms: (s: number) => `${(s * 1000).toFixed(1)} ms`,
     pendant: "Cabinet", key: "Mode switch", gate: "Gate", gateOpen: "Open the gate", gateClose: "Close the gate", red: "Press the red button", redOut: "Turn the red button out", reboot: "Off and on again",

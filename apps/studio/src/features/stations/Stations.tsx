@@ -37,7 +37,7 @@ function tell(name: string, outcome: CommandOutcome): void {
 function Card({ station }: { readonly station: StationState }) {
   const { id, name, link, guard, safety, running, virtual, unplugged } = station, [wide, setWide] = useState(false);
   const open = link.state === "open", ask = (what: Parameters<typeof askStation>[1]) => { void askStation(id, what).then(outcome => { tell(name, outcome); }); };
-  const says = open && safety !== "normal" ? words.control.safetyStates[safety] : [words.stations.links[link.state], open ? words.control.modes[station.mode] : null].filter(Boolean).join(" · ");
+  const says = open && safety !== "normal" ? words.control.safetyStates[safety] : [virtual ? words.stations.virtual : null, words.stations.links[link.state], open ? words.control.modes[station.mode] : null].filter(Boolean).join(" · ");
   return (
     <article className="station" aria-label={words.stations.card(name)} data-link={link.state} data-safety={open ? safety : "normal"}>
       <header className="row-flex">

@@ -7,7 +7,7 @@ export function contentBounds(root: Object3D, document: CellDocument, out = new 
   out.makeEmpty();
   root.updateWorldMatrix(true, true);
   for (const child of root.children) {
-    if (child.userData.thing === undefined || walls.has(child.name)) continue;
+    if ((child.userData.thing === undefined && child.userData.station !== true) || walls.has(child.name)) continue;
     child.traverse(object => {
       if (!(object instanceof Mesh)) return;
       object.geometry.computeBoundingBox();

@@ -50,7 +50,7 @@ export function ArmView({ robot, worldFromBase, live: now, prefix = "" }: Props)
   }, -10);
 
   return drawings.map(drawing => (
-    <group key={drawing.name} name={prefix + drawing.name} matrixAutoUpdate={false} userData={prefix === "" ? { thing: { kind: "link", link: drawing.link } } : {}}
+    <group key={drawing.name} name={prefix + drawing.name} matrixAutoUpdate={false} userData={prefix === "" ? { thing: { kind: "link", link: drawing.link } } : { station: true }}
       ref={group => { links.current[drawing.link] = group; }}>
       {drawing.pieces.map(piece => <mesh key={piece.material} geometry={piece.geometry} material={materials[piece.material]} castShadow receiveShadow raycast={raycastByTree} />)}
     </group>
