@@ -89,8 +89,10 @@ export function createUrFace(options: FaceOptions): Face {
     const { reading } = at;
     if (textRunning) return;
     if (!reading.listens) {
-      // Whatever the state is worth: nothing is to move when a motion is said to have ended.
+      // Whatever the state is worth: nothing is to move when a motion is said to have ended. A program that a safeguard
+      // holds would go on when the guard closes; it is ended, so that only a new command moves the robot.
       stop(false);
+      if (!reading.isIdle) void at.dashboard.ask("stop");
       end(stopped(words.ended(robot, message(at))));
     } else if (reading.ended === awaited) end(goal);
   }
