@@ -12,6 +12,7 @@ import { Frame } from "../../ui/Frame.tsx";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { BRAND_LIST } from "../../live/brand-list.ts";
 import { words } from "../../words/index.ts";
+import "./stations.css";
 
 export default function AddStation() {
   const open = useStore(dialogStore, state => state.open === "station");
