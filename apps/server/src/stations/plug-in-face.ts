@@ -6,8 +6,11 @@ import { lines } from "./lines.ts";
 export const PLUG_IN_PORT = 7077;
 /** What a plug-in calls its one robot. */
 const STATION = "robot";
-/** Without a sample for this long the link is lost; a sign of life goes out this often [s]. */
-const STALE_S = 0.5, ALIVE_S = 0.05;
+/**
+ * Without a sample for this long the link is lost; a sign of life goes out this often [s]. Shorter than the pause before a lost link is
+ * tried again (0.25 s): the guard goes by silence, and a plug-in that comes back at once must not come back unnoticed.
+ */
+const STALE_S = 0.2, ALIVE_S = 0.05;
 
 const refusal = (code: string, sentence: string, hint: string): Refusal => ({ code, sentence, hint });
 const failed = (why: Refusal, again: boolean): Opened => ({ kind: "failed", why, again });
