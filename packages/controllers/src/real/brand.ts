@@ -1,5 +1,6 @@
 import type { CommandOutcome, Interpreted, OperatingMode, Robot, Scheduler } from "@twincell/core";
 import type { Network } from "../transport/index.ts";
+import type { Cannot } from "./cannot.ts";
 import type { Face } from "./face.ts";
 
 /** Ports by the brand's own names for them; those left out are the vendor's own. */
@@ -67,6 +68,8 @@ export interface Brand {
   readonly data?: readonly Datum[];
   /** Vendor of the robots it drives, as robots name it. */
   readonly vendor: string;
+  /** What its driver cannot do, with the reasons. */
+  readonly cannot: readonly Cannot[];
   face(options: FaceOptions): Face;
   virtual(options: BrandVirtualOptions): Promise<BrandStarted>;
 }

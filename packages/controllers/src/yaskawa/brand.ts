@@ -1,4 +1,5 @@
 import type { Brand, Pendant } from "../real/index.ts";
+import { YASKAWA_CANNOT } from "./cannot.ts";
 import { FILE_PORT, ROBOT_PORT } from "./codec/index.ts";
 import { yaskawaFace } from "./driver/index.ts";
 import { createVirtualYaskawa, type VirtualYaskawa } from "./virtual/index.ts";
@@ -10,7 +11,7 @@ const ALARM_BY_HAND = 4499;
 
 /** Controllers with the high-speed Ethernet server: FS100, DX200, YRC1000. */
 export const yaskawa: Brand = {
-  id: "yaskawa", name: "Yaskawa", dialect: "inform", vendor: "Yaskawa", ports: PORTS,
+  id: "yaskawa", name: "Yaskawa", dialect: "inform", vendor: "Yaskawa", ports: PORTS, cannot: YASKAWA_CANNOT,
   data: [{ id: "pulses_per_degree", name: "Pulses per degree", where: "In the controller's parameter file ALL.PRM, group RC; S axis first." }],
   face: ({ ports, data, ...options }) => {
     const pulsesPerDegree = data?.["pulses_per_degree"];
