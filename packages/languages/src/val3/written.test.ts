@@ -78,3 +78,20 @@ test("behind a line to taught angles the arm is where the line led it, not a tur
   const emitted = val3.emit(it, robot);
   expect(emitted.kind === "emitted" && proveText(val3, runnableFile(val3, emitted.files)!, it, robot).kind).toBe("proven");
 });
+
+test("a point without a posture of its own is reached in the one that is nearest to where the arm comes from", () => {
+  const move = (id: string, target: MoveStep["target"]): MoveStep => ({ id, type: "move", path: "ptp", target, speed: { ratio: 0.1 }, blend_m: 0 });
+  for (const [bend, word] of [[30, "wpositive"], [-30, "wnegative"]] as const) {
+    const next = flangePose(robot.arm, [10, 0, 90, 10, bend, 5].map(radians)) as Pose as Pose<"frame", "tcp">;
+    const lines = written(program([move("a", { q: [0, 0, 90, 0, bend, 0].map(radians) }), move("b", { pose: next, frame: "world", tool: "flange" })])).get("Fill_trays.dtx")!;
+    expect(lines.flatMap(line => /wrist="(\w+)"/.exec(line)?.[1] ?? [])).toEqual([word]);
+  }
+});
+
+test("behind a loop nobody knows whether the robot stands: the program waits for the end of motions once more", () => {
+  const files = written(program([{ id: "r", type: "repeat", times: 2, steps: [{ id: "m", type: "move", path: "lin", target: at([100, 50, 300]), speed: { mps: 0.25 }, blend_m: 0 }] }, { id: "w", type: "wait", s: 1 }]));
+  const lines = files.get("start.pgx")!.map(line => line.trim());
+  expect(lines.slice(lines.indexOf("begin") + 1, lines.indexOf("end"))).toEqual([
+    "//* Fill trays", "for l_count=1 to 2 step 1", "movel(p10,torch,m)", "waitEndMove()", "endFor", "waitEndMove()", "delay(1)",
+  ]);
+});
