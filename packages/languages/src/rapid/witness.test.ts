@@ -187,7 +187,7 @@ describe("faults have a place and say what is expected", () => {
   });
 
   test("a loop without a motion is reported, and all faults are told at once", () => {
-    expect(rapid.interpret(body("WHILE TRUE DO", "x:=1;", "ENDWHILE"), robot)).toMatchObject({ kind: "not-understood", faults: [{ sentence: expect.stringMatching(/runs on the spot for ever/) }] });
+    expect(rapid.interpret(moduleOf("VAR num x;", "WHILE TRUE DO", "x:=1;", "ENDWHILE"), robot)).toMatchObject({ kind: "not-understood", faults: [{ sentence: expect.stringMatching(/runs on the spot for ever/) }] });
     const answer = rapid.interpret(body("x:=);", "WaitTime 1;", "y:=];"), robot);
     expect(answer.kind === "not-understood" && answer.faults.map(fault => fault.line)).toEqual([4, 6]);
   });

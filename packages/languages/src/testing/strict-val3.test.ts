@@ -23,7 +23,7 @@ test.each([
   ["a semicolon", "movej(Home,flange,m)", "movej(Home,flange,m);"], ["an argument that is missing", "movej(Home,flange,m)", "movej(Home,flange)"], ["an instruction in capitals", "movej(Home", "moveJ(Home"],
   ["a point that is nowhere", "movej(Home,", "movej(Away,"], ["a loop that is not closed", "endFor", ""], ["a decision that is not closed", "endIf", ""], ["a program that is not there", "call drop()", "call lost()"],
   ["assignment for comparison", "if part==true", "if part=true"], ["no begin", "    begin", ""], ["another namespace", "VAL3/Data/2", "VAL3/Data/9"], ["a father that is not there", "fatherId=\"flange[0]\"", "fatherId=\"hand[0]\""],
-  ["an angle that is no number", "j3=\"90\"", "j3=\"90,0\""], ["a type that is none", "type=\"mdesc\"", "type=\"motion\""], ["code outside of CDATA", "<![CDATA[", ""], ["an element that is not closed", "</Programs>", ""], ["a blend that is none", "blend=\"off\"", "blend=\"none\""],
+  ["an angle that is no number", "j3=\"90\"", "j3=\"90,0\""], ["a type that is none", "type=\"mdesc\"", "type=\"motion\""], ["code outside of CDATA", "<![CDATA[", ""], ["an element that is not closed", "</Programs>", ""], ["a program that the project does not list", "    <Program file=\"stop.pgx\"/>\r\n", ""], ["data that are not there", "<Data file=\"", "<Data file=\"Old_"], ["a project without a list of libraries", "  <Libraries/>\r\n", ""], ["a blend that is none", "blend=\"off\"", "blend=\"none\""],
 ])("it refuses %s", (_, from, to) => {
   const files = written(whole);
   expect(files.some(({ text }) => text.includes(from))).toBe(true);

@@ -40,6 +40,7 @@ export function flawsOfApplication(files: readonly AppFile[]): string[] {
   for (const { name, text } of files) {
     const tags = tagsOf(text, sentence => { flaws.push(`${name}: ${sentence}`); }), root = tags[0], wanted = name.endsWith(".pgx") ? "Programs" : name.endsWith(".dtx") ? "Database" : "Project";
     if (root?.name !== wanted || root.attributes["xmlns"] !== NAMESPACES[wanted]) flaws.push(`${name}: the root is not ${wanted} in ${NAMESPACES[wanted]}`);
+    if (name.endsWith(".pjx")) project(tags, files, sentence => { flaws.push(`${name}: ${sentence}`); });
     if (name.endsWith(".dtx")) data(tags, names, sentence => { flaws.push(`${name}: ${sentence}`); });
     if (name.endsWith(".pgx")) {
       const own = tags.filter(tag => tag.name === "Program"), locals = new Map(tags.filter(tag => tag.name === "Local" || tag.name === "Parameter").map(tag => [tag.attributes["name"] ?? "", tag.attributes["type"] ?? ""]));
@@ -76,6 +77,15 @@ function tagsOf(text: string, say: (sentence: string) => void): Tag[] {
   }
   if (open.length > 0) say(`<${open.at(-1)!.name}> is not closed`);
   return tags;
+}
+
+/** A project has parameters, and lists each program, the data and the libraries once. */
+function project(tags: readonly Tag[], files: readonly AppFile[], say: (sentence: string) => void): void {
+  const listed = (name: string, path: string): string => tags.filter(tag => tag.name === name && tag.path === path).map(({ attributes }) => attributes["file"] ?? "").sort().join();
+  const there = (end: string): string => files.filter(({ name }) => name.endsWith(end)).map(({ name }) => name.split("/").at(-1)!).sort().join();
+  for (const part of ["Parameters", "Programs", "Database", "Libraries"]) if (tags.filter(({ name, path }) => name === part && path === "Project").length !== 1) say(`it has not one ${part}`);
+  if (listed("Program", "Project/Programs") !== there(".pgx")) say("its programs are not the .pgx files");
+  if (listed("Data", "Project/Database") !== there(".dtx")) say("its data are not the .dtx file");
 }
 
 function data(tags: readonly Tag[], names: Map<string, string>, say: (sentence: string) => void): void {

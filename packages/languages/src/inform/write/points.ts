@@ -1,4 +1,4 @@
-import { compose, inverse, type MoveStep, type Pose, type Robot, type Target } from "@twincell/core";
+import { branchOf, compose, inverse, solveAll, type MoveStep, type Pose, type Robot, type Target } from "@twincell/core";
 import type { AxisConvention, PulseData } from "../robots.ts";
 import type { Controller } from "./controller.ts";
 import { axisValues, pulseText, rconfText, rectanPose, rectanText } from "./location.ts";
@@ -46,8 +46,7 @@ export class Points {
     const { q_rad, written } = arrival;
     if (this.pulses !== undefined) return this.pulsePoint(id, tool, q_rad);
     if (written?.frame === frame && written.tool === tool) return this.rectanPoint(id, frame, tool, written.text, q_rad);
-    const { frame: before, tool: by, text } = written!;
-    const worldFromFlange = compose(compose(this.worldFrom(before), rectanPose<"frame", "tcp">(text)), inverse(rectanPose<"flange", "tcp">(rectanText(this.place.tool(by)))));
+    const { frame: before, tool: by, text } = written!, worldFromFlange = this.worldFromFlange(before, by, text);
     const tip = compose(inverse(this.worldFrom(frame)), compose(worldFromFlange, rectanPose<"flange", "tcp">(rectanText(this.place.tool(tool)))));
     return this.rectanPoint(id, frame, tool, rectanText(tip), q_rad);
   }
@@ -70,6 +69,22 @@ export class Points {
     return frame === "world" ? worldFromVendor as Pose as Pose<"world", "frame"> : compose(worldFromVendor, rectanPose<"vendor-world", "frame">(rectanText(this.controller.vendorFromFrame(frame))));
   }
 
+  /** Where the flange is when the text is taken at its word: frames, tools and points are rounded each for itself. */
+  private worldFromFlange(frame: string, tool: string, text: string): Pose<"world", "flange"> {
+    return compose(compose(this.worldFrom(frame), rectanPose<"frame", "tcp">(text)), inverse(rectanPose<"flange", "tcp">(rectanText(this.place.tool(tool)))));
+  }
+
+  /**
+   * The joint angles in which the rounded text is reached in the posture of `q_rad`. With the wrist centre close to axis S the
+   * last digit turns S and R by whole degrees: flags of the angles that were meant could name another posture.
+   */
+  private reachedByText(frame: string, tool: string, text: string, q_rad: ArrayLike<number>): ArrayLike<number> {
+    const branch = branchOf(this.robot, q_rad), baseFromFlange = compose(inverse(this.place.worldFromBase), this.worldFromFlange(frame, tool, text));
+    const reach = solveAll(this.robot, baseFromFlange, branch === undefined ? { near: q_rad } : { near: q_rad, branch });
+    // At the very end of the reach the last digit can lie outside: then the angles that were meant are the best there is.
+    return reach.kind === "reached" ? reach.solutions[0]!.q_rad : q_rad;
+  }
+
   private pulsePoint(id: string, tool: string, q_rad: ArrayLike<number>): string {
     this.settings("", tool, "PULSE");
     return this.point(id, pulseText(axisValues(q_rad, this.convention), this.pulses!.pulsesPerDegree));
@@ -77,7 +92,7 @@ export class Points {
 
   private rectanPoint(id: string, frame: string, tool: string, text: string, q_rad: ArrayLike<number>): string {
     this.settings(frame === "world" ? "" : frame, tool, frame === "world" ? "BASE" : "USER");
-    const rconf = rconfText(this.robot, q_rad, axisValues(q_rad, this.convention));
+    const rounded_rad = this.reachedByText(frame, tool, text, q_rad), rconf = rconfText(this.robot, rounded_rad, axisValues(rounded_rad, this.convention));
     if (rconf !== this.rconf) this.out.add(`///RCONF ${rconf}`);
     this.rconf = rconf;
     return this.point(id, text);

@@ -140,8 +140,10 @@ export class Machine extends BlockMachine<Value> {
 
   protected store(to: Expression, value: Value): void {
     if (to.kind === "variable") {
-      const names = this.scopes.at(-1)?.names;
-      (names?.has(to.name) === true ? names : this.globals).set(to.name, value);
+      const scope = this.scopes.at(-1), declares = (data: readonly Datum[] | undefined): boolean => data?.some(({ name }) => name === to.name) === true;
+      if (scope !== undefined && (scope.names.has(to.name) || declares(this.source.local.get(scope.routine)))) scope.names.set(to.name, value);
+      else if (this.globals.has(to.name) || declares(this.source.data)) this.globals.set(to.name, value);
+      else throw new TextError(to, "a datum that is declared", `"${this.spelt(to.name)}" is not declared.`);
       return;
     }
     if (to.kind === "component") {

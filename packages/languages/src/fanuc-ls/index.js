@@ -1,0 +1,24 @@
+import { identity } from "@twincell/core";
+import { skippingDialect } from "../text/index.ts";
+import { CANNOT, FASTEST_MMPS, emitFanucLs } from "./emit.ts";
+import { interpretFanucLs } from "./interpret.ts";
+import { parseFanucLs } from "./parse.ts";
+import { LINES } from "./lines.ts";
+/** The main program and those that it calls, one behind the other: what the controller holds together. */
+const asOne = (files) => ({ name: files[0]?.name ?? "", text: files.map(({ text }) => text).join(""), lines: files.flatMap(({ lines }) => lines) });
+/** TP programs of R-30iA, R-30iB and later controllers as ASCII listings. */
+export const fanucLs = skippingDialect({
+    id: "fanuc-ls",
+    brand: "FANUC",
+    name: "FANUC TP",
+    extensions: [".ls"],
+    maturity: "experimental",
+    cannot: CANNOT,
+    // Whole percent, whole mm/s, hundredths of a second; angles and lengths in thousandths: six joints of a listing together move the tool by no more.
+    resolution: { ratio: 0.005, leastRatio: 0.01, mps: 0.0005, mostMps: FASTEST_MMPS / 1000, wait_s: 0.005, position_m: 4e-5, angle_rad: 5.3e-5, posesAsAngles: true },
+    runnable: asOne,
+    emit: (program, robot, worldFromBase = identity()) => emitFanucLs(program, robot, worldFromBase),
+    parse: (text, robot, worldFromBase = identity()) => parseFanucLs(text, robot, worldFromBase),
+    interpret: (text, robot, worldFromBase = identity()) => interpretFanucLs(text, robot, worldFromBase),
+    lines: LINES,
+});

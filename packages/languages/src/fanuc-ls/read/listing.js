@@ -1,0 +1,163 @@
+import { TextError, plainText } from "../../text/index.ts";
+/** Marks that no file holds: before a remark, and around a message. */
+export const REMARK = "\u0002", MESSAGE = "\u0001";
+const SECTION = /^\s*\/(PROG|ATTR|APPL|MN|POS|END)\b\s*(.*)$/i;
+const NUMBERED = /^\s*[0-9]*\s*:/;
+const LABEL = /(\[\s*(?:[A-Za-z]+\[[0-9]+\]|[0-9]+)(?:\s*,\s*[0-9]+)?)\s*:([^\]]*)(?=\])/g;
+const blank = (text) => " ".repeat(text.length);
+/**
+ * Splits a text into its programs.
+ *
+ * @param label  told what a person calls a register or a line: "DO", 5, "lamp".
+ * @throws {TextError} at the first thing that belongs to no listing.
+ */
+export function readListings(text, label) {
+    const lines = plainText(text).split(/\r\n|\n|\r/), programs = [];
+    let section = "", name = "", comment = "", from = 0, opened = { line: 1, column: 1 }, code = [], positions = new Map(), record;
+    for (const [i, raw] of lines.entries()) {
+        const line = i === 0 && raw.startsWith("\uFEFF") ? ` ${raw.slice(1)}` : raw, place = { line: i + 1, column: 1 + (/\S/.exec(line)?.index ?? 0) };
+        const head = line.trimStart().startsWith("/") && !line.trimStart().startsWith("//") ? SECTION.exec(line) : null;
+        if (head !== null) {
+            const next = head[1].toUpperCase(), rest = head[2].trim();
+            if (record !== undefined)
+                throw new TextError(place, "};", "The position is not closed.");
+            if (next === "PROG") {
+                if (section !== "")
+                    throw new TextError(place, "/END", "A program begins inside another.");
+                const found = /^([A-Za-z_-][A-Za-z0-9_-]*)/.exec(rest)?.[1];
+                if (found === undefined)
+                    throw new TextError(place, "the name of the program", "The program has no name.");
+                name = found;
+                comment = "";
+                code = [];
+                positions = new Map();
+                from = i;
+                opened = place;
+            }
+            else if (section === "")
+                throw new TextError(place, "/PROG", `/${next} stands outside a program.`);
+            if (next === "END") {
+                programs.push({ name, comment, code: "\n".repeat(from) + code.join("\n"), positions, ...opened });
+                section = "";
+            }
+            else
+                section = next;
+            code.push("");
+            continue;
+        }
+        switch (section) {
+            case "MN":
+                code.push(statementOf(line, i + 1, label));
+                break;
+            case "POS": {
+                code.push("");
+                if (line.trim() === "")
+                    break;
+                record ??= RecordReader.begin(line, place);
+                if (record.take(line, place)) {
+                    positions.set(record.number, record.done());
+                    record = undefined;
+                }
+                break;
+            }
+            case "ATTR": {
+                code.push("");
+                const found = /^\s*COMMENT\s*=\s*"([^"]*)"/i.exec(line)?.[1];
+                if (found !== undefined)
+                    comment = found.trim();
+                break;
+            }
+            default:
+                code.push("");
+                if (section === "" && line.trim() !== "")
+                    throw new TextError(place, "/PROG", "The text is no listing of a TP program.");
+        }
+    }
+    if (section !== "" || programs.length === 0)
+        throw new TextError({ line: lines.length, column: 1 }, section === "" ? "/PROG" : "/END", section === "" ? "The text holds no program." : `The program ${name} has no end.`);
+    return programs;
+}
+/** A numbered line without its number, its end and the names that people gave to registers. */
+function statementOf(line, at, label) {
+    const number = NUMBERED.exec(line)?.[0] ?? "";
+    if (number === "" && line.trim() !== "" && !/^\s/.test(line))
+        throw new TextError({ line: at, column: 1 }, "the number of the line and a colon", "The line has no number.");
+    let rest = line.slice(number.length).replace(/;\s*$/, end => blank(end)).replaceAll(MESSAGE, " ").replaceAll(REMARK, " ");
+    const first = rest.trimStart(), indent = rest.length - first.length;
+    if (first.startsWith("!"))
+        rest = `${blank(rest.slice(0, indent))}${REMARK}${first.slice(1)}`;
+    else if (first.startsWith("--eg:"))
+        rest = `${blank(rest.slice(0, indent + 4))}${REMARK}${first.slice(5)}`;
+    // A statement that was taken out.
+    else if (first.startsWith("//"))
+        rest = "";
+    else if (/^MESSAGE\s*\[/i.test(first)) {
+        const open = rest.indexOf("["), close = rest.lastIndexOf("]");
+        if (close > open)
+            rest = `${rest.slice(0, open)}${MESSAGE}${rest.slice(open + 1, close)}${MESSAGE}${rest.slice(close + 1)}`;
+    }
+    else if (rest.includes(":")) {
+        for (const [, word, index, name] of rest.matchAll(/([A-Za-z]+)\[\s*([0-9]+)\s*(?:,[^\]:]*)?:([^\]]*)\]/g))
+            label(word, Number(index), name.trim());
+        rest = rest.replace(LABEL, (whole, open) => open + blank(whole.slice(open.length)));
+    }
+    return blank(number) + rest;
+}
+const CONFIG = /CONFIG\s*:\s*'\s*([FN])\s*([UD])\s*([TB])\s*,\s*(-?[0-9]+)\s*,\s*(-?[0-9]+)\s*,\s*(-?[0-9]+)\s*'/i;
+const FIELD = /\b(X|Y|Z|W|P|R|J[1-9]|E[1-9])\s*=\s*([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)|\*+)\s*(mm|deg)/gi;
+const CARTESIAN = ["X", "Y", "Z", "W", "P", "R"], JOINTS = ["J1", "J2", "J3", "J4", "J5", "J6"];
+/** One record of /POS, line by line. */
+class RecordReader {
+    number;
+    place;
+    fields = new Map();
+    uf = 0;
+    ut = 0;
+    config;
+    group = 1;
+    constructor(number, place) {
+        this.number = number;
+        this.place = place;
+    }
+    static begin(line, place) {
+        const found = /^\s*P\[\s*([0-9]+)\s*(?::[^\]]*)?\]\s*\{/i.exec(line)?.[1];
+        if (found === undefined)
+            throw new TextError(place, "P[n]{", "No position begins here.");
+        return new RecordReader(Number(found), place);
+    }
+    /** Whether the record ends in this line. */
+    take(line, place) {
+        const group = /\bGP([0-9])\s*:/i.exec(line)?.[1];
+        if (group !== undefined)
+            this.group = Number(group);
+        if (this.group === 1) {
+            const frames = /UF\s*:\s*([0-9F]+)\s*,\s*UT\s*:\s*([0-9F]+)/i.exec(line);
+            if (frames !== null) {
+                this.uf = Number(frames[1]);
+                this.ut = Number(frames[2]);
+            }
+            if (/CONFIG/i.test(line)) {
+                const found = CONFIG.exec(line);
+                if (found === null)
+                    throw new TextError(place, "CONFIG : 'N U T, 0, 0, 0'", "The configuration is not understood.");
+                this.config = { flip: found[1].toUpperCase() === "F", up: found[2].toUpperCase() === "U", toward: found[3].toUpperCase() === "T", turns: [Number(found[4]), Number(found[5]), Number(found[6])] };
+            }
+            for (const [, name, value] of line.matchAll(FIELD))
+                this.fields.set(name.toUpperCase(), value.startsWith("*") ? undefined : Number(value));
+        }
+        if (/\}\s*;/.test(line))
+            return true;
+        if (this.fields.size > 40 || place.line > this.place.line + 60)
+            throw new TextError(place, "};", `The position P[${this.number}] is not closed.`);
+        return false;
+    }
+    done() {
+        const { fields, uf, ut, config, place } = this, joints = fields.has("J1"), names = joints ? JOINTS : CARTESIAN;
+        if (!names.every(name => fields.has(name)))
+            throw new TextError(place, names.join(", "), `The position P[${this.number}] lacks one of ${names.join(", ")}.`);
+        if (!Number.isInteger(uf) || !Number.isInteger(ut))
+            throw new TextError(place, "UF : 0, UT : 1", `The position P[${this.number}] has no numbers of frame and tool.`);
+        const values = names.map(name => fields.get(name)), known = values.filter(value => value !== undefined);
+        return { uf, ut, joints, config, values: known.length === names.length ? known : undefined, ...place };
+    }
+}

@@ -1,0 +1,146 @@
+import { TextError } from "../../text/index.ts";
+import { readListings } from "./listing.ts";
+import { readStatements } from "./statements.ts";
+/** Reads one listing or several, one behind the other; the first is the one that is started. */
+export function readSource(text) {
+    const labels = new Map();
+    try {
+        const programs = readListings(text, (word, number, name) => { const key = `${word.toLowerCase()}${number}`; if (name !== "" && !labels.has(key))
+            labels.set(key, name); });
+        const routines = new Map(), positions = new Map(), spelling = new Map(), faults = [];
+        const actions = new Map(), fates = new Map();
+        let hasJumps = false, title = "";
+        for (const { name, comment, code, positions: own, line, column } of programs) {
+            const key = name.toLowerCase();
+            if (routines.has(key))
+                throw new TextError({ line, column }, "a name used once", `The program ${name} is there twice.`);
+            const reading = readStatements(code);
+            faults.push(...reading.faults);
+            for (const [statement, action] of reading.actions)
+                actions.set(statement, action);
+            const body = new Jumps(reading.block, actions, fates);
+            const made = body.structured();
+            hasJumps ||= jumps(made, actions);
+            if (routines.size === 0)
+                title = titleOf(reading.block) ?? (comment === "" ? name : comment);
+            routines.set(key, { name: key, parameters: [], body: made, line, column });
+            positions.set(key, own);
+            spelling.set(key, isSpelling(comment, name) ? comment : name);
+        }
+        if (faults.length > 0)
+            return { kind: "not-understood", faults };
+        return { kind: "source", source: { title, main: [...routines.values()][0], routines, positions, actions, fates, labels, spelling, hasJumps } };
+    }
+    catch (cause) {
+        if (!(cause instanceof TextError))
+            throw cause;
+        return { kind: "not-understood", faults: [cause.fault] };
+    }
+}
+/** Whether a comment is the name with the signs that a name of a program cannot have. */
+const isSpelling = (comment, name) => comment.replace(/[^A-Za-z0-9]+/g, "_").toLowerCase() === name.toLowerCase();
+/** What the first remark `!* …` calls the program. */
+function titleOf(block) {
+    const first = block.find(statement => statement.kind === "comment");
+    return first?.kind === "comment" && first.text.startsWith("*") ? first.text.slice(1).trim() : undefined;
+}
+/** Makes loops and decisions of the jumps that are written for them. */
+class Jumps {
+    block;
+    actions;
+    fates;
+    /** How often a label is jumped to. */
+    uses = new Map();
+    constructor(block, actions, fates) {
+        this.block = block;
+        this.actions = actions;
+        this.fates = fates;
+        this.count(block);
+        this.judge(block);
+    }
+    structured() { return this.shape(this.block); }
+    actionOf(statement) { return statement === undefined ? undefined : this.actions.get(statement); }
+    use(label) { this.uses.set(label, (this.uses.get(label) ?? 0) + 1); }
+    count(block) {
+        for (const statement of block) {
+            const action = this.actionOf(statement);
+            if (action?.kind === "jump")
+                this.use(action.label);
+            for (const inner of inside(statement))
+                this.count(inner);
+        }
+    }
+    /** Where the labels of searches and waits lead. */
+    judge(block) {
+        for (const [i, statement] of block.entries()) {
+            const action = this.actionOf(statement), label = action?.kind === "motion" ? action.skip : action?.kind === "wait-for" ? action.label : undefined;
+            if (label !== undefined)
+                this.fates.set(statement, this.fate(label, block, i));
+            for (const inner of inside(statement))
+                this.judge(inner);
+        }
+    }
+    fate(label, block, from) {
+        const is = (statement) => { const action = this.actionOf(statement); return action?.kind === "label" && action.label === label; };
+        const next = block.slice(from + 1).find(({ kind }) => kind !== "comment");
+        if (is(next))
+            return "on";
+        const at = this.block.findIndex(is), then = at < 0 ? undefined : this.block.slice(at + 1).find(each => each.kind !== "comment" && this.actionOf(each)?.kind !== "label" && this.actionOf(each)?.kind !== "message");
+        return then?.kind === "halt" ? "abort" : "elsewhere";
+    }
+    shape(block) {
+        const out = [];
+        for (const statement of block) {
+            const action = this.actionOf(statement);
+            if (action?.kind === "jump" && this.uses.get(action.label) === 1) {
+                const from = this.labelIn(out, action.label);
+                if (from >= 0) {
+                    const { line, column } = out[from], body = out.splice(from).slice(1);
+                    out.push({ kind: "while", when: { kind: "truth", value: true, line, column }, body, line, column });
+                    continue;
+                }
+            }
+            if (action?.kind === "label" && this.uses.get(action.label) === 1) {
+                const from = out.findIndex(each => this.skips(each, action.label));
+                const start = out[from];
+                if (start?.kind === "if") {
+                    const body = out.splice(from).slice(1), when = { kind: "unary", sign: "!", of: start.branches[0].when, line: start.line, column: start.column };
+                    out.push({ kind: "if", branches: [{ when, body }], line: start.line, column: start.column });
+                    continue;
+                }
+            }
+            out.push(this.inner(statement));
+        }
+        return out;
+    }
+    labelIn(block, label) {
+        return block.findIndex(each => { const action = this.actionOf(each); return action?.kind === "label" && action.label === label; });
+    }
+    /** `IF …,JMP LBL[n]` */
+    skips(statement, label) {
+        if (statement.kind !== "if" || statement.otherwise !== undefined || statement.branches[0].body.length !== 1)
+            return false;
+        const action = this.actionOf(statement.branches[0].body[0]);
+        return action?.kind === "jump" && action.label === label;
+    }
+    inner(statement) {
+        switch (statement.kind) {
+            case "if": {
+                const { otherwise } = statement, branches = statement.branches.map(({ when, body }) => ({ when, body: this.shape(body) }));
+                return otherwise === undefined ? { ...statement, branches } : { ...statement, branches, otherwise: this.shape(otherwise) };
+            }
+            case "for":
+            case "while": return { ...statement, body: this.shape(statement.body) };
+            default: return statement;
+        }
+    }
+}
+const jumps = (block, actions) => block.some(statement => actions.get(statement)?.kind === "jump" || inside(statement).some(each => jumps(each, actions)));
+function inside(statement) {
+    switch (statement.kind) {
+        case "if": return [...statement.branches.map(({ body }) => body), ...(statement.otherwise === undefined ? [] : [statement.otherwise])];
+        case "for":
+        case "while": return [statement.body];
+        default: return [];
+    }
+}

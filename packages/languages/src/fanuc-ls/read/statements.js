@@ -1,0 +1,376 @@
+import { TextError } from "../../text/index.ts";
+import { TokenCursor, readExpression } from "../../text/structured/index.ts";
+import { MESSAGE, REMARK } from "./listing.ts";
+const LEXICON = {
+    comment: REMARK, quotes: MESSAGE, doubled: false, lineEnds: true,
+    signs: ["<>", "<=", ">=", "(", ")", "[", "]", ",", "=", "<", ">", "+", "-", "*", "/", "%", "!", "$", ".", ":", "'", "#"],
+};
+const RESERVED = new Set(["then", "else", "endif", "endfor", "to", "downto", "timeout", "jmp", "call", "if", "for", "wait", "lbl", "end", "and", "or", "div", "mod"]);
+const RULES = {
+    binary: { or: 1, and: 2, "=": 4, "<>": 4, "<": 4, ">": 4, "<=": 4, ">=": 4, "+": 5, "-": 5, "*": 6, "/": 6, div: 6, mod: 6 },
+    prefix: { "!": 7, "-": 7, "+": 7 },
+    constants: { on: true, off: false },
+    tags: [], index: "[", components: false, reserved: RESERVED,
+    args: cursor => { throw cursor.unexpected("an operator"); },
+};
+const LINES = new Set(["do", "ro", "ao", "uo", "so", "go", "di", "ri", "ai", "gi"]);
+/** Statements of which nothing shows in the motion. */
+const SILENT = new Set(["timer", "payload", "override", "ualm", "rsr", "tc_online", "col", "lock", "unlock", "monitor", "pause_monitor", "collision_guard", "motn", "stop_tracking", "error_prog", "resume_prog", "joint_max_speed", "linear_max_speed"]);
+const DEPTH = 50, MOST_FAULTS = 50;
+export const readStatements = (code) => new StatementReader(code).read();
+class StatementReader {
+    cursor;
+    actions = new Map();
+    faults = [];
+    depth = 0;
+    /** The line of the statement has been left already. */
+    isOver = false;
+    constructor(code) { this.cursor = new TokenCursor(code, LEXICON, word => word.toLowerCase()); }
+    read() {
+        const { cursor } = this;
+        this.guard(() => { cursor.advance(); });
+        const block = this.block([], cursor.here);
+        return { block, actions: this.actions, faults: this.faults };
+    }
+    guard(read) {
+        const { depth } = this;
+        try {
+            return read();
+        }
+        catch (cause) {
+            if (!(cause instanceof TextError))
+                throw cause;
+            this.faults.push(cause.fault);
+            this.depth = depth;
+            this.cursor.skip(cursor => cursor.isAt("line-end"));
+            return undefined;
+        }
+    }
+    block(ends, opened) {
+        const { cursor } = this, statements = [];
+        if (++this.depth > DEPTH)
+            throw new TextError(opened, "a simpler program", `Blocks are nested more than ${DEPTH} deep.`);
+        for (;;) {
+            while (cursor.isAt("line-end"))
+                if (this.guard(() => { cursor.advance(); return true; }) === undefined)
+                    break;
+            for (let comment = cursor.comment(); comment !== undefined; comment = cursor.comment())
+                statements.push({ kind: "comment", ...comment });
+            if (this.faults.length >= MOST_FAULTS || cursor.done) {
+                if (cursor.done && ends.length > 0)
+                    throw new TextError(cursor.here, ends[0].toUpperCase(), `The block of line ${opened.line} is not closed.`);
+                break;
+            }
+            if (cursor.isAt("word") && ends.includes(cursor.next))
+                break;
+            if (cursor.isAt("line-end"))
+                continue;
+            const statement = this.guard(() => {
+                const read = this.statement();
+                if (!cursor.isAt("line-end") && !cursor.done && !this.isOver)
+                    throw cursor.unexpected("the end of the line");
+                this.isOver = false;
+                return read;
+            });
+            if (statement !== undefined)
+                statements.push(statement);
+        }
+        this.depth--;
+        return statements;
+    }
+    act(action, at) {
+        const statement = { kind: "do", name: "", args: [], ...at };
+        this.actions.set(statement, action);
+        return statement;
+    }
+    value() { return readExpression(this.cursor, RULES); }
+    indexed() {
+        const { cursor } = this;
+        cursor.expect("[");
+        const value = this.value();
+        cursor.expect("]");
+        return value;
+    }
+    label() {
+        const { cursor } = this;
+        cursor.expect("lbl");
+        const at = cursor.here, number = this.indexed();
+        if (number.kind !== "number")
+            throw new TextError(at, "the number of a label", "Labels that are worked out are not executed here.");
+        return number.value;
+    }
+    statement() {
+        const { cursor } = this, at = cursor.here, word = cursor.next;
+        if (cursor.accept("$"))
+            return this.system(at);
+        if (!cursor.isAt("word"))
+            throw cursor.unexpected("a statement");
+        const { second } = cursor;
+        if ((word === "j" || word === "l" || word === "c") && (second === "p" || second === "pr")) {
+            cursor.advance();
+            return this.act(this.motion(word), at);
+        }
+        if (second === "[" && LINES.has(word))
+            return this.set(word, at);
+        cursor.advance();
+        switch (word) {
+            case "r":
+            case "pr": return this.assignment(word, at);
+            case "ar":
+            case "sr": throw new TextError(at, "a statement of the motion program", `${word.toUpperCase()}[] is not executed here.`);
+            case "uframe":
+            case "utool": {
+                const number = this.indexed(), spelling = this.spelling();
+                cursor.expect("=");
+                return this.act({ kind: "define", what: word, number, value: this.value(), spelling }, at);
+            }
+            case "uframe_num":
+            case "utool_num":
+                cursor.expect("=");
+                return this.act({ kind: "select", what: word === "uframe_num" ? "uframe" : "utool", number: this.value() }, at);
+            case "wait": return this.wait(at);
+            case "skip":
+                cursor.expect("condition");
+                return this.act({ kind: "skip-condition", when: this.value() }, at);
+            case "offset": {
+                cursor.expect("condition");
+                cursor.expect("pr");
+                return this.act({ kind: "offset-condition", register: this.indexed() }, at);
+            }
+            case "if": return this.decision(at);
+            case "select": return this.selection(at);
+            case "for": return this.counting(at);
+            case "lbl": {
+                const number = this.indexed();
+                if (number.kind !== "number")
+                    throw new TextError(at, "the number of a label", "A label has a number.");
+                return this.act({ kind: "label", label: number.value }, at);
+            }
+            case "jmp": return this.act({ kind: "jump", label: this.label() }, at);
+            case "call": return this.call(at);
+            case "end": return { kind: "return", ...at };
+            case "abort":
+            case "pause": return { kind: "halt", ...at };
+            case "message": {
+                if (!cursor.isAt("text"))
+                    throw cursor.unexpected("[text]");
+                const text = cursor.raw;
+                cursor.advance();
+                return this.act({ kind: "message", text }, at);
+            }
+            default:
+                if (!SILENT.has(word))
+                    throw new TextError(at, "a statement of TP", `"${word.toUpperCase()}" is no statement of TP that is executed here.`);
+                while (!cursor.isAt("line-end") && !cursor.done)
+                    cursor.advance();
+                return this.act({ kind: "nothing" }, at);
+        }
+    }
+    /** Where the right side of an assignment begins: names of registers are told by their places. */
+    spelling() { return `${this.cursor.here.line}`; }
+    set(word, at) {
+        const { cursor } = this;
+        cursor.advance();
+        const number = this.indexed();
+        cursor.expect("=");
+        if (!cursor.accept("pulse"))
+            return this.act({ kind: "set", word, number, value: this.value() }, at);
+        const truth = { kind: "truth", value: true, ...at };
+        if (!cursor.accept(","))
+            return this.act({ kind: "set", word, number, value: truth, pulse: { kind: "number", value: 0.1, ...at } }, at);
+        const pulse = this.value();
+        cursor.expect("sec");
+        return this.act({ kind: "set", word, number, value: truth, pulse }, at);
+    }
+    assignment(word, at) {
+        const { cursor } = this;
+        cursor.expect("[");
+        const indices = [this.value()];
+        while (cursor.accept(","))
+            indices.push(this.value());
+        cursor.expect("]");
+        cursor.expect("=");
+        const value = this.value(), [first] = indices, variable = { kind: "variable", name: first.kind === "number" ? `${word}${first.value}` : word, ...at };
+        const to = indices.length === 1 && first.kind === "number" ? variable : { kind: "index", of: { kind: "variable", name: word, ...at }, indices, ...at };
+        return { kind: "assign", to, value, global: true, ...at };
+    }
+    system(at) {
+        const { cursor } = this, name = cursor.name("the name of a system variable");
+        while (!cursor.isAt("line-end") && !cursor.done && cursor.next !== "=")
+            cursor.advance();
+        cursor.expect("=");
+        const value = this.value();
+        return this.act(name === "waittmout" ? { kind: "timeout", value } : { kind: "nothing" }, at);
+    }
+    wait(at) {
+        const { cursor } = this, first = this.value();
+        if (cursor.next === "(" && cursor.second === "sec") {
+            cursor.advance();
+            cursor.advance();
+            cursor.expect(")");
+            return this.act({ kind: "wait", s: first }, at);
+        }
+        if (first.kind === "number" || (first.kind === "index" && first.of.kind === "variable" && first.of.name === "r"))
+            return this.act({ kind: "wait", s: first }, at);
+        if (!cursor.accept("timeout"))
+            return this.act({ kind: "wait-for", when: first }, at);
+        cursor.expect(",");
+        return this.act({ kind: "wait-for", when: first, label: this.label() }, at);
+    }
+    decision(at) {
+        const { cursor } = this, when = this.value();
+        if (cursor.accept(","))
+            return { kind: "if", branches: [{ when, body: [this.statement()] }], ...at };
+        cursor.expect("then");
+        const body = this.block(["endif", "else"], at), otherwise = cursor.accept("else") ? this.block(["endif"], at) : undefined;
+        cursor.expect("endif");
+        return { kind: "if", branches: [{ when, body }], ...(otherwise === undefined ? {} : { otherwise }), ...at };
+    }
+    /** SELECT R[1]=1,JMP LBL[1] and on the lines below it =2,CALL PICK and ELSE,JMP LBL[9]: a chain of comparisons. */
+    selection(at) {
+        const { cursor } = this, first = this.value(), branches = [];
+        if (first.kind !== "binary" || first.sign !== "=")
+            throw new TextError(at, "R[n]=value", "SELECT compares a register with a value.");
+        const branch = (when) => { cursor.expect(","); branches.push({ when, body: [this.statement()] }); };
+        branch(first);
+        let otherwise;
+        for (;;) {
+            const below = cursor.isAt("line-end") ? cursor.second : "";
+            if (below !== "=" && below !== "else")
+                break;
+            cursor.advance();
+            if (cursor.accept("=")) {
+                branch({ ...first, right: this.value() });
+                continue;
+            }
+            // The ELSE of an IF around it stands alone in its line.
+            this.isOver = true;
+            if (cursor.second === ",") {
+                this.isOver = false;
+                cursor.advance();
+                cursor.advance();
+                otherwise = [this.statement()];
+            }
+            break;
+        }
+        return { kind: "if", branches, ...(otherwise === undefined ? {} : { otherwise }), ...at };
+    }
+    counting(at) {
+        const { cursor } = this;
+        cursor.expect("r");
+        const number = this.indexed();
+        if (number.kind !== "number")
+            throw new TextError(at, "R[n]", "The register of the loop has a number.");
+        cursor.expect("=");
+        const from = this.value(), down = cursor.accept("downto");
+        if (!down)
+            cursor.expect("to");
+        const to = this.value(), body = this.block(["endfor"], at);
+        cursor.expect("endfor");
+        return { kind: "for", variable: `r${number.value}`, from, to, step: { kind: "number", value: down ? -1 : 1, ...at }, body, ...at };
+    }
+    call(at) {
+        const { cursor } = this, name = cursor.name("the name of a program"), args = [];
+        if (cursor.accept("(")) {
+            while (!cursor.accept(")")) {
+                if (args.length > 0)
+                    cursor.expect(",");
+                args.push({ value: this.value(), ...at });
+            }
+        }
+        return { kind: "do", name, args, ...at };
+    }
+    // --- motions ----------------------------------------------------------------------------------------------------
+    point() {
+        const { cursor } = this, register = cursor.next;
+        if (register !== "p" && register !== "pr")
+            throw cursor.unexpected("P[n] or PR[n]");
+        cursor.advance();
+        return { register, number: this.indexed() };
+    }
+    motion(word) {
+        const { cursor } = this, path = word.toUpperCase(), first = this.point();
+        let via, goal = first, offset;
+        if (word === "c") {
+            via = first;
+            // A point on the way may be shifted as its end is.
+            if (cursor.accept("offset"))
+                this.offset();
+            while (cursor.isAt("line-end"))
+                cursor.advance();
+            // The second line may begin with a colon that has no number before it.
+            cursor.accept(":");
+            goal = this.point();
+        }
+        const speed = this.value(), unit = this.unit(path);
+        let cnt, acceleration, skip;
+        const at = cursor.here, term = cursor.next;
+        if (!cursor.accept("fine")) {
+            cnt = this.suffixed("cnt");
+            if (cnt === undefined)
+                throw new TextError(at, "FINE or CNT", `"${term.toUpperCase()}" says not how the point is reached.`);
+        }
+        while (!cursor.isAt("line-end") && !cursor.done) {
+            const found = this.suffixed("acc");
+            if (found !== undefined) {
+                acceleration = found;
+                continue;
+            }
+            if (cursor.accept("offset")) {
+                offset = this.offset();
+                continue;
+            }
+            if (cursor.accept("skip")) {
+                cursor.expect(",");
+                skip = this.label();
+                continue;
+            }
+            if (cursor.accept("pth") || cursor.accept("wjnt") || cursor.accept("rtcp") || cursor.accept("break") || cursor.accept(","))
+                continue;
+            throw cursor.unexpected("an option of the motion that is executed here");
+        }
+        return {
+            kind: "motion", path, goal, speed, unit, ...(via === undefined ? {} : { via }), ...(cnt === undefined ? {} : { cnt }),
+            ...(acceleration === undefined ? {} : { acceleration }), ...(offset === undefined ? {} : { offset }), ...(skip === undefined ? {} : { skip }),
+        };
+    }
+    offset() {
+        const { cursor } = this;
+        if (!cursor.accept(","))
+            return { register: undefined };
+        cursor.expect("pr");
+        return { register: this.indexed() };
+    }
+    /** CNT50, or CNT R[1]. */
+    suffixed(word) {
+        const { cursor } = this, { line, column } = cursor.here, { next } = cursor;
+        if (!next.startsWith(word))
+            return undefined;
+        if (next === word) {
+            cursor.advance();
+            return this.value();
+        }
+        const digits = next.slice(word.length);
+        if (!/^[0-9]{1,3}$/.test(digits))
+            return undefined;
+        cursor.advance();
+        return { kind: "number", value: Number(digits), line, column };
+    }
+    unit(path) {
+        const { cursor } = this;
+        if (path === "J" && cursor.accept("%"))
+            return "%";
+        if (cursor.accept("sec"))
+            return "sec";
+        if (cursor.accept("msec"))
+            return "msec";
+        const word = cursor.next;
+        if (path !== "J" && (word === "mm" || word === "cm" || word === "inch")) {
+            cursor.advance();
+            cursor.expect("/");
+            cursor.expect(word === "mm" ? "sec" : "min");
+            return word === "mm" ? "mm/sec" : word === "cm" ? "cm/min" : "inch/min";
+        }
+        throw cursor.unexpected(path === "J" ? "% or sec" : "mm/sec, cm/min, inch/min or sec");
+    }
+}

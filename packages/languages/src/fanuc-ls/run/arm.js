@@ -1,0 +1,69 @@
+import { branchOf, flangePose, identity, linkPoses, solveAll } from "@twincell/core";
+import { fromPose, inverted, times, toPose } from "./matrix.ts";
+const PENDANTS = { fanuc_lrmate200id: { forearmFollows: true, zero_mm: [0, 0, 330] } };
+export const hasPendant = (robot) => Object.hasOwn(PENDANTS, robot.id);
+const DEG = 180 / Math.PI;
+/** This close to a border of a flag either letter is right. */
+const BORDER_MM = 0.01, BORDER_DEG = 0.001;
+/** Where the arm is sent. */
+export class ControllerArm {
+    robot;
+    pendant;
+    baseFromWorld;
+    cellFromController;
+    joints_rad;
+    known;
+    constructor(robot, worldFromBase) {
+        this.robot = robot;
+        this.pendant = PENDANTS[robot.id];
+        this.baseFromWorld = { mm: this.pendant.zero_mm, rows: [[1, 0, 0], [0, 1, 0], [0, 0, 1]] };
+        this.cellFromController = times(fromPose(worldFromBase), this.baseFromWorld);
+        this.joints_rad = robot.home_rad;
+    }
+    /** A pose of the controller's world in the cell. */
+    cell(pose) { return toPose(times(this.cellFromController, pose)); }
+    /** The flange in the controller's world. */
+    get flange() { return this.known ??= times(inverted(this.baseFromWorld), fromPose(flangePose(this.robot.arm, this.joints_rad ?? this.robot.home_rad))); }
+    atShown(shown_deg) {
+        const own = shown_deg.map((angle, i) => (i === 2 && this.pendant.forearmFollows ? angle + shown_deg[1] : angle) / DEG);
+        this.joints_rad = own;
+        this.known = undefined;
+        return own;
+    }
+    shown() {
+        const own = (this.joints_rad ?? this.robot.home_rad).map(angle => angle * DEG);
+        return own.map((angle, i) => i === 2 && this.pendant.forearmFollows ? angle - own[1] : angle);
+    }
+    /**
+     * The flange is there, in the posture that the configuration asks for, or in the nearest where it asks for none that exists.
+     * `turned` says that the posture is another turn of an axis than the nearest, `fits` that its letters are those asked for.
+     */
+    atFlange(flange, config) {
+        const { robot, joints_rad: near } = this, reach = solveAll(robot, toPose(times(this.baseFromWorld, flange)), near === undefined ? {} : { near });
+        this.known = flange;
+        if (reach.kind !== "reached") {
+            this.joints_rad = undefined;
+            return { branch: undefined, q: undefined, turned: false, fits: true };
+        }
+        const all = reach.solutions.map(({ q_rad }) => [...q_rad]), fitting = config === undefined ? all : all.filter(q => this.hasFlags(q, config));
+        const nearest = fitting[0] ?? all[0], exact = config === undefined ? nearest : fitting.find(q => hasTurns(q, config)) ?? nearest;
+        this.joints_rad = exact;
+        return { branch: branchOf(robot, exact), q: exact, turned: exact !== nearest, fits: fitting.length > 0 };
+    }
+    /** Flags read off the links: wrist in front of axis 1, elbow above the line from axis 2 to the wrist, axis 5 not below zero. */
+    hasFlags(q, { flip, up, toward }) {
+        const links = Array.from({ length: 7 }, () => identity());
+        linkPoses(this.robot.arm, q, links);
+        const c = Math.cos(q[0]), s = Math.sin(q[0]), plane = (i) => { const [x, y, z] = links[i].position; return [(x * c + y * s) * 1000, z * 1000]; };
+        const shoulder = plane(2), elbow = plane(3), wrist = plane(5), ahead = wrist[0] >= 0;
+        const above = ((wrist[0] - shoulder[0]) * (elbow[1] - shoulder[1]) - (wrist[1] - shoulder[1]) * (elbow[0] - shoulder[0])) / Math.hypot(wrist[0] - shoulder[0], wrist[1] - shoulder[1]) * (ahead ? 1 : -1);
+        const bend = q[4] * DEG;
+        return (Math.abs(wrist[0]) < BORDER_MM || ahead === toward) && (Math.abs(above) < BORDER_MM || above > 0 === up) && (Math.abs(bend) < BORDER_DEG || bend > 0 === flip);
+    }
+    remember() {
+        const { joints_rad, known } = this;
+        return () => { this.joints_rad = joints_rad; this.known = known; };
+    }
+}
+/** Turn 0 is within half a turn of zero, 1 and −1 the turns beside it; near a border either is right. */
+const hasTurns = (q, { turns }) => [q[0], q[3], q[5]].every((angle, i) => { const from = turns[i] * 360 - 180, deg = angle * DEG; return deg >= from - 2 * BORDER_DEG && deg <= from + 360 + 2 * BORDER_DEG; });

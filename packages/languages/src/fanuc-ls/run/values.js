@@ -1,0 +1,44 @@
+import { TextError } from "../../text/index.ts";
+export const isSix = (value) => typeof value === "object";
+export function asNumber(value, at) {
+    if (typeof value === "number")
+        return value;
+    throw new TextError(at, "a number", `${isSix(value) ? "A position" : "ON or OFF"} stands where a number is expected.`);
+}
+export function binary(sign, left, right, at) {
+    if (typeof left === "boolean" && typeof right === "boolean") {
+        switch (sign) {
+            case "and": return left && right;
+            case "or": return left || right;
+            case "=": return left === right;
+            case "<>": return left !== right;
+            default: throw new TextError(at, "AND, OR, = or <>", `"${sign}" does not join ON and OFF.`);
+        }
+    }
+    // Positions add and subtract number by number.
+    if (isSix(left) && isSix(right) && (sign === "+" || sign === "-"))
+        return left.map((value, i) => sign === "+" ? value + right[i] : value - right[i]);
+    const a = asNumber(left, at), b = asNumber(right, at);
+    if ((sign === "/" || sign === "div" || sign === "mod") && b === 0)
+        throw new TextError(at, "a divisor other than 0", "The divisor is 0.");
+    switch (sign) {
+        case "+": return finite(a + b, at);
+        case "-": return finite(a - b, at);
+        case "*": return finite(a * b, at);
+        case "/": return finite(a / b, at);
+        case "div": return Math.trunc(a / b);
+        case "mod": return a % b;
+        case "=": return a === b;
+        case "<>": return a !== b;
+        case "<": return a < b;
+        case ">": return a > b;
+        case "<=": return a <= b;
+        case ">=": return a >= b;
+        default: throw new TextError(at, "an operator", `"${sign}" does not join numbers.`);
+    }
+}
+function finite(value, at) {
+    if (!Number.isFinite(value))
+        throw new TextError(at, "a finite result", "The result is no number.");
+    return value;
+}

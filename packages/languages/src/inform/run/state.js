@@ -1,0 +1,163 @@
+import { angleBetween, branchOf, compose, distance, flangePose, identity, inverse, } from "@twincell/core";
+import { TextError } from "../../text/index.ts";
+import { BORDERS, poseOf } from "./arm.ts";
+/** Where corners begin by default, PL 0 … 4 [m]; further levels are set on the controller. */
+const LEVELS_M = [0, 0.0125, 0.025, 0.05, 0.1];
+const LAST_LEVEL = 8;
+/** Closer than this a point is where the robot already is. */
+const SAME = { position_m: 5e-5, angle_rad: 2e-4 };
+const PATHS = { MOVJ: "ptp", MOVL: "lin", MOVC: "circ", MOVS: "spline" };
+/** Where the arm is sent, and the steps this amounts to. */
+export class ControllerState {
+    shift;
+    speed = { vj: 100, v_mps: 0.1 };
+    /** Numbers of tools and frames that the text does not hold, with the line that asked for them. */
+    assumed = new Map();
+    robot;
+    arm;
+    source;
+    context;
+    pulses;
+    worldFromVendor;
+    baseFromVendor;
+    axes_deg;
+    baseFromFlange;
+    constructor(robot, arm, source, worldFromBase, context, pulses) {
+        this.robot = robot;
+        this.arm = arm;
+        this.source = source;
+        this.context = context;
+        this.pulses = pulses;
+        this.baseFromVendor = robot.baseFromVendorWorld;
+        this.worldFromVendor = compose(worldFromBase, robot.baseFromVendorWorld);
+        this.axes_deg = arm.degrees(robot.home_rad);
+        this.baseFromFlange = flangePose(robot.arm, robot.home_rad);
+    }
+    /** Where the robot is sent, to be compared with later. */
+    get here() { return this.baseFromFlange; }
+    /** Whether the robot is there already: arcs and curves begin with the point before them once more. */
+    isAt(position, at) {
+        const there = "quaternion" in position ? position : this.flangeOf(position, at), here = this.baseFromFlange;
+        return distance(there.position, here.position) < SAME.position_m && angleBetween(there.quaternion, here.quaternion) < SAME.angle_rad;
+    }
+    /** The neutral step of a motion; from now on the arm is at its end. */
+    move(id, move, position, via, at) {
+        const path = PATHS[move.motion], passing = via === undefined ? undefined : this.place(via, at);
+        const acceleration = Math.min(move.acc ?? 100, move.dec ?? 100) / 100;
+        if (move.vj !== undefined)
+            this.speed.vj = percent(move.vj, at);
+        if (move.v !== undefined)
+            this.speed.v_mps = positive(move.v, at) / 1000;
+        const speed = path === "ptp" ? { ratio: this.speed.vj / 100 } : { mps: this.speed.v_mps };
+        const target = position.type === "PULSE" ? this.toPulses(position, at) : this.toPlace(position, at);
+        return { id, type: "move", path, target, speed, blend_m: 0, ...(passing === undefined ? {} : { via: passing }), ...(acceleration < 1 ? { acceleration: { ratio: acceleration } } : {}) };
+    }
+    /** How far from the point a corner begins. */
+    corner({ pl, cr }, at) {
+        if (cr !== undefined)
+            return positive(cr, at) / 1000;
+        if (pl === undefined)
+            return 0;
+        if (!(Number.isInteger(pl) && pl >= 0 && pl <= LAST_LEVEL))
+            throw new TextError(at, `PL=0 to PL=${LAST_LEVEL}`, `There is no position level ${pl}.`);
+        return LEVELS_M[Math.min(pl, LEVELS_M.length - 1)];
+    }
+    frameOf(type, user, at) {
+        if (type !== "USER")
+            return { name: "world", baseFromFrame: this.baseFromVendor };
+        const frame = this.listed(this.source.users, user, "User frame", at), vendorFromFrame = poseOf(frame.values);
+        return { name: named(this.context.frames, compose(this.worldFromVendor, vendorFromFrame), frame.name, "world"), baseFromFrame: compose(this.baseFromVendor, vendorFromFrame) };
+    }
+    toPulses(position, at) {
+        this.axes_deg = this.axesOf(position, at);
+        const q = this.arm.radians(this.axes_deg);
+        this.baseFromFlange = flangePose(this.robot.arm, q);
+        if (this.shift !== undefined)
+            throw new TextError(at, "a position in X, Y, Z", "A shift of a position in pulses is not understood here.");
+        return { q, tool: this.toolOf(position, at).name };
+    }
+    axesOf(position, at) {
+        if (this.pulses === undefined)
+            throw new TextError(position, "X, Y, Z positions, or the pulses per degree of this robot", "Positions in pulses are only understood with the pulses per degree from the controller's parameters.");
+        const { pulses } = this, count = this.robot.arm.joints.length;
+        if (position.values.length < count || position.values.slice(count).some(value => value !== 0))
+            throw new TextError(at, `${count} axes`, `The position has ${position.values.length} axes; the robot has ${count}.`);
+        return pulses.map((perDegree, i) => position.values[i] / perDegree);
+    }
+    toPlace(position, at) {
+        const flange = this.flangeOf(position, at), place = this.place(position, at), all = this.arm.reaching(flange, this.axes_deg);
+        this.baseFromFlange = flange;
+        if (all.length === 0)
+            return place;
+        const ofType = (border) => all.find(axes => this.arm.isOfType(axes, position.rconf, border));
+        const taken = ofType(BORDERS.exact) ?? ofType(BORDERS.written);
+        if (taken === undefined) {
+            if (this.shift === undefined)
+                throw new TextError(at, "a manipulator type that the point can be reached with", `The point cannot be reached within the axis limits as RCONF ${position.rconf.slice(0, 6).join(",")}.`);
+            this.axes_deg = all[0];
+            return place;
+        }
+        this.axes_deg = taken;
+        const q = this.arm.radians(taken), branch = branchOf(this.robot, q);
+        // The nearest turn of that posture is what a pose means; another one can only be said by the axes themselves.
+        const nearest = all.find(axes => sameBranch(branchOf(this.robot, this.arm.radians(axes)), branch));
+        return nearest === taken || position.type === "PULSE" ? { ...place, ...(branch === undefined ? {} : { branch }) } : { q, tool: place.tool };
+    }
+    flangeOf(position, at) {
+        if (position.type === "PULSE")
+            return flangePose(this.robot.arm, this.arm.radians(this.axesOf(position, at)));
+        return compose(this.baseFromTcp(position, at), inverse(this.toolOf(position, at).flangeFromTcp));
+    }
+    baseFromTcp(position, at) {
+        const { baseFromFrame } = this.frameOf(position.type, position.user, at), taught = compose(baseFromFrame, poseOf(position.values));
+        const { shift } = this;
+        if (shift === undefined)
+            return taught;
+        return compose(compose(shift.baseFromFrame, shift.by), compose(inverse(shift.baseFromFrame), taught));
+    }
+    place(position, at) {
+        const tool = this.toolOf(position, at);
+        if (position.type === "PULSE") {
+            const tip = compose(compose(this.worldFromVendor, inverse(this.baseFromVendor)), compose(this.flangeOf(position, at), tool.flangeFromTcp));
+            return { pose: tip, frame: "world", tool: tool.name };
+        }
+        const { name, baseFromFrame } = this.frameOf(position.type, position.user, at), tip = this.baseFromTcp(position, at);
+        if (name !== "world")
+            return { pose: compose(inverse(baseFromFrame), tip), frame: name, tool: tool.name };
+        const vendorFromTcp = this.shift === undefined ? poseOf(position.values) : compose(inverse(this.baseFromVendor), tip);
+        return { pose: compose(this.worldFromVendor, vendorFromTcp), frame: "world", tool: tool.name };
+    }
+    toolOf({ tool }, at) {
+        const frame = this.listed(this.source.tools, tool, "Tool", at), flangeFromTcp = poseOf(frame.values);
+        return frame.values.every(value => value === 0) ? { name: "flange", flangeFromTcp: identity() } : { name: named(this.context.tools, flangeFromTcp, frame.name, "flange"), flangeFromTcp };
+    }
+    listed(list, number, what, at) {
+        const frame = list.get(number);
+        if (frame === undefined && number !== 0)
+            this.assumed.set(`${what} ${number}`, at);
+        const { name = "", values = [0, 0, 0, 0, 0, 0] } = frame ?? {};
+        return { number, name: name === "" ? `${what === "Tool" ? "tool" : "user"} ${number}` : name, values };
+    }
+}
+const sameBranch = (a, b) => a?.shoulder === b?.shoulder && a?.elbow === b?.elbow && a?.wrist === b?.wrist;
+function positive(value, at) {
+    if (!(value > 0))
+        throw new TextError(at, "a number above 0", `The value is ${value}.`);
+    return value;
+}
+function percent(value, at) {
+    if (!(value > 0 && value <= 100))
+        throw new TextError(at, "a number above 0 and up to 100", `The share is ${value} %.`);
+    return value;
+}
+/** What was met before keeps its name; two things never share one. */
+function named(known, pose, wanted, never) {
+    const text = JSON.stringify(pose), stem = wanted === never ? `${wanted} 1` : wanted;
+    for (let i = 1;; i++) {
+        const name = i === 1 ? stem : `${stem} ${i}`, there = Object.hasOwn(known, name) ? known[name] : undefined;
+        if (there === undefined)
+            known[name] = pose;
+        if (there === undefined || JSON.stringify(there) === text)
+            return name;
+    }
+}

@@ -1,0 +1,223 @@
+import { compose, distance } from "@twincell/core";
+import { fixed } from "./location.ts";
+import { commentText, titleText } from "./names.ts";
+import { PalletLoop } from "./pallet.ts";
+import { Points } from "./points.ts";
+import { accelerationText, cornerText, speedText } from "./speed.ts";
+import { TextWriter } from "./text-writer.ts";
+/** Jobs carry a date; one that does not depend on when they were written. */
+const DATE = "2000/01/01 00:00";
+/** One job: positions first, then the instructions. */
+export class JobWriter {
+    setting;
+    out = new TextWriter();
+    points;
+    variables = [];
+    pallets = new Map();
+    isMain;
+    arrival;
+    here;
+    shift = "";
+    group = "";
+    labels = 0;
+    constructor(setting, isMain) {
+        this.setting = setting;
+        this.isMain = isMain;
+        const { place, controller, convention, pulses } = setting;
+        this.points = new Points(place, controller, convention, pulses);
+    }
+    write(name, title, steps) {
+        this.steps(steps, undefined);
+        const file = new TextWriter(), { points, variables, setting } = this;
+        for (const variable of variables)
+            points.variable(variable);
+        file.add("/JOB");
+        file.add(`//NAME ${name}`);
+        file.add("//POS");
+        file.add(`///NPOS ${points.count},0,0,${variables.length},0,0`);
+        file.append(points.out);
+        file.add("//INST");
+        file.add(`///DATE ${DATE}`);
+        if (title !== "")
+            file.add(`///COMM ${titleText(title)}`);
+        // Positions in X, Y, Z make a relative job.
+        const isRelative = setting.pulses === undefined && points.count > 0;
+        file.add(`///ATTR SC,RW${isRelative ? ",RJ" : ""}`);
+        if (isRelative)
+            file.add("////FRAME BASE");
+        file.add("///GROUP1 RB1");
+        file.add("NOP");
+        file.append(this.out);
+        file.add("END");
+        return file.file(`${name}.JBI`);
+    }
+    steps(steps, after) {
+        for (const [i, step] of steps.entries()) {
+            const next = steps.slice(i + 1).find(({ type }) => type !== "comment") ?? after;
+            this.step(step, next, steps.slice(0, i).findLast(({ type }) => type !== "comment"));
+        }
+    }
+    step(step, next, before) {
+        const add = (...lines) => { for (const line of lines)
+            this.out.add(line, step.id); };
+        this.title(step);
+        switch (step.type) {
+            case "move": return this.move(step, next, before);
+            case "wait": return add(`TIMER T=${fixed(Math.max(0.01, step.s), 2)}`);
+            case "gripper": return add(`HAND 1 ${step.closed ? "ON" : "OFF"}`);
+            case "set": return add(this.set(step));
+            case "wait-for": return add(`WAIT ${this.condition(step.when)}`);
+            case "message": return add(`MSG "${commentText(step.text.replace(/"/g, "'"))}"`);
+            case "stop": return add("ABORT");
+            case "comment": return add(`'* ${commentText(step.text, 29)}`);
+            case "call":
+                this.shiftOff(step.id);
+                add(`CALL JOB:${this.setting.jobs.get(step.routine)}`);
+                this.arrival = undefined;
+                return;
+            case "repeat": return this.repeat(step.id, step.times, step.steps);
+            case "if":
+                this.block(step.id, `IFTHENEXP ${this.condition(step.when)}`, step.then, next, step.else === undefined ? "ENDIF" : "");
+                if (step.else !== undefined)
+                    this.block(step.id, "ELSE", step.else, next, "ENDIF");
+                return;
+            case "pallet": return this.pallet(step);
+            // Refused before.
+            case "payload": return;
+        }
+    }
+    repeat(id, times, steps) {
+        if (times === "forever") {
+            const label = `*ROUND${++this.labels}`;
+            return this.block(id, label, steps, undefined, `JUMP ${label}`);
+        }
+        const counter = this.setting.controller.variable("I");
+        this.block(id, `FOR ${counter} START= 1 TO ${times}`, steps, undefined, `NEXT ${counter}`);
+    }
+    /** A block is entered and left from several sides. */
+    block(id, head, steps, after, end) {
+        this.shiftOff(id);
+        this.out.add(head, id);
+        this.arrival = undefined;
+        this.group = "";
+        this.steps(steps, after);
+        this.shiftOff(id);
+        this.arrival = undefined;
+        this.group = "";
+        if (end !== "")
+            this.out.add(end, id);
+    }
+    pallet(step) {
+        const { controller, place } = this.setting, pallet = place.program.pallets[step.pallet];
+        this.shiftOff(step.id);
+        const loop = new PalletLoop(step, pallet, controller, place.vendorFromWorld, (line, id) => { this.out.add(line, id); });
+        this.variables.push(loop.shift);
+        loop.begin();
+        this.pallets.set(step.pallet, loop);
+        this.arrival = undefined;
+        this.steps(step.steps, undefined);
+        this.shiftOff(step.id);
+        this.arrival = undefined;
+        this.pallets.delete(step.pallet);
+        loop.end();
+    }
+    title(step) {
+        const group = step.group === undefined ? "" : commentText(this.setting.place.program.groups[step.group]?.name ?? step.group, 28);
+        if (group !== this.group)
+            this.out.add(`'== ${group}`.trimEnd());
+        this.group = group;
+        const name = commentText(step.name ?? "");
+        if (name !== "")
+            this.out.add(`'${name}`, step.id);
+    }
+    set({ signal, to, pulse_s }) {
+        const { address } = this.setting.place.program.signals[signal];
+        if (typeof to === "number")
+            return `AOUT AO#(${address}) ${fixed(to, 2)}`;
+        return pulse_s === undefined ? `DOUT OT#(${address}) ${to ? "ON" : "OFF"}` : `PULSE OT#(${address}) T=${fixed(Math.max(0.01, pulse_s), 2)}`;
+    }
+    condition(when, opposite = false) {
+        const { kind, address } = this.setting.place.program.signals[when.signal];
+        return `${kind === "digital-in" ? "IN" : "OT"}#(${address})=${("is" in when && when.is) !== opposite ? "ON" : "OFF"}`;
+    }
+    // Motion --------------------------------------------------------------------------------------------------------------
+    move(step, next, before) {
+        const { place, postures } = this.setting, add = (line) => { this.out.add(line, step.id); };
+        const { q_rad, via_rad } = postures.get(step.id), { target, frame, loop } = this.taught(step.target);
+        // Joint angles are reached with any tool; the one in force stays.
+        const tool = step.target.tool ?? (step.path === "ptp" ? this.arrival?.written?.tool : undefined) ?? "flange";
+        this.shiftFor(loop, step.id);
+        const speed = speedText(step, place.robot.maxTcpSpeed_mps), acceleration = accelerationText(step);
+        const corner_m = step.until === undefined && this.goesOn(next) ? this.corner(step, before, next) : 0, corner = cornerText(step.path, corner_m);
+        if (step.path === "circ" || (step.path === "spline" && !(before?.type === "move" && before.path === "spline" && this.arrival !== undefined))) {
+            const word = step.path === "circ" ? "MOVC" : "MOVS";
+            if (this.arrival !== undefined)
+                add(`${word} ${this.points.repeat(step, this.arrival, frame, tool)} ${speed} PL=0`);
+            else {
+                // Reached from several sides: the robot is asked where it stands.
+                this.here ??= this.setting.controller.variable("P");
+                add(`GETS PX${this.here.slice(1)} $PX000`);
+                add(`${word} ${this.here} ${speed} PL=0`);
+            }
+        }
+        if (step.path === "circ") {
+            const via = this.taught(step.via);
+            add(`MOVC ${this.points.add(step, via.target, frame, tool, via_rad ?? q_rad).name} ${speed}`);
+        }
+        const { name, arrival } = this.points.add(step, target, frame, tool, q_rad);
+        const word = step.path === "ptp" ? "MOVJ" : step.path === "lin" ? "MOVL" : step.path === "circ" ? "MOVC" : "MOVS";
+        add(`${word} ${name} ${speed}${corner}${acceleration}${step.path === "circ" ? " FPT" : ""}${step.until === undefined ? "" : ` UNTIL ${this.condition(step.until.when)}`}`);
+        if (step.until?.missing === "fault")
+            add(`ABORT IF ${this.condition(step.until.when, true)}`);
+        this.arrival = loop === undefined && step.until === undefined ? arrival : undefined;
+    }
+    /** A target as it is taught: at the first place, when it is on a pallet. */
+    taught(target) {
+        const { frames, pallets } = this.setting.place.program;
+        if ("q" in target)
+            return { target, frame: "world", loop: undefined };
+        const loop = this.pallets.get(target.frame);
+        if (loop !== undefined) {
+            const { frame, origin } = pallets[target.frame];
+            return { target: { ...target, frame, pose: compose(origin, target.pose) }, frame, loop };
+        }
+        return { target, frame: Object.hasOwn(frames, target.frame) ? target.frame : "world", loop: undefined };
+    }
+    shiftFor(loop, id) {
+        const line = loop?.on() ?? "";
+        if (line === this.shift)
+            return;
+        this.shiftOff(id);
+        if (line !== "")
+            this.out.add(line, id);
+        this.shift = line;
+    }
+    shiftOff(id) {
+        if (this.shift !== "")
+            this.out.add("SFTOF", id);
+        this.shift = "";
+    }
+    goesOn(next) {
+        const inside = (steps) => this.goesOn(steps?.find(({ type }) => type !== "comment"));
+        switch (next?.type) {
+            case undefined: return !this.isMain;
+            case "move": return true;
+            case "repeat":
+            case "pallet": return inside(next.steps);
+            case "call": return inside(this.setting.place.program.routines[next.routine]);
+            default: return false;
+        }
+    }
+    /** Where the corner begins. A share is turned into a distance by the chords to the points before and behind. */
+    corner(step, before, next) {
+        const { blend_m, blend_ratio = 0 } = step, { place } = this.setting;
+        if (!(blend_ratio > 0))
+            return blend_m;
+        const at = (each) => place.worldFromTarget(each.target, each.target.tool ?? "flange").position, chords = [];
+        if (before?.type === "move")
+            chords.push(distance(at(before), at(step)));
+        if (next?.type === "move")
+            chords.push(distance(at(step), at(next)));
+        return chords.length === 0 ? 0 : blend_ratio * Math.min(...chords) / 2;
+    }
+}

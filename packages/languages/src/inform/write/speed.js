@@ -1,0 +1,31 @@
+import { fixed } from "./location.ts";
+/** Limits of VJ= [%] and V= [mm/s]. */
+const SLOWEST_VJ = 0.01, SLOWEST_V = 0.1, FASTEST_V = 1500;
+/** Least of ACC= and DEC= [%]. */
+const SOFTEST = 20;
+export const FASTEST_MPS = FASTEST_V / 1000;
+export function speedText({ path, speed }, maxTcpSpeed_mps) {
+    if (path === "ptp")
+        return `VJ=${fixed(Math.min(100, Math.max(SLOWEST_VJ, shareOf(speed, maxTcpSpeed_mps) * 100)), 2)}`;
+    return `V=${fixed(Math.min(FASTEST_V, Math.max(SLOWEST_V, pathSpeed(speed, maxTcpSpeed_mps) * 1000)), 1)}`;
+}
+/** A speed of the tool is only its share of the robot's greatest on a joint motion. */
+const shareOf = (speed, max_mps) => "ratio" in speed ? speed.ratio : "mps" in speed ? speed.mps / max_mps : 1;
+export const pathSpeed = (speed, max_mps) => "mps" in speed ? speed.mps : "ratio" in speed ? speed.ratio * max_mps : max_mps;
+export function accelerationText({ acceleration }) {
+    if (acceleration === undefined)
+        return "";
+    const percent = Math.min(100, Math.max(SOFTEST, Math.round(acceleration.ratio * 100)));
+    return percent === 100 ? "" : ` ACC=${percent} DEC=${percent}`;
+}
+/** Where corners begin at the levels 1 … 4 as delivered [m]. */
+const LEVELS_M = [0.0125, 0.025, 0.05, 0.1];
+/** Straight paths take the radius itself, the others the level that is nearest. */
+export function cornerText(path, corner_m) {
+    if (!(corner_m > 0))
+        return " PL=0";
+    if (path === "lin")
+        return ` CR=${fixed(Math.max(0.1, corner_m * 1000), 1)}`;
+    const nearest = LEVELS_M.reduce((best, each, i) => Math.abs(each - corner_m) < Math.abs(LEVELS_M[best] - corner_m) ? i : best, 0);
+    return ` PL=${nearest + 1}`;
+}

@@ -1,0 +1,19 @@
+import { identity } from "@twincell/core";
+import { skippingDialect } from "../text/index.ts";
+import { CANNOT, emitAs } from "./emit.ts";
+import { interpretAs } from "./interpret.ts";
+import { parseAs } from "./parse.ts";
+import { LINES } from "./lines.ts";
+/** AS of Kawasaki's D, E and F controllers. Half of what is known of it is recalled: docs/languages/kawasaki-as.md says which. */
+export const kawasakiAs = skippingDialect({
+    id: "kawasaki-as",
+    brand: "Kawasaki",
+    name: "AS",
+    extensions: [".as", ".pg"],
+    maturity: "experimental",
+    cannot: CANNOT,
+    emit: (program, robot, worldFromBase = identity()) => emitAs(program, robot, worldFromBase),
+    parse: (text, robot, worldFromBase = identity()) => parseAs(text, robot, worldFromBase),
+    interpret: (text, robot, worldFromBase = identity()) => interpretAs(text, robot, worldFromBase),
+    lines: LINES,
+});

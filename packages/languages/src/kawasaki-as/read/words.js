@@ -1,0 +1,27 @@
+/** Statements that move the robot. */
+export const MOTIONS = new Set([
+    "jmove", "lmove", "hmove", "c1move", "c2move", "jappro", "lappro", "jdepart", "ldepart", "draw", "tdraw", "drive",
+]);
+/** Statements with values behind them that are executed here. */
+export const INSTRUCTIONS = new Set([
+    ...MOTIONS, "break", "speed", "accuracy", "accel", "decel", "tool", "base", "twait", "signal", "pulse", "openi", "closei", "open", "close",
+    "lefty", "righty", "above", "below", "uwrist", "dwrist", "weight", "print", "type", "ty", "sig", "here", "decompose", "mon_speed",
+]);
+/** Statements that are understood and cannot be written as steps, with what the user is told. */
+export const UNSAYABLE = {
+    goto: "GOTO jumps, which is not executed here: loops and decisions are.",
+    xmove: "XMOVE ends at a signal by an option of the controller, which is not executed here.",
+    home: "HOME goes to a posture that only the controller knows.",
+    home2: "HOME2 goes to a posture that only the controller knows.",
+    align: "ALIGN turns the tool by rules of the controller that are not executed here.",
+    pause: "PAUSE waits for a person, who is not here.",
+    on: "ON belongs to interrupts, which are not executed here.",
+    oni: "ONI belongs to interrupts, which are not executed here.",
+    ignore: "IGNORE belongs to interrupts, which are not executed here.",
+    pcexecute: "PCEXECUTE starts another task, which is not executed here.",
+    scall: "SCALL chooses a program by its name at run time, which is not executed here.",
+};
+/** Millimetres a second of one unit; 0 for a duration. */
+export const SPEED_UNITS = { "mm/s": 1, "mm/min": 1 / 60, "cm/min": 10 / 60, "cm/s": 10, "m/s": 1000, s: 0 };
+/** Words that the controller takes in a shorter form. */
+export const SHORT = { sig: "signal", ty: "type" };

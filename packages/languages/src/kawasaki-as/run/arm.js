@@ -1,0 +1,68 @@
+import { branchOf, compose, flangePose, inverse, solveAll, travel } from "@twincell/core";
+import { NULL, fromPose, inverted, times, toPose } from "./frame.ts";
+const LENGTHS = { kawasaki_rs007l: { upper_mm: 455, fore_mm: 475 } };
+export const speaksAs = (robot) => Object.hasOwn(LENGTHS, robot.id);
+const DEG = Math.PI / 180;
+/** Where the arm is sent, and what the controller works out about it. Places count from the base of the robot. */
+export class ControllerArm {
+    robot;
+    worldFromBase;
+    tool = NULL;
+    base = NULL;
+    /** The last joint angles that were known [rad]. */
+    near;
+    flange;
+    constructor(robot, worldFromBase) {
+        this.robot = robot;
+        this.worldFromBase = fromPose(worldFromBase);
+        this.near = robot.home_rad;
+        this.flange = fromPose(flangePose(robot.arm, robot.home_rad));
+    }
+    /** HERE: the tool in the base that programs count from. */
+    here() { return times(inverted(this.base), times(this.flange, this.tool)); }
+    placeOf(deg) { return times(inverted(this.base), times(fromPose(flangePose(this.robot.arm, radians(deg))), this.tool)); }
+    inWorld(place) { return toPose(times(this.worldFromBase, this.base === NULL ? place : times(this.base, place))); }
+    atJoints(deg) {
+        this.near = radians(deg);
+        this.flange = fromPose(flangePose(this.robot.arm, this.near));
+    }
+    atPlace(place) {
+        const tip = this.base === NULL ? place : times(this.base, place);
+        this.flange = this.tool === NULL ? tip : times(tip, inverted(this.tool));
+    }
+    /** The posture that words ask for at a place; what they leave open is as near as possible to where the arm was. Undefined when there is none. */
+    branchAt(place, words) {
+        const flange = times(times(this.base, place), inverted(this.tool));
+        const reach = solveAll(this.robot, compose(inverse(toPose(NULL)), toPose(flange)), { near: this.near });
+        if (reach.kind !== "reached")
+            return undefined;
+        let best, least = Infinity;
+        for (const { q_rad } of reach.solutions) {
+            const way = travel(q_rad, this.near);
+            if (way < least && this.fits(q_rad, words)) {
+                least = way;
+                best = [...q_rad];
+            }
+        }
+        if (best === undefined)
+            return undefined;
+        this.near = best;
+        return branchOf(this.robot, best);
+    }
+    /**
+     * RIGHTY: the wrist is in front of the axis of JT1. ABOVE: the elbow is above the line from shoulder to wrist. UWRIST: JT5 > 0.
+     *
+     *   reach = upper · sin JT2 + fore · sin(JT2 − JT3)
+     */
+    fits(q, { arm, elbow, wrist }) {
+        const { upper_mm, fore_mm } = LENGTHS[this.robot.id], jt2 = q[1], jt3 = q[2], jt5 = q[4];
+        const isFront = upper_mm * Math.sin(jt2) + fore_mm * Math.sin(jt2 - jt3) >= 0, isAbove = isFront === jt3 < 0;
+        return (arm === undefined || (arm === "righty") === isFront) && (elbow === undefined || (elbow === "above") === isAbove) && (wrist === undefined || (wrist === "uwrist") === jt5 > 0);
+    }
+    /** Remembers where the arm is; the answer brings it back. */
+    remember() {
+        const { tool, base, near, flange } = this;
+        return () => { this.tool = tool; this.base = base; this.near = near; this.flange = flange; };
+    }
+}
+export const radians = (deg) => deg.map(angle => angle * DEG);

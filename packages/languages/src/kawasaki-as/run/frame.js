@@ -1,0 +1,66 @@
+import { fromMatrix } from "@twincell/core";
+export const NULL = { r: [1, 0, 0, 0, 1, 0, 0, 0, 1], p: [0, 0, 0] };
+const MM = 1000;
+const DEG = Math.PI / 180;
+/** TRANS(x, y, z, o, a, t) in mm and degrees:  R = Rz(o) · Ry(a) · Rz(t). */
+export function trans([x, y, z, o, a, t]) {
+    const co = Math.cos(o * DEG), so = Math.sin(o * DEG), ca = Math.cos(a * DEG), sa = Math.sin(a * DEG), ct = Math.cos(t * DEG), st = Math.sin(t * DEG);
+    return {
+        r: [co * ca * ct - so * st, -co * ca * st - so * ct, co * sa, so * ca * ct + co * st, -so * ca * st + co * ct, so * sa, -sa * ct, sa * st, ca],
+        p: [x, y, z],
+    };
+}
+/** A turn about one axis [°]. */
+export function about(axis, angle_deg) {
+    const c = Math.cos(angle_deg * DEG), s = Math.sin(angle_deg * DEG);
+    const r = axis === "x" ? [1, 0, 0, 0, c, -s, 0, s, c] : axis === "y" ? [c, 0, s, 0, 1, 0, -s, 0, c] : [c, -s, 0, s, c, 0, 0, 0, 1];
+    return { r, p: [0, 0, 0] };
+}
+/** The six numbers of a place, a from 0° to 180°; where o and t turn about one axis, t is 0. */
+export function sixOf({ r, p }) {
+    const flat = Math.hypot(r[2], r[5]), a = Math.atan2(flat, r[8]) / DEG;
+    if (flat < 1e-9)
+        return [...p, Math.atan2(-r[1], r[4]) / DEG, a, 0];
+    return [...p, Math.atan2(r[5], r[2]) / DEG, a, Math.atan2(r[7], -r[6]) / DEG];
+}
+/** a·b */
+export function times(a, b) {
+    const r = [];
+    for (let i = 0; i < 9; i += 3)
+        for (let j = 0; j < 3; j++)
+            r.push(a.r[i] * b.r[j] + a.r[i + 1] * b.r[3 + j] + a.r[i + 2] * b.r[6 + j]);
+    const along = (row) => a.r[row] * b.p[0] + a.r[row + 1] * b.p[1] + a.r[row + 2] * b.p[2];
+    return { r, p: [a.p[0] + along(0), a.p[1] + along(3), a.p[2] + along(6)] };
+}
+export function inverted({ r, p }) {
+    const back = (column) => -(r[column] * p[0] + r[column + 3] * p[1] + r[column + 6] * p[2]);
+    return { r: [r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8]], p: [back(0), back(1), back(2)] };
+}
+/** The same place moved along the axes that it is given in [mm]. */
+export const shifted = ({ r, p }, x, y, z) => ({ r, p: [p[0] + x, p[1] + y, p[2] + z] });
+/** FRAME: origin in the fourth point, x along from the first to the second, y on the side of the third. Undefined when they do not span a plane. */
+export function frameOf(a, b, c, origin) {
+    const x = unit(minus(b.p, a.p)), z = x === undefined ? undefined : unit(cross(x, minus(c.p, a.p)));
+    if (x === undefined || z === undefined)
+        return undefined;
+    const y = cross(z, x);
+    return { r: [x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]], p: origin.p };
+}
+const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+function unit(v) {
+    const length = Math.hypot(...v);
+    return length < 1e-6 ? undefined : [v[0] / length, v[1] / length, v[2] / length];
+}
+/** In metres and as a quaternion, for the rest of the world. */
+export const toPose = ({ r, p }) => ({ position: [p[0] / MM, p[1] / MM, p[2] / MM], quaternion: fromMatrix(r) });
+export function fromPose({ position: [px, py, pz], quaternion: [x, y, z, w] }) {
+    return {
+        r: [
+            1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w),
+            2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
+            2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y),
+        ],
+        p: [px * MM, py * MM, pz * MM],
+    };
+}

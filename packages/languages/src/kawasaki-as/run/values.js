@@ -1,0 +1,63 @@
+import { TextError } from "../../text/index.ts";
+import { inverted, times } from "./frame.ts";
+export const kindOf = (value) => typeof value === "number" ? "a number" : typeof value === "string" ? "a text" : value.kind === "place" ? "a transformation" : "a set of joint angles";
+const stands = (value, wanted) => { const what = kindOf(value); return `${what.charAt(0).toUpperCase()}${what.slice(1)} stands where ${wanted} is expected.`; };
+export function asNumber(value, at) {
+    if (typeof value === "number")
+        return value;
+    throw new TextError(at, "a number", stands(value, "a number"));
+}
+export function asPlace(value, at) {
+    if (typeof value === "object" && value.kind === "place")
+        return value;
+    throw new TextError(at, "a transformation", stands(value, "a transformation"));
+}
+export const truth = (value) => value ? -1 : 0;
+export function finite(value, at) {
+    if (!Number.isFinite(value))
+        throw new TextError(at, "a finite result", "The result is not a number.");
+    return value;
+}
+/** `+` of transformations goes on from the left one; `-` goes back by the right one. */
+export function binary(sign, left, right, frame, at) {
+    if (typeof left === "object" && left.kind === "place" && (sign === "+" || sign === "-")) {
+        const on = asPlace(right, at), step = sign === "+" ? on.at : inverted(on.at), place = times(left.at, step);
+        if (left.inFrame !== undefined && frame === undefined)
+            return { kind: "place", at: place, inFrame: { ...left.inFrame, at: times(left.inFrame.at, step) } };
+        return frame === undefined ? { kind: "place", at: place } : { kind: "place", at: place, inFrame: { frame, of: left.at, at: step } };
+    }
+    if (typeof left === "string" || typeof right === "string") {
+        if (typeof left === "string" && typeof right === "string") {
+            if (sign === "+")
+                return left + right;
+            if (sign === "==" || sign === "<>")
+                return truth((left === right) === (sign === "=="));
+        }
+        throw new TextError(at, "two texts with +, == or <>", `"${sign}" does not join ${kindOf(left)} and ${kindOf(right)}.`);
+    }
+    return arithmetic(sign, asNumber(left, at), asNumber(right, at), at);
+}
+function arithmetic(sign, a, b, at) {
+    if ((sign === "/" || sign === "mod") && b === 0)
+        throw new TextError(at, "a divisor other than 0", "The divisor is 0.");
+    switch (sign) {
+        case "+": return finite(a + b, at);
+        case "-": return finite(a - b, at);
+        case "*": return finite(a * b, at);
+        case "/": return finite(a / b, at);
+        case "mod": return a % b;
+        case "^": return finite(a ** b, at);
+        case "==": return truth(a === b);
+        case "<>": return truth(a !== b);
+        case "<": return truth(a < b);
+        case ">": return truth(a > b);
+        case "<=":
+        case "=<": return truth(a <= b);
+        case ">=":
+        case "=>": return truth(a >= b);
+        case "and": return truth(a !== 0 && b !== 0);
+        case "or": return truth(a !== 0 || b !== 0);
+        case "xor": return truth((a !== 0) !== (b !== 0));
+        default: throw new TextError(at, "an operator", `"${sign}" is no operator.`);
+    }
+}

@@ -1,0 +1,47 @@
+/** A share of the acceleration this near to all of it is all of it. */
+const ALL = 1 - 1e-8;
+export function usedNames(program) {
+    const used = { tools: new Set(), frames: new Set(), signals: new Map(), accelerates: false };
+    const frame = (name) => { if (name !== "world" && !Object.hasOwn(program.pallets, name))
+        used.frames.add(name); };
+    const note = (signal, step) => { if (!used.signals.has(signal))
+        used.signals.set(signal, step); };
+    const look = (steps) => {
+        for (const step of steps) {
+            switch (step.type) {
+                case "move":
+                    for (const target of step.via === undefined ? [step.target] : [step.via, step.target]) {
+                        if (target.tool !== undefined && target.tool !== "flange")
+                            used.tools.add(target.tool);
+                        if ("pose" in target)
+                            frame(target.frame);
+                    }
+                    used.accelerates ||= (step.acceleration?.ratio ?? 1) < ALL;
+                    break;
+                case "set":
+                    note(step.signal, step);
+                    break;
+                case "wait-for":
+                    note(step.when.signal, step);
+                    break;
+                case "if":
+                    note(step.when.signal, step);
+                    look(step.then);
+                    look(step.else ?? []);
+                    break;
+                case "repeat":
+                    look(step.steps);
+                    break;
+                case "pallet":
+                    if (Object.hasOwn(program.pallets, step.pallet))
+                        frame(program.pallets[step.pallet].frame);
+                    look(step.steps);
+                    break;
+                default: break;
+            }
+        }
+    };
+    for (const steps of [program.steps, ...Object.values(program.routines)])
+        look(steps);
+    return used;
+}

@@ -1,0 +1,30 @@
+import { identity } from "@twincell/core";
+import { skippingDialect } from "../text/index.ts";
+import { CANNOT, emitKrl } from "./emit.ts";
+import { interpretKrl } from "./interpret.ts";
+import { parseKrl } from "./parse.ts";
+import { LINES } from "./lines.ts";
+export { emitPtpAxis } from "./axis-list.ts";
+/** The module and its data list, one behind the other: what the controller loads together. */
+function asOne(files) {
+    const [src, dat] = files;
+    if (src === undefined || dat === undefined)
+        throw new RangeError(`A module of KRL is two files; ${files.length} are given.`);
+    return { name: src.name, text: src.text + dat.text, lines: [...src.lines, ...dat.lines] };
+}
+/** KRL of KR C2, KR C4 and KR C5 controllers. */
+export const krl = skippingDialect({
+    id: "krl",
+    brand: "KUKA",
+    name: "KRL",
+    extensions: [".src", ".dat", ".sub"],
+    maturity: "proven",
+    cannot: CANNOT,
+    // $VEL_AXIS is a whole number of percent.
+    resolution: { ratio: 0.005, leastRatio: 0.01 },
+    runnable: files => asOne(files),
+    emit: (program, robot, worldFromBase = identity()) => emitKrl(program, robot, worldFromBase),
+    parse: (text, robot, worldFromBase = identity()) => parseKrl(text, robot, worldFromBase),
+    interpret: (text, robot, worldFromBase = identity()) => interpretKrl(text, robot, worldFromBase),
+    lines: LINES,
+});

@@ -1,0 +1,27 @@
+import { LineCursor } from "../../text/index.ts";
+const RULES = {
+    // Comments of inline forms are longer than any line of code.
+    longest: 4096,
+    called: "statement",
+    tokens: [
+        // Most frequent first.
+        ["word", /[A-Za-z_$][A-Za-z0-9_$]*/y],
+        [null, / +/y],
+        ["number", /(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[Ee][+-]?[0-9]+)?/y],
+        ["sign", /==|<>|<=|>=|[-+*/=<>()[\]{},:.]/y],
+        [null, /;.*/y],
+        ["enum", /#[A-Za-z_$][A-Za-z0-9_$]*/y],
+        ["bits", /'[BbHh][0-9A-Fa-f]+'/y],
+        ["text", /"[^"]*"/y],
+    ],
+};
+/** Walks over the tokens of one line. */
+export class Cursor extends LineCursor {
+    constructor(text, line) { super(text, line, RULES); }
+    /** A name in upper case, as KRL compares them. */
+    name(what = "a name") {
+        if (this.nextKind !== "word")
+            throw this.unexpected(what);
+        return this.take().toUpperCase();
+    }
+}

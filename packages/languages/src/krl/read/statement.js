@@ -1,0 +1,129 @@
+import { TextError } from "../../text/index.ts";
+import { readArguments, readExpression, readVariable } from "./expression.ts";
+const nothing = cursor => { cursor.skip(); return { kind: "nothing" }; };
+const APPROXIMATIONS = new Set(["C_PTP", "C_DIS", "C_ORI", "C_VEL", "C_SPL"]);
+function approximations(cursor) {
+    const words = [];
+    while (APPROXIMATIONS.has(cursor.next)) {
+        words.push(cursor.take().toUpperCase());
+        cursor.accept(",");
+    }
+    return words;
+}
+/** `WITH $VEL.CP=0.2,$TOOL=T` */
+function readSettings(cursor) {
+    const settings = [];
+    if (!cursor.accept("WITH"))
+        return settings;
+    do {
+        const to = readVariable(cursor);
+        cursor.expect("=");
+        settings.push([to, readExpression(cursor)]);
+    } while (cursor.accept(","));
+    return settings;
+}
+const motion = (kind, { relative = false, spline = false } = {}) => cursor => {
+    let via, inTool = false, target = readExpression(cursor);
+    if (kind === "CIRC") {
+        via = target;
+        cursor.expect(",");
+        target = readExpression(cursor);
+        if (cursor.next === ",") {
+            throw new TextError(cursor.here, "an arc that ends at its end point", "An arc with CA goes on beyond its end point or stops before it: that end is not written in the text.");
+        }
+    }
+    const before = approximations(cursor), settings = readSettings(cursor);
+    // What a relative motion counts from.
+    if (relative && (cursor.next === "#TOOL" || cursor.next === "#BASE")) {
+        inTool = cursor.take().toUpperCase() === "#TOOL";
+    }
+    return { kind: "motion", motion: kind, relative, inTool, spline, target, via, approximation: [...before, ...approximations(cursor)], settings };
+};
+const call = (name, cursor) => {
+    cursor.expect("(");
+    return { kind: "call", name, args: readArguments(cursor) };
+};
+function waiting(cursor) {
+    if (cursor.accept("SEC"))
+        return { kind: "wait", time: readExpression(cursor) };
+    cursor.expect("FOR");
+    return { kind: "wait-for", condition: readExpression(cursor) };
+}
+function pulse(cursor) {
+    cursor.expect("(");
+    const output = readVariable(cursor);
+    cursor.expect(",");
+    const to = readExpression(cursor);
+    cursor.expect(",");
+    const time = readExpression(cursor);
+    cursor.expect(")");
+    return { kind: "pulse", output, to, time };
+}
+/** `INTERRUPT DECL n WHEN condition DO routine( )`, `INTERRUPT ON n`, `INTERRUPT OFF n`. */
+function interrupt(cursor) {
+    if (cursor.accept("DECL")) {
+        const number = readExpression(cursor);
+        cursor.expect("WHEN");
+        const condition = readExpression(cursor);
+        cursor.expect("DO");
+        const routine = cursor.name("the name of a routine");
+        cursor.skip();
+        return { kind: "interrupt", number, condition, routine };
+    }
+    const word = cursor.name("ON or OFF");
+    return { kind: "interrupt-switch", on: word === "ON" || word === "ENABLE", number: cursor.done ? undefined : readExpression(cursor) };
+}
+const READERS = {
+    PTP: motion("PTP"), LIN: motion("LIN"), CIRC: motion("CIRC"), SPL: motion("SPL"),
+    SPTP: motion("PTP", { spline: true }), SLIN: motion("LIN", { spline: true }), SCIRC: motion("CIRC", { spline: true }),
+    PTP_REL: motion("PTP", { relative: true }), LIN_REL: motion("LIN", { relative: true }),
+    SPTP_REL: motion("PTP", { relative: true, spline: true }), SLIN_REL: motion("LIN", { relative: true, spline: true }),
+    SPLINE: cursor => ({ kind: "spline", settings: readSettings(cursor) }),
+    ENDSPLINE: cursor => ({ kind: "end-spline", approximation: approximations(cursor) }),
+    WAIT: waiting,
+    PULSE: pulse,
+    INTERRUPT: interrupt,
+    BRAKE: cursor => { cursor.accept("F"); return { kind: "brake" }; },
+    RESUME: () => ({ kind: "resume" }),
+    HALT: () => ({ kind: "halt" }),
+    RETURN: cursor => ({ kind: "return", value: cursor.done ? undefined : readExpression(cursor) }),
+    CONTINUE: () => ({ kind: "nothing" }), ON_ERROR_PROCEED: () => ({ kind: "nothing" }),
+    ANOUT: nothing, ANIN: nothing, IMPORT: nothing,
+};
+/** Why a word that KRL knows is refused here. */
+const REFUSED = {
+    CIRC_REL: "A relative arc is not understood here: write its points as positions.",
+    SCIRC_REL: "A relative arc is not understood here: write its points as positions.",
+    TRIGGER: "TRIGGER acts on the way between two points, which a list of steps cannot say.",
+    PTP_SPLINE: "A block of joint splines is not understood here.",
+    TIME_BLOCK: "TIME_BLOCK gives parts of a spline their duration, which is not understood here.",
+};
+/** One statement that moves, sets or waits; control words (IF, FOR, …) are read by `blocks.ts`. */
+export function readStatement(cursor) {
+    const { line, column } = cursor.here;
+    if (cursor.nextKind !== "word")
+        throw cursor.unexpected("a statement");
+    const word = cursor.next, after = cursor.second;
+    // A name followed by = is assigned to, even where it is also a word of the language.
+    if (after === "=" || after === "[" || after === ".")
+        return { ...assignment(cursor), line, column };
+    if (word === "GLOBAL" && after === "INTERRUPT")
+        cursor.take();
+    const reader = READERS[cursor.next];
+    if (reader === undefined && after !== "(") {
+        throw new TextError({ line, column }, "a statement of KRL", REFUSED[word] ?? `"${cursor.take()}" is no statement of KRL that is understood here.`);
+    }
+    const name = cursor.name();
+    const body = reader === undefined ? call(name, cursor) : reader(cursor);
+    cursor.expectEnd();
+    return { ...body, line, column };
+}
+function assignment(cursor) {
+    const to = readVariable(cursor);
+    cursor.expect("=");
+    const value = readExpression(cursor);
+    if (cursor.next === "=")
+        throw cursor.unexpected('"==" for a comparison');
+    cursor.expectEnd();
+    return { kind: "assign", to, value };
+}

@@ -1,0 +1,432 @@
+import { TextError, WaitsOutside } from "../../text/index.ts";
+import { BAS } from "./bas.ts";
+import { axesOf, typed, within } from "./frame.ts";
+import { Lines } from "./signals.ts";
+import { spelling } from "./system.ts";
+import { boolOf, evaluate, keyOf, numberOf, structureOf, whole } from "./values.ts";
+/** Statements without a motion or a wait after which the program is taken to run on the spot for ever. */
+const STATEMENTS_WITHOUT_MOTION = 100_000;
+/** Calls inside calls. */
+const CALL_DEPTH = 40;
+/** Dealt with before, or of no consequence for where the robot goes. */
+const QUIET_ROUTINES = new Set(["IR_STOPM", "MSGQUIT"]);
+/** Executes a KRL module statement by statement. Deterministic: the same text and the same signals give the same steps. */
+export class Machine {
+    lines;
+    source;
+    state;
+    globals = new Map();
+    types = new Map();
+    stack = [];
+    times = new Map();
+    interrupts = new Map();
+    spline;
+    /** A motion of which it is not yet known whether the robot stops at its end, and what was executed since. */
+    pending;
+    since = [];
+    ready = [];
+    idle = 0;
+    stopped = false;
+    constructor(source, state, signals, met) {
+        this.source = source;
+        this.state = state;
+        this.lines = new Lines(source.signals, signals, met);
+    }
+    /** @throws {TextError} where the text cannot be executed further. */
+    *run() {
+        for (const declaration of this.source.data)
+            this.define(declaration, this.globals, this.types);
+        for (const { to, value } of this.source.elements)
+            this.assign(to, evaluate(value, this), "");
+        const main = this.source.routines.values().next();
+        if (main.done !== true) {
+            this.enter(main.value, [], main.value.place);
+            while (this.stack.length > 0 && !this.stopped) {
+                this.instruction(this.stack.at(-1));
+                if (this.ready.length > 0) {
+                    const ready = this.ready;
+                    this.ready = [];
+                    yield* ready;
+                }
+            }
+        }
+        this.settle(false);
+        yield* this.ready;
+    }
+    // Values ------------------------------------------------------------------------------------------------------------
+    read(key, at) {
+        const line = this.lines.line(key);
+        if (line !== undefined) {
+            // Looking at a line stops the advance run: the motion before it ends where it was taught.
+            this.settle(false);
+            return this.lines.read(line);
+        }
+        if (key === "$AXIS_ACT")
+            return axesOf(this.state.presentAxes_deg);
+        const frame = this.stack.at(-1), name = key.split("[", 1)[0];
+        if (frame?.own.has(name) === true)
+            return frame.values.get(key);
+        return this.globals.get(key) ?? this.state.system.read(key, at);
+    }
+    call(name, args, at) {
+        const routine = this.source.routines.get(name);
+        if (routine?.isFunction !== true)
+            throw new TextError(at, "a function of KRL or of this text", `"${name}" is no function that is understood here.`);
+        const depth = this.stack.length, frame = this.enter(routine, args, at), steps = () => this.times.size, before = steps();
+        while (this.stack.length > depth)
+            this.instruction(this.stack.at(-1));
+        if (steps() !== before)
+            throw new TextError(at, "a function that computes", `Function ${name} moves the robot.`);
+        if (frame.result === undefined)
+            throw new TextError(at, "a function with RETURN", `Function ${name} ends without a result.`);
+        return frame.result;
+    }
+    define({ name, type, index, value, ...at }, values, types) {
+        if (type !== "")
+            types.set(name, type);
+        if (value === undefined)
+            return;
+        const key = index.length === 0 ? name : `${name}[${index.map(each => numberOf(each, this)).join(",")}]`;
+        if (key.startsWith("$"))
+            this.state.system.write(key, evaluate(value, this), at, "");
+        else
+            values.set(key, typed(evaluate(value, this), types.get(name)));
+    }
+    assign(to, value, source) {
+        const key = keyOf(to, this), [, ...members] = to.parts;
+        if (members.length > 0) {
+            const before = this.read(key, to);
+            return this.store(key, within(before?.kind === "structure" ? before : { kind: "structure", type: undefined, fields: new Map() }, members.map(({ name }) => name), value), to, "");
+        }
+        this.store(key, value, to, source);
+    }
+    store(key, value, at, source) {
+        if (key.startsWith("$"))
+            return this.state.system.write(key, value, at, source);
+        const frame = this.stack.at(-1), name = key.split("[", 1)[0];
+        if (frame?.own.has(name) === true) {
+            frame.values.set(key, typed(value, frame.types.get(name)));
+            return;
+        }
+        this.globals.set(key, typed(value, this.types.get(name)));
+        // The system looks these up itself.
+        if (/^(?:DEF_|TOOL_DATA|BASE_DATA)/.test(key))
+            this.state.system.write(key, value, at, source);
+    }
+    // Order of execution ------------------------------------------------------------------------------------------------
+    enter(routine, args, at) {
+        if (this.stack.length >= CALL_DEPTH)
+            throw new TextError(at, `at most ${CALL_DEPTH} calls inside each other`, `Routine ${routine.name} is called more than ${CALL_DEPTH} deep.`);
+        if (args.length > routine.parameters.length)
+            throw new TextError(at, `${routine.parameters.length} arguments`, `Routine ${routine.name} takes ${routine.parameters.length} arguments; ${args.length} are given.`);
+        const caller = this.stack.at(-1), values = new Map(), types = new Map();
+        const own = new Set([...routine.parameters.map(({ name }) => name), ...routine.declarations.map(({ name }) => name)]);
+        const back = [];
+        for (const [i, arg] of args.entries()) {
+            const { name, out } = routine.parameters[i];
+            if (arg === undefined)
+                continue;
+            if (!out) {
+                values.set(name, evaluate(arg, this));
+                continue;
+            }
+            const value = arg.kind === "variable" ? this.read(keyOf(arg, this), arg) : evaluate(arg, this);
+            if (value !== undefined)
+                values.set(name, arg.kind === "variable" && arg.parts.length > 1 ? evaluate(arg, this) : value);
+            if (arg.kind === "variable")
+                back.push({ from: name, to: arg, frame: caller });
+        }
+        const frame = { routine, at: 0, last: [], step: [], chosen: [], own, values, types, back, result: undefined };
+        this.stack.push(frame);
+        for (const declaration of routine.declarations)
+            this.define(declaration, values, types);
+        return frame;
+    }
+    leave() {
+        const frame = this.stack.pop();
+        for (const { from, to } of frame.back) {
+            const value = frame.values.get(from);
+            if (value !== undefined)
+                this.assign(to, value, "");
+        }
+    }
+    instruction(frame) {
+        const instruction = frame.routine.instructions[frame.at++];
+        if (instruction === undefined)
+            this.leave();
+        else if (instruction.kind === "statement")
+            this.statement(instruction.statement, frame);
+        else
+            this.control(instruction, frame);
+    }
+    control(instruction, frame) {
+        switch (instruction.kind) {
+            case "jump":
+                this.spend(instruction.at);
+                frame.at = instruction.to;
+                return;
+            case "unless":
+                this.spend(instruction.condition);
+                if (!boolOf(instruction.condition, this))
+                    frame.at = instruction.to;
+                return;
+            case "for":
+                this.assign(instruction.variable, whole(Math.round(numberOf(instruction.from, this))), "");
+                frame.last[instruction.slot] = numberOf(instruction.last, this);
+                frame.step[instruction.slot] = instruction.step === undefined ? 1 : numberOf(instruction.step, this);
+                if (frame.step[instruction.slot] === 0)
+                    throw new TextError(instruction.step, "a step other than 0", "The loop has the step 0.");
+                return;
+            case "for-check": {
+                const value = numberOf(instruction.variable, this), last = frame.last[instruction.slot];
+                if (frame.step[instruction.slot] > 0 ? value > last : value < last)
+                    frame.at = instruction.to;
+                return;
+            }
+            case "for-next":
+                this.spend(instruction.variable);
+                this.assign(instruction.variable, whole(numberOf(instruction.variable, this) + frame.step[instruction.slot]), "");
+                frame.at = instruction.to;
+                return;
+            case "switch":
+                frame.chosen[instruction.slot] = evaluate(instruction.value, this);
+                return;
+            case "case-unless": {
+                const chosen = frame.chosen[instruction.slot];
+                const hit = instruction.values.some(each => { const value = evaluate(each, this); return value.kind !== "structure" && chosen?.kind === value.kind && chosen.value === value.value; });
+                if (!hit)
+                    frame.at = instruction.to;
+                return;
+            }
+        }
+    }
+    statement(statement, frame) {
+        this.spend(statement);
+        switch (statement.kind) {
+            case "assign": return this.assignment(statement);
+            case "motion": return this.motion(statement, statement);
+            case "spline":
+                this.spline = { settings: statement.settings, any: false };
+                break;
+            case "end-spline":
+                this.endSpline(statement);
+                break;
+            case "wait": {
+                const s = numberOf(statement.time, this);
+                if (!(s >= 0))
+                    throw new TextError(statement.time, "a time of 0 s or more", `The time is ${s} s.`);
+                this.settle(false);
+                return this.step(statement, { id: this.stepId(statement.line), type: "wait", s });
+            }
+            case "wait-for": return this.waitFor(statement);
+            case "pulse": {
+                const line = this.lines.line(keyOf(statement.output, this)), pulse_s = numberOf(statement.time, this);
+                if (line?.wire !== "out")
+                    throw new TextError(statement.output, "$OUT[n] or its name", "PULSE takes an output.");
+                if (!(pulse_s > 0))
+                    throw new TextError(statement.time, "a time above 0 s", `The time is ${pulse_s} s.`);
+                this.settle(false);
+                const to = boolOf(statement.to, this);
+                this.lines.write(line, !to);
+                return this.step(statement, { id: this.stepId(statement.line), type: "set", signal: line.name, to, pulse_s });
+            }
+            case "call": return this.callRoutine(statement);
+            case "interrupt":
+                this.interrupts.set(numberOf(statement.number, this), { condition: statement.condition, routine: statement.routine, on: false });
+                break;
+            case "interrupt-switch":
+                this.switchInterrupt(statement);
+                break;
+            case "return":
+                if (statement.value !== undefined)
+                    frame.result = evaluate(statement.value, this);
+                this.leave();
+                break;
+            case "halt":
+                this.settle(false);
+                this.stopped = true;
+                return this.step(statement, { id: this.stepId(statement.line), type: "stop" });
+            case "brake":
+            case "resume":
+            case "nothing": break;
+        }
+        this.note(statement);
+    }
+    assignment(statement) {
+        const { to, value } = statement, line = to.parts.length === 1 ? this.lines.line(keyOf(to, this)) : undefined;
+        if (line === undefined) {
+            if (keyOf(to, this) === "$LOAD")
+                return this.payload(statement);
+            this.assign(to, evaluate(value, this), value.kind === "variable" ? spelling(value) : "");
+            return this.note(statement);
+        }
+        if (line.wire === "in" || line.wire === "analogue-in")
+            throw new TextError(to, "an output", `${line.name} is an input.`);
+        this.settle(false);
+        const set = line.wire === "out" ? boolOf(value, this) : numberOf(value, this);
+        this.lines.write(line, set);
+        this.step(statement, typeof set === "boolean" && this.lines.isGripper(line)
+            ? { id: this.stepId(statement.line), type: "gripper", closed: set }
+            : { id: this.stepId(statement.line), type: "set", signal: line.name, to: set });
+    }
+    payload(statement) {
+        const load = structureOf(statement.value, this);
+        this.settle(false);
+        this.step(statement, { id: this.stepId(statement.line), type: "payload", ...this.state.payload(load, statement.value) });
+    }
+    waitFor(statement) {
+        this.settle(false);
+        const { condition } = statement;
+        if (condition.kind === "bool") {
+            if (!condition.value)
+                throw new TextError(condition, "a condition that comes true", "The program waits for ever.");
+            return this.note(statement);
+        }
+        const when = this.lines.condition(condition, variable => keyOf(variable, this), each => numberOf(each, this));
+        this.step(statement, { id: this.stepId(statement.line), type: "wait-for", when });
+    }
+    // Motion ------------------------------------------------------------------------------------------------------------
+    motion(motion, at) {
+        const { system } = this.state, settings = [...(this.spline?.settings ?? []), ...motion.settings];
+        if (motion.motion === "SPL" && this.spline === undefined)
+            throw new TextError(at, "SPLINE before it", "SPL stands outside a SPLINE block.");
+        const before = settings.length === 0 ? undefined : { values: new Map(system.values), tool: system.tool, base: system.base };
+        for (const [to, value] of settings)
+            this.setting(to, value);
+        const via = motion.via === undefined ? undefined : structureOf(motion.via, this);
+        const target = structureOf(motion.target, this);
+        this.settle(true);
+        const until = this.search();
+        const step = this.state.move(this.stepId(at.line), motion, target, via, at);
+        this.pending = { line: at.line, step: until === undefined ? step : { ...step, until }, passing: this.passing(motion, step) };
+        if (this.spline !== undefined)
+            this.spline.any = true;
+        if (before !== undefined) {
+            system.values.clear();
+            for (const [key, value] of before.values)
+                system.values.set(key, value);
+            system.tool = before.tool;
+            system.base = before.base;
+        }
+        this.idle = 0;
+    }
+    /** How the robot would pass the point if a motion follows. */
+    passing({ approximation }, { path }) {
+        const { system } = this.state;
+        if (this.spline !== undefined)
+            return path === "spline" ? {} : { blend_m: system.approximation_m };
+        if (approximation.length === 0)
+            return {};
+        // C_PTP counts in percent of the way, everything else by the distance.
+        return path === "ptp" && approximation[0] === "C_PTP" && !approximation.includes("C_DIS") ? { blend_ratio: Math.min(1, system.approximationRatio) } : { blend_m: system.approximation_m };
+    }
+    endSpline({ approximation }) {
+        const { spline, pending } = this;
+        this.spline = undefined;
+        if (spline?.any !== true || pending === undefined)
+            return;
+        this.pending = { ...pending, passing: approximation.length === 0 ? {} : { blend_m: this.state.system.approximation_m } };
+        // What follows a block that ends with a stop does not belong to its curve.
+        if (approximation.length === 0)
+            this.settle(false);
+    }
+    /** One setting of a WITH: a variable, or what a function of the controller makes of it. */
+    setting(to, value) {
+        const { system } = this.state;
+        const first = value.kind === "call" ? value.args[0] : undefined;
+        if (value.kind === "call" && first !== undefined) {
+            if (value.name === "SVEL_CP")
+                return system.setPart("$VEL", "CP", numberOf(first, this));
+            if (value.name === "SVEL_JOINT")
+                return system.setAxes("$VEL_AXIS", numberOf(first, this), value);
+            if (value.name === "STOOL2" || value.name === "SBASE")
+                return this.chooseFrame(value.name === "STOOL2" ? "TOOL" : "BASE", first);
+            if (/^S[A-Z_0-9]+$/.test(value.name))
+                return;
+        }
+        this.assign(to, evaluate(value, this), value.kind === "variable" ? spelling(value) : "");
+    }
+    chooseFrame(which, of) {
+        const value = evaluate(of, this), index = value.kind === "structure" ? value.fields.get(`${which}_NO`) : value;
+        if (index?.kind === "number")
+            this.state.system.choose(which, index.value, of);
+    }
+    /**
+     * The search that a motion is while an interrupt is on whose routine brakes. RESUME leaves the routine of the motion, so
+     * what follows in it is only done when nothing was met: a HALT there is what "not found" leads to.
+     */
+    search() {
+        for (const { on, condition, routine } of this.interrupts.values()) {
+            if (!on)
+                continue;
+            const reaction = this.source.routines.get(routine)?.instructions ?? [];
+            if (!reaction.some(each => each.kind === "statement" && each.statement.kind === "brake"))
+                continue;
+            const frame = this.stack.at(-1), rest = frame.routine.instructions.slice(frame.at);
+            const halts = rest.some(each => each.kind === "statement" && each.statement.kind === "halt");
+            if (this.stack.length > 1)
+                frame.at = frame.routine.instructions.length;
+            return { when: this.lines.condition(condition, variable => keyOf(variable, this), each => numberOf(each, this)), missing: halts && this.stack.length > 1 ? "fault" : "continue" };
+        }
+        return undefined;
+    }
+    switchInterrupt({ on, number }) {
+        const which = number === undefined ? undefined : numberOf(number, this);
+        for (const [key, interrupt] of this.interrupts)
+            if (which === undefined || key === which)
+                interrupt.on = on;
+    }
+    callRoutine(statement) {
+        const { name, args } = statement, routine = this.source.routines.get(name);
+        if (routine !== undefined) {
+            this.enter(routine, args, statement);
+            return this.note(statement);
+        }
+        if (name === "BAS") {
+            BAS(args, this.state.system, this, statement);
+            return this.note(statement);
+        }
+        if (name === "MSGNOTIFY") {
+            const text = args[0] === undefined ? undefined : evaluate(args[0], this);
+            return this.step(statement, { id: this.stepId(statement.line), type: "message", text: text?.kind === "text" ? text.value : "" });
+        }
+        if (!QUIET_ROUTINES.has(name))
+            throw new TextError(statement, "a routine of this text", `Routine ${name} is not in this text.`);
+        this.note(statement);
+    }
+    // What comes out ------------------------------------------------------------------------------------------------------
+    /** Hands out the motion that was waiting for what comes after it. */
+    settle(goesOn) {
+        const { pending } = this;
+        if (pending === undefined)
+            return;
+        this.pending = undefined;
+        this.ready.push({ line: pending.line, step: goesOn ? { ...pending.step, ...pending.passing } : pending.step }, ...this.since.splice(0));
+    }
+    note({ line }) {
+        if (this.pending === undefined)
+            this.ready.push({ line });
+        else
+            this.since.push({ line });
+    }
+    step({ line }, step) {
+        this.idle = 0;
+        if (this.pending === undefined)
+            this.ready.push({ line, step });
+        else
+            this.since.push({ line, step });
+    }
+    /** L12, and L12.2 when line 12 is executed again. */
+    stepId(line) {
+        const time = (this.times.get(line) ?? 0) + 1;
+        this.times.set(line, time);
+        return time === 1 ? `L${line}` : `L${line}.${time}`;
+    }
+    spend(at) {
+        if (++this.idle <= STATEMENTS_WITHOUT_MOTION)
+            return;
+        if (this.lines.asked)
+            throw new WaitsOutside(at);
+        throw new TextError(at, "a motion, a wait or an end", `The program has executed ${STATEMENTS_WITHOUT_MOTION} statements without a motion: it runs on the spot for ever.`);
+    }
+}

@@ -1,0 +1,119 @@
+import { TextError } from "../../text/index.ts";
+import { NULL_FRAME } from "./frames.ts";
+import { component, fromFrame, real, toFrame, whole } from "./values.ts";
+/** $VEL_AXIS has twelve places: six of the robot, six of external axes. */
+const PLACES = 12, AXES = 6;
+/** What $config.dat holds on delivery; a real cell may have other numbers. */
+const DELIVERED_VEL_CP = 2, DELIVERED_ACC_CP = 2.3, DELIVERED_APO_MM = 100;
+const structure = (type, fields) => ({ kind: "structure", type, fields: new Map(Object.entries(fields).map(([name, value]) => [name, real(value)])) });
+/** Variables that a program expects to find on the controller. */
+const DELIVERED = {
+    XHOME: structure("E6AXIS", { A1: 0, A2: -90, A3: 90, A4: 0, A5: 0, A6: 0 }),
+    $NULLFRAME: fromFrame(NULL_FRAME),
+    DEF_VEL_PTP: whole(100), DEF_ACC_PTP: whole(100), DEF_VEL_CP: real(DELIVERED_VEL_CP), DEF_ACC_CP: real(DELIVERED_ACC_CP),
+    PDEFAULT: structure("PDAT", { VEL: 100, ACC: 100, APO_DIST: 100 }),
+    LDEFAULT: structure("LDAT", { VEL: DELIVERED_VEL_CP, ACC: 100, APO_DIST: 100 }),
+    FHOME: structure("FDAT", { TOOL_NO: 0, BASE_NO: 0 }),
+};
+const TABLE = /^(?:TOOL|BASE)_DATA\[([0-9]+)\]$/;
+/** The system variables that decide how and where the robot moves. */
+export class System {
+    values = new Map();
+    /** Names of what was taken as it is on delivery, with the line that asked for it. */
+    assumed = new Map();
+    warned = [];
+    tool = { name: "", frame: NULL_FRAME };
+    base = { name: "", frame: NULL_FRAME };
+    constructor() { this.initialize(); }
+    /** BAS(#INITMOV,0) */
+    initialize() {
+        for (let i = 1; i <= AXES; i++) {
+            this.values.set(`$VEL_AXIS[${i}]`, whole(100));
+            this.values.set(`$ACC_AXIS[${i}]`, whole(100));
+        }
+        this.values.set("$VEL", structure("CP", { CP: DELIVERED_VEL_CP }));
+        this.values.set("$ACC", structure("CP", { CP: DELIVERED_ACC_CP }));
+        this.values.set("$APO", structure("APO", { CDIS: DELIVERED_APO_MM, CPTP: 100 }));
+        this.setFrame("$TOOL", fromFrame(NULL_FRAME), "", { line: 1, column: 1 });
+        this.setFrame("$BASE", fromFrame(NULL_FRAME), "", { line: 1, column: 1 });
+    }
+    read(key, at) {
+        const value = this.values.get(key);
+        if (value !== undefined)
+            return value;
+        const table = TABLE.exec(key);
+        const delivered = Object.hasOwn(DELIVERED, key) ? DELIVERED[key] : table === null ? undefined : fromFrame(NULL_FRAME);
+        if (delivered !== undefined && key !== "$NULLFRAME" && table?.[1] !== "0" && !this.assumed.has(key))
+            this.assumed.set(key, at);
+        return delivered;
+    }
+    write(key, value, at, source) {
+        const axis = /^\$(?:VEL|ACC)_AXIS(?:\[([0-9]+)\])?$/.exec(key);
+        if (axis !== null)
+            return this.setAxis(key, Number(axis[1]), value, at);
+        if (key === "$TOOL" || key === "$BASE")
+            return this.setFrame(key, value, source, at);
+        this.values.set(key, value);
+    }
+    setAxis(key, index, value, at) {
+        if (!(index >= 1 && index <= PLACES))
+            throw new TextError(at, `an axis from 1 to ${PLACES}`, `${key} is no axis of the controller.`);
+        if (value.kind !== "number" || !(value.value >= 0.5 && value.value <= 100))
+            throw new TextError(at, "a number from 1 to 100", `${key} takes 1 to 100 percent.`);
+        if (index > AXES)
+            this.warned.push({ at, sentence: `${key} is an external axis: the robot has ${AXES} axes.` });
+        this.values.set(key, whole(Math.round(value.value)));
+    }
+    setFrame(key, value, source, at) {
+        if (value.kind !== "structure")
+            throw new TextError(at, "a frame", `${key} takes a frame.`);
+        const named = { name: source, frame: toFrame(value, undefined, at) };
+        this.values.set(key, value);
+        if (key === "$TOOL")
+            this.tool = named;
+        else
+            this.base = named;
+    }
+    /** BAS(#TOOL,n) and BAS(#BASE,n): the frame of that number; 0 and -1 are none. */
+    choose(which, index, at) {
+        const key = `${which}_DATA[${index}]`;
+        if (!Number.isInteger(index) || index < -1)
+            throw new TextError(at, "a number from 0", `${key} is no place of the table.`);
+        const value = index <= 0 ? fromFrame(NULL_FRAME) : this.read(key, at);
+        this.setFrame(`$${which}`, value, index <= 0 ? "" : key, at);
+    }
+    /** Share of the axis speeds: that of the slowest axis. */
+    get velocityRatio() { return this.least("$VEL_AXIS"); }
+    get accelerationRatio() { return this.least("$ACC_AXIS"); }
+    get pathSpeed_mps() { return component(this.part("$VEL"), "CP") ?? DELIVERED_VEL_CP; }
+    /** Share of the acceleration that the controller's DEF_ACC_CP stands for. */
+    get pathAccelerationRatio() {
+        const full = this.values.get("DEF_ACC_CP"), full_mps2 = full?.kind === "number" ? full.value : DELIVERED_ACC_CP;
+        return (component(this.part("$ACC"), "CP") ?? full_mps2) / full_mps2;
+    }
+    get approximation_m() { return (component(this.part("$APO"), "CDIS") ?? DELIVERED_APO_MM) / 1000; }
+    get approximationRatio() { return (component(this.part("$APO"), "CPTP") ?? 100) / 100; }
+    least(name) {
+        let least = 100;
+        for (let i = 1; i <= AXES; i++) {
+            const value = this.values.get(`${name}[${i}]`);
+            if (value?.kind === "number")
+                least = Math.min(least, value.value);
+        }
+        return least / 100;
+    }
+    part(name) {
+        const value = this.values.get(name);
+        return value?.kind === "structure" ? value : structure("", {});
+    }
+    setAxes(name, percent, at) {
+        for (let i = 1; i <= AXES; i++)
+            this.setAxis(`${name}[${i}]`, i, real(percent), at);
+    }
+    setPart(name, part, value) {
+        const now = this.part(name);
+        this.values.set(name, { ...now, fields: new Map(now.fields).set(part, real(value)) });
+    }
+}
+/** How a variable is spelled, for the name of a tool or a base: `TOOL_DATA[1]`. */
+export const spelling = ({ parts }) => parts.map(({ name, indices }) => `${name}${indices.map(index => index.kind === "number" ? `_${index.value}` : "").join("")}`).join("_");

@@ -1,0 +1,59 @@
+import { frameText } from "./location.ts";
+import { krlName } from "./names.ts";
+import { TextWriter } from "./text-writer.ts";
+const GRIPPER = "GRIPPER";
+const WIRES = { "digital-in": "$IN", "digital-out": "$OUT", "analogue-in": "$ANIN", "analogue-out": "$ANOUT" };
+/** The data list of a module: what a person may touch up on the pendant without looking at the program. */
+export class DataList {
+    /** Every name of the module: points, frames, signals, counters, routines. */
+    taken = new Set([GRIPPER]);
+    frames = new Map();
+    hasGripper = false;
+    signals = new Map();
+    declared = [];
+    /** The name under which a frame is kept; declared when it is asked for first. `key` tells frames apart that are called the same. */
+    frame(prefix, name, pose) {
+        const key = `${prefix}${name}`, known = this.frames.get(key);
+        if (known !== undefined)
+            return known;
+        const variable = krlName(name, this.taken, prefix);
+        this.frames.set(key, variable);
+        this.add(`DECL FRAME ${variable}={${frameText(pose())}}`);
+        return variable;
+    }
+    signal(name, { kind, address }) {
+        const known = this.signals.get(name);
+        if (known !== undefined)
+            return known;
+        const variable = krlName(name, this.taken);
+        this.signals.set(name, variable);
+        this.add(`SIGNAL ${variable} ${WIRES[kind]}[${address}]`);
+        return variable;
+    }
+    /** The output of the gripper, whose name says what it is. */
+    gripper(address) {
+        if (!this.hasGripper)
+            this.add(`SIGNAL ${GRIPPER} $OUT[${address}]`);
+        this.hasGripper = true;
+        return GRIPPER;
+    }
+    counter(name) {
+        const variable = krlName(name, this.taken);
+        this.add(`DECL INT ${variable}=0`);
+        return variable;
+    }
+    add(line, step = "") { this.declared.push({ line, step }); }
+    file(name) {
+        const out = new TextWriter();
+        out.add("&ACCESS RVP");
+        out.add("&REL 1");
+        out.add(`DEFDAT ${name}`);
+        out.depth = 1;
+        out.add("EXT BAS(BAS_COMMAND :IN,REAL :IN)");
+        for (const { line, step } of this.declared)
+            out.add(line, step);
+        out.depth = 0;
+        out.add("ENDDAT");
+        return out.file(`${name}.dat`);
+    }
+}

@@ -1,0 +1,305 @@
+import { compose, distance, inverse, } from "@twincell/core";
+import { asciiText, singleText } from "../../text/index.ts";
+import { DataList } from "./data.ts";
+import { principal } from "./inertia.ts";
+import { axisText, frameText, lengthText } from "./location.ts";
+import { commentText, krlName } from "./names.ts";
+import { PalletLoop } from "./pallet.ts";
+import { Settings } from "./settings.ts";
+import { TextWriter } from "./text-writer.ts";
+/** Interrupts of searches begin here; smaller numbers are the controller's and the cell's. */
+const FIRST_INTERRUPT = 21;
+/** Standard beginning of every module: stop messages are dealt with, speeds and frames as delivered. */
+const INI = [
+    ";FOLD INI", "GLOBAL INTERRUPT DECL 3 WHEN $STOPMESS==TRUE DO IR_STOPM( )", "INTERRUPT ON 3", "BAS(#INITMOV,0)", ";ENDFOLD (INI)",
+];
+/** The module: a .src that says only what changes from one step to the next, and the .dat with its points. */
+export class ModuleWriter {
+    data = new DataList();
+    program;
+    place;
+    convention;
+    postures;
+    name;
+    gripper;
+    routineNames = new Map();
+    palletBases = new Map();
+    /** Routines of searches, behind the program. */
+    behind = new TextWriter();
+    settings;
+    out = new TextWriter();
+    group = "";
+    points = 0;
+    searches = 0;
+    isMain = true;
+    constructor(place, convention, postures, gripper) {
+        this.program = place.program;
+        this.place = place;
+        this.convention = convention;
+        this.postures = postures;
+        this.gripper = gripper;
+        this.settings = new Settings(place.robot.maxTcpSpeed_mps);
+        this.name = krlName(place.program.name, this.data.taken);
+        for (const name of Object.keys(place.program.routines))
+            this.routineNames.set(name, krlName(name, this.data.taken));
+    }
+    write() {
+        const { out, program } = this;
+        out.add("&ACCESS RVP");
+        out.add("&REL 1");
+        out.add(`&COMMENT ${asciiText(program.name)}`);
+        out.add(`DEF ${this.name}( )`);
+        out.depth = 1;
+        for (const line of INI)
+            out.add(line);
+        this.steps(program.steps, undefined);
+        this.fold("");
+        out.depth = 0;
+        out.add("END");
+        this.isMain = false;
+        for (const [name, steps] of Object.entries(program.routines))
+            this.routine(this.routineNames.get(name), steps);
+        out.append(this.behind.collected);
+        return [out.file(`${this.name}.src`), this.data.file(this.name)];
+    }
+    routine(name, steps) {
+        const { out } = this;
+        out.add("");
+        out.add(`DEF ${name}( )`);
+        out.depth = 1;
+        this.settings.forget();
+        this.steps(steps, undefined);
+        this.fold("");
+        out.depth = 0;
+        out.add("END");
+    }
+    /** @param after  what follows the list, where that is known. */
+    steps(steps, after) {
+        for (let i = 0; i < steps.length; i++) {
+            const step = steps[i], next = steps.slice(i + 1).find(({ type }) => type !== "comment") ?? after;
+            if (step.type !== "move" || step.path !== "spline") {
+                this.step(step, next, steps.slice(0, i).findLast(({ type }) => type !== "comment"));
+                continue;
+            }
+            const block = [step];
+            for (let following = steps[i + 1]; following?.type === "move" && following.path === "spline" && toolName(following) === toolName(step); following = steps[i + 1]) {
+                block.push(following);
+                i++;
+            }
+            this.spline(block, steps.slice(i + 1).find(({ type }) => type !== "comment") ?? after);
+        }
+    }
+    step(step, next, before) {
+        const add = (line) => { this.out.add(line, step.id); };
+        this.title(step);
+        switch (step.type) {
+            case "move": return this.move(step, next, before);
+            case "wait": return add(`WAIT SEC ${singleText(step.s)}`);
+            case "gripper": return add(`${this.data.gripper(this.gripper)}=${step.closed ? "TRUE" : "FALSE"}`);
+            case "set": return add(this.set(step));
+            case "wait-for": return add(`WAIT FOR ${this.condition(step.when)}`);
+            case "payload": return add(payloadText(step));
+            case "message": return add(`MsgNotify("${asciiText(step.text).replace(/"/g, "'")}")`);
+            case "stop": return this.block(step.id, "LOOP", () => { add("HALT"); }, "ENDLOOP");
+            case "comment": return add(`;* ${commentText(step.text)}`);
+            case "call":
+                add(`${this.routineNames.get(step.routine)}( )`);
+                return this.settings.forget();
+            case "repeat": {
+                const head = step.times === "forever" ? "LOOP" : `FOR ${this.data.counter(`ROUND_${step.name ?? this.out.collected.lines.length}`)}=1 TO ${step.times}`;
+                return this.block(step.id, head, () => { this.steps(step.steps, undefined); }, step.times === "forever" ? "ENDLOOP" : "ENDFOR");
+            }
+            case "if":
+                this.block(step.id, `IF ${this.condition(step.when)} THEN`, () => { this.steps(step.then, next); }, step.else === undefined ? "ENDIF" : "");
+                if (step.else !== undefined)
+                    this.block(step.id, "ELSE", () => { this.steps(step.else, next); }, "ENDIF");
+                return;
+            case "pallet": return this.pallet(step);
+        }
+    }
+    /** A block is entered and left from several sides: what the controller keeps is said again inside and behind. */
+    block(id, head, body, end) {
+        this.out.add(head, id);
+        this.out.depth++;
+        this.settings.forget();
+        const { group } = this;
+        this.group = "";
+        body();
+        this.fold("");
+        this.group = group;
+        this.settings.forget();
+        this.out.depth--;
+        if (end !== "")
+            this.out.add(end, id);
+    }
+    pallet(step) {
+        const loop = new PalletLoop(step, this.program.pallets[step.pallet], this.out, this.data, this.place);
+        loop.begin();
+        this.palletBases.set(step.pallet, loop.base);
+        this.settings.forget();
+        const { group } = this;
+        this.group = "";
+        this.steps(step.steps, undefined);
+        this.fold("");
+        this.group = group;
+        this.settings.forget();
+        this.palletBases.delete(step.pallet);
+        loop.end();
+    }
+    /** Name and group of a step. */
+    title(step) {
+        this.fold(step.group === undefined ? "" : commentText(this.program.groups[step.group]?.name ?? step.group));
+        const name = commentText(step.name ?? "");
+        if (name !== "")
+            this.out.add(`;${name}`, step.id);
+    }
+    fold(group) {
+        if (group === this.group)
+            return;
+        if (this.group !== "")
+            this.out.add(`;ENDFOLD (${this.group})`);
+        if (group !== "")
+            this.out.add(`;FOLD ${group}`);
+        this.group = group;
+    }
+    set({ signal, to, pulse_s }) {
+        const variable = this.signal(signal), value = typeof to === "number" ? singleText(to) : to ? "TRUE" : "FALSE";
+        return pulse_s === undefined ? `${variable}=${value}` : `PULSE(${variable},${value},${singleText(pulse_s)})`;
+    }
+    signal(name) { return this.data.signal(name, this.program.signals[name]); }
+    condition(when) {
+        const variable = this.signal(when.signal);
+        if ("is" in when)
+            return when.is ? variable : `NOT ${variable}`;
+        return "above" in when ? `${variable}>${singleText(when.above)}` : `${variable}<${singleText(when.below)}`;
+    }
+    // Motion --------------------------------------------------------------------------------------------------------------
+    move(step, next, before) {
+        const add = (line) => { this.out.add(line, step.id); };
+        const base = this.baseOf(step), tool = toolName(step) ?? "flange";
+        // Joint angles are what they are with any tool and in any base.
+        if (!("q" in step.target && step.path === "ptp"))
+            this.frames(step.id, tool, base);
+        else if (toolName(step) !== undefined)
+            this.frames(step.id, tool, this.settings.base);
+        for (const line of this.settings.pace(step))
+            add(line);
+        const goesOn = step.until === undefined && this.goesOn(next), passing = this.settings.passing(goesOn ? step : { ...step, blend_ratio: 0 }, goesOn ? this.blend(step, before, next) : 0);
+        for (const line of passing.lines)
+            add(line);
+        const word = step.path === "ptp" ? "PTP" : step.path === "circ" ? "CIRC" : "LIN";
+        const point = this.point(step, step.target, base, tool, "");
+        const via = step.path === "circ" && step.via !== undefined ? `${this.point(step, step.via, base, tool, "_VIA")},` : "";
+        const line = `${word} ${via}${point}${passing.word}`;
+        if (step.until === undefined)
+            add(line);
+        else
+            this.search(step, line);
+    }
+    spline(block, next) {
+        const [first] = block, last = block.at(-1), bases = new Set(block.map(step => this.baseOf(step)));
+        // One block has one base.
+        const base = bases.size === 1 ? this.baseOf(first) : "world", tool = toolName(first) ?? "flange";
+        this.frames(first.id, tool, base);
+        const passing = this.settings.passing({ ...last, blend_ratio: 0 }, this.goesOn(next) ? this.blend(last, block.at(-2), next) : 0);
+        for (const line of passing.lines)
+            this.out.add(line, last.id);
+        this.title(first);
+        this.out.add("SPLINE", first.id);
+        this.out.depth++;
+        for (const [i, step] of block.entries()) {
+            if (i > 0)
+                this.title(step);
+            const settings = this.settings.once(step);
+            this.out.add(`SPL ${this.point(step, step.target, base, tool, "")}${settings.length === 0 ? "" : ` WITH ${settings.join(",")}`}`, step.id);
+        }
+        this.out.depth--;
+        this.out.add(`ENDSPLINE${passing.word === "" ? "" : " C_SPL"}`, last.id);
+    }
+    frames(id, tool, base) {
+        const { settings, data, place } = this;
+        if (tool !== settings.tool)
+            this.out.add(tool === "flange" ? "$TOOL=$NULLFRAME" : `$TOOL=${data.frame("TOOL_", tool, () => place.tool(tool))}`, id);
+        settings.tool = tool;
+        if (base === undefined || base === settings.base)
+            return;
+        const pallet = this.palletBases.get(base);
+        this.out.add(base === "world" ? "$BASE=$NULLFRAME" : `$BASE=${pallet ?? data.frame("BASE_", base, () => compose(place.vendorFromWorld, place.worldFromFrame(base)))}`, id);
+        settings.base = base;
+    }
+    /** The frame that the points of a step are written in. Joint angles and points of the world count from the robot. */
+    baseOf({ target }) {
+        if ("q" in target)
+            return "world";
+        return target.frame === "world" || (!this.palletBases.has(target.frame) && !Object.hasOwn(this.program.frames, target.frame)) ? "world" : target.frame;
+    }
+    /** Declares a point and returns its name. */
+    point(step, target, base, tool, suffix) {
+        if (suffix === "")
+            this.points++;
+        const variable = krlName(`${step.name === undefined ? `P${this.points}` : commentText(step.name)}${suffix}`, this.data.taken, "X");
+        if ("q" in target && step.path === "ptp") {
+            this.data.add(`DECL E6AXIS ${variable}={${axisText(target.q, this.convention)}}`, step.id);
+            return variable;
+        }
+        const pose = frameText(this.inBase(target, base, tool)), posture = suffix === "" ? this.postures.get(step.id) : undefined;
+        const status = posture?.status === undefined ? "" : `,S ${posture.status}`, turn = posture?.turn === undefined || step.path !== "ptp" ? "" : `,T ${posture.turn}`;
+        this.data.add(`DECL E6POS ${variable}={${pose}${status}${turn}}`, step.id);
+        return variable;
+    }
+    inBase(target, base, tool) {
+        if ("pose" in target && target.frame === base && base !== "world")
+            return target.pose;
+        const { place } = this, rootFromTcp = compose(place.vendorFromWorld, place.worldFromTarget(target, tool));
+        if (base === "world")
+            return rootFromTcp;
+        return compose(inverse(place.worldFromFrame(base)), place.worldFromTarget(target, tool));
+    }
+    /** A motion in a routine of its own, which an interrupt leaves as soon as the signal is met. */
+    search(step, line) {
+        const { taken } = this.data, n = FIRST_INTERRUPT + this.searches++, name = krlName(`SEARCH_${this.searches}`, taken), met = krlName(`MET_${this.searches}`, taken);
+        const add = (text) => { this.out.add(text, step.id); };
+        add(`INTERRUPT DECL ${n} WHEN ${this.condition(step.until.when)} DO ${met}( )`);
+        add(`INTERRUPT ON ${n}`);
+        add(`${name}( )`);
+        add(`INTERRUPT OFF ${n}`);
+        const { behind } = this;
+        const body = [`DEF ${name}( )`, `  ${line}`, "  WAIT SEC 0", ...(step.until.missing === "fault" ? ["  LOOP", "    HALT", "  ENDLOOP"] : []), "END", "", `DEF ${met}( )`, `  INTERRUPT OFF ${n}`, "  BRAKE", "  RESUME", "END"];
+        behind.add("");
+        for (const text of body)
+            behind.add(text, step.id);
+        // Wherever the search ended, what follows starts from there.
+    }
+    /** Whether the robot goes from a motion into what follows without a stop. */
+    goesOn(next) {
+        switch (next?.type) {
+            case undefined: return !this.isMain;
+            case "move": return true;
+            case "repeat":
+            case "pallet": return this.goesOn(next.steps.find(({ type }) => type !== "comment"));
+            case "call": return this.goesOn(this.program.routines[next.routine]?.find(({ type }) => type !== "comment"));
+            default: return false;
+        }
+    }
+    /** The distance at which a path is left. A share is turned into one by the chords to the points before and behind. */
+    blend(step, before, next) {
+        const { blend_m, blend_ratio = 0 } = step;
+        if (!(blend_ratio > 0))
+            return blend_m;
+        const at = (each) => this.place.worldFromTarget(each.target, each.target.tool ?? "flange").position, chords = [];
+        if (before?.type === "move")
+            chords.push(distance(at(before), at(step)));
+        if (next?.type === "move")
+            chords.push(distance(at(step), at(next)));
+        return chords.length === 0 ? 0 : blend_ratio * Math.min(...chords) / 2;
+    }
+}
+/** The tool that a step needs: on a path the tip, on a joint motion to joint angles any. */
+function toolName({ path, target }) {
+    return target.tool ?? (path === "ptp" ? undefined : "flange");
+}
+function payloadText({ mass_kg, center_m, inertia_kgm2 }) {
+    const [x, y, z] = center_m.map(lengthText), main = principal(inertia_kgm2 ?? [0, 0, 0, 0, 0, 0]);
+    const [a, b, c] = main.abc_deg.map(singleText), [jx, jy, jz] = main.moments.map(singleText);
+    return `$LOAD={M ${singleText(mass_kg)},CM {X ${x},Y ${y},Z ${z},A ${a},B ${b},C ${c}},J {X ${jx},Y ${jy},Z ${jz}}}`;
+}

@@ -1,0 +1,3 @@
+/** A list has no blocks. */
+const NONE = /(?!)/;
+export const LINES = { motion: /^\s*MOVE\b/i, opens: NONE, parts: NONE, closes: NONE, keeps: /^\s*(?:POSES|ROBOT)\b/i };

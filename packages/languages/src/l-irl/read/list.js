@@ -1,0 +1,155 @@
+import { compose, identity } from "@twincell/core";
+import { TextError, plainText, textFault, textLines } from "../../text/index.ts";
+import { Cursor } from "./cursor.ts";
+import { poseOf, readHeader } from "./header.ts";
+import { readMove } from "./move.ts";
+/** More faults than this are not told at once. */
+const MOST_FAULTS = 50;
+/** Most lines hold nothing that would have to be replaced. */
+const PLAIN = /^[ -~]*$/;
+const STATEMENTS = "MOVE, WAIT, GRIPPER, POSE, TOOL, FRAME, GROUP, ROBOT, PROGRAM, a comment or six numbers";
+/**
+ * Reads a list line by line and goes on behind a fault, so that all of them are told at once.
+ *
+ * @param robot  whose joints the list counts; without one it may hold no joint values.
+ */
+export function readPoseList(text, robot, worldFromBase) {
+    const reader = new ListReader(robot, worldFromBase), faults = [];
+    for (const [i, raw] of textLines(text).entries()) {
+        try {
+            reader.line(PLAIN.test(raw) ? raw : plainText(raw), i + 1);
+        }
+        catch (cause) {
+            if (!(cause instanceof TextError))
+                throw cause;
+            faults.push(cause.fault);
+            // Without its first line no number below means anything.
+            if (reader.header === undefined || faults.length >= MOST_FAULTS)
+                break;
+        }
+    }
+    if (faults.length === 0 && reader.header === undefined)
+        faults.push(textFault({ line: 1, column: 1 }, "POSES 1 MM DEG ZYX BASE", "The text holds no line that says its units and angles, with which a pose list begins."));
+    return faults.length > 0 ? { kind: "not-understood", faults } : { kind: "list", list: reader };
+}
+export class ListReader {
+    header;
+    program = "Pose list";
+    tools = new Map();
+    frames = new Map();
+    groups = new Map();
+    poses = new Map();
+    steps = [];
+    robot;
+    worldFromBase;
+    worldFromOrigin = identity();
+    constructor(robot, worldFromBase) {
+        this.robot = robot;
+        this.worldFromBase = worldFromBase;
+    }
+    /** @throws {TextError} where the line is not understood. */
+    line(text, line) {
+        const cursor = new Cursor(text, line);
+        if (cursor.done)
+            return;
+        if (cursor.atComment) {
+            this.comment(cursor, line);
+            return;
+        }
+        if (this.header === undefined) {
+            this.header = readHeader(cursor);
+            if (this.header.from === "BASE")
+                this.worldFromOrigin = compose(this.worldFromBase, identity());
+            return;
+        }
+        if (cursor.atNumber)
+            this.addPose({ line, column: 1 }, this.freePoseName(), this.fromOrigin(six(cursor), this.header));
+        else
+            this.statement(cursor, line, this.header);
+        if (cursor.atComment)
+            cursor.comment();
+        cursor.expectEnd();
+    }
+    fromOrigin(numbers, header) {
+        return compose(this.worldFromOrigin, poseOf(numbers, header));
+    }
+    statement(cursor, line, header) {
+        const id = `s${this.steps.length + 1}`;
+        if (cursor.accept("MOVE")) {
+            this.add(line, { ...readMove(cursor, this, header, id), ...this.labels(cursor) });
+            return;
+        }
+        if (cursor.accept("WAIT")) {
+            this.add(line, { id, type: "wait", s: atLeastZero(cursor, "a time in seconds"), ...this.labels(cursor) });
+            return;
+        }
+        if (cursor.accept("GRIPPER")) {
+            this.add(line, { id, type: "gripper", closed: cursor.oneOf(["CLOSE", "OPEN"]) === "CLOSE", ...this.labels(cursor) });
+            return;
+        }
+        const { here } = cursor;
+        if (cursor.accept("POSE")) {
+            const at = cursor.here, name = cursor.name("the name of the pose");
+            this.addPose(at, name, this.fromOrigin(six(cursor), header));
+        }
+        else if (cursor.accept("TOOL"))
+            define(this.tools, cursor, "tool", "flange", () => poseOf(six(cursor), header));
+        else if (cursor.accept("FRAME"))
+            define(this.frames, cursor, "frame", "world", () => this.fromOrigin(six(cursor), header));
+        else if (cursor.accept("GROUP"))
+            define(this.groups, cursor, "group", undefined, () => ({ name: cursor.name("the title of the group") }));
+        else if (cursor.accept("PROGRAM"))
+            this.program = cursor.name("the name of the program");
+        else if (cursor.accept("ROBOT"))
+            this.isFor(here, cursor.name("the name of a robot"));
+        else
+            throw cursor.unexpected(STATEMENTS);
+    }
+    add(line, step) { this.steps.push({ line, step }); }
+    addPose(at, name, worldFromTcp) {
+        if (this.poses.has(name))
+            throw new TextError(at, "a name used once", `The pose ${name} is in the list twice.`);
+        this.poses.set(name, { worldFromTcp, line: at.line });
+    }
+    freePoseName() {
+        let count = this.poses.size + 1;
+        while (this.poses.has(`P${count}`))
+            count++;
+        return `P${count}`;
+    }
+    isFor(at, id) {
+        if (this.robot !== undefined && this.robot.id !== id)
+            throw new TextError(at, `the robot ${this.robot.id}`, `The list is for the robot ${id}, and its joint values are not those of the ${this.robot.name}.`);
+    }
+    /** A comment is a step, unless the list speaks of itself: then it begins with a star. */
+    comment(cursor, line) {
+        const text = cursor.comment(), labels = this.header === undefined ? {} : this.labels(cursor);
+        cursor.expectEnd();
+        if (this.header !== undefined && !text.startsWith("*"))
+            this.add(line, { id: `s${this.steps.length + 1}`, type: "comment", text, ...labels });
+    }
+    labels(cursor) {
+        const name = cursor.accept("NAME") ? { name: cursor.name("the name of the step") } : {};
+        if (!cursor.accept("GROUP"))
+            return name;
+        const { here } = cursor, group = cursor.name("the name of a group");
+        if (!this.groups.has(group))
+            throw new TextError(here, "a GROUP of the list", `The list has no line GROUP ${group}.`);
+        return { ...name, group };
+    }
+}
+const six = (cursor) => cursor.numbers(6, "number");
+function define(things, cursor, sort, reserved, value) {
+    const { here } = cursor, name = cursor.name(`the name of the ${sort}`);
+    if (name === reserved)
+        throw new TextError(here, `another name than ${name}`, `The ${sort} ${name} is always there and cannot be changed.`);
+    if (things.has(name))
+        throw new TextError(here, "a name used once", `The ${sort} ${name} is in the list twice.`);
+    things.set(name, value());
+}
+function atLeastZero(cursor, what) {
+    const { here } = cursor, value = cursor.number(what);
+    if (!(value >= 0))
+        throw new TextError(here, `${what}, 0 or more`, `${value} is less than 0.`);
+    return value;
+}

@@ -1,0 +1,104 @@
+import { compose, identity, isSlide } from "@twincell/core";
+import { TextError } from "../../text/index.ts";
+import { poseOf } from "./header.ts";
+const PATHS = { PTP: "ptp", LIN: "lin", CIRCLE: "circ", SPLINE: "spline" };
+/** What stands behind MOVE, up to the labels. */
+export function readMove(cursor, around, header, id) {
+    const path = PATHS[cursor.oneOf(["PTP", "LIN", "CIRCLE", "SPLINE"])];
+    const via = path === "circ" ? readVia(cursor, around, header) : {};
+    const target = readTarget(cursor, around, header), speed = readSpeed(cursor);
+    const acceleration = cursor.accept("ACC") ? { acceleration: { ratio: readShare(cursor) } } : {};
+    return { id, type: "move", path, target, ...via, speed, ...acceleration, ...readBlend(cursor) };
+}
+function readVia(cursor, around, header) {
+    cursor.expect("VIA");
+    const via = readTarget(cursor, around, header);
+    cursor.expect("TO");
+    return { via };
+}
+function readTarget(cursor, around, header) {
+    const sort = cursor.oneOf(["JOINTS", "POSE", "AT"]);
+    if (sort === "JOINTS") {
+        const q = readJoints(cursor, around.robot, header), tool = readTool(cursor, around);
+        return tool === undefined ? { q } : { q, tool };
+    }
+    const { frame, pose } = sort === "AT" ? readNamed(cursor, around) : readPlace(cursor, around, header);
+    const tool = readTool(cursor, around) ?? "flange";
+    return { pose, frame, tool, ...(cursor.accept("BRANCH") ? { branch: readBranch(cursor, header) } : {}) };
+}
+function readJoints(cursor, robot, { unit_m, unit_rad }) {
+    if (robot === undefined)
+        throw cursor.unexpected("a pose, since no robot is known whose joints these are");
+    return cursor.numbers(robot.arm.joints.length, "joint value").map((value, i) => value * (isSlide(robot.arm.joints[i]) ? unit_m : unit_rad));
+}
+const inWorld = (worldFromTcp) => ({ frame: "world", pose: compose(identity(), worldFromTcp) });
+/** A frame stands behind the numbers that count from it. */
+function readPlace(cursor, around, header) {
+    const numbers = cursor.numbers(6, "number");
+    if (!cursor.accept("IN"))
+        return inWorld(around.fromOrigin(numbers, header));
+    const { here } = cursor, frame = cursor.name("the name of a frame");
+    if (!around.frames.has(frame))
+        throw new TextError(here, "a FRAME of the list", `The list has no line FRAME ${frame} above this one.`);
+    return { frame, pose: poseOf(numbers, header) };
+}
+function readNamed(cursor, { poses }) {
+    const { here } = cursor, name = cursor.name("the name of a pose"), named = poses.get(name);
+    if (named === undefined)
+        throw new TextError(here, "a POSE of the list", `The list has no line POSE ${name} above this one.`);
+    return inWorld(named.worldFromTcp);
+}
+function readTool(cursor, { tools }) {
+    if (!cursor.accept("TOOL"))
+        return undefined;
+    const { here } = cursor, tool = cursor.name("the name of a tool");
+    if (tool !== "flange" && !tools.has(tool))
+        throw new TextError(here, "a TOOL of the list", `The list has no line TOOL ${tool} above this one.`);
+    return tool;
+}
+function readBranch(cursor, { unit_rad }) {
+    const shoulder = cursor.oneOf(["FRONT", "BACK"]) === "FRONT" ? "front" : "back", elbow = cursor.oneOf(["UP", "DOWN"]) === "UP" ? "up" : "down", wrist = readSign(cursor);
+    const determinant = cursor.accept("DET") ? { determinant: readSign(cursor) } : {};
+    return { shoulder, elbow, wrist, ...determinant, ...(cursor.accept("ELBOW") ? { elbow_rad: cursor.number("an angle") * unit_rad } : {}) };
+}
+const readSign = (cursor) => cursor.oneOf(["POSITIVE", "NEGATIVE"]) === "POSITIVE" ? "positive" : "negative";
+function readSpeed(cursor) {
+    if (cursor.accept("TIME"))
+        return { time_s: readPositive(cursor, "a time in seconds") };
+    if (!cursor.accept("SPEED"))
+        throw cursor.unexpected("SPEED or TIME");
+    const { here } = cursor, value = readPositive(cursor, "a speed");
+    if (!cursor.percent()) {
+        cursor.expect("MMPS");
+        return { mps: value / 1000 };
+    }
+    if (value > 100)
+        throw new TextError(here, "a speed of at most 100 %", `${value} % is more than the full speed.`);
+    return { ratio: value / 100 };
+}
+function readBlend(cursor) {
+    if (!cursor.accept("BLEND"))
+        return { blend_m: 0 };
+    const { here } = cursor, value = readPositive(cursor, "a blend");
+    if (!cursor.percent()) {
+        cursor.expect("MM");
+        return { blend_m: value / 1000 };
+    }
+    if (value > 100)
+        throw new TextError(here, "a blend of at most 100 %", `${value} % is more than half of the shorter path.`);
+    return { blend_m: 0, blend_ratio: value / 100 };
+}
+function readShare(cursor) {
+    const { here } = cursor, value = readPositive(cursor, "a share in per cent");
+    if (!cursor.percent())
+        throw cursor.unexpected("%");
+    if (value > 100)
+        throw new TextError(here, "a share of at most 100 %", `${value} % is more than all of it.`);
+    return value / 100;
+}
+function readPositive(cursor, what) {
+    const { here } = cursor, value = cursor.number(what);
+    if (!(value > 0))
+        throw new TextError(here, `${what}, more than 0`, `${value} is not more than 0.`);
+    return value;
+}

@@ -1,0 +1,18 @@
+import { skippingDialect } from "../text/index.ts";
+import { CANNOT, emitMelfa } from "./emit.ts";
+import { interpretMelfa, parseMelfa } from "./interpret.ts";
+import { LINES } from "./lines.ts";
+/** MELFA-BASIC V and VI of Mitsubishi's controllers. docs/languages/melfa-basic.md says what is known of it, and from where. */
+export const melfaBasic = skippingDialect({
+    id: "melfa-basic",
+    brand: "Mitsubishi",
+    name: "MELFA-BASIC",
+    extensions: [".prg"],
+    maturity: "experimental",
+    cannot: CANNOT,
+    resolution: { stopsAtNewTool: true },
+    emit: emitMelfa,
+    parse: parseMelfa,
+    interpret: interpretMelfa,
+    lines: LINES,
+});

@@ -1,0 +1,213 @@
+import { TextError } from "../../text/index.ts";
+import { BasicReader, readPlainArguments } from "../../text/basic/index.ts";
+const RULES = {
+    binary: { or: 1, xor: 1, and: 2, "=": 3, "<>": 3, "><": 3, "<": 3, ">": 3, "<=": 3, ">=": 3, "=<": 3, "=>": 3, "+": 4, "-": 4, "*": 5, "/": 5, mod: 5, "^": 7 },
+    prefix: { not: 2, "-": 6, "+": 6 },
+    constants: { on: true, off: false },
+    tags: [], index: "[", components: true,
+    reserved: new Set(["end if", "else", "elseif", "next", "wend", "end select", "case", "default", "then", "to", "step", "return"]),
+    args: (cursor, depth) => readPlainArguments(cursor, depth, RULES),
+};
+const elsewhere = (what) => `${what}, which is not executed here.`;
+const SIGNS = ["<=", ">=", "<>", "><", "=<", "=>", "(", ")", "[", "]", ",", ":", "=", "<", ">", "+", "-", "*", "/", "^", "&", ".", "#", "@", "?"];
+const GRAMMAR = {
+    lexicon: { comment: "'", quotes: "\"", doubled: false, lineEnds: true, signs: SIGNS, word: /end\s+select\b|[A-Za-z_][A-Za-z0-9_]*[%!$&#]?/iy },
+    expression: RULES,
+    alike: { endif: "end if" },
+    unsayable: {
+        goto: elsewhere("GoTo jumps"), callp: elsewhere("CallP starts a program of another file"), act: elsewhere("Act belongs to interrupts"), mva: elsewhere("Mva moves along an arch of the controller"), mvc: elsewhere("Mvc goes round a whole circle"),
+        mvr2: elsewhere("Mvr2 draws an arc beside a point"), mvr3: elsewhere("Mvr3 draws an arc around a centre"), mvspl: elsewhere("MvSpl keeps its path in a file"), jrc: elsewhere("JRC counts turns of a joint anew"), mxt: elsewhere("Mxt follows positions from outside"),
+        xrun: elsewhere("XRun starts another task"), trk: elsewhere("Trk follows a conveyor"), cmp: elsewhere("Cmp makes axes yield"), skip: elsewhere("Skip ends a motion by an appended condition"),
+    },
+};
+/** Instructions about the controller, of which a motion program keeps nothing. */
+const OF_THE_CONTROLLER = new Set(["servo", "def", "dim", "fine", "prec", "loadset", "oadl", "colchk", "collvl", "getm", "relm", "clr", "open", "close", "print", "input", "torq", "rem", "fprm", "error", "cnt0"]);
+const INSTRUCTIONS = new Set(["ovrd", "jovrd", "spd", "accel", "cnt", "dly", "hopen", "hclose"]);
+const MOTIONS = new Set(["mov", "mvs", "mvr"]);
+/** Reads MELFA-BASIC: one program, the routines behind it that it calls, and the list of its positions. */
+export const readMelfa = (text) => new MelfaReader(text).source();
+class MelfaReader extends BasicReader {
+    /** Labels that are called as routines. */
+    labels;
+    main;
+    constructor(text) {
+        // A # behind a number says that it is held in double precision.
+        super(text.replace(/(\d)#(?!\w)/g, "$1 "), GRAMMAR);
+        this.labels = new Set(Array.from(text.matchAll(/\bgosub\s*\*\s*(\w+)/gi), found => found[1].toLowerCase()));
+    }
+    closes(word) { return word === "return"; }
+    started() { return this.main; }
+    part() {
+        const { cursor } = this, at = cursor.here;
+        if (this.main === undefined) {
+            const body = this.body("program", at, ["end", ""]);
+            cursor.accept("end");
+            this.main = { name: "program", parameters: [], body, ...at };
+            return;
+        }
+        if (cursor.isAt("number"))
+            return cursor.advance();
+        if (cursor.next === "*")
+            return this.routineAt(at);
+        // The list of positions, as the controller keeps it.
+        const listed = cursor.kind === "word" && (cursor.second === "=" || cursor.second === "(") ? this.assigned(at) : undefined;
+        if (listed === undefined)
+            throw new TextError(at, "a label or a position", `"${cursor.raw}" stands behind the end of the program.`);
+        if (!this.atEnd)
+            throw cursor.unexpected("the end of the line");
+        this.before.push(listed);
+    }
+    routineAt(at) {
+        const { cursor } = this;
+        cursor.advance();
+        const name = cursor.name("a label");
+        cursor.accept(":");
+        if (this.routines.has(`*${name}`))
+            this.faults.push(new TextError(at, "a label used once", `The label ${name} is there twice.`).fault);
+        const body = this.body("routine", at, ["return"]);
+        cursor.expect("return");
+        if (cursor.isAt("number"))
+            cursor.advance();
+        this.routines.set(`*${name}`, { name, parameters: [], body, ...at });
+    }
+    instruction(at) {
+        const { cursor } = this, word = cursor.next, given = (args) => ({ kind: "do", name: word, args, ...at });
+        if (cursor.accept("*")) {
+            const place = cursor.here, name = cursor.name("a label");
+            cursor.accept(":");
+            if (this.labels.has(name))
+                throw new TextError(place, "End before it", `The program runs into the routine ${name}.`);
+            return undefined;
+        }
+        if (cursor.kind !== "word")
+            throw cursor.unexpected("a statement");
+        if (MOTIONS.has(word)) {
+            cursor.advance();
+            return this.motion(word, at);
+        }
+        if (cursor.second === "=" || cursor.second === ".")
+            return this.assigned(at);
+        if (OF_THE_CONTROLLER.has(word)) {
+            cursor.advance();
+            this.restOfLine();
+            return undefined;
+        }
+        if (INSTRUCTIONS.has(word)) {
+            cursor.advance();
+            return given(this.values());
+        }
+        switch (word) {
+            case "tool":
+            case "base": {
+                cursor.advance();
+                const place = cursor.here;
+                return given([{ value: this.position(), ...place }]);
+            }
+            case "gosub": {
+                cursor.advance();
+                cursor.expect("*");
+                const place = cursor.here, name = cursor.name("a label");
+                this.isCalled(`*${name}`, place);
+                return { kind: "do", name: `*${name}`, args: [], ...place };
+            }
+            case "wait":
+                cursor.advance();
+                return { kind: "wait-until", when: this.value(), ...at };
+            case "end":
+                cursor.advance();
+                return { kind: "return", ...at };
+            case "hlt":
+                cursor.advance();
+                return { kind: "halt", ...at };
+            // It ends a case, which nothing falls out of here.
+            case "break":
+                cursor.advance();
+                return undefined;
+            case "m_out": return this.output(at);
+            default: break;
+        }
+        if (cursor.second === "(")
+            return this.assigned(at);
+        throw new TextError(at, "a statement of MELFA-BASIC", `"${cursor.raw}" is no statement of MELFA-BASIC that is understood here.`);
+    }
+    /** `M_Out(3)=1`, with `Dly 0.5` behind it for a pulse. */
+    output(at) {
+        const { cursor } = this, place = cursor.here, line = this.value(100);
+        cursor.expect("=");
+        const to = this.value(3), args = [{ value: line, ...place }, { value: to, ...at }];
+        if (cursor.accept("dly"))
+            args.push({ value: this.value(), ...at });
+        return { kind: "do", name: "m_out", args, ...at };
+    }
+    assigned(at) {
+        const { cursor } = this, sort = cursor.next[0];
+        return this.assignment(at, sort === "p" ? () => this.position() : sort === "j" ? () => this.position("joints") : undefined);
+    }
+    motion(name, at) {
+        const { cursor } = this, args = [];
+        for (;;) {
+            const place = cursor.here;
+            args.push(cursor.next === "," ? place : { value: args.length === 0 || name === "mvr" ? this.position() : this.value(), ...place });
+            if (!cursor.accept(","))
+                break;
+        }
+        // How the hand turns on the way, and which way round, is left to the controller.
+        if (cursor.accept("type"))
+            this.values();
+        if (cursor.next === "wth" || cursor.next === "wthif")
+            throw new TextError(cursor.here, "the end of the line", elsewhere("A statement appended by Wth is carried out during the motion"));
+        return { kind: "do", name, args, ...at };
+    }
+    /** A position, made of others: `P1*(P2+P3)`, `(x, y, z, a, b, c)(flag1, flag2)`. */
+    position(sort = "position") {
+        const { cursor } = this;
+        let left = this.part1(sort);
+        while (cursor.kind === "sign" && ["*", "/", "+", "-"].includes(cursor.next)) {
+            const { line, column } = cursor.here, sign = cursor.take();
+            left = { kind: "binary", sign, left, right: this.part1(sort), line, column };
+        }
+        return left;
+    }
+    part1(sort) {
+        const { cursor } = this, { line, column } = cursor.here;
+        if (cursor.kind !== "sign" || !cursor.accept("("))
+            return this.value(6);
+        const args = [];
+        for (;;) {
+            const at = cursor.here, isLeftOut = cursor.kind === "sign" && (cursor.next === "," || cursor.next === ")");
+            args.push(isLeftOut ? at : { value: args.length === 0 ? this.position(sort) : this.value(), ...at });
+            if (!cursor.accept(","))
+                break;
+        }
+        cursor.expect(")");
+        const only = args.length === 1 ? args[0].value : undefined;
+        if (only !== undefined && cursor.next !== "(")
+            return only;
+        if (cursor.accept("("))
+            args.push(...flags(cursor));
+        return { kind: "call", name: sort, args, line, column };
+    }
+}
+/** `7, 0)`: the posture, and the turns of the joints. */
+function flags(cursor) {
+    const args = [];
+    for (const name of ["flag", "turns"]) {
+        const at = cursor.here;
+        if (cursor.next === "," || cursor.next === ")")
+            args.push({ name, ...at });
+        else
+            args.push({ name, value: { kind: "number", value: flag(cursor), ...at }, ...at });
+        if (!cursor.accept(","))
+            break;
+    }
+    cursor.expect(")");
+    return args;
+}
+function flag(cursor) {
+    cursor.accept("+");
+    const isCoded = cursor.accept("&"), at = cursor.here, text = cursor.take();
+    const value = !isCoded ? Number(text) : text.startsWith("h") ? Number.parseInt(text.slice(1), 16) : text.startsWith("b") ? Number.parseInt(text.slice(1), 2) : Number.NaN;
+    if (!Number.isInteger(value))
+        throw new TextError(at, "a whole number", `"${text}" is no flag.`);
+    return value;
+}

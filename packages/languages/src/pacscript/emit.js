@@ -1,0 +1,22 @@
+import { everyStep } from "@twincell/core";
+import { emitterOf } from "../writing/index.ts";
+import { GRIPPER, spokenBy } from "./robots.ts";
+import { PacProgram } from "./write/program.ts";
+export const CANNOT = [
+    { what: "spline", because: "PacScript registers the points of a free curve apart from the motion." },
+    { what: "duration", because: "PacScript gives motions a speed, not a time." },
+    { what: "search", because: "MotionSkip ends a motion by a task that runs beside it." },
+    { what: "timeout", because: "Wait with a limit of time goes on as if nothing had been waited for." },
+    { what: "set-analogue", because: "Analogue lines are an option of the controller." },
+    { what: "read-analogue", because: "Analogue lines are an option of the controller." },
+];
+/** One file with `Main` and the subs that it calls, or the step that stands in the way: never a part of a program. */
+export const emitPac = emitterOf({ language: "PacScript", spokenBy, cannot: CANNOT, write: (place, spoken) => new PacProgram(place, spoken).write(), warnings });
+function warnings(program) {
+    const said = [], steps = [...everyStep(program)];
+    if (steps.some(step => step.type === "move" && "pose" in step.target && step.target.branch !== undefined))
+        said.push("The figure of a place is taken as 1 for a wrist in front of axis 1, 2 for an elbow below, 4 for a joint 5 above 0; try the first motion slowly.");
+    if (steps.some(({ type }) => type === "gripper"))
+        said.push(`The gripper is taken to close while IO[${GRIPPER.output}] is on.`);
+    return said;
+}

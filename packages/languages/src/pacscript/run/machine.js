@@ -1,0 +1,179 @@
+import { TextError } from "../../text/index.ts";
+import { BasicMachine, NOWHERE, between, moved, numberIn, on, placeIn, rigid, sixNumbers } from "../../text/basic/index.ts";
+/** All joints 0 stands straight up; joint 2 leans forwards, joint 3 folds forwards. */
+const ARMS = {
+    denso_vs060: { ahead_mm: 0, upper_mm: 305, fore_mm: 300, offset_mm: -10, lean: ([, j2]) => j2, fold: ([, , j3]) => j3 },
+};
+export const hasPac = (id) => Object.hasOwn(ARMS, id);
+const FIRST = { speed: { ratio: 1 }, acceleration: 1, work: "" };
+/** The output that is taken for the gripper. */
+const GRIPPER = "dogripper";
+const JOINTS = 6;
+/** How near @P passes nobody says: as near as the speed needs. */
+const PASSED = 1;
+const LEFTY = 1, BELOW = 2, NONFLIP = 4;
+const PATHS = { p: "ptp", l: "lin", c: "circ" };
+/** Executes PacScript statement by statement. */
+export class PacMachine extends BasicMachine {
+    truth = -1;
+    tools = new Map();
+    works = new Map();
+    constructor(stage) { super(stage, ARMS[stage.robot.id], FIRST); }
+    known(name) {
+        if (name === "curpos")
+            return this.placed(this.arm.here());
+        return name === "pi" ? Math.PI : undefined;
+    }
+    /** Inputs and outputs are counted in one row: a line that was written to is an output. */
+    lineIn(expression) {
+        if (expression.kind !== "index" || expression.of.kind !== "variable" || expression.of.name !== "io" || expression.indices.length !== 1)
+            return undefined;
+        const number = expression.indices[0], address = this.numberOf(number), written = Object.values(this.surroundings.signals).some(line => line.address === address && line.kind === "digital-out");
+        return this.line(number, written ? "digital-out" : "digital-in");
+    }
+    applied(call) {
+        const { name, args } = call;
+        if (name === "devh" || name === "dev")
+            return this.beside(name, call);
+        const values = args.map(({ value }) => value === undefined ? 0 : this.evaluate(value)), numbers = () => values.map((value, i) => numberIn(value, args[i]));
+        switch (name) {
+            case "p": {
+                const [x = 0, y = 0, z = 0, a = 0, b = 0, c = 0, fig = -1] = numbers();
+                return { kind: "place", at: rigid([x, y, z, a, b, c]), frame: this.state.work, ...(fig < 0 ? {} : { posture: postureOf(fig) }) };
+            }
+            case "j": return { kind: "joints", deg: Array.from({ length: JOINTS }, (_, i) => numbers()[i] ?? 0) };
+            case "v": {
+                const [x = 0, y = 0, z = 0] = numbers();
+                return { kind: "shift", by: [x, y, z, 0, 0, 0], isOwn: false };
+            }
+            default: break;
+        }
+        const run = FUNCTIONS[name];
+        if (run === undefined)
+            throw new TextError(call, "a function of PacScript", `"${name}" is no function that is understood here.`);
+        return run(values, call);
+    }
+    /** Dev goes along the axes of the work, DevH along those of the place itself. The posture is that of the place. */
+    beside(name, { args, line, column }) {
+        const at = { line, column }, [of, by] = args.map(({ value }) => value);
+        if (of === undefined || by === undefined)
+            throw new TextError(at, "a place and a step", `${name} takes a place and a step.`);
+        const place = placeIn(this.evaluate(of), of), step = placeIn(this.evaluate(by), by).at;
+        if (name === "dev")
+            return { ...this.unbound(place), at: moved(place.at, step[3], step[7], step[11]) };
+        const variable = of.kind === "variable" && this.places.has(of.name) ? of.name : undefined;
+        return { ...this.unbound(place), at: on(place.at, step), ...(variable === undefined ? {} : { within: { variable, of: this.inBase(place), at: step } }) };
+    }
+    steps(statement) {
+        const { name, args } = statement, id = () => this.stepId(statement), given = (i, what) => this.given(statement, i, what);
+        switch (name) {
+            case "speed":
+                this.state = { ...this.state, speed: { ratio: between(this.numberOf(given(0, "a percentage")), 0.1, 100, "a percentage", statement) / 100 } };
+                return [];
+            case "accel":
+                this.state = { ...this.state, acceleration: between(this.numberOf(given(0, "a percentage")), 0.0001, 100, "a percentage", statement) / 100 };
+                return [];
+            case "tool":
+            case "work":
+                this.define(name, given(0, "a number"), placeIn(this.evaluate(given(1, "a place")), statement));
+                return [];
+            case "changetool":
+            case "changework":
+                this.choose(name, given(0, "a number"));
+                return [];
+            case "delay": return [{ id: id(), type: "wait", s: between(this.numberOf(given(0, "a time")), 0, Number.MAX_VALUE, "a time", statement) / 1000 }];
+            case "set":
+            case "reset": return [this.switched(name === "set", given(0, "an output"), args[1]?.value, id())];
+            case "io": return [this.switched(this.numberOf(given(1, "On or Off")) !== 0, given(0, "an output"), undefined, id())];
+            case "payload": return [this.load(statement, id())];
+            case "print":
+            case "printdbg":
+            case "printmsg": return [{ id: id(), type: "message", text: args.map(({ value }) => { const said = value === undefined ? "" : this.evaluate(value); return typeof said === "object" ? "" : String(said); }).join("") }];
+            case "move":
+            case "approach":
+            case "depart":
+            case "draw": return [this.motion(statement)];
+            default: throw new TextError(statement, "a statement of PacScript", `"${name}" is not understood here.`);
+        }
+    }
+    define(what, number, place) {
+        const n = between(this.numberOf(number), 1, 63, "a number", number), name = number.kind === "variable" ? number.name : `${what}${n}`;
+        if (what === "tool") {
+            this.tools.set(n, { name, at: place.at });
+            return;
+        }
+        this.works.set(n, name);
+        // A work counts from the base, whatever work is in use.
+        this.frameAt(name, place.at);
+    }
+    choose(what, number) {
+        const n = this.numberOf(number), tool = this.tools.get(n), work = this.works.get(n);
+        if (n !== 0 && (what === "changetool" ? tool : work) === undefined)
+            throw new TextError(number, "a number that was defined", `Number ${n} is not defined in the text.`);
+        if (what === "changework")
+            this.state = { ...this.state, work: n === 0 ? "" : work };
+        else
+            this.useTool(tool?.at ?? NOWHERE, n === 0 ? undefined : tool.name);
+    }
+    switched(to, output, time_ms, id) {
+        const number = output.kind === "index" && output.of.kind === "variable" && output.of.name === "io" ? output.indices[0] : undefined;
+        if (number === undefined)
+            throw new TextError(output, "IO[n]", "Only a line has a state that can be set.");
+        if (number.kind === "variable" && number.name === GRIPPER)
+            return { id, type: "gripper", closed: to };
+        return this.set(this.line(number, "digital-out"), to, id, time_ms === undefined ? undefined : this.numberOf(time_ms) / 1000);
+    }
+    /** Grams, millimetres, kg·cm². */
+    load({ args }, id) {
+        const [mass = 0, centre, inertia] = args.map(({ value }) => value === undefined ? 0 : this.evaluate(value));
+        const triple = (of) => typeof of === "object" && of.kind === "shift" ? [of.by[0], of.by[1], of.by[2]] : [0, 0, 0];
+        const [x, y, z] = triple(centre), [ixx, iyy, izz] = triple(inertia);
+        return { id, type: "payload", mass_kg: numberIn(mass, args[0]) / 1000, center_m: [x / 1000, y / 1000, z / 1000], ...(inertia === undefined ? {} : { inertia_kgm2: [ixx / KG_CM2, iyy / KG_CM2, izz / KG_CM2, 0, 0, 0] }) };
+    }
+    motion(statement) {
+        const { name, args } = statement, [way, ...goals] = args.filter(({ name: mark }) => mark === undefined).map(({ value }) => value), path = way?.kind === "text" ? PATHS[way.value] : undefined;
+        if (path === undefined)
+            throw new TextError(statement, "P, L or C", "Motions of this sort are not executed here.");
+        const option = (mark) => { const value = args.find(each => each.name === mark)?.value; return value === undefined ? undefined : this.numberOf(value); };
+        const pass = option("pass") ?? 0, percent = option("speed"), mps = option("mps"), acceleration = option("accel"), isJoint = path === "ptp";
+        const target = this.go(this.goal(name, goals, statement), isJoint, isJoint, statement), via = path === "circ" ? this.passing(this.here(goals[0]), statement) : undefined;
+        const ratio = acceleration === undefined ? this.state.acceleration : acceleration / 100;
+        return this.move(statement, path, target, {
+            ...(via === undefined ? {} : { via }), speed: mps !== undefined ? { mps } : percent !== undefined ? { ratio: percent / 100 } : this.state.speed, ...(ratio < 1 ? { acceleration: { ratio } } : {}),
+            blend_m: pass > 0 ? pass / 1000 : 0, ...(pass < 0 ? { blend_ratio: PASSED } : {}),
+        });
+    }
+    /** What an expression holds, in the work that is in use. */
+    here(of) {
+        const value = this.evaluate(of);
+        return typeof value === "object" && value.kind === "place" && value.within === undefined ? { ...value, frame: this.state.work } : value;
+    }
+    goal(name, goals, at) {
+        if (name === "move")
+            return this.here(goals.at(-1));
+        if (name === "approach") {
+            const place = placeIn(this.here(goals[0]), at);
+            return { ...this.unbound(place), at: on(place.at, rigid([0, 0, -this.numberOf(goals[1]), 0, 0, 0])) };
+        }
+        const from = this.arm.here();
+        if (name === "depart")
+            return this.placed(on(from, rigid([0, 0, -this.numberOf(goals[0]), 0, 0, 0])));
+        const by = this.evaluate(goals[0]);
+        if (typeof by !== "object" || by.kind !== "shift")
+            throw new TextError(goals[0], "V(x, y, z)", "Draw goes along a vector.");
+        // Along the axes of the work.
+        const frame = this.frames.get(this.state.work) ?? NOWHERE, turned = on(frame.with(3, 0).with(7, 0).with(11, 0), rigid(by.by));
+        return this.placed(moved(from, turned[3], turned[7], turned[11]));
+    }
+}
+const KG_CM2 = 10_000;
+const DEG = Math.PI / 180;
+/** 1 lefty, 2 below, 4 not flipped. */
+const postureOf = (fig) => ({ front: (fig & LEFTY) !== 0, up: (fig & BELOW) === 0, wrist: (fig & NONFLIP) !== 0 });
+const coordinate = (i) => (values, at) => sixNumbers(placeIn(values[0] ?? 0, at).at)[i];
+const ofNumber = (f) => (values, at) => f(numberIn(values[0] ?? 0, at));
+/** Functions of numbers and places; angles in degrees. */
+const FUNCTIONS = {
+    posx: coordinate(0), posy: coordinate(1), posz: coordinate(2), posrx: coordinate(3), posry: coordinate(4), posrz: coordinate(5),
+    sin: ofNumber(x => Math.sin(x * DEG)), cos: ofNumber(x => Math.cos(x * DEG)), tan: ofNumber(x => Math.tan(x * DEG)), sqr: ofNumber(Math.sqrt), abs: ofNumber(Math.abs), int: ofNumber(Math.floor), raddeg: ofNumber(x => x / DEG), degrad: ofNumber(x => x * DEG),
+};

@@ -1,0 +1,122 @@
+import { branchOf, compose } from "@twincell/core";
+import { asciiText } from "../../text/index.ts";
+import { BasicModules, CannotSay, called, degText, fixed, mmText, turnTexts } from "../../writing/index.ts";
+import { GRIPPER, LINES } from "../robots.ts";
+import { RESERVED } from "./reserved.ts";
+const LONGEST_NAME = 32;
+const LEFTY = 1, BELOW = 2, NONFLIP = 4, AUTOMATIC = -1;
+const MS = 1000, GRAMS = 1000, KG_CM2 = 10_000;
+/** A mass that is this near to whole grams is [g]. */
+const WHOLE_G = 1e-6;
+/** The file: `Main` and the subs that it calls. */
+export class PacProgram extends BasicModules {
+    sharesNumbers = true;
+    spoken;
+    /** The figure at the places of the pattern that is written. */
+    figure = AUTOMATIC;
+    places = [];
+    constructor(place, spoken) {
+        super(place, { most: LONGEST_NAME, reserved: RESERVED, first: "n_", foldsCase: true }, {
+            language: "PacScript", file: "main.pcs", define: "#Define", main: "Main", open: name => `Sub ${name}`, close: "End Sub", endIf: "End If", forever: ["Do", "Loop"], mm: mmText,
+            most: { tools: 63, frames: 7, called: "works" }, lines: LINES, gripper: GRIPPER,
+        });
+        this.spoken = spoken;
+    }
+    head() { return [`'!TITLE "${asciiText(this.place.program.name).replace(/"/g, "'")}"`]; }
+    ending() { return ["GiveArm"]; }
+    patterns() { return []; }
+    declaration(names) { return names.map(name => `Dim ${name} As ${this.places.includes(name) ? "Position" : "Single"}`); }
+    beginning() {
+        const { place, used: { tools, frames } } = this;
+        return [
+            "TakeArm Keep = 0", "Accel 100, 100", ...[...tools].map(tool => `Tool ${this.named("tool", tool)}, ${placeText(place.tool(tool))}`),
+            ...[...frames].map(frame => `Work ${this.named("frame", frame)}, ${placeText(compose(place.baseFromWorld, place.frame(frame)))}`),
+        ];
+    }
+    wait(s, add) { add(`Delay ${fixed(s * MS, 0)}`); }
+    grip(closed, add) { add(`${closed ? "Set" : "Reset"} IO[${GRIPPER.name}]`); }
+    set({ to, pulse_s }, line, add) { add(`${to === true ? "Set" : "Reset"} IO[${line}]${pulse_s === undefined ? "" : `, ${fixed(pulse_s * MS, 0)}`}`); }
+    asked({ is }, line) { return `IO[${line}] = ${is ? "On" : "Off"}`; }
+    waitFor(condition, _step, add) { add(`Wait ${condition}`); }
+    message(text, add) { add(`PrintDbg "${text}"`); }
+    stop(add) { add("Halt"); }
+    /** Grams, millimetres, kg·cm². */
+    payload(step, add) {
+        const { mass_kg, center_m, inertia_kgm2: [ixx, iyy, izz, ...products] = [0, 0, 0, 0, 0, 0] } = step, grams = mass_kg * GRAMS;
+        if (Math.abs(grams - Math.round(grams)) > WHOLE_G)
+            throw new CannotSay(step.id, `${called(step)} gives a mass of ${mass_kg} kg; Payload takes whole grams.`, "Round the mass.");
+        if (products.some(product => product !== 0))
+            throw new CannotSay(step.id, `${called(step)} gives products of inertia; Payload takes three moments.`, "Give the load in its main axes.");
+        const moments = step.inertia_kgm2 === undefined ? "" : `, V(${[ixx, iyy, izz].map(moment => fixed(moment * KG_CM2, 6)).join(", ")})`;
+        add(`Payload ${Math.round(grams)}, V(${center_m.map(mmText).join(", ")})${moments}`);
+    }
+    beforePattern(step) {
+        const { pallets } = this.place.program, frame = Object.hasOwn(pallets, step.pallet) ? pallets[step.pallet].frame : "world";
+        this.useWork(frame, line => { this.out.add(line, step.id); });
+    }
+    /** The figure at a pattern is that of the first move inside it. */
+    palletPlace(step, _pallet, coordinates, turn, add) {
+        const first = step.steps.find(each => each.type === "move" && each.path === "ptp");
+        this.figure = first === undefined ? AUTOMATIC : this.figureOf("q" in first.target ? undefined : first.target.branch, this.place.posture(first, first.target, this.near));
+        add(`${this.variable(step.pallet)} = P(${coordinates.join(", ")}, ${turnTexts(turn).join(", ")}, ${this.figure})`);
+    }
+    variable(pallet) {
+        const name = this.named("pallet", pallet);
+        if (!this.places.includes(name))
+            this.places.push(name);
+        this.introduce(name);
+        return name;
+    }
+    useWork(frame, add) { this.say("work", frame === "world" ? "ChangeWork 0" : `ChangeWork ${this.named("frame", frame)}`, add); }
+    move(step, next, add) {
+        const { target, path } = step, isJoint = path === "ptp", tool = target.tool ?? (isJoint && "q" in target ? undefined : "flange"), { pallets } = this.place.program;
+        if (tool !== undefined)
+            this.say("tool", tool === "flange" ? "ChangeTool 0" : `ChangeTool ${this.named("tool", tool)}`, add);
+        const posture = this.place.posture(step, target, this.near), blend_m = this.place.blend_m(step, this.before, next);
+        const frames = [step.via, target].flatMap(each => each === undefined || "q" in each ? [] : [each.frame]), works = new Set(frames.map(frame => Object.hasOwn(pallets, frame) ? pallets[frame].frame : frame));
+        // Both places of an arc count in one work.
+        const [work] = works.size === 1 ? works : ["world"];
+        if (frames.length > 0)
+            this.useWork(work, add);
+        const pass = blend_m > 0 ? `@${Math.max(1, Math.round(blend_m * 1000))}` : "@0", goal = this.goal(step, target, posture, work), options = this.options(step);
+        if (path === "circ") {
+            if (step.via === undefined)
+                throw new CannotSay(step.id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
+            add(`Move C, ${this.goal(step, step.via, undefined, work)}, ${pass} ${goal}${options}`);
+        }
+        else
+            add(`Move ${isJoint ? "P" : "L"}, ${pass} ${goal}${options}`);
+        this.near = posture ?? this.near;
+    }
+    options({ speed, path, acceleration }) {
+        const percent = (ratio) => fixed(ratio * 100, 5), { maxTcpSpeed_mps } = this.place.robot;
+        const said = "time_s" in speed ? "" : "ratio" in speed ? percent(speed.ratio) : path === "ptp" ? percent(Math.min(1, speed.mps / maxTcpSpeed_mps)) : `Mps(${fixed(speed.mps, 7)})`;
+        const share = acceleration === undefined || acceleration.ratio >= 1 ? "" : `, Accel = ${percent(acceleration.ratio)}, Decel = ${percent(acceleration.ratio)}`;
+        return `, Speed = ${said}${share}`;
+    }
+    goal(step, target, posture, work) {
+        if ("q" in target)
+            return `J(${target.q.map(degText).join(", ")})`;
+        const { pallets } = this.place.program, { frame, pose } = target, isAsked = step.path === "ptp" && target.branch !== undefined;
+        const figure = isAsked ? this.figureOf(target.branch, posture) : AUTOMATIC;
+        if (Object.hasOwn(pallets, frame)) {
+            if (isAsked && figure !== this.figure)
+                throw new CannotSay(step.id, `${called(step)} reaches the places of ${frame} in another posture than the first move there.`, "Reach the places of a pallet in one posture.");
+            return `DevH(${this.variable(frame)}, ${placeText(pose)})`;
+        }
+        return placeText(frame === work ? this.inBase(target) : this.seenFrom(work, target), figure);
+    }
+    /** Where a target is in a work that is not its own. */
+    seenFrom(work, target) {
+        return this.inBase({ ...target, frame: work, pose: this.place.seenIn(work, target) });
+    }
+    /** 1 for a wrist in front of axis 1, 2 for an elbow below, 4 for a wrist that is not flipped. Joints 4 and 6 are within half a turn. */
+    figureOf(branch, posture) {
+        const named = branch === undefined || posture === undefined ? undefined : branchOf(this.place.robot, posture);
+        if (named === undefined)
+            return AUTOMATIC;
+        return (named.shoulder === "front" ? LEFTY : 0) + (named.elbow === "up" ? 0 : BELOW) + (named.wrist === this.spoken.nonFlip ? NONFLIP : 0);
+    }
+}
+/** P(x, y, z, rx, ry, rz, figure): mm and degrees. */
+const placeText = ({ position, quaternion }, figure) => `P(${[...position.map(mmText), ...turnTexts(quaternion), ...(figure === undefined ? [] : [figure])].join(", ")})`;

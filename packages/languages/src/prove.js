@@ -1,0 +1,258 @@
+import { Fault, angleBetween, branchOf, capabilitiesUsed, compose, degrees, distance, everyStep, flangePose, flow, holds, identity, inverse, millimetres, sameBranch, wrapAngle, } from "@twincell/core";
+import { asciiText } from "./text/index.ts";
+/** What a controller executes of the files of an export, as one text. */
+export const runnableFile = (dialect, files) => dialect.runnable?.(files) ?? files[0];
+/** How far an executed text may be from the program it was made of. */
+export const PROOF_TOLERANCE = { position_m: 1e-5, angle_rad: 1e-3 / 180 * Math.PI };
+/** Loops without end are followed this often round. */
+const ROUNDS = 3;
+/** More steps than this are not compared. */
+const MOST_STEPS = 50_000;
+/** What inputs say while a text and its program are compared: nothing, everything, and now this, now that. */
+const TRIALS = [() => false, () => true, read => (read * 7 + 3) % 5 < 2];
+/**
+ * Executes an emitted text and compares it, step by step, with the program it was made of: sort of step, path, tool tip in
+ * the world, joint angles where they were taught, speed, stop or no stop, signals. Loops, calls and pallets are carried
+ * out on both sides; where the program decides by signals, both are told the same and compared three times. This proves
+ * the text, not the emitter's intention.
+ */
+export function proveText(dialect, file, program, robot, worldFromBase = identity()) {
+    const interpreted = dialect.interpret(file.text, robot, worldFromBase);
+    if (interpreted.kind === "not-understood") {
+        const fault = interpreted.faults[0];
+        return { kind: "not-executed", file: file.name, faults: interpreted.faults, sentence: `${file.name} stops in line ${fault.line}, column ${fault.column}: ${fault.sentence}` };
+    }
+    const decides = capabilitiesUsed(program).has("if"), steps = [];
+    for (const trial of decides ? TRIALS : TRIALS.slice(0, 1)) {
+        try {
+            const differs = compare(interpreted, file.name, program, robot, worldFromBase, dialect.resolution ?? {}, trial, steps);
+            if (differs !== undefined)
+                return differs;
+        }
+        catch (cause) {
+            if (!(cause instanceof Fault))
+                throw cause;
+            return { kind: "not-executed", file: file.name, faults: [], sentence: `${file.name} stops: ${cause.message} ${cause.hint}` };
+        }
+    }
+    const worst_m = steps.reduce((most, step) => Math.max(most, step.deviation_m), 0), worst_rad = steps.reduce((most, step) => Math.max(most, step.deviation_rad), 0);
+    return {
+        kind: "proven", file: file.name, steps, worst_m, worst_rad,
+        sentence: `${file.name} was executed line by line and meets all ${steps.length} steps within ${millimetres(worst_m).toFixed(4)} mm and ${degrees(worst_rad).toFixed(5)}°.`,
+    };
+}
+function compare(interpreted, file, program, robot, worldFromBase, resolution, trial, proven) {
+    const tips = { wanted: new Tips(program, robot, worldFromBase), done: new Tips(interpreted.context, robot, worldFromBase) };
+    const position_m = Math.max(PROOF_TOLERANCE.position_m, resolution.position_m ?? 0), angle_rad = Math.max(PROOF_TOLERANCE.angle_rad, resolution.angle_rad ?? 0);
+    const wanted = program.signals, done = interpreted.context.signals ?? {};
+    const text = steady(interpreted.run(new Told(trial))), told = new Told(trial), forever = Array.from(everyStep(program)).some(step => step.type === "repeat" && step.times === "forever");
+    const decide = (when) => holds(when, told);
+    let count = 0, ended = false;
+    const steps = following(flow(program, { decide, ...(forever ? { rounds: ROUNDS } : {}) }), told);
+    for (const [step, next] of steps) {
+        if (count++ >= MOST_STEPS)
+            return undefined;
+        const found = text.next();
+        const differs = (sentence) => ({ kind: "differs", file, step: step.id, line: found?.line ?? 0, sentence: `Step ${step.name ?? step.id}: ${sentence}` });
+        if (found === undefined)
+            return differs("the text ends before it.");
+        const odd = otherwise(step, found.step, next, { mine: wanted, theirs: done, robot, resolution });
+        if (odd !== undefined)
+            return differs(`line ${found.line} ${odd}`);
+        const [deviation_m, deviation_rad] = step.type === "move" && found.step.type === "move" ? deviation(step, found.step, tips, resolution) : [0, 0];
+        if (!(deviation_m <= position_m))
+            return differs(`line ${found.line} ends ${millimetres(deviation_m).toFixed(3)} mm away; ${millimetres(position_m)} mm are allowed.`);
+        if (!(deviation_rad <= angle_rad))
+            return differs(`line ${found.line} ends turned by ${degrees(deviation_rad).toFixed(4)}°; ${degrees(angle_rad).toFixed(3)}° are allowed.`);
+        proven.push({ id: step.id, line: found.line, deviation_m, deviation_rad });
+        ended = step.type === "stop";
+    }
+    // A loop without end has been left on this side only.
+    const extra = forever && !ended ? undefined : text.next();
+    return extra === undefined ? undefined : { kind: "differs", file, step: "", line: extra.line, sentence: `Line ${extra.line} does something after the last step.` };
+}
+/** The steps of an executed text, one by one. */
+function steady(run) {
+    return {
+        next() {
+            for (let next = run.next(); next.done !== true; next = run.next())
+                if (next.value.step !== undefined)
+                    return { line: next.value.line, step: next.value.step };
+            return undefined;
+        },
+    };
+}
+/** The steps of the program, each with the one after it where that is known without a decision: stops that it does not say are told as no step. */
+function* following(happenings, told) {
+    let before;
+    for (const happening of happenings) {
+        if (happening.kind !== "step") {
+            if (happening.kind === "passed" && happening.step.type !== "comment" && before !== undefined) {
+                yield [before, undefined];
+                before = undefined;
+            }
+            continue;
+        }
+        const { step, stands } = happening;
+        if (step.type === "set")
+            told.write(step.signal, step.to);
+        if (before !== undefined)
+            yield [before, stands ? undefined : step];
+        before = stands ? undefined : step;
+    }
+    if (before !== undefined)
+        yield [before, undefined];
+}
+/** Inputs that say what a trial says, the same for the n-th question whoever asks; outputs are what was written. */
+class Told {
+    trial;
+    written = new Map();
+    reads = 0;
+    constructor(trial) { this.trial = trial; }
+    read(signal) { return this.written.get(signal) ?? this.trial(this.reads++); }
+    write(signal, value) { this.written.set(signal, value); }
+}
+/** Where the tip of a target is in the world. */
+class Tips {
+    context;
+    robot;
+    worldFromBase;
+    constructor(context, robot, worldFromBase) {
+        this.context = context;
+        this.robot = robot;
+        this.worldFromBase = worldFromBase;
+    }
+    tool(name) {
+        return name !== undefined && Object.hasOwn(this.context.tools, name) ? this.context.tools[name] : identity();
+    }
+    of(target) {
+        if ("q" in target)
+            return compose(compose(this.worldFromBase, flangePose(this.robot.arm, target.q)), this.tool(target.tool));
+        const worldFromFrame = Object.hasOwn(this.context.frames, target.frame) ? this.context.frames[target.frame] : identity();
+        return compose(worldFromFrame, target.pose);
+    }
+}
+/** What about a step is not a matter of more or less, in words that follow "line 12 …". */
+function otherwise(wanted, done, next, { mine, theirs, robot, resolution }) {
+    if (wanted.type !== done.type)
+        return `is a ${done.type} step, not a ${wanted.type} step.`;
+    if (wanted.type === "wait" && done.type === "wait")
+        return near(wanted.s, done.s, resolution.wait_s) ? undefined : `waits ${done.s} s, not ${wanted.s} s.`;
+    if (wanted.type === "gripper" && done.type === "gripper")
+        return wanted.closed === done.closed ? undefined : `${done.closed ? "closes" : "opens"} the gripper.`;
+    if (wanted.type === "set" && done.type === "set") {
+        if (!sameLine(wanted.signal, done.signal, mine, theirs))
+            return `sets ${done.signal}, not ${wanted.signal}.`;
+        if (!sameLevel(wanted.to, done.to))
+            return `sets ${done.signal} to ${done.to}, not to ${wanted.to}.`;
+        return near(wanted.pulse_s ?? 0, done.pulse_s ?? 0) ? undefined : `holds ${done.signal} for ${done.pulse_s ?? 0} s, not for ${wanted.pulse_s ?? 0} s.`;
+    }
+    if (wanted.type === "wait-for" && done.type === "wait-for") {
+        if (!sameCondition(wanted.when, done.when, mine, theirs))
+            return `waits for ${JSON.stringify(done.when)}, not for ${JSON.stringify(wanted.when)}.`;
+        return near(wanted.timeout_s ?? 0, done.timeout_s ?? 0) ? undefined : `waits ${done.timeout_s ?? 0} s at most, not ${wanted.timeout_s ?? 0} s.`;
+    }
+    if (wanted.type === "payload" && done.type === "payload")
+        return samePayload(wanted, done) ? undefined : `says another load of ${done.mass_kg} kg.`;
+    if (wanted.type === "message" && done.type === "message")
+        return plain(wanted.text) === plain(done.text) ? undefined : `says “${done.text}”.`;
+    if (wanted.type !== "move" || done.type !== "move")
+        return undefined;
+    if (wanted.path !== done.path)
+        return `moves by ${done.path}, not by ${wanted.path}.`;
+    // On a joint move angles are angles; on the other paths only the tool counts.
+    const isAngles = "q" in wanted.target, isWritten = "q" in done.target;
+    if (wanted.path === "ptp" && isAngles !== isWritten && !(isAngles ? resolution.anglesAsPoses === true : resolution.posesAsAngles === true))
+        return "ends in another sort of target.";
+    if ((wanted.via === undefined) !== (done.via === undefined))
+        return done.via === undefined ? "passes through no other point." : "passes through another point.";
+    if (!sameSpeed(wanted.speed, done.speed, robot, resolution))
+        return `moves at ${JSON.stringify(done.speed)}, not at ${JSON.stringify(wanted.speed)}.`;
+    if (!near(Math.max(resolution.leastAcceleration ?? 0, wanted.acceleration?.ratio ?? 1), done.acceleration?.ratio ?? 1))
+        return `accelerates by ${done.acceleration?.ratio ?? 1}, not by ${wanted.acceleration?.ratio ?? 1}.`;
+    // A robot that is about to wait or to grip has stopped, whatever was said about passing.
+    if (!blends(wanted) && blends(done))
+        return "passes its target without a stop.";
+    // Points of one spline are passed as they are.
+    const isInSpline = wanted.path === "spline" && next?.type === "move" && next.path === "spline";
+    if (blends(wanted) && !blends(done) && !isInSpline && next?.type === "move" && (resolution.stopsAtNewTool !== true || sameTool(wanted, next)))
+        return "stops at its target.";
+    if (wanted.until !== undefined || done.until !== undefined) {
+        if (wanted.until === undefined || done.until === undefined || wanted.until.missing !== done.until.missing || !sameCondition(wanted.until.when, done.until.when, mine, theirs))
+            return "searches otherwise.";
+    }
+    const posture = postureOf(wanted.target, robot), other = postureOf(done.target, robot);
+    // Off a joint move the posture is that of the start: a language may leave it unsaid.
+    if (posture !== undefined && (other === undefined ? wanted.path === "ptp" : !sameBranch(posture, other)))
+        return "reaches its target in another posture.";
+    return undefined;
+}
+const postureOf = (target, robot) => "q" in target ? branchOf(robot, target.q) : target.branch;
+const blends = ({ blend_m, blend_ratio = 0 }) => blend_m > 0 || blend_ratio > 0;
+/** The controller knows a line by its number; names may differ. */
+function sameLine(wanted, done, mine, theirs) {
+    const a = Object.hasOwn(mine, wanted) ? mine[wanted].address : undefined, b = Object.hasOwn(theirs, done) ? theirs[done].address : undefined;
+    return a !== undefined && b !== undefined ? a === b : wanted === done;
+}
+const sameLevel = (a, b) => (typeof a === "number" && typeof b === "number" ? near(a, b) : a === b);
+function sameCondition(a, b, mine, theirs) {
+    if (!sameLine(a.signal, b.signal, mine, theirs))
+        return false;
+    if ("is" in a)
+        return "is" in b && a.is === b.is;
+    return "above" in a ? "above" in b && near(a.above, b.above) : "below" in b && near(a.below, b.below);
+}
+function samePayload(a, b) {
+    const numbers = ({ mass_kg, center_m, inertia_kgm2 = [0, 0, 0, 0, 0, 0] }) => [mass_kg, ...center_m, ...inertia_kgm2];
+    // Nothing has no centre.
+    if (a.mass_kg === 0)
+        return b.mass_kg === 0;
+    const other = numbers(b);
+    return numbers(a).every((x, i) => near(x, other[i]));
+}
+/** A message in the signs that every controller has. */
+const plain = (text) => asciiText(text).replaceAll("\"", "'");
+/** Only a tool that both steps name is surely not changed between them. */
+const sameTool = (a, b) => a.target.tool !== undefined && a.target.tool === b.target.tool;
+/** The text holds single precision. */
+const near = (a, b, step = 0) => Math.abs(a - b) <= Math.max(1e-6 * Math.max(1, Math.abs(a)), step);
+/** A controller that knows speeds of one sort only is given the same share of its full speed. */
+function sameSpeed(a, b, { maxTcpSpeed_mps }, { ratio, leastRatio = 0, mps, mostMps = Number.POSITIVE_INFINITY }) {
+    if ("time_s" in a || "time_s" in b)
+        return "time_s" in a && "time_s" in b && near(a.time_s, b.time_s);
+    if ("mps" in b)
+        return near(Math.min(mostMps, "mps" in a ? a.mps : a.ratio * maxTcpSpeed_mps), b.mps, mps);
+    return near(Math.min(1, Math.max(leastRatio, "mps" in a ? a.mps / maxTcpSpeed_mps : a.ratio)), b.ratio, ratio);
+}
+function deviation(wanted, done, tips, resolution) {
+    const [end_m, end_rad] = deviationAtEnd(wanted, done, tips, resolution);
+    if (wanted.via === undefined || done.via === undefined)
+        return [end_m, end_rad];
+    // The orientation at the point on the way is no part of an arc.
+    return [Math.max(end_m, distance(tips.wanted.of(wanted.via).position, tips.done.of(done.via).position)), end_rad];
+}
+/** Angles further apart than by a singular posture are those of another turn. */
+const OTHER_TURN_RAD = 1;
+function deviationAtEnd(wanted, done, tips, { anglesAsPoses = false }) {
+    const a = wanted.target, b = done.target;
+    if ("q" in a && "q" in b) {
+        // Joint angles one by one, since two postures may hold the tip in the same place; and the tip, of the tool that counts.
+        // Along a path the axes arrive in the turn that is nearest, whatever turn was taught.
+        const apart = Math.max(...a.q.map((angle, i) => Math.abs(wanted.path === "ptp" ? angle - b.q[i] : wrapAngle(angle - b.q[i]))));
+        const turned = anglesAsPoses && apart < OTHER_TURN_RAD ? 0 : apart;
+        const tool = a.tool === undefined && wanted.path === "ptp" ? undefined : a;
+        const tipA = tips.wanted.of(tool ?? { q: a.q }), tipB = tips.done.of(tool === undefined ? { q: b.q } : b);
+        return [distance(tipA.position, tipB.position), Math.max(turned, angleBetween(tipA.quaternion, tipB.quaternion))];
+    }
+    if ("q" in a && a.tool === undefined && wanted.path === "ptp") {
+        // Joint angles taught with any tool: where the flange is counts.
+        const flangeA = tips.wanted.of({ q: a.q }), flangeB = compose(tips.done.of(b), inverse(tips.done.tool(b.tool)));
+        return [distance(flangeA.position, flangeB.position), angleBetween(flangeA.quaternion, flangeB.quaternion)];
+    }
+    const tipA = tips.wanted.of(a), tipB = tips.done.of(b);
+    const toolA = tips.wanted.tool(a.tool), toolB = tips.done.tool(b.tool);
+    return [
+        Math.max(distance(tipA.position, tipB.position), distance(toolA.position, toolB.position)),
+        Math.max(angleBetween(tipA.quaternion, tipB.quaternion), angleBetween(toolA.quaternion, toolB.quaternion)),
+    ];
+}

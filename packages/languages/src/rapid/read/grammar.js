@@ -1,0 +1,381 @@
+import { TextError } from "../../text/index.ts";
+import { TokenCursor, readExpression } from "../../text/structured/index.ts";
+const LEXICON = {
+    comment: "!", quotes: "\"", doubled: true, lineEnds: false,
+    signs: [":=", "<=", ">=", "<>", "(", ")", "[", "]", "{", "}", ",", ";", ":", "=", "<", ">", "+", "-", "*", "/", ".", "\\", "%", "|", "?"],
+};
+const RESERVED = new Set([
+    "alias", "and", "backward", "case", "connect", "const", "default", "div", "do", "else", "elseif", "endfor", "endfunc", "endif", "endmodule", "endproc",
+    "endrecord", "endtest", "endtrap", "endwhile", "error", "exit", "false", "for", "from", "func", "goto", "if", "inout", "local", "mod", "module", "not",
+    "or", "pers", "proc", "raise", "record", "retry", "return", "step", "task", "test", "then", "to", "trap", "true", "trynext", "undo", "var", "while", "with", "xor",
+]);
+const RULES = {
+    binary: { or: 1, xor: 1, and: 2, "=": 4, "<>": 4, "<": 4, ">": 4, "<=": 4, ">=": 4, "+": 5, "-": 5, "*": 6, "/": 6, div: 6, mod: 6 },
+    prefix: { not: 3, "-": 7, "+": 7 },
+    constants: { true: true, false: false },
+    tags: [], index: "{", components: true, reserved: RESERVED, args: (cursor, depth) => readArguments(cursor, ")", depth),
+};
+const NAME_LENGTH = 32;
+const STRING_LENGTH = 80;
+/** Deepest nesting of blocks: more than anybody writes, less than the stack holds. */
+const DEPTH = 50;
+const MOST_FAULTS = 50;
+/** Reads RAPID modules. Goes on after a fault, so that all of them are told at once. */
+export const readSource = (text) => new Reader(text).source();
+class Reader {
+    cursor;
+    faults = [];
+    data = [];
+    routines = new Map();
+    local = new Map();
+    forgiving = new Set();
+    spelling = new Map();
+    remarks = [];
+    current;
+    title = "";
+    depth = 0;
+    constructor(text) {
+        // The header of old save files is no RAPID.
+        this.cursor = new TokenCursor(text.replace(/^[ \t]*%%%[\s\S]*?%%%/, header => header.replace(/[^\r\n]/g, " ")), LEXICON, word => {
+            const name = word.toLowerCase();
+            if (!this.spelling.has(name))
+                this.spelling.set(name, word);
+            return name;
+        });
+    }
+    source() {
+        const { cursor } = this;
+        this.guard(() => { cursor.advance(); });
+        let modules = 0;
+        while (!cursor.done && this.faults.length < MOST_FAULTS) {
+            this.guard(() => { cursor.expect("module"); modules++; this.module(); });
+        }
+        if (modules === 0 && this.faults.length === 0)
+            this.faults.push(new TextError(cursor.here, "MODULE", "The text holds no module.").fault);
+        if (this.faults.length > 0)
+            return { kind: "not-understood", faults: this.faults };
+        const { data, routines, local, forgiving, spelling } = this, title = this.remarks.find(remark => remark.startsWith("*"))?.slice(1).trim() ?? this.title;
+        return { kind: "source", source: { title, data, routines, local, forgiving, spelling } };
+    }
+    guard(read) {
+        const { depth, current } = this;
+        try {
+            return read();
+        }
+        catch (cause) {
+            if (!(cause instanceof TextError))
+                throw cause;
+            this.faults.push(cause.fault);
+            this.depth = depth;
+            this.current = current;
+            this.cursor.skip(cursor => cursor.next === ";" || ENDS.has(cursor.next));
+            if (this.cursor.next === ";" && this.faults.length < MOST_FAULTS)
+                this.guard(() => { this.cursor.advance(); });
+            return undefined;
+        }
+    }
+    declared(expected) {
+        const { cursor } = this, at = cursor.here, { raw } = cursor, name = cursor.name(expected);
+        if (RESERVED.has(name))
+            throw new TextError(at, expected, `"${raw}" is a word of RAPID.`);
+        if (name.length > NAME_LENGTH)
+            throw new TextError(at, `a name of at most ${NAME_LENGTH} characters`, `The name "${raw}" has ${name.length} characters; RAPID takes ${NAME_LENGTH}.`);
+        return { name, at };
+    }
+    module() {
+        const { cursor } = this, { raw } = cursor;
+        this.declared("the name of the module");
+        if (this.title === "")
+            this.title = raw;
+        if (cursor.accept("(")) {
+            while (!cursor.accept(")")) {
+                if (cursor.done)
+                    throw cursor.unexpected("\")\"");
+                cursor.advance();
+            }
+        }
+        while (cursor.next !== "endmodule") {
+            this.takeRemarks();
+            if (cursor.done)
+                throw cursor.unexpected("ENDMODULE");
+            if (this.faults.length >= MOST_FAULTS)
+                return;
+            const before = cursor.here;
+            this.guard(() => { this.member(); });
+            // What is left where a fault was is left behind.
+            if (before.line === cursor.here.line && before.column === cursor.here.column && !cursor.done)
+                this.guard(() => { cursor.advance(); });
+        }
+        this.takeRemarks();
+        cursor.expect("endmodule");
+    }
+    takeRemarks() {
+        for (let comment = this.cursor.comment(); comment !== undefined; comment = this.cursor.comment())
+            this.remarks.push(comment.text);
+    }
+    member() {
+        const { cursor } = this;
+        while (cursor.next === "local" || cursor.next === "task")
+            cursor.advance();
+        switch (cursor.next) {
+            case "const":
+            case "pers":
+            case "var":
+                this.datum(this.data);
+                return;
+            case "record":
+                cursor.skip(each => each.next === "endrecord");
+                cursor.accept("endrecord");
+                return;
+            case "alias":
+                cursor.skip(each => each.next === ";");
+                cursor.accept(";");
+                return;
+            case "proc":
+                this.routine("endproc", false);
+                return;
+            case "func":
+                this.routine("endfunc", true);
+                return;
+            case "trap":
+                this.routine("endtrap", false);
+                return;
+            default: throw cursor.unexpected("a declaration, PROC or ENDMODULE");
+        }
+    }
+    /** `CONST robtarget p10{2} := …;` */
+    datum(into) {
+        const { cursor } = this, storage = cursor.take(), type = cursor.name("the type of the datum"), { name, at } = this.declared("the name of the datum"), sizes = [];
+        if (cursor.accept("{")) {
+            do
+                sizes.push(readExpression(cursor, RULES));
+            while (cursor.accept(","));
+            cursor.expect("}");
+        }
+        const value = cursor.accept(":=") ? readExpression(cursor, RULES) : undefined;
+        cursor.expect(";");
+        if (into.some(other => other.name === name))
+            throw new TextError(at, "a name used once", `"${name}" is declared twice.`);
+        into.push({ storage, type, name, sizes, ...(value === undefined ? {} : { value }), ...at });
+    }
+    routine(end, hasType) {
+        const { cursor } = this, opened = cursor.here;
+        cursor.advance();
+        if (hasType)
+            cursor.name("the type of the function");
+        const { name, at } = this.declared("the name of the routine"), parameters = [];
+        if (cursor.accept("("))
+            this.parameters(parameters);
+        if (this.routines.has(name))
+            this.faults.push(new TextError(at, "a name used once", `The routine ${name} is declared twice.`).fault);
+        const local = [];
+        this.local.set(name, local);
+        this.current = local;
+        const body = this.body(opened, [end, "error", "undo", "backward"]);
+        this.current = undefined;
+        while (cursor.next !== end)
+            this.handler(name, end);
+        cursor.expect(end);
+        this.routines.set(name, { name, parameters, body, ...at });
+    }
+    /** An error handler: only one that goes on behind a fruitless search means something to steps. */
+    handler(routine, end) {
+        const { cursor } = this;
+        const words = [];
+        cursor.advance();
+        while (cursor.next !== end && cursor.next !== "undo" && cursor.next !== "backward") {
+            if (cursor.done)
+                throw cursor.unexpected(end.toUpperCase());
+            words.push(cursor.next);
+            cursor.advance();
+        }
+        if (words.join(" ") === "if errno = err_whlsearch then trynext ; endif")
+            this.forgiving.add(routine);
+    }
+    parameters(into) {
+        const { cursor } = this;
+        while (!cursor.accept(")")) {
+            const optional = cursor.accept("\\");
+            if (cursor.accept("switch")) {
+                into.push({ name: this.declared("the name of the parameter").name, type: "switch", optional: true });
+            }
+            else {
+                if (cursor.next === "inout" || cursor.next === "var" || cursor.next === "pers")
+                    cursor.advance();
+                const type = cursor.name("the type of the parameter"), { name } = this.declared("the name of the parameter");
+                if (cursor.accept("{")) {
+                    while (cursor.accept("*") || cursor.accept(",")) { /* an array of any size */ }
+                    cursor.expect("}");
+                }
+                into.push({ name, type, ...(optional ? { optional } : {}) });
+            }
+            if (!cursor.accept(",") && !cursor.accept("|") && cursor.next !== ")" && cursor.next !== "\\")
+                throw cursor.unexpected("\",\" or \")\"");
+        }
+    }
+    body(opened, ends) {
+        const { cursor } = this, statements = [];
+        if (++this.depth > DEPTH)
+            throw new TextError(opened, "a simpler program", `Blocks are nested more than ${DEPTH} deep.`);
+        for (;;) {
+            for (let comment = cursor.comment(); comment !== undefined; comment = cursor.comment())
+                statements.push({ kind: "comment", ...comment });
+            if (ends.includes(cursor.next) && cursor.kind === "word")
+                break;
+            if (cursor.done || ROUTINE_ENDS.has(cursor.next))
+                throw new TextError(cursor.here, ends[0].toUpperCase(), `The block of line ${opened.line} is not closed.`);
+            if (this.faults.length >= MOST_FAULTS)
+                break;
+            const before = cursor.here, statement = this.guard(() => this.statement());
+            if (statement !== undefined)
+                statements.push(statement);
+            else if (before.line === cursor.here.line && before.column === cursor.here.column && !cursor.done && !ends.includes(cursor.next))
+                this.guard(() => { cursor.advance(); });
+        }
+        this.depth--;
+        return statements;
+    }
+    statement() {
+        const { cursor } = this, at = cursor.here, word = cursor.next;
+        if (cursor.accept(";"))
+            return undefined;
+        if (cursor.kind !== "word")
+            throw cursor.unexpected("a statement");
+        switch (word) {
+            case "const":
+            case "pers":
+            case "var":
+                this.datum(this.current ?? this.data);
+                return undefined;
+            case "if":
+                cursor.advance();
+                return this.decision(at);
+            case "while": {
+                cursor.advance();
+                const when = readExpression(cursor, RULES);
+                cursor.expect("do");
+                const body = this.body(at, ["endwhile"]);
+                cursor.expect("endwhile");
+                return { kind: "while", when, body, ...at };
+            }
+            case "for":
+                cursor.advance();
+                return this.counting(at);
+            case "test":
+                cursor.advance();
+                return this.test(at);
+            case "return": {
+                cursor.advance();
+                if (cursor.accept(";"))
+                    return { kind: "return", ...at };
+                const value = readExpression(cursor, RULES);
+                cursor.expect(";");
+                return { kind: "return", value, ...at };
+            }
+            case "exit":
+                cursor.advance();
+                cursor.expect(";");
+                return { kind: "halt", ...at };
+            case "goto":
+            case "raise":
+            case "retry":
+            case "trynext":
+            case "connect":
+                throw new TextError(at, "a statement of the motion program", `${word.toUpperCase()} is not executed here.`);
+            default: break;
+        }
+        if (RESERVED.has(word))
+            throw cursor.unexpected("a statement");
+        const { second } = cursor;
+        if (second === ":=" || second === "{" || second === ".") {
+            const to = readExpression(cursor, RULES, 0, 100);
+            cursor.expect(":=");
+            const value = readExpression(cursor, RULES);
+            cursor.expect(";");
+            return { kind: "assign", to, value, global: false, ...at };
+        }
+        if (second === ":")
+            throw new TextError(at, "a statement", "Labels are not executed here.");
+        cursor.advance();
+        return { kind: "do", name: word, args: readArguments(cursor, ";", 0), ...at };
+    }
+    decision(at) {
+        const { cursor } = this, branches = [];
+        let when = readExpression(cursor, RULES);
+        if (cursor.next !== "then") {
+            // IF condition instruction;
+            const one = this.statement();
+            return { kind: "if", branches: [{ when, body: one === undefined ? [] : [one] }], ...at };
+        }
+        for (;;) {
+            cursor.expect("then");
+            branches.push({ when, body: this.body(at, ["endif", "elseif", "else"]) });
+            if (!cursor.accept("elseif"))
+                break;
+            when = readExpression(cursor, RULES);
+        }
+        const otherwise = cursor.accept("else") ? this.body(at, ["endif"]) : undefined;
+        cursor.expect("endif");
+        return otherwise === undefined ? { kind: "if", branches, ...at } : { kind: "if", branches, otherwise, ...at };
+    }
+    counting(at) {
+        const { cursor } = this, variable = cursor.name("the name of the loop variable");
+        cursor.expect("from");
+        const from = readExpression(cursor, RULES);
+        cursor.expect("to");
+        const to = readExpression(cursor, RULES), step = cursor.accept("step") ? readExpression(cursor, RULES) : undefined;
+        cursor.expect("do");
+        const body = this.body(at, ["endfor"]);
+        cursor.expect("endfor");
+        return { kind: "for", variable, from, to, ...(step === undefined ? {} : { step }), body, ...at };
+    }
+    /** TEST … CASE is a chain of comparisons. */
+    test(at) {
+        const { cursor } = this, of = readExpression(cursor, RULES), branches = [];
+        let otherwise;
+        while (!cursor.accept("endtest")) {
+            if (cursor.accept("default")) {
+                cursor.expect(":");
+                otherwise = this.body(at, ["endtest", "case"]);
+                continue;
+            }
+            cursor.expect("case");
+            let when;
+            do {
+                const right = readExpression(cursor, RULES), equal = { kind: "binary", sign: "=", left: of, right, line: right.line, column: right.column };
+                when = when === undefined ? equal : { kind: "binary", sign: "or", left: when, right: equal, line: right.line, column: right.column };
+            } while (cursor.accept(","));
+            cursor.expect(":");
+            branches.push({ when, body: this.body(at, ["endtest", "case", "default"]) });
+        }
+        return { kind: "if", branches, ...(otherwise === undefined ? {} : { otherwise }), ...at };
+    }
+}
+const ROUTINE_ENDS = new Set(["endproc", "endfunc", "endtrap", "endmodule", "proc", "func", "trap"]);
+const ENDS = new Set([...ROUTINE_ENDS, "endif", "endwhile", "endfor", "endtest", "else", "elseif", "error", "local", "const", "pers"]);
+/** `a,b\Opt:=c\Switch` up to and with the sign that ends it. A comma before a backslash is at will. */
+function readArguments(cursor, end, depth) {
+    const args = [];
+    while (!cursor.accept(end)) {
+        const at = cursor.here;
+        if (args.length > 0 && cursor.next !== "\\" && !cursor.accept(","))
+            throw cursor.unexpected(`"," or "${end}"`);
+        if (args.length === 0 && cursor.next === ",")
+            throw cursor.unexpected("an argument");
+        if (cursor.accept("\\")) {
+            const name = cursor.name("the name of an optional argument");
+            if (cursor.accept(":="))
+                args.push({ name, value: readExpression(cursor, RULES, depth + 1), ...at });
+            else if (cursor.next === "?")
+                throw new TextError(cursor.here, "an argument", "Conditional arguments are not executed here.");
+            else
+                args.push({ name, ...at });
+            continue;
+        }
+        const value = readExpression(cursor, RULES, depth + 1);
+        if (value.kind === "text" && value.value.length > STRING_LENGTH)
+            throw new TextError(value, `a text of at most ${STRING_LENGTH} characters`, `The text has ${value.value.length} characters; RAPID takes ${STRING_LENGTH}.`);
+        args.push({ value, ...at });
+    }
+    return args;
+}

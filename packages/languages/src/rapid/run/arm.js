@@ -1,0 +1,44 @@
+import { branchOf, flangePose } from "@twincell/core";
+import { octant, solved } from "./configuration.ts";
+import { NOTHING, fromPose, times, toPose } from "./frame.ts";
+/** Where the arm is sent. The controller counts from the base of the robot; its joints are those of the library, in degrees. */
+export class ControllerArm {
+    robot;
+    worldFromBase;
+    /** Worked out when it is asked for. */
+    known;
+    tool = NOTHING;
+    /** Unknown after a pose whose joint angles are not solved here. */
+    joints_deg;
+    constructor(robot, worldFromBase) {
+        this.robot = robot;
+        this.worldFromBase = fromPose(worldFromBase);
+        this.joints_deg = robot.home_rad.map(angle => angle / Math.PI * 180);
+    }
+    get flange() { return this.known ??= this.flangeAt(this.joints_deg); }
+    world(base) { return toPose(times(this.worldFromBase, base)); }
+    flangeAt(joints_deg) { return fromPose(flangePose(this.robot.arm, joints_deg.map(angle => angle / 180 * Math.PI))); }
+    atJoints(joints_deg) {
+        this.joints_deg = joints_deg;
+        this.known = undefined;
+    }
+    /** The flange is there, in the configuration that is asked for or else in the nearest posture. Answers with the branch, where it has a name. */
+    atFlange(flange, conf) {
+        const near = this.joints_deg?.map(angle => angle / 180 * Math.PI), q = solved(this.robot, toPose(flange), near, conf);
+        this.known = flange;
+        this.joints_deg = q?.map(angle => angle / Math.PI * 180);
+        return q === undefined ? undefined : branchOf(this.robot, q);
+    }
+    configuration() {
+        const { joints_deg } = this;
+        if (joints_deg === undefined)
+            return [0, 0, 0, 0];
+        const quarter = (joint) => Math.floor(joints_deg[joint] / 90);
+        return [quarter(0), quarter(3), quarter(5), octant(this.robot, joints_deg.map(angle => angle / 180 * Math.PI))];
+    }
+    /** Remembers where the arm is; the answer brings it back. */
+    remember() {
+        const { known, tool, joints_deg } = this;
+        return () => { this.known = known; this.tool = tool; this.joints_deg = joints_deg; };
+    }
+}

@@ -1,0 +1,83 @@
+import { holds } from "@twincell/core";
+/** Functions that read a line, with the kind of line each reads. */
+export const KIND_OF_FUNCTION = {
+    testdi: "digital-in", dinput: "digital-in", doutput: "digital-out", ainput: "analogue-in", aoutput: "analogue-out",
+};
+/** The lines of the controller. They are names of its configuration, so a program only shows by its use what they are. */
+export class Lines {
+    table;
+    signals;
+    spelt;
+    isFree;
+    outputs = new Map();
+    /**
+     * @param table   lines by name; filled as they are met.
+     * @param isFree  whether a name is that of no datum.
+     */
+    constructor(table, signals, spelt, isFree) {
+        this.table = table;
+        this.signals = signals;
+        this.spelt = spelt;
+        this.isFree = isFree;
+    }
+    /** The line of that name, which is of that kind from its first use on. */
+    line(name, kind) {
+        const spelt = this.spelt(name);
+        this.table[spelt] ??= { kind };
+        return spelt;
+    }
+    /** What a name is worth that is a line which was spoken of before; undefined for any other. */
+    level(name) {
+        const spelt = this.spelt(name);
+        return Object.hasOwn(this.table, spelt) ? Number(this.read(spelt)) : undefined;
+    }
+    /** What the program wrote itself counts before what is outside. */
+    read(line) {
+        const value = this.outputs.get(line) ?? this.signals?.read(line);
+        if (!this.table[line].kind.startsWith("digital"))
+            return Number(value ?? 0);
+        return value === true || (typeof value === "number" && value !== 0);
+    }
+    write(line, value) { this.outputs.set(line, value); }
+    holds(when) { return holds(when, this); }
+    /** The condition of one line that an expression is: `di1=1`, `NOT TestDI(di1)`, `AInput(ai1)>5`. */
+    condition(expression, evaluate) {
+        if (expression.kind === "unary" && expression.sign === "not") {
+            const inner = this.condition(expression.of, evaluate);
+            return inner !== undefined && "is" in inner ? { signal: inner.signal, is: !inner.is } : undefined;
+        }
+        if (expression.kind === "call" && expression.name === "testdi") {
+            const signal = this.lineOf(expression);
+            return signal === undefined ? undefined : { signal, is: true };
+        }
+        if (expression.kind !== "binary" || !["=", "<>", "<", ">"].includes(expression.sign))
+            return undefined;
+        const { sign, left, right } = expression;
+        // A bare name is a line when it is nothing else and is compared with a number.
+        if (left.kind === "variable" && (!this.isFree(left.name) || (right.kind !== "number" && (right.kind !== "variable" || this.isFree(right.name)))))
+            return undefined;
+        const signal = this.lineOf(left), value = right.kind === "number" || right.kind === "variable" ? evaluate(right) : undefined;
+        if (signal === undefined || typeof value !== "number")
+            return undefined;
+        if (sign === ">" || sign === "<")
+            return sign === ">" ? { signal, above: value } : { signal, below: value };
+        return value === 0 || value === 1 ? { signal, is: (value === 1) === (sign === "=") } : undefined;
+    }
+    lineOf(expression) {
+        if (expression.kind === "variable")
+            return this.line(expression.name, "digital-in");
+        if (expression.kind !== "call" || !Object.hasOwn(KIND_OF_FUNCTION, expression.name))
+            return undefined;
+        const name = expression.args[0]?.value;
+        return name?.kind === "variable" ? this.line(name.name, KIND_OF_FUNCTION[expression.name]) : undefined;
+    }
+    /** Remembers what was written; the answer brings it back. */
+    remember() {
+        const outputs = new Map(this.outputs);
+        return () => {
+            this.outputs.clear();
+            for (const [line, value] of outputs)
+                this.outputs.set(line, value);
+        };
+    }
+}

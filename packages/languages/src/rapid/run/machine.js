@@ -1,0 +1,406 @@
+import {} from "@twincell/core";
+import { TextError, nameIn } from "../../text/index.ts";
+import { BlockMachine } from "../../text/structured/index.ts";
+import { ControllerArm } from "./arm.ts";
+import { Arguments } from "./arguments.ts";
+import { inverted, times, toPose } from "./frame.ts";
+import { FUNCTIONS } from "./functions.ts";
+import { KIND_OF_FUNCTION, Lines } from "./lines.ts";
+import { jointsOf, loadOf, toolFrameOf, zoneOf } from "./records.ts";
+import { predefined } from "./predefined.ts";
+import { asFrame, asNumber, asNumbers, asRecord, asTruth, binary, fromFrame, placeOf } from "./values.ts";
+/** The output that closes the gripper. */
+const GRIPPER = "dogripper";
+/** Instructions that change nothing of where the robot goes. */
+const SILENT = new Set([
+    "singarea", "tperase", "confl", "pathaccset", "worldaccset", "motionsup", "actunit", "deactunit", "clkreset", "clkstart", "clkstop",
+    "cirpathmode", "pathresol", "tunereset", "softdeact", "pdispoff", "eoffsoff", "waitrob",
+]);
+/** Instructions at which the robot stays until somebody starts it again. */
+const HALTS = new Set(["stop", "break", "systemstopaction"]);
+/** Records whose orientation a program may leave unset. */
+const UNSET = new Set(["num", "dnum", "bool", "string", "byte", "clock", "intnum"]);
+const MOST_ITEMS = 100_000;
+/** Executes RAPID statement by statement. */
+export class Machine extends BlockMachine {
+    arm;
+    surroundings;
+    /** Work objects that are frames although they change: the places of a pallet that is being read. */
+    places = new Set();
+    source;
+    known;
+    changing;
+    lines;
+    acceleration = 1;
+    override = 1;
+    fastest_mmps = Infinity;
+    asksConfiguration = true;
+    tool;
+    /** @param changing  data that get a value while the program runs. */
+    constructor(source, changing, robot, worldFromBase, surroundings, signals) {
+        super(source.routines);
+        this.source = source;
+        this.known = predefined(robot.maxTcpSpeed_mps);
+        this.changing = changing;
+        this.arm = new ControllerArm(robot, worldFromBase);
+        this.surroundings = surroundings;
+        this.lines = new Lines(surroundings.signals, signals, name => this.spelt(name), name => this.variable(name) === undefined);
+        this.tool = { mm: [0, 0, 0], wxyz: [1, 0, 0, 0] };
+        for (const datum of source.data)
+            this.make(datum, this.globals);
+    }
+    // --- data -------------------------------------------------------------------------------------------------------
+    make(datum, into) {
+        const { name, type, value, sizes } = datum;
+        if (value !== undefined)
+            into.set(name, this.evaluate(value));
+        else if (sizes.length > 0)
+            into.set(name, this.empty(sizes, type));
+        else if (UNSET.has(type))
+            into.set(name, type === "bool" ? false : type === "string" ? "" : 0);
+    }
+    empty(sizes, type) {
+        const [size, ...rest] = sizes, length = this.numberOf(size);
+        if (!Number.isInteger(length) || length < 1 || length > MOST_ITEMS)
+            throw new TextError(size, `a size from 1 to ${MOST_ITEMS}`, `An array of ${length} items cannot be made.`);
+        return Array.from({ length }, () => rest.length > 0 ? this.empty(rest, type) : type === "bool" ? false : type === "string" ? "" : 0);
+    }
+    prepare(routine, names) {
+        for (const datum of this.source.local.get(routine.name) ?? [])
+            this.make(datum, names);
+    }
+    *main() {
+        const main = this.entry();
+        return main === undefined ? "next" : yield* this.call(main, [], main);
+    }
+    /** PROC main, or the only routine there is. */
+    entry() {
+        return this.source.routines.get("main") ?? (this.source.routines.size === 1 ? [...this.source.routines.values()][0] : undefined);
+    }
+    /** The body of the entry with its data made, to be written down. */
+    open() {
+        const main = this.entry();
+        if (main === undefined)
+            return [];
+        const names = new Map();
+        this.scopes.push({ routine: main.name, names });
+        this.prepare(main, names);
+        return main.body;
+    }
+    variable(name) {
+        return this.scopes.at(-1)?.names.get(name) ?? this.globals.get(name) ?? this.known.get(name);
+    }
+    evaluate(expression) {
+        switch (expression.kind) {
+            case "number":
+            case "truth":
+            case "text": return expression.value;
+            case "variable": {
+                const value = this.variable(expression.name) ?? this.lines.level(expression.name);
+                if (value === undefined)
+                    throw new TextError(expression, "a datum that has a value", `"${this.spelt(expression.name)}" has no value here.`);
+                return value;
+            }
+            case "list": return expression.items.map(item => this.evaluate(item));
+            case "index": return expression.indices.reduce((value, index) => {
+                const i = this.numberOf(index), item = typeof value === "object" && Number.isInteger(i) ? value[i - 1] : undefined;
+                if (item === undefined)
+                    throw new TextError(index, "an item of the array", `The array has no item ${i}.`);
+                return item;
+            }, this.evaluate(expression.of));
+            case "component": {
+                const record = this.evaluate(expression.of), place = typeof record === "object" ? placeOf(record, expression.name) : undefined;
+                const value = typeof record === "object" && place !== undefined ? record[place] : undefined;
+                if (value === undefined)
+                    throw new TextError(expression, "a component of the record", `There is no component "${expression.name}" here.`);
+                return value;
+            }
+            case "unary": return expression.sign === "not" ? !this.isTrue(expression.of) : -this.numberOf(expression.of);
+            case "binary": return binary(expression.sign, this.evaluate(expression.left), this.evaluate(expression.right), expression);
+            case "call": return this.function(expression);
+        }
+    }
+    isTrue(expression) {
+        const when = this.condition(expression);
+        return when === undefined ? asTruth(this.evaluate(expression), expression) : this.lines.holds(when);
+    }
+    numberOf(expression) { return asNumber(this.evaluate(expression), expression); }
+    fromNumber(value) { return value; }
+    store(to, value) {
+        if (to.kind === "variable") {
+            const names = this.scopes.at(-1)?.names;
+            (names?.has(to.name) === true ? names : this.globals).set(to.name, value);
+            return;
+        }
+        if (to.kind === "component") {
+            const record = this.evaluate(to.of), place = typeof record === "object" ? placeOf(record, to.name) : undefined;
+            if (typeof record !== "object" || place === undefined || place >= record.length)
+                throw new TextError(to, "a component of the record", `There is no component "${to.name}" here.`);
+            return this.store(to.of, record.with(place, value));
+        }
+        if (to.kind === "index") {
+            const [index, ...rest] = to.indices, array = this.evaluate(to.of), i = this.numberOf(index);
+            if (typeof array !== "object" || !Number.isInteger(i) || i < 1 || i > array.length)
+                throw new TextError(index, "an item of the array", `The array has no item ${i}.`);
+            const inner = { kind: "index", of: to.of, indices: [index], line: to.line, column: to.column };
+            return rest.length > 0 ? this.store({ kind: "index", of: inner, indices: rest, line: to.line, column: to.column }, value) : this.store(to.of, array.with(i - 1, value));
+        }
+        throw new TextError(to, "a datum", "Only a datum can be given a value.");
+    }
+    function(expression) {
+        const { name, args: given } = expression, routine = this.routine(name);
+        if (routine !== undefined)
+            return this.answer(routine, given, expression);
+        const args = new Arguments(name, given, expression, each => this.evaluate(each));
+        switch (name) {
+            case "crobt": {
+                const base = times(this.arm.flange, this.tool);
+                return [...asRecord(fromFrame(base), expression, 2, "a pose"), [...this.arm.configuration()], NO_AXES];
+            }
+            case "cjointt": return [this.jointsNow(expression), NO_AXES];
+            case "cpos": return [...times(this.arm.flange, this.tool).mm];
+            case "calcrobt": return [...asRecord(fromFrame(times(this.arm.flangeAt(jointsOf(args.value(0, "a jointtarget"), expression)), toolFrameOf(args.value(1, "a tool"), expression))), expression, 2, "a pose"), [0, 0, 0, 0], NO_AXES];
+            case "testdi":
+            case "dinput":
+            case "doutput":
+            case "ainput":
+            case "aoutput": {
+                const value = this.lines.read(this.lines.line(args.nameOf(0, "a line"), KIND_OF_FUNCTION[name]));
+                return name === "testdi" ? value === true : Number(value);
+            }
+            case "isfile":
+            case "present": return false;
+            default: break;
+        }
+        const known = Object.hasOwn(FUNCTIONS, name) ? FUNCTIONS[name] : undefined;
+        if (known === undefined)
+            throw new TextError(expression, "a function of RAPID", `"${name}" is no function that is understood here.`);
+        const [count, run] = known;
+        if (args.count !== count)
+            throw new TextError(expression, `${count} argument${count === 1 ? "" : "s"}`, `${name} takes ${count} argument${count === 1 ? "" : "s"}; ${args.count} are given.`);
+        return run(args.values(), args.options(), expression);
+    }
+    jointsNow(at) {
+        const { joints_deg } = this.arm;
+        if (joints_deg === undefined)
+            throw new TextError(at, "a MoveAbsJ before it", "The joint angles are the controller's choice here, and are not known.");
+        return [...joints_deg];
+    }
+    spelt(name) { return this.source.spelling.get(name) ?? name; }
+    condition(expression) { return this.lines.condition(expression, of => this.evaluate(of)); }
+    // --- waits ------------------------------------------------------------------------------------------------------
+    *waitUntil(statement) {
+        const when = this.condition(statement.when);
+        if (when === undefined) {
+            if (!asTruth(this.evaluate(statement.when), statement.when))
+                throw new TextError(statement.when, "a condition that comes true", "The program waits for a condition that nothing here makes true.");
+            yield { line: statement.line };
+            return;
+        }
+        yield this.waitFor(statement, when, statement.timeout === undefined ? undefined : this.numberOf(statement.timeout));
+    }
+    waitFor(at, when, timeout_s) {
+        return this.done(at, { id: this.stepId(at), type: "wait-for", when, ...(timeout_s === undefined ? {} : { timeout_s }) });
+    }
+    // --- instructions -----------------------------------------------------------------------------------------------
+    *instruction(statement) {
+        const { name } = statement, args = new Arguments(this.spelt(name), statement.args, statement, each => this.evaluate(each));
+        if (HALTS.has(name)) {
+            yield this.done(statement, { id: this.stepId(statement), type: "stop" });
+            return "halt";
+        }
+        const step = this.step(name, args, statement);
+        yield step === undefined ? { line: statement.line } : this.done(statement, step);
+        return undefined;
+    }
+    step(name, args, at) {
+        const id = () => this.stepId(at);
+        switch (name) {
+            case "moveabsj":
+            case "movej":
+            case "movel":
+            case "movec": return this.move(name, args, id());
+            case "searchl":
+            case "searchc": return this.search(name, args, id());
+            case "waittime": {
+                const s = args.number(0, "a time");
+                if (!(s >= 0))
+                    throw new TextError(at, "a time of 0 s or more", `The time is ${s} s.`);
+                return { id: id(), type: "wait", s };
+            }
+            case "waitdi":
+            case "waitdo":
+            case "waitai":
+            case "waitao":
+            case "waituntil": return this.wait(name, args, at);
+            case "set":
+            case "reset": return this.write(args.nameOf(0, "a line"), name === "set", at);
+            case "setdo": return this.write(args.nameOf(0, "a line"), args.number(1, "a value") !== 0, at);
+            case "setao": return this.write(args.nameOf(0, "a line"), args.number(1, "a value"), at);
+            case "pulsedo": {
+                const pulse_s = args.option("plength") ?? 0.2, signal = this.lines.line(args.nameOf(0, "a line"), "digital-out");
+                return { id: id(), type: "set", signal, to: true, pulse_s };
+            }
+            case "gripload": return { id: this.stepId(at), type: "payload", ...loadOf(args.value(0, "a load"), this.tool, at) };
+            case "tpwrite": {
+                const text = args.value(0, "a text");
+                if (typeof text !== "string")
+                    throw new TextError(at, "a text", "TPWrite writes a text.");
+                const number = args.option("num");
+                return { id: id(), type: "message", text: number === undefined ? text : `${text}${number}` };
+            }
+            case "accset":
+                this.acceleration = Math.min(1, Math.max(0.2, args.number(0, "a percentage") / 100));
+                return undefined;
+            case "velset":
+                this.override = Math.min(1, Math.max(0.01, args.number(0, "a percentage") / 100));
+                this.fastest_mmps = args.number(1, "a speed");
+                return undefined;
+            case "confj":
+                this.asksConfiguration = !args.has("off");
+                return undefined;
+            default:
+                if (SILENT.has(name))
+                    return undefined;
+                throw new TextError(at, "an instruction of RAPID", REFUSED[name] ?? `"${this.spelt(name)}" is no instruction of RAPID that is understood here.`);
+        }
+    }
+    wait(name, args, at) {
+        const timeout = args.option("maxtime"), limit = timeout === undefined ? {} : { timeout_s: timeout };
+        const when = name === "waituntil" ? this.condition(args.given(0, "a condition")) : this.waited(name, args);
+        if (when !== undefined)
+            return { id: this.stepId(at), type: "wait-for", when, ...limit };
+        if (!this.isTrue(args.given(0, "a condition")))
+            throw new TextError(at, "a condition that comes true", "The program waits for a condition that nothing here makes true.");
+        return { id: this.stepId(at), type: "wait", s: 0 };
+    }
+    waited(name, args) {
+        const kind = name === "waitdi" ? "digital-in" : name === "waitdo" ? "digital-out" : name === "waitai" ? "analogue-in" : "analogue-out";
+        const signal = this.lines.line(args.nameOf(0, "a line"), kind), value = args.number(1, "a value");
+        if (kind.startsWith("digital"))
+            return { signal, is: value !== 0 };
+        if (args.has("gt"))
+            return { signal, above: value };
+        if (args.has("lt"))
+            return { signal, below: value };
+        throw new TextError(args.at, "\\GT or \\LT", "Only a wait for more or for less can be carried out.");
+    }
+    write(name, to, at) {
+        if (name === GRIPPER && typeof to === "boolean")
+            return { id: this.stepId(at), type: "gripper", closed: to };
+        const signal = this.lines.line(name, typeof to === "boolean" ? "digital-out" : "analogue-out");
+        this.lines.write(signal, to);
+        return { id: this.stepId(at), type: "set", signal, to };
+    }
+    // --- moves ------------------------------------------------------------------------------------------------------
+    move(name, args, id) {
+        const shift = name === "movec" ? 1 : 0;
+        const motion = {
+            goal: args.given(shift, "a target"), speed: args.given(shift + 1, "a speed"), zone: args.given(shift + 2, "a zone"), tool: args.given(shift + 3, "a tool"),
+            ...(shift === 0 ? {} : { via: args.given(0, "a point on the arc") }),
+        };
+        return this.motion(name, motion, args, id);
+    }
+    search(name, args, id) {
+        const signal = this.lines.line(args.nameOf(0, "a line"), "digital-in"), shift = name === "searchc" ? 1 : 0;
+        if (args.has("flanks"))
+            throw new TextError(args.at, "\\PosFlank or \\NegFlank", "A search for either edge is not executed here.");
+        const motion = {
+            goal: args.given(2 + shift, "a target"), speed: args.given(3 + shift, "a speed"), tool: args.given(4 + shift, "a tool"),
+            ...(shift === 0 ? {} : { via: args.given(2, "a point on the arc") }),
+        };
+        const routine = this.scopes.at(-1)?.routine ?? "", is = !args.has("negflank") && !args.has("lowlevel");
+        return { ...this.motion(name === "searchl" ? "movel" : "movec", motion, args, id), until: { when: { signal, is }, missing: this.source.forgiving.has(routine) ? "continue" : "fault" } };
+    }
+    motion(name, motion, args, id) {
+        const { goal, via } = motion, tool = this.useTool(motion.tool), object = args.optionGiven("wobj"), speed = this.speed(motion.speed, args);
+        const blend_m = motion.zone === undefined ? 0 : zoneOf(this.evaluate(motion.zone), args.option("z"), motion.zone), acceleration = this.acceleration < 1 ? { acceleration: { ratio: this.acceleration } } : {};
+        const common = { id, type: "move", speed, ...acceleration, blend_m };
+        if (name === "moveabsj") {
+            const joints = jointsOf(this.evaluate(goal), goal);
+            this.arm.atJoints(joints);
+            return { ...common, path: "ptp", target: { q: joints.map(angle => angle / 180 * Math.PI), tool } };
+        }
+        const frame = this.workObject(object), target = this.target(goal, frame, tool, name === "movej", true);
+        const passing = via === undefined ? {} : { via: this.target(via, frame, tool, false, false) };
+        return { ...common, path: name === "movej" ? "ptp" : name === "movel" ? "lin" : "circ", target, ...passing };
+    }
+    useTool(tool) {
+        this.tool = toolFrameOf(this.evaluate(tool), tool);
+        this.arm.tool = this.tool;
+        if (tool.kind === "variable" && tool.name === "tool0")
+            return "flange";
+        return nameIn(this.surroundings.tools, toPose(this.tool), tool.kind === "variable" ? this.spelt(tool.name) : "tool", "_");
+    }
+    /** A work object: where it is in the base of the robot, and which frame it is for the steps. */
+    workObject(object) {
+        if (object === undefined || (object.kind === "variable" && object.name === "wobj0"))
+            return { name: "world", base: { mm: [0, 0, 0], wxyz: [1, 0, 0, 0] } };
+        const [holds, , , user, own] = asRecord(this.evaluate(object), object, 5, "a work object");
+        if (holds !== false)
+            throw new TextError(object, "a work object that stands still", "Work objects that the robot holds are not executed here.");
+        const base = times(asFrame(user, object), asFrame(own, object));
+        if (object.kind !== "variable")
+            return { name: "world", base };
+        const { name } = object, spelt = this.spelt(name);
+        if (this.places.has(spelt))
+            return { name: spelt, base };
+        if (this.changing.has(name))
+            return { name: "world", base };
+        this.surroundings.frames[spelt] ??= this.arm.world(base);
+        return { name: spelt, base };
+    }
+    target(expression, frame, tool, choosesPosture, isEnd) {
+        const [trans, rot, conf] = asRecord(this.evaluate(expression), expression, 4, "a robtarget [[…],[…],[…],[…]]");
+        const inFrame = asFrame([trans, rot], expression), tip = times(frame.base, inFrame), [cf1, cf4, cf6, cfx] = asNumbers(conf, expression, 4, "a configuration [cf1,cf4,cf6,cfx]");
+        const isNamed = frame.name !== "world", pose = isNamed ? toPose(inFrame) : this.arm.world(tip);
+        if (!isEnd)
+            return { pose, frame: frame.name, tool };
+        const asked = this.asksConfiguration ? [cf1, cf4, cf6, cfx] : undefined;
+        const branch = this.arm.atFlange(times(tip, inverted(this.tool)), choosesPosture || this.asksConfiguration ? asked : undefined);
+        return { pose, frame: frame.name, tool, ...(branch === undefined || !this.asksConfiguration ? {} : { branch }) };
+    }
+    speed(expression, args) {
+        const time = args.option("t");
+        if (time !== undefined && time > 0)
+            return { time_s: time };
+        const [tcp] = asNumbers(this.evaluate(expression), expression, 4, "a speed [v_tcp,v_ori,v_leax,v_reax]"), v_mmps = Math.min((args.option("v") ?? tcp) * this.override, this.fastest_mmps);
+        if (!(v_mmps > 0))
+            throw new TextError(expression, "a speed above 0", `The speed is ${v_mmps} mm/s.`);
+        return { mps: v_mmps / 1000 };
+    }
+    // --- writing a program down -------------------------------------------------------------------------------------
+    /** The place that a work object is, in the frame whose user frame it shares. */
+    placeIn(variable) {
+        const value = this.variable(variable);
+        if (typeof value !== "object" || value.length !== 5 || !this.changing.has(variable))
+            return undefined;
+        const at = { line: 1, column: 1 }, user = asFrame(value[3], at), own = asFrame(value[4], at);
+        const like = this.source.data.find(({ type, name }) => type === "wobjdata" && name !== variable && !this.changing.has(name) && JSON.stringify(asRecord(this.globals.get(name), at, 5, "a work object")[3]) === JSON.stringify(value[3]));
+        if (like === undefined)
+            return { frame: "world", pose: this.arm.world(times(user, own)) };
+        const shared = asFrame(asRecord(this.globals.get(like.name), at, 5, "a work object")[4], at), spelt = this.spelt(like.name);
+        this.surroundings.frames[spelt] ??= this.arm.world(times(user, shared));
+        return { frame: spelt, pose: toPose(times(inverted(shared), own)) };
+    }
+    edge() { }
+    remember() {
+        const values = super.remember(), arm = this.arm.remember(), { acceleration, override, fastest_mmps, asksConfiguration, tool } = this, lines = this.lines.remember();
+        return () => {
+            values();
+            arm();
+            this.acceleration = acceleration;
+            this.override = override;
+            this.fastest_mmps = fastest_mmps;
+            this.asksConfiguration = asksConfiguration;
+            this.tool = tool;
+            lines();
+        };
+    }
+}
+const NO_AXES = [9e9, 9e9, 9e9, 9e9, 9e9, 9e9];
+const REFUSED = {
+    triggl: "Events on the way of a move are not executed here.", triggj: "Events on the way of a move are not executed here.",
+    pdispset: "Program displacement is not executed here: put it into the work object.", pdispon: "Program displacement is not executed here: put it into the work object.",
+    eoffsset: "Offsets of external axes are not executed here.",
+};

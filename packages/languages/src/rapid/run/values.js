@@ -1,0 +1,96 @@
+import { TextError } from "../../text/index.ts";
+import { normal } from "./frame.ts";
+const kindOf = (value) => typeof value === "number" ? "a number" : typeof value === "boolean" ? "TRUE or FALSE" : typeof value === "string" ? "a text" : `a record of ${value.length}`;
+const stands = (value, at, expected) => {
+    const kind = kindOf(value);
+    return new TextError(at, expected, `${kind.charAt(0).toUpperCase()}${kind.slice(1)} stands where ${expected} is expected.`);
+};
+export function asNumber(value, at) {
+    if (typeof value === "number")
+        return value;
+    throw stands(value, at, "a number");
+}
+export function asTruth(value, at) {
+    if (typeof value === "boolean")
+        return value;
+    throw stands(value, at, "TRUE or FALSE");
+}
+export function asRecord(value, at, count, what) {
+    if (typeof value === "object" && value.length === count)
+        return value;
+    throw stands(value ?? "", at, what);
+}
+export function asNumbers(value, at, count, what) {
+    return asRecord(value, at, count, what).map(each => asNumber(each, at));
+}
+/** A pose `[[x,y,z],[q1,q2,q3,q4]]`. */
+export function asFrame(value, at) {
+    const [trans, rot] = asRecord(value, at, 2, "a pose [[x,y,z],[q1,q2,q3,q4]]");
+    return { mm: asPosition(trans, at), wxyz: asOrient(rot, at) };
+}
+export function asPosition(value, at) {
+    const [x, y, z] = asNumbers(value, at, 3, "a position [x,y,z]");
+    return [x, y, z];
+}
+export function asOrient(value, at) {
+    const [w, x, y, z] = asNumbers(value, at, 4, "an orientation [q1,q2,q3,q4]"), unit = normal([w, x, y, z]);
+    if (unit === undefined)
+        throw new TextError(at, "a quaternion of length 1", `The quaternion has the length ${Math.hypot(w, x, y, z).toPrecision(4)}.`);
+    return unit;
+}
+export const fromFrame = ({ mm, wxyz }) => [[...mm], [...wxyz]];
+/** Where a component stands in its record. */
+const COMPONENTS = {
+    trans: 0, rot: 1, robconf: 2, x: 0, y: 1, z: 2, q1: 0, q2: 1, q3: 2, q4: 3, cf1: 0, cf4: 1, cf6: 2, cfx: 3, robax: 0,
+    rax_1: 0, rax_2: 1, rax_3: 2, rax_4: 3, rax_5: 4, rax_6: 5, eax_a: 0, eax_b: 1, eax_c: 2, eax_d: 3, eax_e: 4, eax_f: 5,
+    robhold: 0, tframe: 1, tload: 2, mass: 0, cog: 1, aom: 2, ix: 3, iy: 4, iz: 5, ufprog: 1, ufmec: 2, uframe: 3, oframe: 4,
+    v_tcp: 0, v_ori: 1, v_leax: 2, v_reax: 3, finep: 0, pzone_tcp: 1, pzone_ori: 2, pzone_eax: 3, zone_ori: 4, zone_leax: 5, zone_reax: 6,
+};
+/** External axes come last in a robtarget and in a jointtarget. */
+export const placeOf = (record, component) => component === "extax" ? record.length - 1 : COMPONENTS[component];
+export function binary(sign, left, right, at) {
+    if (sign === "=" || sign === "<>")
+        return same(left, right) === (sign === "=");
+    if (sign === "and" || sign === "or" || sign === "xor") {
+        const a = asTruth(left, at), b = asTruth(right, at);
+        return sign === "and" ? a && b : sign === "or" ? a || b : a !== b;
+    }
+    if (typeof left === "string" && typeof right === "string" && sign === "+")
+        return left + right;
+    if (typeof left === "object" || typeof right === "object")
+        return vector(sign, left, right, at);
+    const a = asNumber(left, at), b = asNumber(right, at);
+    if (["<", ">", "<=", ">="].includes(sign))
+        return sign === "<" ? a < b : sign === ">" ? a > b : sign === "<=" ? a <= b : a >= b;
+    return finite(arithmetic(sign, a, b, at), at);
+}
+/** Positions add, and are stretched by a number. */
+function vector(sign, left, right, at) {
+    if (typeof left === "number" && sign === "*")
+        return asPosition(right, at).map(x => left * x);
+    if (typeof right === "number" && (sign === "*" || sign === "/"))
+        return asPosition(left, at).map(x => finite(sign === "*" ? x * right : x / right, at));
+    const a = asPosition(left, at), b = asPosition(right, at);
+    if (sign === "+" || sign === "-")
+        return a.map((x, i) => sign === "+" ? x + b[i] : x - b[i]);
+    throw new TextError(at, "numbers", `"${sign}" does not join positions.`);
+}
+function arithmetic(sign, a, b, at) {
+    if ((sign === "/" || sign === "div" || sign === "mod") && b === 0)
+        throw new TextError(at, "a divisor other than 0", "The divisor is 0.");
+    switch (sign) {
+        case "+": return a + b;
+        case "-": return a - b;
+        case "*": return a * b;
+        case "/": return a / b;
+        case "div": return Math.trunc(a / b);
+        case "mod": return a % b;
+        default: throw new TextError(at, "an operator", `"${sign}" is no operator.`);
+    }
+}
+export function finite(value, at) {
+    if (!Number.isFinite(value))
+        throw new TextError(at, "a finite result", "The result is not a number.");
+    return value;
+}
+const same = (a, b) => typeof a === "object" && typeof b === "object" ? a.length === b.length && a.every((each, i) => same(each, b[i])) : a === b;

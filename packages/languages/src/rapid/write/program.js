@@ -1,0 +1,336 @@
+import { branchOf, compose, inverse, pose, rotate, } from "@twincell/core";
+import { asciiText } from "../../text/index.ts";
+import { BlockStepWriter, BlockWriter, CannotSay, Place, called, fixed, patternOf, pitchTerm, remark } from "../../writing/index.ts";
+import { GRIPPER_SIGNAL } from "../robots.ts";
+import { confText, jointsText, mm, objectText, orientText, part, posText, targetText, toolText } from "./data.ts";
+import { Declarations } from "./declarations.ts";
+import { WORDS } from "./words.ts";
+const LONGEST_TEXT = 80;
+const LEAST_ACCELERATION = 0.2;
+/** The module: data first, then the routines; says only what changes from one step to the next. */
+export class ProgramWriter extends BlockStepWriter {
+    warnings = new Set();
+    robot;
+    data = new Declarations();
+    code = this.out;
+    local = new Set();
+    /** Whether postures are known: without one there is no configuration to ask for. */
+    solves;
+    points = 0;
+    /** The tool of the last move; undefined where another routine or another round may have used another. */
+    tool;
+    acceleration = 1;
+    constructor(place, configuration) {
+        super(place);
+        this.robot = place.robot;
+        this.solves = configuration.hasCfx;
+    }
+    write() {
+        const { place: { program }, data, code } = this, name = data.names.of("module", program.name);
+        for (const signal of Object.keys(program.signals))
+            this.signalName(signal);
+        for (const [routine, steps] of Object.entries(program.routines))
+            this.routine(data.names.of("routine", routine), steps, false);
+        this.routine("main", program.steps, true);
+        const out = new BlockWriter();
+        out.block(`MODULE ${name}`, "ENDMODULE", "", () => {
+            out.add(`!* ${asciiText(program.name)}`.trimEnd());
+            out.add(`!* ${asciiText(this.robot.name)}. Lengths in mm, angles in degrees.`);
+            for (const { line, step } of data.all)
+                out.add(line, step);
+            out.append(code);
+        });
+        const pgf = new BlockWriter();
+        pgf.block("<Program>", "</Program>", "", () => { pgf.add(`<Module>${name}.mod</Module>`); });
+        const list = pgf.file(`${name}.pgf`, "\r\n"), header = "<?xml version=\"1.0\" encoding=\"ISO-8859-1\" ?>\r\n";
+        return [out.file(`${name}.mod`, "\r\n"), { ...list, text: header + list.text, lines: ["", ...list.lines] }];
+    }
+    routine(name, steps, isMain) {
+        const { code } = this, body = new BlockWriter();
+        this.begin();
+        if (isMain)
+            this.tool = "flange";
+        this.local.clear();
+        const forgives = this.searches(steps);
+        code.add(`PROC ${name}()`);
+        code.indented(() => {
+            const outer = this.swap(body);
+            if (isMain)
+                for (const setting of this.solves ? ["ConfJ\\On;", "ConfL\\On;"] : ["ConfJ\\Off;", "ConfL\\Off;"])
+                    body.add(setting);
+            this.steps(steps);
+            this.swap(outer);
+            for (const variable of this.local)
+                code.add(`VAR num ${variable}:=0;`);
+            code.append(body);
+        });
+        if (forgives) {
+            code.add("ERROR");
+            code.indented(() => { code.block("IF ERRNO=ERR_WHLSEARCH THEN", "ENDIF", "", () => { code.add("TRYNEXT;"); }); });
+        }
+        code.add("ENDPROC");
+    }
+    swap(to) {
+        const { out } = this;
+        this.out = to;
+        return out;
+    }
+    /** Whether the searches of a routine go on when they find nothing. One handler serves them all. */
+    searches(steps) {
+        const found = [];
+        const look = (list) => {
+            for (const step of list) {
+                if (step.type === "move" && step.until !== undefined)
+                    found.push(step);
+                if (step.type === "repeat" || step.type === "pallet")
+                    look(step.steps);
+                if (step.type === "if") {
+                    look(step.then);
+                    look(step.else ?? []);
+                }
+            }
+        };
+        look(steps);
+        const other = found.find(step => step.until.missing !== found[0].until.missing);
+        if (other !== undefined)
+            throw new CannotSay(other.id, `${called(other)} does something else than the search before it when nothing is found.`, "One routine of RAPID has one answer to that: put one of the searches into a routine of its own.");
+        return found[0]?.until?.missing === "continue";
+    }
+    begin() {
+        super.begin();
+        this.acceleration = Number.NaN;
+        this.tool = undefined;
+    }
+    remark(text, step) { this.out.add(`!${text}`, step); }
+    step(step, next) {
+        const add = (line) => { this.out.add(line, step.id); };
+        switch (step.type) {
+            case "move": return this.move(step, next, add);
+            case "wait": return add(`WaitTime ${part(step.s)};`);
+            case "gripper": return add(`SetDO ${GRIPPER_SIGNAL},${step.closed ? 1 : 0};`);
+            case "set": return this.set(step, add);
+            case "wait-for": return this.waitFor(step, add);
+            case "payload": return add(`GripLoad ${this.load(step)};`);
+            case "message": {
+                const text = asciiText(step.text).replace(/"/g, "\"\"");
+                if (text.length > LONGEST_TEXT)
+                    throw new CannotSay(step.id, `${called(step)} says ${text.length} characters; RAPID takes ${LONGEST_TEXT}.`, "Say it in fewer words.");
+                return add(`TPWrite "${text}";`);
+            }
+            case "stop": return add("EXIT;");
+            case "comment": return add(`!- ${asciiText(step.text)}`.trimEnd());
+            case "call":
+                add(`${this.data.names.of("routine", step.routine)};`);
+                return this.begin();
+            case "repeat": return this.repeat(step);
+            case "if": return this.choice(step, `IF ${this.condition(step.when, step)} THEN`, "ELSE", "ENDIF");
+            case "pallet": return this.pallet(step);
+        }
+    }
+    // --- blocks -----------------------------------------------------------------------------------------------------
+    repeat(step) {
+        if (step.times === "forever")
+            this.loop("WHILE TRUE DO", "ENDWHILE", step);
+        else
+            this.loop(`FOR ${this.data.names.fresh("count")} FROM 1 TO ${step.times} DO`, "ENDFOR", step);
+    }
+    /** A loop over layers, lines and places; the place is the object frame of a work object that changes with them. */
+    pallet(step) {
+        const { program, baseFromWorld } = this.place, { names } = this.data;
+        const pattern = patternOf(step, program, (v, { frame }) => frame === "world" ? rotate(baseFromWorld.quaternion, v) : v), { pallet, lines, inLine, isShifted } = pattern;
+        const object = names.of("frame", step.pallet), { out } = this, add = (line) => { out.add(line, step.id); };
+        if (pallet.frame !== "world")
+            this.frame(pallet.frame, step.id);
+        this.data.add(`frame ${step.pallet}`, `PERS wobjdata ${object}:=${objectText(pallet.frame === "world" ? pose() : this.inBase(this.place.frame(pallet.frame)))};`, step.id);
+        const layer = names.fresh(`${object}_layer`), line = names.fresh(`${object}_line`), along = names.fresh(`${object}_along`), at = names.fresh(`${object}_at`);
+        this.local.add(at);
+        const loop = (name, last, inside) => { out.block(`FOR ${name} FROM 0 TO ${last} STEP 1 DO`, "ENDFOR", step.id, inside); };
+        const last = isShifted ? `${inLine - 1}-${line} MOD 2` : `${inLine - 1}`;
+        loop(layer, `${pallet.layers - 1}`, () => {
+            loop(line, `${lines - 1}`, () => {
+                loop(along, last, () => {
+                    add(`${at}:=${along};`);
+                    if (pattern.isZigzag)
+                        out.block(`IF ${line} MOD 2=1 THEN`, "ENDIF", step.id, () => { add(`${at}:=${isShifted ? inLine - 2 : inLine - 1}-${along};`); });
+                    add(`${object}.oframe:=${this.placeText(pattern, layer, line, at)};`);
+                    this.begin();
+                    this.steps(step.steps);
+                });
+            });
+        });
+        this.begin();
+    }
+    /** Where a place is: so far along its line, so many lines and layers away, and every second line half a step further where they are packed. */
+    placeText({ pallet, along_m, away_m, up_m, isShifted }, layer, line, at) {
+        const origin = pallet.frame === "world" ? compose(this.place.baseFromWorld, compose(pose(), pallet.origin)) : pallet.origin, fine = (value_m) => fixed(value_m * 1000, 5);
+        const along = isShifted ? `(${at}+0.5*(${line} MOD 2))` : at;
+        const parts = [0, 1, 2].map(i => `${fine(origin.position[i])}${pitchTerm(along_m[i], along, fine)}${pitchTerm(away_m[i], line, fine)}${pitchTerm(up_m[i], layer, fine)}`);
+        return `[[${parts.join(",")}],${orientText(origin.quaternion)}]`;
+    }
+    // --- lines ------------------------------------------------------------------------------------------------------
+    /** The name of a line is that of the controller's configuration: it is written as it is, or not at all. */
+    signalName(signal, step) {
+        if (/^[A-Za-z][A-Za-z0-9_]{0,31}$/.test(signal) && !WORDS.has(signal.toLowerCase())) {
+            if (this.data.names.of("signal", signal) === signal)
+                return signal;
+        }
+        if (step === undefined)
+            return "";
+        throw new CannotSay(step.id, `${called(step)} uses the line "${signal}", which is no name of RAPID.`, "Lines have the names of the controller's configuration: letters, digits and _, at most 32, a letter first.");
+    }
+    lineOf(signal, step) {
+        const { signals } = this.place.program, name = this.signalName(signal, step);
+        if (!Object.hasOwn(signals, signal))
+            throw new CannotSay(step.id, `${called(step)} uses the line ${signal}, which is not in the list of signals.`, "Add it to the list.");
+        return { name, kind: signals[signal].kind };
+    }
+    set(step, add) {
+        const { name, kind } = this.lineOf(step.signal, step), { to } = step;
+        if (kind.endsWith("in"))
+            throw new CannotSay(step.id, `${called(step)} writes the line ${step.signal}, which is an input.`, "Choose an output.");
+        if (kind.startsWith("digital") !== (typeof to === "boolean"))
+            throw new CannotSay(step.id, `${called(step)} writes ${String(to)} to the line ${step.signal}, which is ${kind}.`, "Choose a value of that line.");
+        if (typeof to === "number")
+            return add(`SetAO ${name},${part(to)};`);
+        if (step.pulse_s === undefined)
+            return add(`SetDO ${name},${to ? 1 : 0};`);
+        if (!to)
+            throw new CannotSay(step.id, `${called(step)} is a pulse that goes off; PulseDO goes on.`, "Turn the sense of the line in the controller's configuration.");
+        add(`PulseDO\\High\\PLength:=${part(step.pulse_s)},${name};`);
+    }
+    waitFor(step, add) {
+        const { when } = step, { name, kind } = this.lineOf(when.signal, step), limit = step.timeout_s === undefined ? "" : `\\MaxTime:=${part(step.timeout_s)}`;
+        const word = { "digital-in": "WaitDI", "digital-out": "WaitDO", "analogue-in": "WaitAI", "analogue-out": "WaitAO" }[kind];
+        if ("is" in when)
+            return add(kind.startsWith("digital") ? `${word} ${name},${when.is ? 1 : 0}${limit};` : this.mismatch(when, step));
+        add(kind.startsWith("analogue") ? `${word} ${name}${"above" in when ? "\\GT" : "\\LT"},${part("above" in when ? when.above : when.below)}${limit};` : this.mismatch(when, step));
+    }
+    condition(when, step) {
+        const { name, kind } = this.lineOf(when.signal, step), word = { "digital-in": "DInput", "digital-out": "DOutput", "analogue-in": "AInput", "analogue-out": "AOutput" }[kind];
+        if ("is" in when)
+            return kind.startsWith("digital") ? `${word}(${name})=${when.is ? 1 : 0}` : this.mismatch(when, step);
+        if (!kind.startsWith("analogue"))
+            return this.mismatch(when, step);
+        return "above" in when ? `${word}(${name})>${part(when.above)}` : `${word}(${name})<${part(when.below)}`;
+    }
+    mismatch(when, step) {
+        throw new CannotSay(step.id, `${called(step)} asks the line ${when.signal} for what it cannot answer.`, "Ask a digital line whether it is on, an analogue one for a limit.");
+    }
+    // --- loads ------------------------------------------------------------------------------------------------------
+    /** What the flange carries, as the controller wants it: seen from the tool in use. */
+    load(step) {
+        const { mass_kg, center_m, inertia_kgm2 = [0, 0, 0, 0, 0, 0] } = step;
+        if (!(mass_kg > 0))
+            return "load0";
+        if (this.tool === undefined)
+            throw new CannotSay(step.id, `${called(step)} says what is carried where the tool in use is not known; RAPID counts a load from it.`, "Put a move with the tool before it.");
+        const tcpFromFlange = inverse(this.place.tool(this.tool));
+        if (inertia_kgm2.slice(3).some(each => each !== 0))
+            throw new CannotSay(step.id, `${called(step)} has moments of deviation; RAPID takes moments about three axes of the load.`, "Give the inertia about the load's own axes.");
+        const center = compose(tcpFromFlange, pose(center_m)), [ix, iy, iz] = inertia_kgm2;
+        const text = `[${part(mass_kg)},${posText(center.position)},${orientText(center.quaternion)},${part(ix)},${part(iy)},${part(iz)}]`;
+        const own = this.data.names.of(`load ${text}`, "load");
+        this.data.add(`load ${text}`, `CONST loaddata ${own}:=${text};`, step.id);
+        return own;
+    }
+    // --- moves ------------------------------------------------------------------------------------------------------
+    move(step, next, add) {
+        const { target, path } = step, tool = target.tool ?? (path === "ptp" && "q" in target ? this.tool ?? "flange" : "flange");
+        this.tool = tool;
+        const ratio = step.acceleration?.ratio ?? 1;
+        if (ratio < LEAST_ACCELERATION)
+            throw new CannotSay(step.id, `${called(step)} accelerates by ${part(100 * ratio)} %; RAPID goes down to ${100 * LEAST_ACCELERATION} %.`, "Let it accelerate more, or move more slowly.");
+        if (ratio !== this.acceleration)
+            add(`AccSet ${part(100 * ratio)},100;`);
+        this.acceleration = ratio;
+        const posture = this.place.posture(step, path === "ptp" ? target : this.reached(target), this.near), at = `${this.speed(step)},${this.data.zone(this.zone_mm(step, next))},${this.toolName(tool, step.id)}`;
+        this.near = posture ?? this.near;
+        if (path === "ptp" && !this.solves && "pose" in target && target.branch !== undefined) {
+            throw new CannotSay(step.id, `${called(step)} asks for a posture; what the configuration numbers of the ${this.robot.name} mean is not known here.`, "Teach the point as joint angles, or leave the posture to the robot.");
+        }
+        if (path === "ptp" && "q" in target)
+            return add(`MoveAbsJ ${this.joints(step, target.q)},${at};`);
+        const frame = "q" in target ? "world" : target.frame, object = frame === "world" ? "" : `\\WObj:=${this.frame(frame, step.id)}`;
+        const goal = this.point(step, this.inFrame(target, frame), posture, "");
+        if (step.until !== undefined)
+            return this.search(step, goal, object, tool, add);
+        if (path === "ptp")
+            return add(`MoveJ ${goal},${at}${object};`);
+        if (path === "lin")
+            return add(`MoveL ${goal},${at}${object};`);
+        add(`MoveC ${this.via(step, frame)},${goal},${at}${object};`);
+    }
+    /** Off a joint move only the tool's pose is written: of taught angles the posture is kept, not the turns of an axis. */
+    reached(target) {
+        const branch = "q" in target ? branchOf(this.robot, target.q) : undefined;
+        if (!("q" in target) || branch === undefined)
+            return target;
+        const { place } = this;
+        return { pose: compose(compose(pose(), place.worldFromBase), place.tip(target)), frame: "world", tool: target.tool ?? "flange", branch };
+    }
+    via(step, frame) {
+        if (step.via === undefined)
+            throw new CannotSay(step.id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
+        return this.point(step, this.inFrame(step.via, frame), this.near, "_via");
+    }
+    /** A target as it is seen from a work object; both points of an arc count from one. */
+    inFrame(target, frame) {
+        if ("pose" in target && target.frame === frame && frame !== "world")
+            return target.pose;
+        return compose(inverse(frame === "world" ? pose() : this.inBase(this.place.frame(frame))), this.place.tip(target));
+    }
+    search(step, goal, object, tool, add) {
+        const { when } = step.until;
+        if (step.path !== "lin" && step.path !== "circ")
+            throw new CannotSay(step.id, `${called(step)} is a search along a joint move; RAPID searches on straight lines and arcs.`, "Make it a straight move.");
+        const { name, kind } = this.lineOf(when.signal, step);
+        if (!("is" in when) || !kind.startsWith("digital"))
+            throw new CannotSay(step.id, `${called(step)} searches for a level; RAPID searches for a digital line.`, "Search for a digital line.");
+        this.data.add("found", `VAR robtarget ${this.data.names.of("found", "found")};`);
+        const found = this.data.names.of("found", "found"), via = step.path === "circ" ? `${this.via(step, "q" in step.target ? "world" : step.target.frame)},` : "";
+        add(`Search${step.path === "lin" ? "L" : "C"}\\Stop,${name}\\${when.is ? "HighLevel" : "LowLevel"},${found},${via}${goal},${this.speed(step)},${this.toolName(tool, step.id)}${object};`);
+    }
+    zone_mm(step, next) {
+        return step.until === undefined ? mm(this.place.blend_m(step, this.before, next)) : "0";
+    }
+    joints(step, q) {
+        const text = jointsText(q), name = this.pointName(step, "");
+        this.data.add(`point ${name}`, `CONST jointtarget ${name}:=${text};`, step.id);
+        return name;
+    }
+    point(step, inFrame, posture, ending) {
+        if (!this.solves)
+            this.warnings.add("What the configuration numbers mean for this arm is not known here: they are written as 0 and not asked for. Try the first motion slowly.");
+        const text = targetText(inFrame, confText(this.robot, this.solves ? posture : undefined, this.solves)), name = this.pointName(step, ending);
+        this.data.add(`point ${name}`, `CONST robtarget ${name}:=${text};`, step.id);
+        return name;
+    }
+    /** What a person called it, or p10, p20 and so on. */
+    pointName({ name }, ending) {
+        const stem = name === undefined || remark(name) === "" ? `p${10 * ++this.points}` : remark(name);
+        return this.data.names.fresh(stem + ending);
+    }
+    toolName(tool, step) {
+        if (tool === "flange")
+            return "tool0";
+        const name = this.data.names.of("tool", tool);
+        this.data.add(`tool ${tool}`, `PERS tooldata ${name}:=${toolText(this.place.tool(tool))};`, step);
+        return name;
+    }
+    frame(frame, step) {
+        const name = this.data.names.of("frame", frame);
+        if (!Object.hasOwn(this.place.program.pallets, frame))
+            this.data.add(`frame ${frame}`, `PERS wobjdata ${name}:=${objectText(this.inBase(this.place.frame(frame)))};`, step);
+        return name;
+    }
+    inBase(worldFromOther) { return compose(this.place.baseFromWorld, worldFromOther); }
+    speed({ speed, path }) {
+        const full_mps = this.robot.maxTcpSpeed_mps;
+        if ("time_s" in speed)
+            return `v1000\\T:=${part(speed.time_s)}`;
+        if ("ratio" in speed && path === "ptp")
+            this.warnings.add("RAPID holds speeds of the tool: a joint move at a share of the full joint speed gets that share of the tool's full speed.");
+        return this.data.speed(fixed(1000 * pace(speed, full_mps), 4));
+    }
+}
+const pace = (speed, full_mps) => "mps" in speed ? speed.mps : speed.ratio * full_mps;

@@ -1,0 +1,291 @@
+import { TextError } from "../faults.ts";
+import { TokenCursor, readExpression } from "../structured/index.ts";
+/** Deepest nesting of blocks: more than anybody writes, less than the stack holds. */
+const DEPTH = 50;
+const MOST_FAULTS = 50;
+/** Reads blocks, decisions and loops of a BASIC; its routines and instructions are the language's own affair. Goes on after a fault, so that all of them are told at once. */
+export class BasicReader {
+    cursor;
+    grammar;
+    faults = [];
+    routines = new Map();
+    /** What is done before the first statement: constants get their values. */
+    before = [];
+    /** Routines that are called, with where. */
+    calls = new Map();
+    words = new Map();
+    depth = 0;
+    constructor(text, grammar) {
+        this.grammar = grammar;
+        this.cursor = new TokenCursor(text.replace(/^\uFEFF/, ""), grammar.lexicon, word => this.folded(word));
+    }
+    /** Another name of the same thing. */
+    alias(word, stands) { this.words.set(word, stands); }
+    /** Capitals count for nothing. The words of a long text are few. */
+    folded(word) {
+        const known = this.words.get(word);
+        if (known !== undefined)
+            return known;
+        const small = word.toLowerCase().replace(/\s+/g, " "), folded = this.words.get(small) ?? (Object.hasOwn(this.grammar.alike, small) ? this.grammar.alike[small] : small);
+        this.words.set(word, folded);
+        return folded;
+    }
+    source() {
+        const { cursor, faults } = this;
+        this.guard(() => { cursor.advance(); });
+        while (!cursor.done && faults.length < MOST_FAULTS) {
+            if (cursor.isAt("line-end")) {
+                this.guard(() => { cursor.advance(); });
+                continue;
+            }
+            const { length } = faults;
+            this.guard(() => { this.part(); });
+            if (faults.length > length && this.closes(cursor.next))
+                this.guard(() => { cursor.advance(); });
+        }
+        for (const [name, at] of this.calls)
+            if (!this.routines.has(name))
+                faults.push(new TextError(at, "a routine of this text", `The routine ${name} is not in the text.`).fault);
+        const main = this.started();
+        if (main === undefined && faults.length === 0)
+            faults.push(new TextError(cursor.here, "a program", "The text holds no program.").fault);
+        if (faults.length > 0 || main === undefined)
+            return { kind: "not-understood", faults };
+        return { kind: "source", source: { title: titleOf(main.body) ?? main.name, main: [...this.before, ...main.body], routines: this.routines } };
+    }
+    guard(read) {
+        const { depth } = this;
+        try {
+            return read();
+        }
+        catch (cause) {
+            if (!(cause instanceof TextError))
+                throw cause;
+            this.faults.push(cause.fault);
+            this.depth = depth;
+            this.restOfLine();
+            return undefined;
+        }
+    }
+    /** Remarks outside of routines say nothing. */
+    dropRemarks() { while (this.cursor.comment() !== undefined)
+        ; }
+    restOfLine() { this.cursor.skip(cursor => cursor.isAt("line-end") || this.closes(cursor.next)); }
+    value(least = 0) { return readExpression(this.cursor, this.grammar.expression, 0, least); }
+    get atEnd() { return this.cursor.isAt("line-end") || this.cursor.done || this.cursor.next === ";"; }
+    /** `a, b` up to the end of the statement; a value left out between commas is not there. */
+    values() {
+        const { cursor } = this, args = [];
+        while (!this.atEnd) {
+            const at = cursor.here;
+            args.push(cursor.next === "," && cursor.kind === "sign" ? at : { value: this.value(), ...at });
+            if (!cursor.accept(","))
+                break;
+        }
+        return args;
+    }
+    /** A call of a routine, of which the name comes; its arguments stand in brackets. */
+    calling(at) {
+        const { cursor, grammar } = this, place = cursor.here, name = cursor.name("the name of a routine");
+        this.isCalled(name, place);
+        return { kind: "do", name, args: cursor.accept("(") ? grammar.expression.args(cursor, 0) : [], ...at };
+    }
+    /** A routine from its name on, up to the word that closes it. */
+    routine(opened, close, at, head) {
+        const { cursor } = this, place = cursor.here, name = cursor.name(`the name of a ${opened}`), parameters = head();
+        if (!cursor.isAt("line-end"))
+            throw cursor.unexpected("the end of the line");
+        if (this.routines.has(name))
+            this.faults.push(new TextError(place, "a name used once", `The ${opened} ${name} is there twice.`).fault);
+        const body = this.body(opened, at, [close]);
+        cursor.expect(close);
+        this.routines.set(name, { name, parameters, body, ...place });
+    }
+    /** `(ByVal a As Integer, b As Real)`, where there are any. */
+    parameters() {
+        const { cursor } = this, all = [];
+        if (!cursor.accept("(") || cursor.accept(")"))
+            return all;
+        do {
+            if (!cursor.accept("byref"))
+                cursor.accept("byval");
+            const name = cursor.name("the name of an argument");
+            all.push({ name, type: cursor.accept("as") ? cursor.name("a type") : "" });
+        } while (cursor.accept(","));
+        cursor.expect(")");
+        return all;
+    }
+    /** A name gets a number, once for all. */
+    constant(name, place, value) {
+        this.before.push({ kind: "assign", to: { kind: "variable", name, ...place }, value, global: true, ...place });
+    }
+    /** Every routine that is called must be there. */
+    isCalled(name, at) { if (!this.calls.has(name))
+        this.calls.set(name, at); }
+    body(opened, at, ends) {
+        const { cursor } = this, statements = [];
+        if (++this.depth > DEPTH)
+            throw new TextError(at, "a simpler program", `Blocks are nested more than ${DEPTH} deep.`);
+        for (;;) {
+            if (cursor.isAt("line-end") || cursor.next === ";") {
+                this.guard(() => { cursor.advance(); });
+                continue;
+            }
+            for (let comment = cursor.comment(); comment !== undefined; comment = cursor.comment())
+                statements.push({ kind: "comment", ...comment });
+            // The number of a step.
+            if (cursor.isAt("number")) {
+                this.guard(() => { cursor.advance(); });
+                continue;
+            }
+            if (cursor.kind === "word" && ends.includes(cursor.next))
+                break;
+            if (cursor.done && ends.includes(""))
+                break;
+            if (cursor.done || this.closes(cursor.next))
+                throw new TextError(cursor.here, ends[0], `The ${opened} of line ${at.line} is not closed.`);
+            if (this.faults.length >= MOST_FAULTS)
+                break;
+            const statement = this.guard(() => {
+                const read = this.statement();
+                if (!this.atEnd)
+                    throw cursor.unexpected("the end of the line");
+                return read;
+            });
+            if (statement !== undefined)
+                statements.push(statement);
+        }
+        this.depth--;
+        return statements;
+    }
+    /** Whether a word ends a routine, so that a block inside it cannot go on. */
+    closes(word) { return word === "end sub" || word === "fend"; }
+    statement() {
+        const { cursor, grammar } = this, at = cursor.here, word = cursor.next;
+        if (cursor.kind === "word") {
+            switch (word) {
+                case "if":
+                    cursor.advance();
+                    return this.decision(at);
+                case "for":
+                    cursor.advance();
+                    return this.counting(at);
+                case "while": {
+                    cursor.advance();
+                    const when = this.value(), body = this.body("While", at, ["wend"]);
+                    cursor.expect("wend");
+                    return { kind: "while", when: isNumber(when) ? { kind: "truth", value: when.value !== 0, line: when.line, column: when.column } : when, body, ...at };
+                }
+                case "do":
+                    cursor.advance();
+                    return this.looping(at);
+                case "select":
+                    cursor.advance();
+                    cursor.accept("case");
+                    return this.choice(at);
+                default: break;
+            }
+            if (Object.hasOwn(grammar.unsayable, word))
+                throw new TextError(at, "a statement of the motion program", grammar.unsayable[word]);
+            if (grammar.expression.reserved.has(word))
+                throw cursor.unexpected("a statement");
+        }
+        return this.instruction(at);
+    }
+    /** `name = value`, where the word that comes is one. */
+    assignment(at, read = () => this.value()) {
+        const to = readExpression(this.cursor, this.grammar.expression, 0, 100);
+        this.cursor.expect("=");
+        return { kind: "assign", to, value: read(), global: false, ...at };
+    }
+    decision(at) {
+        const { cursor } = this, branches = [], first = this.value();
+        cursor.expect("then");
+        if (!cursor.isAt("line-end"))
+            return this.inOneLine(first, at);
+        branches.push({ when: first, body: this.body("If", at, ["end if", "elseif", "else"]) });
+        while (cursor.accept("elseif")) {
+            const when = this.value();
+            cursor.expect("then");
+            branches.push({ when, body: this.body("If", at, ["end if", "elseif", "else"]) });
+        }
+        const otherwise = cursor.accept("else") ? this.body("If", at, ["end if"]) : undefined;
+        cursor.expect("end if");
+        return otherwise === undefined ? { kind: "if", branches, ...at } : { kind: "if", branches, otherwise, ...at };
+    }
+    inOneLine(when, at) {
+        const { cursor } = this, one = () => { const read = this.statement(); return read === undefined ? [] : [read]; };
+        if (++this.depth > DEPTH)
+            throw new TextError(at, "a simpler program", `Blocks are nested more than ${DEPTH} deep.`);
+        const branches = [{ when, body: one() }], otherwise = cursor.accept("else") ? one() : undefined;
+        this.depth--;
+        cursor.accept("end if");
+        return otherwise === undefined ? { kind: "if", branches, ...at } : { kind: "if", branches, otherwise, ...at };
+    }
+    counting(at) {
+        const { cursor } = this, variable = cursor.name("the name of the loop variable");
+        cursor.expect("=");
+        const from = this.value();
+        cursor.expect("to");
+        const to = this.value(), one = { kind: "number", value: 1, ...at }, step = cursor.accept("step") ? this.value() : one;
+        const body = this.body("For", at, ["next"]);
+        cursor.expect("next");
+        if (!this.atEnd && cursor.name("the name of the loop variable") !== variable)
+            throw new TextError(cursor.here, variable, "Another loop is closed than the last one that was opened.");
+        return { kind: "for", variable, from, to, step, body, ...at };
+    }
+    /** Do … Loop, with While or Until at either end. Asked for at the end, the body is gone through once before. */
+    looping(at) {
+        const { cursor } = this, before = this.condition(at), body = this.body("Do", at, ["loop"]);
+        cursor.expect("loop");
+        const after = this.condition(at), always = { kind: "truth", value: true, ...at };
+        if (before !== undefined || after === undefined)
+            return { kind: "while", when: before ?? always, body, ...at };
+        return { kind: "if", branches: [{ when: always, body: [...body, { kind: "while", when: after, body, ...at }] }], ...at };
+    }
+    condition(at) {
+        if (this.cursor.accept("while"))
+            return this.value();
+        return this.cursor.accept("until") ? { kind: "unary", sign: "not", of: this.value(), ...at } : undefined;
+    }
+    /** A choice is a chain of comparisons. */
+    choice(at) {
+        const { cursor } = this, of = this.value(), ends = ["end select", "case", "default"], branches = [];
+        this.body("Select", at, ends);
+        let otherwise;
+        while (!cursor.accept("end select")) {
+            if (cursor.accept("default") || (cursor.next === "case" && cursor.second === "else" && (cursor.advance(), cursor.accept("else")))) {
+                otherwise = this.body("Select", at, ends);
+                continue;
+            }
+            cursor.expect("case");
+            let when;
+            do {
+                const right = this.value(), equal = { kind: "binary", sign: "=", left: of, right, line: right.line, column: right.column };
+                when = when === undefined ? equal : { kind: "binary", sign: "or", left: when, right: equal, line: right.line, column: right.column };
+            } while (cursor.accept(","));
+            branches.push({ when, body: this.body("Select", at, ends) });
+        }
+        if (branches.length === 0)
+            throw new TextError(at, "Case", "The choice has no case.");
+        return { kind: "if", branches, ...(otherwise === undefined ? {} : { otherwise }), ...at };
+    }
+}
+const isNumber = (expression) => expression.kind === "number";
+/** `a, b)` behind an opening bracket, for languages whose arguments have no names; one may be left out between commas. */
+export function readPlainArguments(cursor, depth, rules) {
+    const args = [];
+    if (cursor.accept(")"))
+        return args;
+    do {
+        const at = cursor.here, isLeftOut = cursor.kind === "sign" && (cursor.next === "," || cursor.next === ")");
+        args.push(isLeftOut ? at : { value: readExpression(cursor, rules, depth + 1), ...at });
+    } while (cursor.accept(","));
+    cursor.expect(")");
+    return args;
+}
+/** `'* Title` at the top. */
+function titleOf(block) {
+    const first = block[0];
+    return first?.kind === "comment" && first.text.startsWith("*") ? first.text.slice(1).trim() : undefined;
+}

@@ -1,0 +1,21 @@
+import { Fault } from "@twincell/core";
+/** A fault as a reader of a language reports it: where, what was expected there, and one sentence. */
+export function textFault(at, expected, sentence) {
+    return { line: at.line, column: at.column, expected, sentence };
+}
+/** Ends the reading of a line, or the execution of a text, at a place. Caught at the door of the dialect that threw it, or by who runs the text. */
+export class TextError extends Fault {
+    code = "language.text";
+    hint;
+    line;
+    column;
+    expected;
+    constructor(at, expected, sentence) {
+        super(sentence);
+        this.line = at.line;
+        this.column = at.column;
+        this.expected = expected;
+        this.hint = `Line ${at.line}, column ${at.column}: ${expected}.`;
+    }
+    get fault() { return textFault(this, this.expected, this.message); }
+}

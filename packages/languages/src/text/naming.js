@@ -1,0 +1,16 @@
+/**
+ * The name under which a value stands in a table: one that is there already keeps its name, another is added under the
+ * wanted one, with a number where that is taken by something else.
+ *
+ * @param joint  between the name and the number.
+ */
+export function nameIn(table, value, wanted, joint) {
+    const text = JSON.stringify(value);
+    for (let i = 1;; i++) {
+        const name = i === 1 ? wanted : `${wanted}${joint}${i}`, known = Object.hasOwn(table, name) ? table[name] : undefined;
+        if (known === undefined)
+            table[name] = value;
+        if (known === undefined || JSON.stringify(known) === text)
+            return name;
+    }
+}

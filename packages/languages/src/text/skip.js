@@ -1,0 +1,111 @@
+import { rehearse } from "./rehearse.ts";
+/** A text is read again without what was not understood at most this often; each time tells up to fifty places. */
+const MOST_READINGS = 400;
+/**
+ * The dialect with a reader that leaves out what it does not understand when it is asked to: line by line, a block with all
+ * that is in it, since nobody knows when it would run. Each place is told with the fault that stands there. The fault of a
+ * text that is no program at all, or that stays when its line is left out, remains.
+ */
+export function skippingDialect(dialect) {
+    const { lines } = dialect;
+    if (lines === undefined)
+        return dialect;
+    return {
+        ...dialect,
+        parse(text, robot, worldFromBase, options) {
+            if (options?.skipUnknown !== true)
+                return dialect.parse(text, robot, worldFromBase);
+            return without(text, lines, shorter => dialect.parse(shorter, robot, worldFromBase));
+        },
+        interpret(text, robot, worldFromBase, options) {
+            if (options?.skipUnknown !== true)
+                return dialect.interpret(text, robot, worldFromBase);
+            return without(text, lines, shorter => {
+                const answer = dialect.interpret(shorter, robot, worldFromBase);
+                if (answer.kind === "not-understood")
+                    return answer;
+                // Decisions may hide what is not understood: they are tried both ways.
+                const fault = rehearse({ [Symbol.iterator]: () => answer.run({ read: () => true, write: () => { } }) });
+                return fault === undefined ? answer : { kind: "not-understood", faults: [fault] };
+            });
+        },
+    };
+}
+function without(text, shapes, read) {
+    const ends = text.match(/\r\n|\n|\r/g) ?? [], lines = text.split(/\r\n|\n|\r/), skipped = [], gone = new Set();
+    const blank = shapes.blank ?? (() => "");
+    let faults = [], first;
+    for (let reading = 0; reading < MOST_READINGS; reading++) {
+        const answer = read(lines.map((line, i) => line + (ends[i] ?? "")).join(""));
+        // Where nothing stays there was no program.
+        if (first !== undefined && lines.every(line => line.trim() === ""))
+            return { kind: "not-understood", faults: first };
+        if (!isNotUnderstood(answer))
+            return { ...answer, skipped: skipped.toSorted((a, b) => a.line - b.line) };
+        ({ faults } = answer);
+        first ??= faults;
+        let isShorter = false;
+        for (const fault of faults) {
+            const at = fault.line - 1, line = lines[at];
+            if (line === undefined || gone.has(at) || line.trim() === "" || shapes.keeps.test(line))
+                continue;
+            // Where the end of a block is not understood, all of the block goes: nobody knows how often it runs.
+            const from = firstOf(lines, at, shapes), last = Math.max(at, lastOf(lines, from, shapes));
+            skipped.push(told({ ...fault, line: from + 1, column: from === at ? fault.column : 1 }, lines[from], lines.slice(from, last + 1), shapes));
+            for (let i = from; i <= last; i++) {
+                lines[i] = blank(lines[i]);
+                gone.add(i);
+            }
+            isShorter = true;
+            // A block that was not understood throws the ends of all that follows out of step: they are looked at again.
+            if (shapes.opens.test(line) || shapes.parts.test(line) || shapes.closes.test(line))
+                break;
+        }
+        if (!isShorter)
+            break;
+    }
+    return { kind: "not-understood", faults };
+}
+const isNotUnderstood = (answer) => answer.kind === "not-understood";
+/** The line that opened what a line closes, or the line itself. */
+function firstOf(lines, at, { opens, closes, keeps }) {
+    if (!closes.test(lines[at]) || opens.test(lines[at]))
+        return at;
+    for (let i = at - 1, depth = 1; i >= 0; i--) {
+        if (keeps.test(lines[i]))
+            return at;
+        if (closes.test(lines[i]))
+            depth++;
+        if (opens.test(lines[i]) && --depth === 0)
+            return i;
+    }
+    return at;
+}
+/** The last line that goes with a line: the end of a block, or where its next part begins. */
+function lastOf(lines, at, { opens, parts, closes, keeps }) {
+    const isOpening = opens.test(lines[at]), isPart = parts.test(lines[at]);
+    if (!isOpening && !isPart)
+        return at;
+    for (let i = at + 1, depth = 1; i < lines.length; i++) {
+        const line = lines[i];
+        if (keeps.test(line))
+            return at;
+        if (isPart && depth === 1 && (parts.test(line) || closes.test(line)))
+            return i - 1;
+        if (opens.test(line))
+            depth++;
+        if (closes.test(line) && --depth === 0)
+            return i;
+    }
+    return at;
+}
+function told(fault, text, block, { motion, opens, parts }) {
+    const { line } = fault, lastLine = line + block.length - 1, moves = block.filter(each => motion.test(each)).length;
+    if (opens.test(text) || parts.test(text)) {
+        const which = block.length > 1 ? `Lines ${line} to ${lastLine} are left out with all that they do` : `The branch in line ${line} is left out`;
+        return { ...fault, what: "branch", text, lastLine, sentence: `${which}${moves === 0 ? "" : `, ${moves === 1 ? "a motion" : `${moves} motions`} among it`}. ${fault.sentence}` };
+    }
+    if (moves > 0)
+        return { ...fault, what: "motion", text, lastLine, sentence: `The motion in line ${line} is left out: the robot goes on to the next point from where it is. ${fault.sentence}` };
+    return { ...fault, what: "statement", text, lastLine, sentence: `Line ${line} is left out. ${fault.sentence}` };
+}

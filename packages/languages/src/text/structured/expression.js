@@ -1,0 +1,116 @@
+import { TextError } from "../faults.ts";
+/** Brackets inside brackets: more than anybody writes, less than the stack holds. */
+const DEPTH = 40;
+/** @throws {TextError} where no expression of the language stands. */
+export function readExpression(cursor, rules, depth = 0, least = 0) {
+    if (depth > DEPTH)
+        throw new TextError(cursor.here, "a simpler expression", `The expression is nested more than ${DEPTH} deep.`);
+    let left = readPrefix(cursor, rules, depth);
+    for (;;) {
+        const sign = cursor.next;
+        if (sign === "," || sign === ")" || sign === "]")
+            return left;
+        const strength = cursor.kind === "text" || !Object.hasOwn(rules.binary, sign) ? undefined : rules.binary[sign];
+        if (strength === undefined || strength <= least)
+            return left;
+        const { line, column } = cursor.here;
+        cursor.advance();
+        left = { kind: "binary", sign, left, right: readExpression(cursor, rules, depth + 1, strength), line, column };
+    }
+}
+function readPrefix(cursor, rules, depth) {
+    const sign = cursor.next;
+    if (cursor.kind !== "text" && cursor.kind !== "number" && Object.hasOwn(rules.prefix, sign)) {
+        const { line, column } = cursor.here, strength = rules.prefix[sign];
+        cursor.advance();
+        const of = readExpression(cursor, rules, depth + 1, strength);
+        // A number with its minus is a number.
+        if (sign === "-" && of.kind === "number")
+            return { kind: "number", value: -of.value, line, column };
+        return sign === "+" ? of : { kind: "unary", sign, of, line, column };
+    }
+    return readSuffix(cursor, rules, depth, readPrimary(cursor, rules, depth));
+}
+function readPrimary(cursor, rules, depth) {
+    const { line, column } = cursor.here;
+    switch (cursor.kind) {
+        case "number": {
+            const value = Number(cursor.raw);
+            if (!Number.isFinite(value))
+                throw new TextError(cursor.here, "a number that can be held", `${cursor.raw} is too large.`);
+            cursor.advance();
+            return { kind: "number", value, line, column };
+        }
+        case "text": {
+            const value = cursor.raw;
+            cursor.advance();
+            return { kind: "text", value, line, column };
+        }
+        case "word": return readWord(cursor, rules, depth);
+        case "sign": break;
+        case "line-end":
+        case "end": throw cursor.unexpected("a value");
+    }
+    if (cursor.accept("(")) {
+        const value = readExpression(cursor, rules, depth + 1);
+        cursor.expect(")");
+        return value;
+    }
+    if (cursor.next === "[")
+        return readList(cursor, rules, depth, "");
+    throw cursor.unexpected("a value");
+}
+function readWord(cursor, rules, depth) {
+    const { line, column } = cursor.here, name = cursor.next;
+    if (rules.tags.includes(name) && cursor.second === "[") {
+        cursor.advance();
+        return { ...readList(cursor, rules, depth, name), line, column };
+    }
+    if (Object.hasOwn(rules.constants, name)) {
+        const value = rules.constants[name];
+        cursor.advance();
+        return typeof value === "number" ? { kind: "number", value, line, column } : { kind: "truth", value, line, column };
+    }
+    if (rules.reserved.has(name))
+        throw cursor.unexpected("a value");
+    cursor.advance();
+    if (!cursor.accept("("))
+        return { kind: "variable", name, line, column };
+    return { kind: "call", name, args: rules.args(cursor, depth + 1), line, column };
+}
+function readList(cursor, rules, depth, tag) {
+    const { line, column } = cursor.here;
+    cursor.expect("[");
+    const items = [];
+    if (!cursor.accept("]")) {
+        do
+            items.push(readExpression(cursor, rules, depth + 1));
+        while (cursor.accept(","));
+        cursor.expect("]");
+    }
+    return { kind: "list", tag, items, line, column };
+}
+/** Indices and components behind a value. */
+function readSuffix(cursor, rules, depth, value) {
+    let of = value;
+    for (;;) {
+        if (cursor.kind !== "sign")
+            return of;
+        if (cursor.next === rules.index) {
+            const { line, column } = cursor.here;
+            cursor.advance();
+            const indices = [readExpression(cursor, rules, depth + 1)];
+            while (cursor.accept(","))
+                indices.push(readExpression(cursor, rules, depth + 1));
+            cursor.expect(rules.index === "[" ? "]" : "}");
+            of = { kind: "index", of, indices, line, column };
+        }
+        else if (rules.components && cursor.next === ".") {
+            const { line, column } = cursor.here;
+            cursor.advance();
+            of = { kind: "component", of, name: cursor.name("the name of a component"), line, column };
+        }
+        else
+            return of;
+    }
+}

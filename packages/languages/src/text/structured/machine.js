@@ -1,0 +1,197 @@
+import { TextError } from "../faults.ts";
+/** Statements without a motion or a wait after which a program is taken to run on the spot for ever. */
+const STATEMENTS_WITHOUT_MOTION = 100_000;
+/** Calls inside calls. */
+const CALL_DEPTH = 40;
+/**
+ * Executes blocks, loops and calls of a language whose values are V. What an expression is worth and what an instruction
+ * does is the language's own affair. Deterministic: the same text gives the same steps.
+ */
+export class BlockMachine {
+    scopes = [];
+    globals = new Map();
+    routines;
+    met = new Map();
+    idle = 0;
+    depth = 0;
+    returned;
+    constructor(routines) { this.routines = routines; }
+    routine(name) { return this.routines.get(name); }
+    *block(block) {
+        for (const statement of block) {
+            const flow = yield* this.statement(statement);
+            if (flow !== "next")
+                return flow;
+        }
+        return "next";
+    }
+    *statement(statement) {
+        if (statement.kind === "comment")
+            return "next";
+        this.spend(statement);
+        switch (statement.kind) {
+            case "assign": {
+                const { value } = statement;
+                const called = value.kind === "call" ? this.routines.get(value.name) : undefined;
+                if (called !== undefined && value.kind === "call") {
+                    const flow = yield* this.call(called, value.args, value);
+                    if (flow === "halt")
+                        return flow;
+                    this.store(statement.to, this.result(value), statement.global);
+                }
+                else
+                    this.store(statement.to, this.evaluate(value), statement.global);
+                yield { line: statement.line };
+                return "next";
+            }
+            case "do": {
+                const called = this.routines.get(statement.name);
+                if (called !== undefined)
+                    return yield* this.call(called, statement.args, statement);
+                return (yield* this.instruction(statement)) ?? "next";
+            }
+            case "if": {
+                yield { line: statement.line };
+                for (const { when, body } of statement.branches)
+                    if (this.isTrue(when))
+                        return yield* this.block(body);
+                return statement.otherwise === undefined ? "next" : yield* this.block(statement.otherwise);
+            }
+            case "while":
+                while (this.isTrue(statement.when)) {
+                    this.spend(statement);
+                    yield { line: statement.line };
+                    const flow = yield* this.block(statement.body);
+                    if (flow === "break")
+                        break;
+                    if (flow === "return" || flow === "halt")
+                        return flow;
+                }
+                return "next";
+            case "for": return yield* this.loop(statement);
+            case "wait-until":
+                yield* this.waitUntil(statement);
+                return "next";
+            case "return":
+                this.returned = statement.value === undefined ? undefined : this.evaluate(statement.value);
+                return "return";
+            case "break": return "break";
+            case "continue": return "continue";
+            case "halt":
+                yield this.done(statement, { id: this.stepId(statement), type: "stop" });
+                return "halt";
+        }
+    }
+    /** From, last and step of a counting loop. */
+    counting({ from, to, step }) {
+        const first = this.numberOf(from), last = this.numberOf(to);
+        return [first, last, step === undefined ? (last < first ? -1 : 1) : this.numberOf(step)];
+    }
+    /** Gives the variable of a counting loop its value. */
+    setCount(name, value) {
+        const holder = this.scopes.findLast(({ names }) => names.has(name))?.names ?? (this.globals.has(name) ? this.globals : undefined);
+        if (holder !== undefined)
+            holder.set(name, this.fromNumber(value));
+        else
+            this.count(name, value);
+    }
+    count(name, value) { (this.scopes.at(-1)?.names ?? this.globals).set(name, this.fromNumber(value)); }
+    *loop(statement) {
+        const [from, last, step] = this.counting(statement);
+        if (step === 0)
+            throw new TextError(statement.step ?? statement, "a step other than 0", "The loop has the step 0.");
+        for (let i = from; step > 0 ? i <= last : i >= last; i += step) {
+            this.spend(statement);
+            this.count(statement.variable, i);
+            yield { line: statement.line };
+            const flow = yield* this.block(statement.body);
+            if (flow === "break")
+                break;
+            if (flow === "return" || flow === "halt")
+                return flow;
+        }
+        return "next";
+    }
+    /** Makes the variables that a routine has from its beginning. */
+    prepare(_routine, _names) { }
+    *call(routine, args, at) {
+        this.enter(routine, args, at);
+        try {
+            return (yield* this.block(routine.body)) === "halt" ? "halt" : "next";
+        }
+        finally {
+            this.leave();
+        }
+    }
+    /** Does something in the variables of a routine that takes no arguments. */
+    inside(routine, act) {
+        this.enter(routine, [], routine);
+        try {
+            return act();
+        }
+        finally {
+            this.leave();
+        }
+    }
+    /** What a routine answers inside an expression; it must not move. */
+    answer(routine, args, at) {
+        for (const { step } of this.call(routine, args, at)) {
+            if (step !== undefined)
+                throw new TextError(at, "a call as a statement of its own", `${routine.name} moves or waits: call it as a statement, not inside an expression.`);
+        }
+        return this.result(at);
+    }
+    result(at) {
+        const { returned } = this;
+        if (returned === undefined)
+            throw new TextError(at, "a routine that returns a value", "The routine ends without a value.");
+        return returned;
+    }
+    /** Remembers variables and counts; the answer brings them back. */
+    remember() {
+        const globals = new Map(this.globals), scopes = this.scopes.map(({ routine, names }) => ({ routine, names: new Map(names) })), { idle } = this;
+        return () => {
+            this.globals.clear();
+            for (const [name, value] of globals)
+                this.globals.set(name, value);
+            this.scopes.splice(0, this.scopes.length, ...scopes.map(({ routine, names }) => ({ routine, names: new Map(names) })));
+            this.idle = idle;
+        };
+    }
+    enter(routine, args, at) {
+        if (++this.depth > CALL_DEPTH)
+            throw new TextError(at, `at most ${CALL_DEPTH} calls inside each other`, `${routine.name} is called more than ${CALL_DEPTH} deep.`);
+        const names = new Map(), free = args.filter(({ name }) => name === undefined);
+        if (free.length > routine.parameters.length)
+            throw new TextError(at, `${routine.parameters.length} arguments`, `${routine.name} takes ${routine.parameters.length} arguments; ${free.length} are given.`);
+        for (const [i, { name, value, optional }] of routine.parameters.entries()) {
+            const given = args.find(argument => argument.name === name)?.value ?? free[i]?.value ?? value;
+            if (given !== undefined)
+                names.set(name, this.evaluate(given));
+            else if (optional !== true)
+                throw new TextError(at, `a value for ${name}`, `${routine.name} is called without its argument ${name}.`);
+        }
+        this.scopes.push({ routine: routine.name, names });
+        this.prepare(routine, names);
+        this.returned = undefined;
+    }
+    leave() {
+        this.scopes.pop();
+        this.depth--;
+    }
+    done(at, step) {
+        this.idle = 0;
+        return { line: at.line, step };
+    }
+    /** L12, and L12.2 when line 12 is executed again. */
+    stepId({ line }) {
+        const time = (this.met.get(line) ?? 0) + 1;
+        this.met.set(line, time);
+        return time === 1 ? `L${line}` : `L${line}.${time}`;
+    }
+    spend(at) {
+        if (++this.idle > STATEMENTS_WITHOUT_MOTION) {
+            throw new TextError(at, "a motion, a wait or an end", `The program has executed ${STATEMENTS_WITHOUT_MOTION} statements without a motion: it runs on the spot for ever.`);
+        }
+    }
+}

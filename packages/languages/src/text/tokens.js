@@ -1,0 +1,26 @@
+import { TextError } from "./faults.ts";
+/**
+ * The tokens of one line.
+ *
+ * @param rules  patterns with the flag `y`, none of which matches the empty string.
+ * @throws {TextError} at the first character that begins no token.
+ */
+export function lineTokens(text, line, rules) {
+    const tokens = [];
+    let at = 0;
+    scan: while (at < text.length) {
+        for (const [kind, pattern] of rules) {
+            pattern.lastIndex = at;
+            const match = pattern.exec(text);
+            if (match === null || match[0] === "")
+                continue;
+            if (kind !== null)
+                tokens.push({ kind, text: match[0], line, column: at + 1 });
+            at += match[0].length;
+            continue scan;
+        }
+        const letter = String.fromCodePoint(text.codePointAt(at));
+        throw new TextError({ line, column: at + 1 }, "a name, a number or a sign of the language", `The character "${letter}" has no meaning here.`);
+    }
+    return tokens;
+}

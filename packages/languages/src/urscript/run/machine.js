@@ -1,0 +1,316 @@
+import {} from "@twincell/core";
+import { TextError, nameIn } from "../../text/index.ts";
+import { BlockMachine } from "../../text/structured/index.ts";
+import { ControllerArm } from "./arm.ts";
+import { matrixOf, toPose, times } from "./frame.ts";
+import { FUNCTIONS, itemOf, withItem } from "./functions.ts";
+import { Arguments } from "./arguments.ts";
+import { conditionOf, doorOf, holds, lineAt } from "./lines.ts";
+import { asNumber, asNumbers, asPose, asTruth, binary, kindOf, poseOf } from "./values.ts";
+/** Speed at which all joints can turn, and what the controller takes where a move says nothing [rad/s, m/s]. */
+const FULL_RAD_S = { ur10e: 120 / 180 * Math.PI };
+export const speaksUrScript = (robot) => Object.hasOwn(FULL_RAD_S, robot.id);
+const DEFAULT_RAD_S = 1.05;
+const DEFAULT_MPS = 0.25;
+/** Instructions that change nothing of where the robot goes. */
+const SILENT = new Set([
+    "sync", "set_gravity", "popup", "set_tool_voltage", "set_tool_communication", "set_input_actions_to_default", "set_runstate_standard_digital_output_to_value",
+    "set_standard_analog_input_domain", "set_tool_analog_input_domain", "set_analog_outputdomain", "set_safety_mode_transition_hardness", "zero_ftsensor",
+    "step_count_reset", "modbus_add_signal", "request_boolean_from_primary_client", "reset_world_model", "set_target_payload_inertia", "stopj", "stopl", "textmsg_debug",
+    // Said to other machines and to the operator.
+    "socket_open", "socket_close", "socket_send_string", "socket_send_line", "socket_send_byte", "socket_send_int", "socket_set_var", "modbus_set_output_register", "modbus_set_output_signal",
+    "modbus_set_signal_update_frequency", "modbus_set_runstate_dependent_choice", "modbus_delete_signal", "rtde_set_watchdog", "write_output_integer_register", "write_output_float_register",
+    "write_output_boolean_register", "set_analog_inputrange", "set_standard_analog_inputrange", "set_runstate_outputs", "set_runstate_configurable_digital_output_to_value", "set_runstate_tool_digital_output_to_value",
+    "set_runstate_gp_boolean_output_to_value", "set_tool_analog_inputrange", "set_tool_digital_output_mode", "set_tool_output_mode", "set_tool_digital_input_action", "set_safety_mode_transition_hardness", "set_digital_input_action", "popup_close", "varmsg", "set_joint_limits",
+]);
+const THREADED = "is followed in real time by the controller's other tasks and cannot be written as steps.";
+const REFUSED = Object.fromEntries(["servoj", "servoc", "servol", "speedj", "speedl", "force_mode", "freedrive_mode", "conveyor_pulse_decode", "track_conveyor_linear", "track_conveyor_circular"].map(name => [name, `${name} ${THREADED}`]));
+/** Executes URScript statement by statement. */
+export class Machine extends BlockMachine {
+    arm;
+    surroundings;
+    constants;
+    outputs = new Map();
+    signals;
+    tool = "flange";
+    /** Whether the tool was set where the program is now; joint angles alone do not ask for one. */
+    hasTool = false;
+    /** Variables whose pose is a frame although it changes: the places of a pallet that is being read. */
+    places = new Set();
+    /** @param constants  variables that get their value once: a pose in one of them is a frame of the program. */
+    constructor(source, constants, robot, worldFromBase, surroundings, signals) {
+        super(source.routines);
+        this.arm = new ControllerArm(robot, worldFromBase);
+        this.surroundings = surroundings;
+        this.constants = constants;
+        this.signals = signals;
+    }
+    // --- values -----------------------------------------------------------------------------------------------------
+    variable(name) {
+        for (let i = this.scopes.length - 1; i >= 0; i--) {
+            const found = this.scopes[i].names.get(name);
+            if (found !== undefined)
+                return found;
+        }
+        return this.globals.get(name);
+    }
+    evaluate(expression) {
+        switch (expression.kind) {
+            case "number":
+            case "truth":
+            case "text": return expression.value;
+            case "variable": {
+                const value = this.variable(expression.name);
+                if (value === undefined)
+                    throw new TextError(expression, "a variable that has a value", `"${expression.name}" has no value yet.`);
+                return value;
+            }
+            case "list": {
+                const items = expression.items.map(item => this.evaluate(item));
+                return expression.tag === "p" ? poseOf(items.map(item => asNumber(item, expression)), expression) : { kind: "list", items };
+            }
+            case "index": return expression.indices.reduce((value, index) => itemOf(value, this.numberOf(index), index), this.evaluate(expression.of));
+            case "component": throw new TextError(expression, "an index", "URScript has no components of that name.");
+            case "unary": return expression.sign === "not" ? !this.isTrue(expression.of) : -this.numberOf(expression.of);
+            case "binary": {
+                const { sign } = expression, left = this.evaluate(expression.left);
+                if (sign === "and" && left === false)
+                    return false;
+                return sign === "or" && left === true ? true : binary(sign, left, this.evaluate(expression.right), expression);
+            }
+            case "call": return this.function(expression);
+        }
+    }
+    isTrue(expression) { return asTruth(this.evaluate(expression), expression); }
+    numberOf(expression) { return asNumber(this.evaluate(expression), expression); }
+    fromNumber(value) { return value; }
+    store(to, value, global) {
+        if (to.kind === "index") {
+            const path = to.indices.map(index => this.numberOf(index));
+            if (to.of.kind !== "variable" || path.length !== 1)
+                throw new TextError(to, "a variable with one index", "Only an item of a variable can be given a value.");
+            return this.store(to.of, withItem(this.evaluate(to.of), path[0], value, to), global);
+        }
+        if (to.kind !== "variable")
+            throw new TextError(to, "a variable", "Only a variable can be given a value.");
+        const holder = this.scopes.findLast(({ names }) => names.has(to.name))?.names;
+        if (global || this.globals.has(to.name) || this.scopes.length === 0)
+            this.globals.set(to.name, value);
+        else
+            (holder ?? this.scopes.at(-1).names).set(to.name, value);
+    }
+    function(expression) {
+        const { name, args: given } = expression, routine = this.routine(name);
+        if (routine !== undefined)
+            return this.answer(routine, given, expression);
+        const args = new Arguments(name, given, expression, each => this.evaluate(each));
+        switch (name) {
+            case "get_inverse_kin": return this.inverseKinematics(args);
+            case "get_forward_kin": {
+                const joints = args.optional(0, "q"), tcp = args.optional(1, "tcp");
+                const q = joints === undefined ? this.jointsNow(expression) : asNumbers(joints, 6, expression);
+                return this.arm.six(tcp === undefined ? this.arm.tipAt(q) : times(this.arm.flangeAt(q), matrixOf(asPose(tcp, expression).six)));
+            }
+            case "get_actual_tcp_pose":
+            case "get_target_tcp_pose": return this.arm.six(this.arm.tip());
+            case "get_tcp_offset":
+            case "get_target_tcp_offset": return this.arm.six(this.arm.tcp);
+            case "get_actual_joint_positions":
+            case "get_target_joint_positions": return { kind: "list", items: [...this.jointsNow(expression)] };
+            case "is_steady": return true;
+            default: break;
+        }
+        const line = this.lineOf(expression);
+        if (line !== undefined)
+            return this.read(line);
+        const known = Object.hasOwn(FUNCTIONS, name) ? FUNCTIONS[name] : undefined;
+        if (known === undefined)
+            throw new TextError(expression, "a function of URScript", `"${name}" is no function that is understood here.`);
+        const [least, most, run] = known;
+        args.count(least, most);
+        const values = args.all();
+        const value = run(values, expression), frame = name === "pose_trans" ? given[0]?.value : undefined, inner = values[1];
+        if (frame?.kind === "variable" && typeof value === "object" && value.kind === "pose" && typeof inner === "object" && inner.kind === "pose") {
+            return { ...value, inFrame: { frame: frame.name, of: asPose(values[0], expression).six, six: inner.six } };
+        }
+        return value;
+    }
+    inverseKinematics(args) {
+        const pose = asPose(args.required(0, "x"), args.at), near = args.optional(1, "qnear");
+        const from = near === undefined ? this.jointsNow(args.at) : asNumbers(near, 6, args.at);
+        const joints = this.arm.solve(pose, from);
+        // Angles that cannot be worked out here can still be moved to: the robot reaches the pose from that posture.
+        return { kind: "list", items: joints === undefined ? [] : [...joints], solves: { pose, near: from } };
+    }
+    jointsNow(at) {
+        const { joints } = this.arm;
+        if (joints === undefined)
+            throw new TextError(at, "a joint move before it", "The joint angles are the controller's choice here, and are not known.");
+        return joints;
+    }
+    // --- lines ------------------------------------------------------------------------------------------------------
+    lineOf({ name, args }) {
+        const door = name.startsWith("get_") ? doorOf(name) : undefined, number = args[0]?.value;
+        if (door === undefined || number === undefined)
+            return undefined;
+        return lineAt(door, this.numberOf(number), number.kind === "variable" ? number.name : undefined, this.surroundings.signals, number);
+    }
+    read(line) {
+        const isDigital = this.surroundings.signals[line].kind.startsWith("digital");
+        const value = this.outputs.get(line) ?? this.signals?.read(line);
+        return isDigital ? value === true || (typeof value === "number" && value !== 0) : Number(value ?? 0);
+    }
+    condition(expression) {
+        return conditionOf(expression, call => this.lineOf(call), of => of.kind === "number" ? of.value : of.kind === "variable" && this.constants.has(of.name) ? this.numberOf(of) : undefined);
+    }
+    *waitUntil(statement) {
+        const when = this.condition(statement.when);
+        if (when === undefined)
+            throw new TextError(statement.when, "one input that is waited for", "Only a wait for one line can be carried out.");
+        // An output that the program itself has set is there already, or never comes.
+        const own = this.outputs.has(when.signal) && !holds(when, { read: line => this.read(line), write: () => { } });
+        if (own)
+            throw new TextError(statement.when, "a condition that comes true", "The program waits for an output that nothing here changes.");
+        yield this.done(statement, { id: this.stepId(statement), type: "wait-for", when });
+    }
+    placeIn(variable) {
+        const value = this.variable(variable);
+        if (typeof value !== "object" || value.kind !== "pose")
+            return undefined;
+        return this.poseTarget(value);
+    }
+    edge() { this.hasTool = false; }
+    remember() {
+        const values = super.remember(), arm = this.arm.remember(), { tool, hasTool } = this, outputs = new Map(this.outputs);
+        return () => {
+            values();
+            arm();
+            this.tool = tool;
+            this.hasTool = hasTool;
+            this.outputs.clear();
+            for (const [line, value] of outputs)
+                this.outputs.set(line, value);
+        };
+    }
+    // --- instructions -----------------------------------------------------------------------------------------------
+    *instruction(statement) {
+        const { name } = statement, args = new Arguments(name, statement.args, statement, each => this.evaluate(each));
+        const id = () => this.stepId(statement);
+        const say = (step) => this.done(statement, step);
+        switch (name) {
+            case "movej":
+            case "movel":
+            case "movep":
+            case "movec":
+                yield say(this.move(name, args, id()));
+                return undefined;
+            case "sleep": {
+                const s = asNumber(args.required(0, "t"), statement);
+                if (!(s >= 0))
+                    throw new TextError(statement, "a time of 0 s or more", `The time is ${s} s.`);
+                yield say({ id: id(), type: "wait", s });
+                return undefined;
+            }
+            case "set_tcp":
+                this.setTcp(args, statement);
+                break;
+            case "set_payload":
+            case "set_target_payload":
+                yield say(this.payload(args, id()));
+                return undefined;
+            case "textmsg": {
+                const parts = statement.args.map(({ value }) => value === undefined ? "" : this.evaluate(value));
+                yield say({ id: id(), type: "message", text: parts.map(part => typeof part === "object" ? "" : String(part)).join("") });
+                return undefined;
+            }
+            default: {
+                const door = name.startsWith("set_") ? doorOf(name) : undefined;
+                if (door !== undefined) {
+                    yield say(this.write(door, name, args, id()));
+                    return undefined;
+                }
+                if (!SILENT.has(name))
+                    throw new TextError(statement, "a statement of URScript", REFUSED[name] ?? `"${name}" is no statement of URScript that is understood here.`);
+            }
+        }
+        yield { line: statement.line };
+        return undefined;
+    }
+    write(door, name, args, id) {
+        const number = args.given(0, "n"), value = args.required(1, door.kind === "digital-out" ? "b" : "f");
+        // The first line of the tool is the gripper's.
+        if (name === "set_tool_digital_out" && number.kind === "number" && number.value === 0)
+            return { id, type: "gripper", closed: asTruth(value, args.at) };
+        const signal = lineAt(door, this.numberOf(number), number.kind === "variable" ? number.name : undefined, this.surroundings.signals, number);
+        const to = door.kind === "digital-out" ? asTruth(value, args.at) : asNumber(value, args.at);
+        this.outputs.set(signal, to);
+        return { id, type: "set", signal, to };
+    }
+    setTcp(args, at) {
+        const pose = asPose(args.required(0, "pose"), at), given = args.given(0, "pose");
+        this.arm.tcp = matrixOf(pose.six);
+        this.hasTool = true;
+        this.tool = pose.six.every(x => x === 0) ? "flange" : nameIn(this.surroundings.tools, toPose(this.arm.tcp), given.kind === "variable" && given.name !== "flange" ? given.name : "tool", "_");
+    }
+    payload(args, id) {
+        const mass_kg = asNumber(args.required(0, "m"), args.at), center = args.optional(1, "cog"), inertia = args.optional(2, "inertia");
+        const [x, y, z] = center === undefined ? [0, 0, 0] : asNumbers(center, 3, args.at);
+        if (inertia === undefined)
+            return { id, type: "payload", mass_kg, center_m: [x, y, z] };
+        const [a, b, c, d, e, f] = asNumbers(inertia, 6, args.at);
+        return { id, type: "payload", mass_kg, center_m: [x, y, z], inertia_kgm2: [a, b, c, d, e, f] };
+    }
+    // --- moves ------------------------------------------------------------------------------------------------------
+    move(name, args, id) {
+        const isArc = name === "movec", shift = isArc ? 1 : 0, goal = args.required(shift, isArc ? "pose_to" : name === "movej" ? "q" : "pose");
+        const takesTime = name === "movej" || name === "movel";
+        const v = args.optional(shift + 2, "v"), t = takesTime ? args.optional(shift + 3, "t") : undefined, r = args.optional(shift + (takesTime ? 4 : 3), "r");
+        const blend = r === undefined ? 0 : asNumber(r, args.at), time = t === undefined ? 0 : asNumber(t, args.at);
+        if (!(blend >= 0))
+            throw new TextError(args.at, "a radius of 0 m or more", `The blend radius is ${blend} m.`);
+        const via = isArc ? { via: this.target(args.required(0, "pose_via"), args.at, false) } : {};
+        const speed = time > 0 ? { time_s: time } : this.speed(name === "movej", v === undefined ? undefined : asNumber(v, args.at), args.at);
+        const target = this.target(goal, args.at, name === "movej");
+        this.arrive(goal, name === "movej", args.at);
+        return { id, type: "move", path: name === "movej" ? "ptp" : isArc ? "circ" : "lin", target, ...via, speed, blend_m: blend };
+    }
+    speed(isJoint, v, at) {
+        const value = v ?? (isJoint ? DEFAULT_RAD_S : DEFAULT_MPS);
+        if (!(value > 0))
+            throw new TextError(at, "a speed above 0", `The speed is ${value} ${isJoint ? "rad/s" : "m/s"}.`);
+        return isJoint ? { ratio: Math.min(1, value / FULL_RAD_S[this.arm.robot.id]) } : { mps: value };
+    }
+    target(goal, at, choosesPosture) {
+        const { tool } = this;
+        if (typeof goal === "object" && goal.kind === "list") {
+            if (goal.solves === undefined)
+                return { q: asNumbers(goal, 6, at), ...(choosesPosture && !this.hasTool ? {} : { tool }) };
+            const joints = goal.items.length === 6 ? asNumbers(goal, 6, at) : undefined, branch = joints === undefined || !choosesPosture ? undefined : this.arm.branch(joints);
+            return { ...this.poseTarget(goal.solves.pose), tool, ...(branch === undefined ? {} : { branch }) };
+        }
+        return { ...this.poseTarget(asPose(goal, at)), tool };
+    }
+    poseTarget(value) {
+        const frame = value.inFrame?.frame;
+        if (frame !== undefined && this.places.has(frame))
+            return { pose: toPose(matrixOf(value.inFrame.six)), frame };
+        if (frame !== undefined && this.constants.has(frame)) {
+            const { frames } = this.surroundings;
+            frames[frame] ??= this.arm.world(matrixOf(value.inFrame.of));
+            return { pose: toPose(matrixOf(value.inFrame.six)), frame };
+        }
+        return { pose: this.arm.world(matrixOf(value.six)), frame: "world" };
+    }
+    /** A joint move ends in the angles it is given; the others lead the tool to where those angles would put it. */
+    arrive(goal, isJoint, at) {
+        if (typeof goal === "object" && goal.kind === "list") {
+            if (goal.solves !== undefined)
+                return this.arm.atPose(goal.solves.pose, isJoint ? goal.solves.near : undefined);
+            const joints = asNumbers(goal, 6, at);
+            return isJoint ? this.arm.atJoints(joints) : this.arm.atPose(this.arm.six(this.arm.tipAt(joints)));
+        }
+        if (typeof goal !== "object")
+            throw new TextError(at, "a pose or joint angles", `${kindOf(goal)} is no place to move to.`);
+        this.arm.atPose(asPose(goal, at));
+    }
+}

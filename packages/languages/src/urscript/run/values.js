@@ -1,0 +1,83 @@
+import { TextError } from "../../text/index.ts";
+export const kindOf = (value) => typeof value === "number" ? "a number" : typeof value === "boolean" ? "True or False" : typeof value === "string" ? "a text" : value.kind === "pose" ? "a pose" : "a list";
+export function asNumber(value, at) {
+    if (typeof value === "number")
+        return value;
+    throw new TextError(at, "a number", `${sentence(kindOf(value))} stands where a number is expected.`);
+}
+export function asTruth(value, at) {
+    if (typeof value === "boolean")
+        return value;
+    throw new TextError(at, "True or False", `${sentence(kindOf(value))} stands where True or False is expected.`);
+}
+export function asPose(value, at) {
+    if (typeof value === "object" && value.kind === "pose")
+        return value;
+    throw new TextError(at, "a pose p[…]", `${sentence(kindOf(value))} stands where a pose is expected.`);
+}
+export function asNumbers(value, count, at) {
+    if (typeof value === "object" && value.kind === "list" && value.items.length === count)
+        return value.items.map(item => asNumber(item, at));
+    throw new TextError(at, `a list of ${count} numbers`, `${sentence(typeof value === "object" && value.kind === "list" ? `a list of ${value.items.length}` : kindOf(value))} stands where ${count} numbers are expected.`);
+}
+const sentence = (words) => words.charAt(0).toUpperCase() + words.slice(1);
+export function poseOf(numbers, at) {
+    const [x, y, z, rx, ry, rz] = numbers;
+    if (numbers.length !== 6 || x === undefined || y === undefined || z === undefined || rx === undefined || ry === undefined || rz === undefined) {
+        throw new TextError(at, "p[x, y, z, rx, ry, rz]", `A pose has 6 numbers; here are ${numbers.length}.`);
+    }
+    return { kind: "pose", six: [x, y, z, rx, ry, rz] };
+}
+export function binary(sign, left, right, at) {
+    if (sign === "==" || sign === "!=")
+        return same(left, right, at) === (sign === "==");
+    if (sign === "+" && typeof left === "string" && typeof right === "string")
+        return left + right;
+    if (typeof left === "boolean" || typeof right === "boolean" || sign === "and" || sign === "or" || sign === "xor") {
+        const a = asTruth(left, at), b = asTruth(right, at);
+        if (sign === "and")
+            return a && b;
+        if (sign === "or")
+            return a || b;
+        if (sign === "xor")
+            return a !== b;
+        throw new TextError(at, "two numbers", `"${sign}" does not join truth values.`);
+    }
+    const a = asNumber(left, at), b = asNumber(right, at);
+    switch (sign) {
+        case "<": return a < b;
+        case ">": return a > b;
+        case "<=": return a <= b;
+        case ">=": return a >= b;
+        default: return finite(arithmetic(sign, a, b, at), at);
+    }
+}
+function arithmetic(sign, a, b, at) {
+    if ((sign === "/" || sign === "%") && b === 0)
+        throw new TextError(at, "a divisor other than 0", "The divisor is 0.");
+    switch (sign) {
+        case "+": return a + b;
+        case "-": return a - b;
+        case "*": return a * b;
+        case "/": return a / b;
+        case "%": return a % b;
+        default: throw new TextError(at, "an operator", `"${sign}" is no operator.`);
+    }
+}
+export function finite(value, at) {
+    if (!Number.isFinite(value))
+        throw new TextError(at, "a finite result", "The result is not a number.");
+    return value;
+}
+function same(a, b, at) {
+    if (typeof a !== "object" || typeof b !== "object") {
+        if (typeof a !== typeof b)
+            throw new TextError(at, "two values of one sort", `${sentence(kindOf(a))} is compared with ${kindOf(b)}.`);
+        return a === b;
+    }
+    if (a.kind === "pose" && b.kind === "pose")
+        return a.six.every((value, i) => value === b.six[i]);
+    if (a.kind === "list" && b.kind === "list")
+        return a.items.length === b.items.length && a.items.every((item, i) => same(item, b.items[i], at));
+    return false;
+}

@@ -1,0 +1,83 @@
+import { capabilitiesUsed, everyStep } from "@twincell/core";
+import { jointConvention } from "./robots.ts";
+import { MOST_POINTS, pointList } from "./write/point-list.ts";
+import { posturesOf } from "./write/postures.ts";
+import { ProgramWriter } from "./write/program.ts";
+/** What V+ has no standard instruction for. */
+export const CANNOT = [
+    { what: "circ", because: "Arcs are an option of the controller that standard V+ does not have." },
+    { what: "spline", because: "V+ moves on joint-interpolated and straight paths only." },
+    { what: "search", because: "V+ searches by a reaction program (REACTI) that runs beside the motion." },
+    { what: "payload", because: "V+ learns the load from the controller's configuration, not from a program." },
+    { what: "timeout", because: "WAIT has no limit of time in V+." },
+    { what: "pulse", because: "V+ sets a signal and leaves it." },
+    { what: "set-analogue", because: "Analogue lines are an option of the controller that standard V+ does not have." },
+    { what: "read-analogue", because: "Analogue lines are an option of the controller that standard V+ does not have." },
+];
+/** Whole numbers are exact in the controller's reals up to here. */
+const MOST_TIMES = 2 ** 24;
+/** The point list of the paper and the runnable program, or the step that stands in the way: never a part of a program. */
+export function emitVPlus(program, robot, worldFromBase) {
+    const convention = jointConvention(robot);
+    if (convention === undefined) {
+        return { kind: "cannot", step: "", sentence: `How V+ counts the joints of the ${robot.name} is not known.`, hint: "Export in the language of this robot's own controller." };
+    }
+    const steps = [...everyStep(program)], moves = steps.filter((step) => step.type === "move");
+    const refused = unspeakable(program, steps);
+    if (refused !== undefined)
+        return refused;
+    if (moves.length > MOST_POINTS) {
+        return { kind: "cannot", step: moves[MOST_POINTS].id, sentence: `The program has ${moves.length} points; the array of the point list ends after ${MOST_POINTS}.`, hint: "Export it in parts." };
+    }
+    const place = { robot, worldFromBase, tools: program.tools, frames: program.frames };
+    const postures = posturesOf(program, place);
+    if (postures.kind === "cannot")
+        return postures;
+    return {
+        kind: "emitted",
+        files: [new ProgramWriter(program, place, convention, postures.q_rad).write(), pointList(moves, postures.q_rad, convention)],
+        warnings: warnings(program, robot, moves),
+    };
+}
+/** The first step that V+ has no words for. */
+function unspeakable(program, steps) {
+    const refuse = (step, sentence, hint) => ({ kind: "cannot", step: step.id, sentence: `Step ${step.name ?? step.id} ${sentence}`, hint });
+    const used = capabilitiesUsed(program);
+    for (const { what, because } of CANNOT) {
+        const step = used.get(what);
+        if (step === undefined)
+            continue;
+        if (step.type === "move" && step.path === what)
+            return refuse(step, `is a ${what} move. ${because}`, "Replace it by straight moves through points on the curve.");
+        return refuse(step, `asks for: ${what}. ${because}`, "Say it in another way, or export in another language.");
+    }
+    for (const step of steps) {
+        const signal = step.type === "set" ? step.signal : step.type === "wait-for" || step.type === "if" ? step.when.signal : undefined;
+        if (signal !== undefined && (Object.hasOwn(program.signals, signal) ? program.signals[signal].address : undefined) === undefined) {
+            return refuse(step, `names the signal “${signal}”, whose number is not known. V+ counts its lines.`, "Give the signal its address: outputs count from 1, inputs from 1001.");
+        }
+        if (step.type === "repeat" && step.times !== "forever" && step.times > MOST_TIMES)
+            return refuse(step, `repeats ${step.times} times; a loop of V+ counts to ${MOST_TIMES}.`, "Put one loop into another.");
+        if (step.type !== "pallet")
+            continue;
+        const pallet = program.pallets[step.pallet];
+        if (pallet?.interleave === "odd-rows-shifted" && pallet.order?.startsWith("columns") === true)
+            return refuse(step, "visits shifted rows column by column, which loops of V+ do not say.", "Visit the pallet row by row.");
+    }
+    return undefined;
+}
+function warnings(program, robot, moves) {
+    const said = [];
+    const blended = moves.filter(step => step.blend_m > 0 || (step.blend_ratio ?? 0) > 0);
+    if (program.robot !== robot.id)
+        said.push(`The program was taught on ${program.robot} and is written for ${robot.id}.`);
+    if (blended.length > 0)
+        said.push(`V+ has no blend radius: ${counted(blended.length, "step passes", "steps pass")} its point on a continuous path whose corner depends on the speed.`);
+    const paced = moves.filter(step => step.path === "ptp" && "mps" in step.speed);
+    if (paced.length > 0)
+        said.push(`V+ holds a speed in mm/s on straight paths: on ${counted(paced.length, "joint motion", "joint motions")} it is a guide only.`);
+    if (moves.some(({ target }) => "pose" in target))
+        said.push("RIGHTY is taken for a wrist in front of the shoulder axis and LEFTY for one behind it; try the first motion slowly.");
+    return said;
+}
+const counted = (count, one, more) => `${count} ${count === 1 ? one : more}`;

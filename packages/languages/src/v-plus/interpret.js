@@ -1,0 +1,23 @@
+import { rehearse, textFault } from "../text/index.ts";
+import { readSource } from "./read/source.ts";
+import { jointConvention } from "./robots.ts";
+import { Machine } from "./run/machine.ts";
+/**
+ * Executes V+ text: a disk file (its first program) or a list of terminal commands. Locations count from the shoulder of
+ * the robot, wherever its base stands in the cell.
+ */
+export function interpretVPlus(text, robot, worldFromBase) {
+    const convention = jointConvention(robot);
+    if (convention === undefined) {
+        return { kind: "not-understood", faults: [textFault({ line: 1, column: 1 }, "a robot whose controller speaks V+", `How V+ counts the joints of the ${robot.name} is not known.`)] };
+    }
+    const read = readSource(text);
+    if (read.kind === "not-understood")
+        return read;
+    const met = { tools: {}, lines: {} };
+    const run = (signals) => new Machine(read.source, robot, convention, worldFromBase, met, signals).run();
+    const fault = rehearse(run());
+    if (fault !== undefined)
+        return { kind: "not-understood", faults: [fault] };
+    return { kind: "ready", run, context: { tools: met.tools, frames: {}, signals: met.lines } };
+}

@@ -1,0 +1,131 @@
+import { TextError, textLines } from "../../text/index.ts";
+import { RoutineBuilder } from "./blocks.ts";
+import { Cursor } from "./cursor.ts";
+import { checkName, readExpression, readVariable } from "./expression.ts";
+import { readStatement } from "./statement.ts";
+/** More faults than this help nobody. */
+const MOST_FAULTS = 50;
+/** Reads a V+ disk file or a list of terminal commands. Goes on after a fault, so that all of them are told at once. */
+export function readSource(text) {
+    const reader = new SourceReader();
+    const lines = textLines(text);
+    for (const [i, line] of lines.entries()) {
+        reader.guard(() => { reader.line(line, i + 1); });
+        if (reader.faults.length >= MOST_FAULTS)
+            break;
+    }
+    reader.guard(() => { reader.end(lines.length + 1); });
+    if (reader.faults.length > 0)
+        return { kind: "not-understood", faults: reader.faults };
+    return { kind: "source", source: { routines: reader.routines, immediate: reader.immediate, data: reader.data } };
+}
+class SourceReader {
+    faults = [];
+    routines = new Map();
+    immediate = [];
+    data = [];
+    section = "terminal";
+    builder;
+    opened = 0;
+    guard(read) {
+        try {
+            read();
+        }
+        catch (cause) {
+            if (!(cause instanceof TextError))
+                throw cause;
+            this.faults.push(cause.fault);
+        }
+    }
+    line(text, line) {
+        const dot = /^\s*(\.[A-Za-z]+)/.exec(text);
+        if (dot !== null)
+            return this.dotLine(dot[1].toUpperCase(), text, line, dot[0].length);
+        const cursor = new Cursor(text, line);
+        if (cursor.done)
+            return;
+        if (this.section === "program")
+            this.builder?.line(cursor);
+        else if (this.section === "terminal")
+            this.terminalLine(cursor);
+        else
+            this.data.push(dataLine(cursor, this.section));
+    }
+    end(line) {
+        if (this.section === "terminal")
+            return;
+        throw new TextError({ line, column: 1 }, ".END", `The ${this.section === "program" ? ".PROGRAM" : this.section} of line ${this.opened} has no .END.`);
+    }
+    terminalLine(cursor) {
+        cursor.accept("DO");
+        this.immediate.push(readStatement(cursor));
+    }
+    dotLine(word, text, line, at) {
+        const place = { line, column: at - word.length + 1 };
+        if (word === ".END") {
+            if (this.section === "terminal")
+                throw new TextError(place, ".PROGRAM", ".END closes nothing here.");
+            const builder = this.builder;
+            this.section = "terminal";
+            this.builder = undefined;
+            if (builder !== undefined) {
+                const routine = builder.finish(place);
+                this.routines.set(routine.name, routine);
+            }
+            return;
+        }
+        if (this.section !== "terminal")
+            throw new TextError(place, ".END", `${word} stands inside the ${this.section === "program" ? ".PROGRAM" : this.section} of line ${this.opened}.`);
+        this.opened = line;
+        if (word === ".LOCATIONS" || word === ".REALS" || word === ".STRINGS") {
+            this.section = word;
+            return;
+        }
+        if (word !== ".PROGRAM")
+            throw new TextError(place, ".PROGRAM, .LOCATIONS, .REALS or .STRINGS", `"${word}" opens no section of a V+ file.`);
+        this.section = "program";
+        this.header(new Cursor(" ".repeat(at) + text.slice(at), line));
+    }
+    header(cursor) {
+        const place = cursor.here;
+        if (cursor.nextKind !== "word")
+            throw cursor.unexpected("the name of the program");
+        const name = cursor.take().toLowerCase();
+        const parameters = [];
+        this.builder = new RoutineBuilder(name, place, parameters);
+        checkName(name, place);
+        if (cursor.accept("(")) {
+            if (cursor.next !== ")")
+                do
+                    parameters.push(readVariable(cursor).name);
+                while (cursor.accept(","));
+            cursor.expect(")");
+        }
+        cursor.expectEnd();
+        if (this.routines.has(name))
+            throw new TextError(place, "a program name used once", `Program ${name} is in the file twice.`);
+    }
+}
+/** `name x y z y p r`, `#name j1 … jn`, `name value`, `$name "text"`. */
+function dataLine(cursor, section) {
+    const { line, column } = cursor.here;
+    const to = readVariable(cursor);
+    if (section === ".STRINGS")
+        return { kind: "assign", to, value: readExpression(cursor), line, column };
+    const values = [];
+    while (!cursor.done) {
+        const at = cursor.here;
+        const minus = cursor.accept("-");
+        if (cursor.nextKind !== "number")
+            throw cursor.unexpected("a number");
+        values.push({ kind: "number", value: Number(cursor.take()) * (minus ? -1 : 1), line: at.line, column: at.column });
+        cursor.accept(",");
+    }
+    if (section === ".REALS") {
+        if (values.length !== 1)
+            throw new TextError({ line, column }, "one number", `A real has one value; "${to.name}" has ${values.length}.`);
+        return { kind: "assign", to, value: values[0], line, column };
+    }
+    const name = to.name.startsWith("#") ? "#PPOINT" : "TRANS";
+    return { kind: "set", to, value: { kind: "call", name, args: values, line, column }, line, column };
+}

@@ -1,0 +1,175 @@
+import { TextError } from "../../text/index.ts";
+import { checkName, readExpression, readVariable } from "./expression.ts";
+const expressions = (cursor) => {
+    const list = [readExpression(cursor)];
+    while (cursor.accept(","))
+        list.push(readExpression(cursor));
+    return list;
+};
+const optional = (cursor) => cursor.done || cursor.next === "," ? undefined : readExpression(cursor);
+const config = (cursor, word) => ({ kind: "config", word: word, always: cursor.accept("ALWAYS") });
+const gripper = (_, word) => ({ kind: "gripper", closed: word.startsWith("CLOSE"), immediate: word.endsWith("I") });
+const without = cursor => { while (!cursor.done)
+    cursor.take(); return { kind: "nothing" }; };
+/** `FINE 50 ALWAYS` and its like: a tolerance that does not move the target. */
+const accuracy = cursor => {
+    if (!cursor.done && cursor.next !== "ALWAYS")
+        readExpression(cursor);
+    cursor.accept("ALWAYS");
+    return { kind: "nothing" };
+};
+/** One text is a message; anything else is put together on the terminal as the program runs. */
+const message = (cursor, word) => {
+    if (cursor.nextKind !== "text" || cursor.second !== "")
+        return without(cursor, word);
+    return { kind: "type", text: cursor.take().slice(1, -1) };
+};
+function speed(cursor) {
+    const value = readExpression(cursor);
+    if (cursor.accept(","))
+        readExpression(cursor);
+    const unit = cursor.accept("MMPS") ? "mmps" : cursor.accept("IPS") ? "ips" : "percent";
+    // The monitor speed is the operator's hand on the whole robot, like the override here: no property of the program.
+    if (cursor.accept("MONITOR"))
+        return { kind: "nothing" };
+    return { kind: "speed", value, unit, always: cursor.accept("ALWAYS") };
+}
+function switches(cursor, word) {
+    const name = cursor.next;
+    without(cursor, word);
+    return name === "CP" ? { kind: "path", continuous: word === "ENABLE" } : { kind: "nothing" };
+}
+function call(cursor) {
+    const at = cursor.here;
+    if (cursor.nextKind !== "word")
+        throw cursor.unexpected("the name of a program");
+    const program = cursor.take().toLowerCase();
+    checkName(program, at);
+    const args = [];
+    if (cursor.accept("(")) {
+        if (cursor.next !== ")")
+            args.push(...expressions(cursor));
+        cursor.expect(")");
+    }
+    return { kind: "call", program, args };
+}
+function waiting(cursor, word) {
+    if (word === "WAIT") {
+        const condition = optional(cursor);
+        return condition === undefined ? { kind: "wait" } : { kind: "wait", condition };
+    }
+    if (!cursor.done && cursor.next !== ",")
+        readExpression(cursor);
+    if (!cursor.accept(","))
+        throw cursor.unexpected('"," and a time, since an event alone comes from another task');
+    return { kind: "delay", time: readExpression(cursor) };
+}
+const READERS = {
+    SET: cursor => {
+        const to = readVariable(cursor);
+        cursor.expect("=");
+        return { kind: "set", to, value: readExpression(cursor) };
+    },
+    HERE: cursor => ({ kind: "here", to: readVariable(cursor) }),
+    DECOMPOSE: cursor => {
+        const to = readVariable(cursor);
+        if (to.indices.length === 0)
+            throw new TextError(to, "an array element such as a[0]", `DECOMPOSE fills an array; "${to.name}" has no index.`);
+        cursor.expect("=");
+        return { kind: "decompose", to, location: readExpression(cursor) };
+    },
+    MOVE: cursor => ({ kind: "move", straight: false, location: readExpression(cursor) }),
+    MOVES: cursor => ({ kind: "move", straight: true, location: readExpression(cursor) }),
+    MOVET: cursor => handMove(cursor, false),
+    MOVEST: cursor => handMove(cursor, true),
+    APPRO: cursor => approach(cursor, false),
+    APPROS: cursor => approach(cursor, true),
+    DEPART: cursor => ({ kind: "depart", straight: false, distance: readExpression(cursor) }),
+    DEPARTS: cursor => ({ kind: "depart", straight: true, distance: readExpression(cursor) }),
+    DRIVE: cursor => {
+        const joint = readExpression(cursor);
+        cursor.expect(",");
+        const change = readExpression(cursor);
+        cursor.expect(",");
+        return { kind: "drive", joint, change, speed: readExpression(cursor) };
+    },
+    SPEED: speed,
+    DURATION: cursor => {
+        const value = readExpression(cursor);
+        return { kind: "duration", value, always: cursor.accept("ALWAYS") };
+    },
+    TOOL: cursor => {
+        const location = optional(cursor);
+        return location === undefined ? { kind: "tool" } : { kind: "tool", location };
+    },
+    BASE: cursor => {
+        const values = [];
+        if (!cursor.done)
+            do
+                values.push(optional(cursor));
+            while (cursor.accept(","));
+        return { kind: "base", values };
+    },
+    LEFTY: config, RIGHTY: config, ABOVE: config, BELOW: config, FLIP: config, NOFLIP: config,
+    BREAK: () => ({ kind: "break" }),
+    CPON: cursor => { cursor.accept("ALWAYS"); return { kind: "path", continuous: true }; },
+    CPOFF: cursor => { cursor.accept("ALWAYS"); return { kind: "path", continuous: false }; },
+    ENABLE: switches, DISABLE: switches,
+    DELAY: cursor => ({ kind: "delay", time: readExpression(cursor) }),
+    WAIT: waiting, "WAIT.EVENT": waiting,
+    OPEN: gripper, OPENI: gripper, CLOSE: gripper, CLOSEI: gripper, RELAX: gripper, RELAXI: gripper,
+    SIGNAL: cursor => ({ kind: "signal", signals: expressions(cursor) }),
+    CALL: call,
+    RETURN: () => ({ kind: "return" }),
+    STOP: () => ({ kind: "stop" }), HALT: () => ({ kind: "stop" }),
+    FINE: accuracy, COARSE: accuracy, NULL: accuracy, NONULL: accuracy, OVERLAP: accuracy, NOOVERLAP: accuracy, SINGLE: accuracy, MULTIPLE: accuracy,
+    ACCEL: cursor => ({ kind: "accel", percent: expressions(cursor)[0] }),
+    PAUSE: () => ({ kind: "nothing" }),
+    TYPE: message, PARAMETER: without, ATTACH: without, DETACH: without, GLOBAL: without, LOCAL: without, AUTO: without, TIMER: without,
+};
+function handMove(cursor, straight) {
+    const location = readExpression(cursor);
+    cursor.expect(",");
+    return { kind: "move", straight, location, hand: readExpression(cursor) };
+}
+function approach(cursor, straight) {
+    const location = readExpression(cursor);
+    cursor.expect(",");
+    return { kind: "approach", straight, location, distance: readExpression(cursor) };
+}
+/** Why a word that V+ or a neighbouring language knows is refused here. */
+const REFUSED = {
+    ELSEIF: "V+ has no ELSEIF: nest IF inside ELSE.",
+    POINT: "POINT belongs to Kawasaki AS; V+ uses SET.",
+    REACTI: "Reactions to signals come from outside and cannot be executed here.",
+    REACT: "Reactions to signals come from outside and cannot be executed here.",
+};
+/** One statement that moves, sets or waits; control words (IF, FOR, …) are read by `blocks.ts`. */
+export function readStatement(cursor) {
+    const { line, column } = cursor.here;
+    const word = cursor.next;
+    if (cursor.nextKind !== "word")
+        throw cursor.unexpected("a statement");
+    const reader = READERS[word];
+    // A name followed by = is assigned to, even where it is also a word of the language.
+    if (cursor.second === "=" || cursor.second === "[") {
+        if (reader === undefined || cursor.second === "=")
+            return { ...assignment(cursor), line, column };
+    }
+    if (reader === undefined) {
+        throw new TextError({ line, column }, "a statement of V+", REFUSED[word] ?? `"${cursor.take()}" is no statement of V+ that is understood here.`);
+    }
+    cursor.take();
+    const body = reader(cursor, word);
+    cursor.expectEnd();
+    return { ...body, line, column };
+}
+function assignment(cursor) {
+    const to = readVariable(cursor);
+    cursor.expect("=");
+    const value = readExpression(cursor);
+    if (cursor.next === "=")
+        throw cursor.unexpected('"==" for a comparison');
+    cursor.expectEnd();
+    return { kind: "assign", to, value };
+}

@@ -1,0 +1,298 @@
+import { SignalTable } from "@twincell/core";
+import { TextError } from "../../text/index.ts";
+import { ControllerState } from "./state.ts";
+import { fromTrans, times } from "./transform.ts";
+import { evaluate, keyOf, location, number, signalName, transform } from "./values.ts";
+/** Statements without a motion or a wait after which the program is taken to run on the spot for ever. */
+const STATEMENTS_WITHOUT_MOTION = 100_000;
+/** Calls inside calls. */
+const CALL_DEPTH = 40;
+/** Executes a V+ text statement by statement. Deterministic: the same text gives the same steps. */
+export class Machine {
+    source;
+    state;
+    continuousPath_m;
+    /** A motion of which it is not yet known whether the robot stops at its end, and what was executed since. */
+    pending;
+    since = [];
+    times = new Map();
+    idle = 0;
+    constructor(source, robot, convention, worldFromBase, met, signals = new SignalTable()) {
+        this.source = source;
+        this.state = new ControllerState(robot, convention, worldFromBase, met, signals);
+        // A program that looks at a line waits for something outside: it does not run on the spot.
+        this.state.onRead = () => { this.idle = 0; };
+        this.continuousPath_m = step => continuousPath(robot, step);
+    }
+    /** @throws {TextError} where the text cannot be executed further. */
+    *run() {
+        for (const statement of [...this.source.data, ...this.source.immediate]) {
+            const called = [];
+            yield* this.statement(statement, called);
+            yield* this.execute(called);
+        }
+        const main = this.source.routines.values().next();
+        if (main.done !== true)
+            yield* this.execute([newFrame(main.value)]);
+        yield* this.settle(0);
+    }
+    *execute(stack) {
+        let frame;
+        while ((frame = stack.at(-1)) !== undefined) {
+            const instruction = frame.routine.instructions[frame.at++];
+            if (instruction === undefined) {
+                stack.pop();
+                continue;
+            }
+            if (instruction.kind === "statement")
+                yield* this.statement(instruction.statement, stack);
+            else
+                this.control(instruction, frame);
+        }
+    }
+    control(instruction, frame) {
+        const { state } = this;
+        switch (instruction.kind) {
+            case "jump":
+                this.spend(instruction.at);
+                frame.at = instruction.to;
+                return;
+            case "unless":
+                this.spend(instruction.condition);
+                if (number(instruction.condition, state) === 0)
+                    frame.at = instruction.to;
+                return;
+            case "for":
+                state.write(keyOf(instruction.variable, state), number(instruction.from, state));
+                frame.last[instruction.slot] = number(instruction.last, state);
+                frame.step[instruction.slot] = instruction.step === undefined ? 1 : number(instruction.step, state);
+                if (frame.step[instruction.slot] === 0)
+                    throw new TextError(instruction.step, "a step other than 0", "The loop has the step 0.");
+                return;
+            case "for-check": {
+                const value = number(instruction.variable, state), last = frame.last[instruction.slot];
+                if (frame.step[instruction.slot] > 0 ? value > last : value < last)
+                    frame.at = instruction.to;
+                return;
+            }
+            case "for-next":
+                this.spend(instruction.variable);
+                state.write(keyOf(instruction.variable, state), Math.fround(number(instruction.variable, state) + frame.step[instruction.slot]));
+                frame.at = instruction.to;
+                return;
+            case "switch":
+                frame.chosen[instruction.slot] = evaluate(instruction.value, state);
+                return;
+            case "case-unless":
+                if (!instruction.values.some(value => evaluate(value, state) === frame.chosen[instruction.slot]))
+                    frame.at = instruction.to;
+                return;
+        }
+    }
+    *statement(statement, stack) {
+        const { state } = this;
+        this.spend(statement);
+        switch (statement.kind) {
+            case "assign": {
+                const value = evaluate(statement.value, state);
+                if (typeof value === "object")
+                    throw new TextError(statement.value, "a number or a string", "A location is given to a variable with SET.");
+                if ((typeof value === "string") !== statement.to.name.startsWith("$"))
+                    throw new TextError(statement.value, "a value of the variable's sort", `"${statement.to.name}" takes ${statement.to.name.startsWith("$") ? "a string" : "a number"}.`);
+                state.write(keyOf(statement.to, state), value);
+                break;
+            }
+            case "set": {
+                const value = location(statement.value, state);
+                if ((value.kind === "precision") !== statement.to.name.startsWith("#"))
+                    throw new TextError(statement.value, "a location of the variable's sort", `"${statement.to.name}" takes a ${statement.to.name.startsWith("#") ? "precision point" : "transformation"}.`);
+                state.write(keyOf(statement.to, state), value);
+                break;
+            }
+            case "here":
+                state.write(keyOf(statement.to, state), state.here());
+                break;
+            case "decompose":
+                for (const [i, component] of state.decomposed(location(statement.location, state)).entries()) {
+                    state.write(keyOf(statement.to, state, i), Math.fround(component));
+                }
+                break;
+            case "tool": {
+                yield* this.settle(0);
+                const named = statement.location?.kind === "variable" ? statement.location.name : undefined;
+                state.setTool(statement.location === undefined ? fromTrans(0, 0, 0, 0, 0, 0) : transform(statement.location, state), named);
+                break;
+            }
+            case "base": {
+                yield* this.settle(0);
+                const [x, y, z, turn] = [0, 1, 2, 3].map(i => statement.values[i] === undefined ? 0 : number(statement.values[i], state));
+                state.setBase(x, y, z, turn);
+                break;
+            }
+            case "config":
+                state.configure(statement.word);
+                break;
+            case "speed":
+                state.setSpeed(number(statement.value, state), statement.unit, statement.always, statement);
+                break;
+            case "duration":
+                state.setDuration(number(statement.value, state), statement.always);
+                break;
+            case "path":
+                state.continuous = statement.continuous;
+                break;
+            case "break":
+                yield* this.settle(0);
+                break;
+            case "signal": return yield* this.set(statement);
+            case "accel": {
+                const percent = number(statement.percent, state);
+                if (!(percent > 0))
+                    throw new TextError(statement.percent, "a percentage above 0", `The acceleration is ${percent} %.`);
+                state.accelerate(percent);
+                break;
+            }
+            case "type":
+                yield* this.settle(state.continuous ? "continuous" : 0);
+                return yield this.done(statement, { id: this.stepId(statement.line), type: "message", text: statement.text });
+            case "wait":
+                if (statement.condition !== undefined && isOneSignal(statement.condition))
+                    return yield* this.waitFor(statement, statement.condition.args[0]);
+                if (statement.condition !== undefined && number(statement.condition, state) === 0) {
+                    throw new TextError(statement.condition, "a condition that comes true", "The program waits for a condition that nothing here makes true.");
+                }
+                break;
+            case "delay": return yield* this.delay(statement, number(statement.time, state));
+            case "gripper": return yield* this.gripper(statement);
+            case "move":
+            case "approach":
+            case "depart":
+            case "drive": return yield* this.motion(statement);
+            case "call":
+                this.call(statement, stack);
+                break;
+            case "return":
+                stack.pop();
+                break;
+            case "stop":
+                stack.length = 0;
+                yield* this.settle(0);
+                return yield this.done(statement, { id: this.stepId(statement.line), type: "stop" });
+            case "nothing": break;
+        }
+        yield* this.note({ line: statement.line });
+    }
+    *motion(statement) {
+        const { state } = this;
+        yield* this.settle(state.continuous ? "continuous" : 0);
+        if (statement.kind === "move" && statement.hand !== undefined) {
+            // The hand moves while the arm does: before the motion is the nearest that a list of steps can say.
+            yield this.done(statement, { id: this.stepId(statement.line), type: "gripper", closed: number(statement.hand, state) <= 0 });
+        }
+        if (statement.kind === "drive")
+            state.setSpeed(number(statement.speed, state), "percent", false, statement.speed);
+        const straight = statement.kind !== "drive" && statement.straight;
+        const step = state.moveTo(this.stepId(statement.line), this.goal(statement), straight);
+        this.pending = { line: statement.line, step };
+        this.idle = 0;
+    }
+    goal(statement) {
+        const { state } = this;
+        const back = (from, distance_mm) => times(from, fromTrans(0, 0, -distance_mm, 0, 0, 0));
+        switch (statement.kind) {
+            case "move": return location(statement.location, state);
+            case "drive": return state.driven(number(statement.joint, state), number(statement.change, state), statement);
+            case "depart": return back(state.here(), number(statement.distance, state));
+            case "approach": {
+                const target = location(statement.location, state);
+                return back(target.kind === "precision" ? state.reached(target) : target, number(statement.distance, state));
+            }
+        }
+    }
+    *delay(statement, s) {
+        if (!(s >= 0))
+            throw new TextError(statement, "a time of 0 s or more", `The time is ${s} s.`);
+        yield* this.settle(0);
+        yield this.done(statement, { id: this.stepId(statement.line), type: "wait", s });
+    }
+    /** A program runs ahead of its motions: without BREAK a signal is set while the robot still moves. */
+    *set(statement) {
+        yield* this.settle(this.state.continuous ? "continuous" : 0);
+        for (const expression of statement.signals) {
+            const signed = Math.trunc(number(expression, this.state));
+            if (signed === 0)
+                throw new TextError(expression, "a signal from 1", "There is no signal 0.");
+            const signal = this.state.line(Math.abs(signed), signalName(expression)), to = signed > 0;
+            this.state.wrote(signal, to);
+            yield this.done(statement, { id: this.stepId(statement.line), type: "set", signal, to });
+        }
+    }
+    *waitFor(statement, expression) {
+        yield* this.settle(0);
+        const signed = Math.trunc(number(expression, this.state)), signal = this.state.line(Math.abs(signed), signalName(expression));
+        yield this.done(statement, { id: this.stepId(statement.line), type: "wait-for", when: { signal, is: signed > 0 } });
+    }
+    *gripper(statement) {
+        yield* this.settle(statement.immediate || !this.state.continuous ? 0 : "continuous");
+        yield this.done(statement, { id: this.stepId(statement.line), type: "gripper", closed: statement.closed });
+    }
+    call(statement, stack) {
+        const routine = this.source.routines.get(statement.program);
+        if (routine === undefined)
+            throw new TextError(statement, "a program of this file", `Program ${statement.program} is not in this file.`);
+        if (stack.length >= CALL_DEPTH)
+            throw new TextError(statement, `at most ${CALL_DEPTH} calls inside each other`, `Program ${statement.program} is called more than ${CALL_DEPTH} deep.`);
+        if (statement.args.length > routine.parameters.length)
+            throw new TextError(statement, `${routine.parameters.length} arguments`, `Program ${statement.program} takes ${routine.parameters.length} arguments; ${statement.args.length} are given.`);
+        const values = statement.args.map(arg => evaluate(arg, this.state));
+        for (const [i, value] of values.entries())
+            this.state.write(routine.parameters[i], value);
+        stack.push(newFrame(routine));
+    }
+    /** Hands out the motion that was waiting for what comes after it. */
+    *settle(end) {
+        const { pending } = this;
+        if (pending === undefined)
+            return;
+        this.pending = undefined;
+        const step = end === 0 ? pending.step : { ...pending.step, blend_m: this.continuousPath_m(pending.step) };
+        yield { line: pending.line, step };
+        yield* this.since.splice(0);
+    }
+    *note(executed) {
+        if (this.pending === undefined)
+            yield executed;
+        else
+            this.since.push(executed);
+    }
+    done(at, step) {
+        this.idle = 0;
+        return { line: at.line, step };
+    }
+    /** L12, and L12.2 when line 12 is executed again. */
+    stepId(line) {
+        const time = (this.times.get(line) ?? 0) + 1;
+        this.times.set(line, time);
+        return time === 1 ? `L${line}` : `L${line}.${time}`;
+    }
+    spend(at) {
+        if (++this.idle > STATEMENTS_WITHOUT_MOTION) {
+            throw new TextError(at, "a motion, a wait or an end", `The program has executed ${STATEMENTS_WITHOUT_MOTION} statements without a motion: it runs on the spot for ever.`);
+        }
+    }
+}
+const isOneSignal = (condition) => condition.kind === "call" && condition.name === "SIG" && condition.args.length === 1 && condition.args[0] !== undefined;
+const newFrame = (routine) => ({ routine, at: 0, last: [], step: [], chosen: [] });
+/**
+ * How far from its end a motion begins to turn into the next one. V+ has no radius: the next motion sets in when this one
+ * begins to slow down, v² / 2a before its end, where a takes the arm from full speed to rest in its ramp.
+ */
+function continuousPath(robot, { speed }) {
+    const ramp_s = Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2));
+    const full_mps = robot.maxTcpSpeed_mps, speed_mps = "mps" in speed ? speed.mps : "ratio" in speed ? speed.ratio * full_mps : SLOW_MPS;
+    return Math.min(speed_mps ** 2 * ramp_s / (2 * full_mps), LARGEST_CORNER_M);
+}
+/** A motion of given duration says nothing of its speed: it is taken for a slow one. */
+const SLOW_MPS = 0.25;
+/** A corner is never cut by more: at full speed the rule above asks for more than most motions are long. */
+const LARGEST_CORNER_M = 0.05;

@@ -1,0 +1,158 @@
+import { compose, degrees, flangePose, identity, inverse, radians, } from "@twincell/core";
+import { TextError } from "../../text/index.ts";
+import { NULL_TRANSFORM, components, fromPose, fromTrans, inverted, times, toPose } from "./transform.ts";
+const INCH_MM = 25.4;
+/** What the words of the controller mean in the words of a person, one for each part of the branch. */
+const CONFIG = {
+    RIGHTY: { shoulder: "front" }, LEFTY: { shoulder: "back" },
+    ABOVE: { elbow: "up" }, BELOW: { elbow: "down" },
+    NOFLIP: { wrist: "positive" }, FLIP: { wrist: "negative" },
+};
+/** Outputs count from 1, inputs from 1001, soft signals, which are both, from 2001. */
+const FIRST_INPUT = 1001, FIRST_SOFT = 2001;
+/** The controller while a program runs: variables, signals, tool, speed, and where the arm has been sent. */
+export class ControllerState {
+    joints;
+    continuous = true;
+    robot;
+    convention;
+    worldFromVendor;
+    vendorFromBase;
+    variables = new Map();
+    signals;
+    written = new Map();
+    /** The lines that were met, by the names of the steps; shared with whoever executes the text. */
+    lines;
+    /** Called when a line is read: what it says may change from outside. */
+    onRead = () => undefined;
+    acceleration;
+    tools;
+    tool = { name: "flange", flangeFromTcp: NULL_TRANSFORM };
+    base = NULL_TRANSFORM;
+    speed = { ratio: 1 };
+    onceSpeed;
+    duration;
+    onceDuration;
+    branch = {};
+    /** Where the flange is sent, in the vendor's world. */
+    flange;
+    /** The joints there; unknown after a move to a transformation, whose joints the controller chooses. */
+    joints_deg;
+    constructor(robot, convention, worldFromBase, { tools, lines }, signals) {
+        this.robot = robot;
+        this.lines = lines;
+        this.signals = signals;
+        this.joints = robot.arm.joints.length;
+        this.convention = convention;
+        this.tools = tools;
+        // The world is a frame like any other to a program.
+        this.worldFromVendor = compose(compose(identity(), worldFromBase), robot.baseFromVendorWorld);
+        this.vendorFromBase = inverse(robot.baseFromVendorWorld);
+        this.joints_deg = robot.home_rad.map((q, i) => degrees(q) * convention.signs[i] + convention.offsets_deg[i]);
+        this.flange = this.flangeAt(this.joints_deg);
+    }
+    read(key) { return this.variables.get(key); }
+    write(key, value) { this.variables.set(key, value); }
+    signal(number, name) {
+        this.onRead();
+        const line = this.line(number, name), value = this.written.get(line) ?? this.signals.read(line);
+        return typeof value === "number" ? value !== 0 : value;
+    }
+    /** The steps write the line when they are executed; the text, which is ahead of them, reads what it wrote. */
+    wrote(line, value) { this.written.set(line, value); }
+    /** The name under which the steps know a line: that of its variable, or its number. */
+    line(number, name) {
+        const isInput = number >= FIRST_INPUT && number < FIRST_SOFT, called = name ?? `${isInput ? "in" : "out"}_${number}`;
+        this.lines[called] ??= { kind: isInput ? "digital-in" : "digital-out", address: number };
+        return called;
+    }
+    accelerate(percent) {
+        const ratio = Math.min(1, percent / 100);
+        this.acceleration = ratio < 1 ? { ratio } : undefined;
+    }
+    here() { return times(times(inverted(this.base), this.flange), this.tool.flangeFromTcp); }
+    reached(precision) { return times(times(inverted(this.base), this.flangeAt(precision.joints_deg)), this.tool.flangeFromTcp); }
+    /** The six numbers of a location, as DECOMPOSE writes them. */
+    decomposed(location) {
+        return location.kind === "precision" ? location.joints_deg : components(location);
+    }
+    setTool(flangeFromTcp, wantedName) {
+        const isFlange = components(flangeFromTcp).every(x => x === 0);
+        this.tool = { name: isFlange ? "flange" : this.toolName(toPose(flangeFromTcp), wantedName), flangeFromTcp };
+    }
+    setBase(x_mm, y_mm, z_mm, turn_deg) {
+        this.base = fromTrans(x_mm, y_mm, z_mm, turn_deg, 0, 0);
+    }
+    configure(word) { this.branch = { ...this.branch, ...CONFIG[word] }; }
+    setSpeed(value, unit, always, at) {
+        if (!(value > 0))
+            throw new TextError(at, "a speed above 0", `The speed is ${value}.`);
+        const speed = unit === "percent" ? { ratio: Math.min(1, value / 100) } : { mps: value * (unit === "ips" ? INCH_MM : 1) / 1000 };
+        if (always) {
+            this.speed = speed;
+            this.onceSpeed = undefined;
+        }
+        else
+            this.onceSpeed = speed;
+    }
+    /** The least time of a motion [s]; 0 takes the demand back. */
+    setDuration(time_s, always) {
+        const duration = time_s > 0 ? { time_s } : undefined;
+        if (always) {
+            this.duration = duration;
+            this.onceDuration = undefined;
+        }
+        else
+            this.onceDuration = duration;
+    }
+    /** The neutral step of a motion to that location; from now on the arm is there. */
+    moveTo(id, location, straight) {
+        const target = location.kind === "precision" ? this.toJoints(location) : this.toTransform(location);
+        const speed = this.onceDuration ?? this.duration ?? this.onceSpeed ?? this.speed;
+        this.onceDuration = this.onceSpeed = undefined;
+        return { id, type: "move", path: straight ? "lin" : "ptp", target, speed, ...(this.acceleration === undefined ? {} : { acceleration: this.acceleration }), blend_m: 0 };
+    }
+    /** DRIVE: one joint, counted from 1, by an angle. */
+    driven(joint, change_deg, at) {
+        if (!(joint >= 1 && joint <= this.joints))
+            throw new TextError(at, `a joint from 1 to ${this.joints}`, `The robot has no joint ${joint}.`);
+        if (this.joints_deg === undefined)
+            throw new TextError(at, "a motion to a precision point before it", "DRIVE turns a joint from where it is, and after a motion to a transformation the joint values are the controller's choice.");
+        return { kind: "precision", joints_deg: this.joints_deg.map((value, i) => i === joint - 1 ? value + change_deg : value) };
+    }
+    toJoints({ joints_deg }) {
+        this.joints_deg = joints_deg;
+        this.flange = this.flangeAt(joints_deg);
+        // The joints say which posture it is; a later transformation is reached from there.
+        this.branch = {};
+        return { q: this.radiansOf(joints_deg), tool: this.tool.name };
+    }
+    toTransform(location) {
+        const vendorFromTcp = times(this.base, location);
+        this.joints_deg = undefined;
+        this.flange = times(vendorFromTcp, inverted(this.tool.flangeFromTcp));
+        const pose = compose(this.worldFromVendor, toPose(vendorFromTcp));
+        const { shoulder, elbow, wrist } = this.branch;
+        const branch = shoulder !== undefined && elbow !== undefined && wrist !== undefined ? { branch: { shoulder, elbow, wrist } } : {};
+        return { pose, frame: "world", tool: this.tool.name, ...branch };
+    }
+    flangeAt(joints_deg) {
+        return fromPose(compose(this.vendorFromBase, flangePose(this.robot.arm, this.radiansOf(joints_deg))));
+    }
+    radiansOf(joints_deg) {
+        return joints_deg.map((value, i) => radians((value - this.convention.offsets_deg[i]) / this.convention.signs[i]));
+    }
+    /** A tool met before keeps its name; two tools never share one. */
+    toolName(flangeFromTcp, wanted) {
+        const text = JSON.stringify(flangeFromTcp);
+        const stem = wanted === undefined || wanted === "flange" ? "tool" : wanted;
+        for (let i = 1;; i++) {
+            const name = i === 1 ? stem : `${stem}_${i}`;
+            const known = this.tools[name];
+            if (known === undefined)
+                this.tools[name] = flangeFromTcp;
+            if (known === undefined || JSON.stringify(known) === text)
+                return name;
+        }
+    }
+}

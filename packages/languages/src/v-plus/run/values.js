@@ -1,0 +1,179 @@
+import { TextError } from "../../text/index.ts";
+import { NULL_TRANSFORM, about, frameOf, fromTrans, inverted, shifted, times } from "./transform.ts";
+const TRUE = -1;
+const truth = (yes) => yes ? TRUE : 0;
+/** Reals of the controller are single precision. */
+const real = Math.fround;
+export function evaluate(expression, memory) {
+    switch (expression.kind) {
+        case "number": return real(expression.value);
+        case "text": return expression.value;
+        case "variable": {
+            const value = memory.read(keyOf(expression, memory));
+            if (value === undefined)
+                throw new TextError(expression, "a variable that has a value", `"${expression.name}" has no value yet.`);
+            return value;
+        }
+        case "unary": {
+            const value = number(expression.of, memory);
+            return expression.sign === "NOT" ? truth(value === 0) : expression.sign === "-" ? -value : value;
+        }
+        case "binary": return binary(expression, memory);
+        case "compound": return expression.parts.map(part => transform(part, memory)).reduce(times);
+        case "call": return call(expression, memory);
+    }
+}
+/** The name under which a variable or an element of an array is kept. */
+export function keyOf(variable, memory, plus = 0) {
+    if (variable.indices.length === 0)
+        return variable.name;
+    const indices = variable.indices.map(index => Math.trunc(number(index, memory)));
+    indices[indices.length - 1] += plus;
+    const odd = indices.findIndex(index => index < 0 || index > 32767);
+    if (odd >= 0)
+        throw new TextError(variable, "an index from 0 to 32767", `Index ${indices[odd]} of "${variable.name}" is outside 0 to 32767.`);
+    return `${variable.name}[${indices.join(",")}]`;
+}
+export function number(expression, memory) {
+    const value = evaluate(expression, memory);
+    if (typeof value !== "number")
+        throw new TextError(expression, "a number", `A ${kindOf(value)} stands where a number is expected.`);
+    return value;
+}
+export function transform(expression, memory) {
+    const value = evaluate(expression, memory);
+    if (typeof value === "number" || typeof value === "string" || value.kind === "precision") {
+        throw new TextError(expression, "a transformation", `A ${kindOf(value)} stands where a transformation is expected.`);
+    }
+    return value;
+}
+export function location(expression, memory) {
+    const value = evaluate(expression, memory);
+    if (typeof value === "number" || typeof value === "string") {
+        throw new TextError(expression, "a location", `A ${kindOf(value)} stands where a location is expected.`);
+    }
+    return value;
+}
+const kindOf = (value) => typeof value === "number" ? "number" : typeof value === "string" ? "string" : value.kind === "precision" ? "precision point" : "transformation";
+function binary(expression, memory) {
+    const { sign } = expression;
+    const left = evaluate(expression.left, memory), right = evaluate(expression.right, memory);
+    if (typeof left === "string" && typeof right === "string") {
+        if (sign === "==" || sign === "<>")
+            return truth((left === right) === (sign === "=="));
+        if (sign === "+")
+            return left + right;
+    }
+    if (typeof left !== "number" || typeof right !== "number") {
+        throw new TextError(expression, "two numbers", `"${sign}" joins numbers, not a ${kindOf(left)} and a ${kindOf(right)}.`);
+    }
+    switch (sign) {
+        case "+": return real(left + right);
+        case "-": return real(left - right);
+        case "*": return real(left * right);
+        case "**": return finite(real(left ** right), expression);
+        case "/":
+        case "MOD":
+            if (right === 0)
+                throw new TextError(expression.right, "a divisor other than 0", "The divisor is 0.");
+            return real(sign === "/" ? left / right : left % right);
+        case "==": return truth(left === right);
+        case "<>": return truth(left !== right);
+        case "<": return truth(left < right);
+        case ">": return truth(left > right);
+        case "<=": return truth(left <= right);
+        case ">=": return truth(left >= right);
+        case "AND": return truth(left !== 0 && right !== 0);
+        case "OR": return truth(left !== 0 || right !== 0);
+        case "XOR": return truth((left !== 0) !== (right !== 0));
+        default: throw new TextError(expression, "an operator", `"${sign}" is no operator.`);
+    }
+}
+/** Name of the variable that a signal is called by, with or without a sign. */
+export function signalName(expression) {
+    const plain = expression.kind === "unary" ? expression.of : expression;
+    return plain.kind === "variable" && plain.indices.length === 0 ? plain.name : undefined;
+}
+const degrees = (angle) => angle / Math.PI * 180;
+const radians = (angle) => angle / 180 * Math.PI;
+const ofNumber = (f) => ([x], memory, at) => finite(real(f(number(x, memory))), at);
+const ofLocation = (f) => ([a], memory) => real(f(transform(a, memory)));
+const extreme = (f) => (args, memory) => f(...args.map(arg => number(arg, memory)));
+/** Functions with the number of arguments that each takes. */
+const FUNCTIONS = {
+    SIN: [1, 1, ofNumber(x => Math.sin(radians(x)))],
+    COS: [1, 1, ofNumber(x => Math.cos(radians(x)))],
+    TAN: [1, 1, ofNumber(x => Math.tan(radians(x)))],
+    ATAN2: [2, 2, ([y, x], memory) => real(degrees(Math.atan2(number(y, memory), number(x, memory))))],
+    SQRT: [1, 1, ofNumber(Math.sqrt)],
+    SQR: [1, 1, ofNumber(x => x * x)],
+    ABS: [1, 1, ofNumber(Math.abs)],
+    INT: [1, 1, ofNumber(Math.trunc)],
+    FRACT: [1, 1, ofNumber(x => x - Math.trunc(x))],
+    SIGN: [1, 1, ofNumber(x => x < 0 ? -1 : 1)],
+    MIN: [1, 15, extreme(Math.min)],
+    MAX: [1, 15, extreme(Math.max)],
+    DX: [1, 1, ofLocation(t => t.p_mm[0])],
+    DY: [1, 1, ofLocation(t => t.p_mm[1])],
+    DZ: [1, 1, ofLocation(t => t.p_mm[2])],
+    DISTANCE: [2, 2, ([a, b], memory) => {
+            const p = transform(a, memory).p_mm, q = transform(b, memory).p_mm;
+            return real(Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+        }],
+    SIG: [1, 15, (args, memory) => truth(args.every(arg => {
+            const signal = Math.trunc(number(arg, memory));
+            return memory.signal(Math.abs(signal), signalName(arg)) === signal > 0;
+        }))],
+    INVERSE: [1, 1, ([a], memory) => inverted(transform(a, memory))],
+    RX: [1, 1, ([angle], memory) => about("x", number(angle, memory))],
+    RY: [1, 1, ([angle], memory) => about("y", number(angle, memory))],
+    RZ: [1, 1, ([angle], memory) => about("z", number(angle, memory))],
+    FRAME: [4, 4, ([o, x, xy, at], memory, call) => {
+            const frame = frameOf(transform(o, memory), transform(x, memory), transform(xy, memory), transform(at, memory));
+            if (frame === undefined)
+                throw new TextError(call, "three points that are not on a line", "The three points of FRAME lie on one line.");
+            return frame;
+        }],
+    NULL: [0, 0, () => NULL_TRANSFORM],
+    HERE: [0, 0, (_, memory) => memory.here()],
+    DEST: [0, 0, (_, memory) => memory.here()],
+};
+function call(expression, memory) {
+    const { name, args } = expression;
+    const component = (i) => args[i] === undefined ? 0 : number(args[i], memory);
+    if (name === "TRANS") {
+        count(expression, 0, 6);
+        return fromTrans(component(0), component(1), component(2), component(3), component(4), component(5));
+    }
+    if (name === "#PPOINT") {
+        count(expression, 0, memory.joints);
+        return { kind: "precision", joints_deg: Array.from({ length: memory.joints }, (_, i) => component(i)) };
+    }
+    if (name === "SHIFT") {
+        count(expression, 1, 4);
+        const from = args[0];
+        if (from === undefined)
+            throw new TextError(expression, "a transformation", "SHIFT has nothing to shift.");
+        return shifted(transform(from, memory), component(1), component(2), component(3));
+    }
+    const known = FUNCTIONS[name];
+    if (known === undefined)
+        throw new TextError(expression, "a function of V+", `"${name}" is no function that is understood here.`);
+    const [least, most, run] = known;
+    count(expression, least, most);
+    const given = args.filter(arg => arg !== undefined);
+    if (given.length < args.length)
+        throw new TextError(expression, "every argument", `${name} takes no empty argument.`);
+    return run(given, memory, expression);
+}
+function count({ name, args, line, column }, least, most) {
+    if (args.length >= least && args.length <= most)
+        return;
+    const wanted = least === most ? `${most}` : `${least} to ${most}`;
+    throw new TextError({ line, column }, `${wanted} argument${most === 1 ? "" : "s"}`, `${name} takes ${wanted} argument${most === 1 ? "" : "s"}; ${args.length} are given.`);
+}
+function finite(value, at) {
+    if (!Number.isFinite(value))
+        throw new TextError(at, "a finite result", "The result is not a number.");
+    return value;
+}

@@ -1,0 +1,19 @@
+import { degrees, millimetres, toVplusYpr } from "@twincell/core";
+import { singleText } from "../../text/index.ts";
+/** TRANS(x,y,z,yaw,pitch,roll) in mm and degrees. */
+export function transText({ position, quaternion }) {
+    const numbers = [...position.map(millimetres), ...toVplusYpr(quaternion)];
+    return `TRANS(${numbers.map(tidy).join(",")})`;
+}
+/** #PPOINT(j1,…,jn) in degrees as V+ counts them: no blanks, ASCII minus, seven significant digits, no exponent (rows N-54 … N-56). */
+export function ppointText(q_rad, { signs, offsets_deg }) {
+    return `#PPOINT(${Array.from(q_rad, (q, i) => tidy(signs[i] * degrees(q) + offsets_deg[i])).join(",")})`;
+}
+/** A millionth of a millimetre or of a degree is arithmetic, not a wish. */
+const tidy = (value) => singleText(Math.abs(value) < 1e-6 ? 0 : value);
+/** The first joint, from 1, outside its limits; undefined when all are inside. */
+export function jointOutside(robot, q_rad) {
+    const i = robot.arm.joints.findIndex(({ limits }, k) => !(q_rad[k] >= limits.lower_rad - LIMIT_SLACK_RAD && q_rad[k] <= limits.upper_rad + LIMIT_SLACK_RAD));
+    return i < 0 ? undefined : { joint: i + 1, limits: robot.arm.joints[i].limits };
+}
+const LIMIT_SLACK_RAD = 1e-9;

@@ -1,0 +1,65 @@
+import { branchOf, compose, degrees, explainReach, flangeOfTcp, flow, identity, solveAll, withLists, } from "@twincell/core";
+import { jointOutside } from "./location.ts";
+export const toolOf = ({ tools }, name) => Object.hasOwn(tools, name) ? tools[name] : identity();
+export function worldFromTarget({ frames }, { pose, frame }) {
+    return compose(Object.hasOwn(frames, frame) ? frames[frame] : identity(), pose);
+}
+/**
+ * The joint angles of every taught point, by step id: those that were taught, or the ones that reach the pose with least
+ * travel from the point before. A point that is visited at many places has the angles of the first; the text says one
+ * posture for all of them, so each must be reached in it. Stops at the first point that cannot be reached or lies outside
+ * the limits.
+ */
+export function posturesOf(program, place) {
+    const q_rad = new Map();
+    let near = place.robot.home_rad;
+    // Routines that nobody calls are written all the same.
+    for (const steps of [program.steps, ...Object.values(program.routines)]) {
+        for (const happening of flow({ ...program, steps: once(steps), routines: Object.fromEntries(Object.entries(program.routines).map(([name, list]) => [name, once(list)])) }, { rounds: 1 })) {
+            if (happening.kind !== "step" || happening.step.type !== "move")
+                continue;
+            const { step, visits } = happening, known = q_rad.get(step.id);
+            if (known !== undefined && visits.length === 0) {
+                near = known;
+                continue;
+            }
+            const posture = postureOf(step, place, known ?? near, known === undefined ? undefined : branchOf(place.robot, known));
+            if (posture.kind === "cannot")
+                return visits.length === 0 ? posture : { ...posture, sentence: `Place ${visits.map(({ number, of }) => `${number} of ${of}`).join(", ")}: ${posture.sentence}` };
+            near = posture.q_rad;
+            if (known === undefined)
+                q_rad.set(step.id, near);
+        }
+    }
+    return { kind: "postures", q_rad };
+}
+/** Loops go round once: every round goes to the same points. */
+const once = (steps) => steps.map(step => withLists(step.type === "repeat" ? { ...step, times: 1 } : step, once));
+/** @param inBranch  the posture that the text has said already. */
+function postureOf({ id, name, target }, place, near, inBranch) {
+    const { robot, worldFromBase } = place, called = `Step ${name ?? id}`;
+    let q_rad;
+    if ("q" in target) {
+        if (target.q.length !== robot.arm.joints.length) {
+            return { kind: "cannot", step: id, sentence: `${called} holds ${target.q.length} joint angles; the ${robot.name} has ${robot.arm.joints.length} joints.`, hint: "Teach the step again on this robot." };
+        }
+        q_rad = target.q;
+    }
+    else {
+        const branch = target.branch ?? inBranch, baseFromFlange = flangeOfTcp(worldFromBase, worldFromTarget(place, target), toolOf(place, target.tool));
+        const reach = solveAll(robot, baseFromFlange, branch === undefined ? { near } : { near, branch });
+        if (reach.kind !== "reached") {
+            return { kind: "cannot", step: id, sentence: `${called} cannot be reached. ${explainReach(reach)}`, hint: "Check the program: it says what would bring the step into reach." };
+        }
+        q_rad = reach.solutions[0].q_rad;
+    }
+    const outside = jointOutside(robot, q_rad);
+    if (outside === undefined)
+        return { kind: "posture", q_rad };
+    const { joint, limits } = outside;
+    return {
+        kind: "cannot", step: id,
+        sentence: `${called} turns joint ${joint} to ${degrees(q_rad[joint - 1]).toFixed(2)}°; it may turn from ${degrees(limits.lower_rad).toFixed(1)}° to ${degrees(limits.upper_rad).toFixed(1)}°.`,
+        hint: "Move the point, or choose another branch for it.",
+    };
+}

@@ -1,0 +1,224 @@
+import { branchOf, capabilitiesUsed, compose, everyStep, inverse, millimetres, } from "@twincell/core";
+import { asciiText, singleText } from "../../text/index.ts";
+import { ppointText, transText } from "./location.ts";
+import { commentText, vPlusName } from "./names.ts";
+import { palletLines } from "./pallet.ts";
+import { toolOf, worldFromTarget } from "./postures.ts";
+import { TextWriter } from "./text-writer.ts";
+/** The words of the controller for a branch: shoulder, elbow, wrist. */
+const words = ({ shoulder, elbow, wrist }) => [shoulder === "front" ? "RIGHTY" : "LEFTY", elbow === "up" ? "ABOVE" : "BELOW", wrist === "positive" ? "NOFLIP" : "FLIP"];
+/** The runnable program (E-08): says only what changes from one step to the next. */
+export class ProgramWriter {
+    program;
+    place;
+    convention;
+    q_rad;
+    out = new TextWriter();
+    names = new Set();
+    toolNames = new Map();
+    signalNames = new Map();
+    palletNames = new Map();
+    routineNames = new Map();
+    accelerates;
+    counters = 0;
+    /** What the controller is known to be set to; "" and undefined after a loop, a call or a decision. */
+    tool = "flange";
+    speed = "";
+    branch = "";
+    acceleration = "";
+    group = "";
+    indent = "  ";
+    constructor(program, place, convention, q_rad) {
+        this.q_rad = q_rad;
+        this.program = program;
+        this.place = place;
+        this.convention = convention;
+        this.accelerates = capabilitiesUsed(program).has("acceleration");
+    }
+    write() {
+        const { program, out, place } = this, name = vPlusName(program.name), programs = new Set([name]);
+        for (const routine of Object.keys(program.routines)) {
+            const called = vPlusName(routine, programs);
+            programs.add(called);
+            this.routineNames.set(routine, called);
+        }
+        out.add(`.PROGRAM ${name}() ;${asciiText(program.name)}`);
+        out.add(`  ;* ${asciiText(place.robot.name)}. Lengths in mm, angles in degrees, the world at the shoulder.`);
+        for (const tool of this.toolsUsed())
+            out.add(`  SET ${this.named(this.toolNames, tool)} = ${transText(toolOf(place, tool))}`);
+        for (const signal of signalsUsed(program))
+            out.add(`  ${this.named(this.signalNames, signal)} = ${program.signals[signal].address}`);
+        this.list(program.steps);
+        out.add(".END");
+        for (const [routine, steps] of Object.entries(program.routines)) {
+            out.add(`.PROGRAM ${this.routineNames.get(routine)}() ;${asciiText(routine)}`);
+            this.forget();
+            this.group = "";
+            this.list(steps);
+            out.add(".END");
+        }
+        return out.file(`${name}.v2`);
+    }
+    toolsUsed() {
+        const names = Array.from(everyStep(this.program)).flatMap(step => step.type === "move" ? [toolName(step) ?? "flange"] : []);
+        return new Set(names.filter(name => name !== "flange"));
+    }
+    /** A variable of the program; variables are shared by all programs of the file. */
+    named(names, wanted) {
+        const known = names.get(wanted);
+        if (known !== undefined)
+            return known;
+        const variable = this.variable(wanted);
+        names.set(wanted, variable);
+        return variable;
+    }
+    variable(wanted) {
+        const variable = vPlusName(wanted, this.names);
+        this.names.add(variable);
+        return variable;
+    }
+    list(steps) {
+        for (const [i, step] of steps.entries())
+            this.step(step, steps.slice(i + 1).find(next => next.type !== "comment"));
+    }
+    step(step, next) {
+        const add = (line) => { this.out.add(`${this.indent}${line}`, step.id); };
+        const group = step.group === undefined ? "" : commentText(this.program.groups[step.group]?.name ?? step.group);
+        if (group !== this.group)
+            add(`;== ${group}`.trimEnd());
+        this.group = group;
+        const name = commentText(step.name ?? "");
+        if (name !== "")
+            add(`;${name}`);
+        switch (step.type) {
+            case "wait": return add(`DELAY ${singleText(step.s)}`);
+            case "gripper": return add(step.closed ? "CLOSEI" : "OPENI");
+            case "move": return this.move(step, next, add);
+            case "set": return add(`SIGNAL ${step.to === true ? "" : "-"}${this.signalNames.get(step.signal)}`);
+            case "wait-for": return add(`WAIT ${this.condition(step.when)}`);
+            case "message": return add(`TYPE "${asciiText(step.text).replaceAll("\"", "'")}"`);
+            case "stop": return add("HALT");
+            case "comment": return add(`;- ${asciiText(step.text).trim()}`.trimEnd());
+            case "call":
+                add(`CALL ${this.routineNames.get(step.routine)}()`);
+                return this.forget();
+            case "repeat": return this.block(step.times === "forever" ? ["WHILE TRUE DO"] : [`FOR ${this.counter()} = 1 TO ${step.times}`], step.steps, add);
+            case "pallet": return this.block(palletLines(this.program.pallets[step.pallet], this.pallet(step.pallet), this.place), step.steps, add);
+            case "if":
+                this.block([`IF ${this.condition(step.when)} THEN`], step.then, add, step.else !== undefined);
+                if (step.else !== undefined)
+                    this.block(["ELSE"], step.else, add);
+                return;
+            // Neither gets here: the export stops before.
+            case "payload": return;
+        }
+    }
+    /** Lines that open a block, the steps inside, and an END for each that opened one. */
+    block(lines, steps, add, goesOn = false) {
+        const outer = this.indent;
+        let opened = 0;
+        for (const line of lines) {
+            add(line);
+            if (!/^(FOR|WHILE|IF|ELSE)\b/.test(line))
+                continue;
+            opened++;
+            this.indent += "  ";
+        }
+        this.forget();
+        this.list(steps);
+        this.forget();
+        for (; opened > 0; opened--) {
+            this.indent = this.indent.slice(2);
+            if (!goesOn)
+                add("END");
+        }
+        this.indent = outer;
+    }
+    /** What was set on another way to here is not known here. */
+    forget() {
+        this.tool = undefined;
+        this.speed = this.branch = this.acceleration = "";
+    }
+    counter() { return this.variable(`n_${++this.counters}`); }
+    pallet(name) {
+        const known = this.palletNames.get(name);
+        if (known !== undefined)
+            return known;
+        const made = { place: this.variable(name), first: this.variable(`${name}_0`), layer: this.counter(), outer: this.counter(), inner: this.counter(), along: this.counter() };
+        this.palletNames.set(name, made);
+        return made;
+    }
+    condition(when) { return `SIG(${"is" in when && when.is ? "" : "-"}${this.signalNames.get(when.signal)})`; }
+    move(step, next, add) {
+        // Joint angles do not mind the tool; what was set on another way to here is set anew all the same.
+        const tool = toolName(step) ?? this.tool ?? "flange";
+        if (tool !== this.tool)
+            add(tool === "flange" ? "TOOL NULL" : `TOOL ${this.toolNames.get(tool)}`);
+        this.tool = tool;
+        const speed = speedLine(step.speed);
+        if (speed !== this.speed)
+            add(speed);
+        this.speed = speed;
+        if ("time_s" in step.speed)
+            add(`DURATION ${singleText(step.speed.time_s)}`);
+        if (this.accelerates) {
+            const percent = singleText((step.acceleration?.ratio ?? 1) * 100), line = `ACCEL ${percent}, ${percent}`;
+            if (line !== this.acceleration)
+                add(line);
+            this.acceleration = line;
+        }
+        this.configure(step, add);
+        add(`${step.path === "lin" ? "MOVES" : "MOVE"} ${this.location(step.target)}`);
+        if (this.stops(step, next))
+            add("BREAK");
+    }
+    /**
+     * A controller keeps its posture until it is told another, so every transformation is told the one it is reached in.
+     * A precision point says its posture itself.
+     */
+    configure({ id, target }, add) {
+        const branch = "q" in target ? undefined : branchOf(this.place.robot, this.q_rad.get(id));
+        const said = branch === undefined ? [] : words(branch);
+        if (said.join() !== this.branch)
+            for (const word of said)
+                add(word);
+        this.branch = said.join();
+    }
+    location(target) {
+        if ("q" in target)
+            return ppointText(target.q, this.convention);
+        const pallet = this.palletNames.get(target.frame);
+        // Inside its step, a pallet's name is the place.
+        if (pallet !== undefined)
+            return `${pallet.place}:${transText(target.pose)}`;
+        const { place } = this;
+        const baseFromTcp = compose(inverse(place.worldFromBase), worldFromTarget(place, target));
+        return transText(compose(inverse(place.robot.baseFromVendorWorld), baseFromTcp));
+    }
+    /** The path goes on without a stop only into another motion with the same tool. */
+    stops(step, next) {
+        return !(step.blend_m > 0 || (step.blend_ratio ?? 0) > 0) || next?.type !== "move" || (toolName(next) ?? this.tool) !== this.tool;
+    }
+}
+/** The tool that a step needs: on a straight line the tip, on a joint motion to joint angles any. */
+function toolName({ path, target }) {
+    return target.tool ?? (path === "lin" ? "flange" : undefined);
+}
+function speedLine(speed) {
+    if ("ratio" in speed)
+        return `SPEED ${singleText(speed.ratio * 100)} ALWAYS`;
+    if ("mps" in speed)
+        return `SPEED ${singleText(millimetres(speed.mps))} MMPS ALWAYS`;
+    return "SPEED 100 ALWAYS";
+}
+/** Signals in the order in which steps name them. */
+function signalsUsed(program) {
+    const names = new Set();
+    for (const step of everyStep(program)) {
+        if (step.type === "set")
+            names.add(step.signal);
+        if (step.type === "wait-for" || step.type === "if")
+            names.add(step.when.signal);
+    }
+    return names;
+}

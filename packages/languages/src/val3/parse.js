@@ -1,0 +1,21 @@
+import { emptyProgram } from "@twincell/core";
+import { TextError } from "../text/index.ts";
+import { Outline } from "../text/structured/index.ts";
+import { load, newSurroundings } from "./interpret.ts";
+/** The neutral program that an application amounts to; loops, pallets, decisions by one line and calls stay what they are. */
+export function parseVal3(text, robot, worldFromBase) {
+    const answer = load(text, robot, worldFromBase);
+    if (answer.kind === "not-understood")
+        return answer;
+    const surroundings = newSurroundings();
+    try {
+        const machine = answer.loaded.machine(surroundings), outline = new Outline(machine, name => machine.spelt(name)), steps = outline.steps(machine.open());
+        const { groups, routines, pallets, warnings } = outline, { tools, frames, signals } = surroundings;
+        return { kind: "parsed", warnings, program: { ...emptyProgram(robot.id, answer.loaded.application.title), tools, frames, groups, signals, pallets, routines, steps } };
+    }
+    catch (cause) {
+        if (!(cause instanceof TextError))
+            throw cause;
+        return { kind: "not-understood", faults: [cause.fault] };
+    }
+}

@@ -1,0 +1,220 @@
+import { TextError } from "../../text/index.ts";
+import { TokenCursor, readExpression } from "../../text/structured/index.ts";
+/** Stands for the two slashes of a remark, which are no single sign. */
+export const REMARK = "\u0002";
+const LEXICON = {
+    comment: REMARK, quotes: "\"", doubled: false, lineEnds: true,
+    signs: ["==", "!=", "<=", ">=", "(", ")", "[", "]", "{", "}", ",", "=", "<", ">", "+", "-", "*", "/", "%", ".", "!", "&", ":"],
+};
+const RESERVED = new Set(["begin", "end", "if", "elseif", "else", "endif", "while", "endwhile", "for", "to", "step", "endfor", "do", "until", "switch", "case", "default", "break", "endswitch", "call", "return", "and", "or", "xor"]);
+const RULES = {
+    binary: { or: 1, xor: 1, and: 2, "==": 4, "!=": 4, "<": 4, ">": 4, "<=": 4, ">=": 4, "+": 5, "-": 5, "*": 6, "/": 6, "%": 6 },
+    prefix: { "!": 7, "-": 7, "+": 7 },
+    constants: { true: true, false: false },
+    tags: [], index: "[", components: true, reserved: RESERVED, args: cursor => readArguments(cursor),
+};
+const CLOSES = new Set(["end", "endif", "endwhile", "endfor", "endswitch", "until", "else", "elseif"]);
+const DEPTH = 50, MOST_FAULTS = 50;
+/** `{…}` is a list as `[…]` is elsewhere: `trsf` literals are told by their braces. */
+function readArguments(cursor) {
+    const args = [];
+    if (cursor.accept(")"))
+        return args;
+    do
+        args.push({ value: readValue(cursor), ...cursor.here });
+    while (cursor.accept(","));
+    cursor.expect(")");
+    return args;
+}
+function readValue(cursor) {
+    const { line, column } = cursor.here;
+    if (!cursor.accept("{"))
+        return readExpression(cursor, RULES);
+    const items = [];
+    do
+        items.push(readExpression(cursor, RULES));
+    while (cursor.accept(","));
+    cursor.expect("}");
+    return { kind: "list", tag: "", items, line, column };
+}
+/** @param isMain  `return` ends the whole program. */
+export function readCode(code, isMain) { return new CodeReader(code, isMain).read(); }
+class CodeReader {
+    cursor;
+    isMain;
+    faults = [];
+    depth = 0;
+    constructor(code, isMain) {
+        // Remarks begin with two slashes, except in a text.
+        this.cursor = new TokenCursor(code.replace(/^((?:[^"\n/]|"[^"\n]*"|\/(?!\/))*)\/\//gm, `$1 ${REMARK}`), LEXICON, word => word.toLowerCase() in KEYWORDS ? word.toLowerCase() : word);
+        this.isMain = isMain;
+    }
+    read() {
+        const { cursor } = this;
+        this.guard(() => { cursor.advance(); });
+        while (cursor.isAt("line-end"))
+            this.guard(() => { cursor.advance(); });
+        const block = this.guard(() => {
+            const at = cursor.here;
+            cursor.expect("begin");
+            const inside = this.block(["end"], at);
+            cursor.expect("end");
+            return inside;
+        });
+        return { block: block ?? [], faults: this.faults };
+    }
+    guard(read) {
+        const { depth } = this;
+        try {
+            return read();
+        }
+        catch (cause) {
+            if (!(cause instanceof TextError))
+                throw cause;
+            this.faults.push(cause.fault);
+            this.depth = depth;
+            this.cursor.skip(cursor => cursor.isAt("line-end"));
+            return undefined;
+        }
+    }
+    block(ends, opened) {
+        const { cursor } = this, statements = [];
+        if (++this.depth > DEPTH)
+            throw new TextError(opened, "a simpler program", `Blocks are nested more than ${DEPTH} deep.`);
+        for (;;) {
+            while (cursor.isAt("line-end"))
+                if (this.guard(() => { cursor.advance(); return true; }) === undefined)
+                    break;
+            for (let comment = cursor.comment(); comment !== undefined; comment = cursor.comment())
+                statements.push({ kind: "comment", ...comment });
+            if (cursor.done || this.faults.length >= MOST_FAULTS)
+                throw new TextError(cursor.here, ends[0], `The block of line ${opened.line} is not closed.`);
+            if (cursor.isAt("word") && ends.includes(cursor.next))
+                break;
+            if (cursor.isAt("line-end"))
+                continue;
+            if (cursor.isAt("word") && CLOSES.has(cursor.next))
+                throw new TextError(cursor.here, ends[0], `The block of line ${opened.line} is not closed.`);
+            const statement = this.guard(() => {
+                const read = this.statement();
+                if (!cursor.isAt("line-end") && !cursor.done)
+                    throw cursor.unexpected("the end of the line");
+                return read;
+            });
+            if (statement !== undefined)
+                statements.push(statement);
+        }
+        this.depth--;
+        return statements;
+    }
+    value() { return readValue(this.cursor); }
+    statement() {
+        const { cursor } = this, at = cursor.here, word = cursor.next;
+        if (!cursor.isAt("word"))
+            throw cursor.unexpected("a statement");
+        if (!RESERVED.has(word) && !(word in KEYWORDS)) {
+            if (cursor.second === "(") {
+                cursor.advance();
+                cursor.advance();
+                return { kind: "do", name: word, args: readArguments(cursor), ...at };
+            }
+            return this.assignment(at);
+        }
+        cursor.advance();
+        switch (word) {
+            case "if": return this.decision(at);
+            case "while": {
+                const when = this.value(), body = this.block(["endwhile"], at);
+                cursor.expect("endwhile");
+                return { kind: "while", when, body, ...at };
+            }
+            case "do": {
+                // do … until c  is  while true … if c break.
+                const body = this.block(["until"], at);
+                cursor.expect("until");
+                const when = this.value();
+                return { kind: "while", when: { kind: "truth", value: true, ...at }, body: [...body, { kind: "if", branches: [{ when, body: [{ kind: "break", ...at }] }], ...at }], ...at };
+            }
+            case "for": return this.counting(at);
+            case "switch": return this.choice(at);
+            case "call": {
+                const name = cursor.name("the name of a program");
+                cursor.expect("(");
+                return { kind: "do", name: `call ${name}`, args: readArguments(cursor), ...at };
+            }
+            case "return": return this.isMain ? { kind: "halt", ...at } : { kind: "return", ...at };
+            case "break": return { kind: "break", ...at };
+            case "wait": {
+                cursor.expect("(");
+                const when = this.value();
+                cursor.expect(")");
+                return { kind: "wait-until", when, ...at };
+            }
+            default: throw new TextError(at, "a statement", `"${word}" begins no statement.`);
+        }
+    }
+    assignment(at) {
+        const { cursor } = this, to = readExpression(cursor, RULES, 0, 100);
+        cursor.expect("=");
+        const value = this.value();
+        // The whole frame changes with its place.
+        if (to.kind === "component" && to.name === "trsf")
+            return { kind: "assign", to: to.of, value: { kind: "call", name: "placed", args: [{ value: to.of, ...at }, { value, ...at }], ...at }, global: true, ...at };
+        return { kind: "assign", to, value, global: true, ...at };
+    }
+    decision(at) {
+        const { cursor } = this, branches = [];
+        let otherwise;
+        do
+            branches.push({ when: this.value(), body: this.block(["endif", "elseif", "else"], at) });
+        while (cursor.accept("elseif"));
+        if (cursor.accept("else"))
+            otherwise = this.block(["endif"], at);
+        cursor.expect("endif");
+        const watched = branches.length === 1 && otherwise === undefined ? this.watched(branches[0]) : undefined;
+        if (watched !== undefined)
+            return { kind: "wait-until", ...watched, ...at };
+        return { kind: "if", branches, ...(otherwise === undefined ? {} : { otherwise }), ...at };
+    }
+    /** `if !watch(condition, s)` that ends the program is a wait with a longest time. */
+    watched({ when, body }) {
+        const inner = when.kind === "unary" && when.sign === "!" ? when.of : when.kind === "binary" && when.sign === "==" && when.right.kind === "truth" && !when.right.value ? when.left : undefined;
+        if (inner?.kind !== "call" || inner.name !== "watch" || body.filter(({ kind }) => kind !== "comment").map(({ kind }) => kind).join() !== "halt")
+            return undefined;
+        const [condition, timeout] = inner.args.map(({ value }) => value);
+        return condition === undefined || timeout === undefined ? undefined : { when: condition, timeout };
+    }
+    counting(at) {
+        const { cursor } = this, variable = cursor.name("the name of the loop variable");
+        cursor.expect("=");
+        const from = this.value();
+        cursor.expect("to");
+        const to = this.value(), step = cursor.accept("step") ? this.value() : { kind: "number", value: 1, ...at }, body = this.block(["endfor"], at);
+        cursor.expect("endfor");
+        return { kind: "for", variable, from, to, step, body, ...at };
+    }
+    choice(at) {
+        const { cursor } = this, of = this.value(), branches = [];
+        let otherwise;
+        while (cursor.isAt("line-end"))
+            cursor.advance();
+        while (!cursor.accept("endswitch")) {
+            if (cursor.accept("default"))
+                otherwise = this.block(["break", "endswitch"], at);
+            else {
+                cursor.expect("case");
+                let when;
+                do {
+                    const right = this.value(), equal = { kind: "binary", sign: "==", left: of, right, line: right.line, column: right.column };
+                    when = when === undefined ? equal : { kind: "binary", sign: "or", left: when, right: equal, line: right.line, column: right.column };
+                } while (cursor.accept(","));
+                branches.push({ when, body: this.block(["break", "case", "default", "endswitch"], at) });
+            }
+            cursor.accept("break");
+            while (cursor.isAt("line-end"))
+                cursor.advance();
+        }
+        return { kind: "if", branches, ...(otherwise === undefined ? {} : { otherwise }), ...at };
+    }
+}
+const KEYWORDS = Object.assign(Object.create(null), Object.fromEntries([...RESERVED, "wait", "true", "false"].map(word => [word, true])));

@@ -1,0 +1,39 @@
+import { TextError } from "../../text/index.ts";
+const PART = /<!\[CDATA\[([^]*?)\]\]>|<!--[^]*?-->|<\?[^]*?\?>|<(\/?)([A-Za-z_][\w:.-]*)((?:\s+[\w:.-]+\s*=\s*(?:"[^"<]*"|'[^'<]*'))*)\s*(\/?)>|</g;
+const ATTRIBUTE = /([\w:.-]+)\s*=\s*(?:"([^"]*)"|'([^']*)')/g;
+const ENTITIES = { lt: "<", gt: ">", amp: "&", quot: "\"", apos: "'" };
+const plain = (text) => text.includes("&") ? text.replace(/&(lt|gt|amp|quot|apos);/g, (_, name) => ENTITIES[name]) : text;
+/**
+ * The tags and CDATA sections of XML texts, several documents one behind the other among them.
+ *
+ * @throws {TextError} at a "<" that begins nothing, or at text outside CDATA.
+ */
+export function* xmlParts(text) {
+    let line = 1, lineStart = 0, at = 0;
+    const goTo = (end) => {
+        for (let i = text.indexOf("\n", at); i >= 0 && i < end; i = text.indexOf("\n", i + 1)) {
+            line++;
+            lineStart = i + 1;
+        }
+        at = end;
+        return { line, column: end - lineStart + 1 };
+    };
+    for (const match of text.matchAll(PART)) {
+        const between = text.slice(at, match.index), stray = /[^\s\uFEFF]/.exec(between);
+        if (stray !== null)
+            throw new TextError(goTo(at + stray.index), "a tag", "Text stands outside the tags.");
+        const place = goTo(match.index), [whole, data, slash, name, attributes, empty] = match;
+        if (whole === "<")
+            throw new TextError(place, "a tag", "The sign < begins no tag here.");
+        if (data !== undefined) {
+            yield { kind: "data", text: data, ...goTo(match.index + "<![CDATA[".length) };
+        }
+        else if (name !== undefined) {
+            yield { kind: slash === "/" ? "close" : "open", name, isEmpty: empty === "/", attributes: new Map(Array.from(attributes.matchAll(ATTRIBUTE), ([, key, a, b]) => [key, plain(a ?? b ?? "")])), ...place };
+        }
+        goTo(match.index + whole.length);
+    }
+    const rest = text.slice(at), stray = /[^\s\uFEFF]/.exec(rest);
+    if (stray !== null)
+        throw new TextError(goTo(at + stray.index), "a tag", "Text stands outside the tags.");
+}

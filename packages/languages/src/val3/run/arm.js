@@ -1,0 +1,42 @@
+import { branchOf, identity, linkPoses, solveAll } from "@twincell/core";
+import { fromPose, times, toPose } from "./trsf.ts";
+/** Where the controllers of these robots count from: the height of axis 2. Their joints are degrees from upright, as here. */
+const WORLDS = { staubli_rx160: { mm: [0, 0, 550], wxyz: [1, 0, 0, 0] } };
+export const hasWorld = (robot) => Object.hasOwn(WORLDS, robot.id);
+const BORDER_MM = 0.01, BORDER_RAD = 1e-5;
+export class ControllerArm {
+    robot;
+    baseFromWorld;
+    cellFromWorld;
+    joints_rad;
+    constructor(robot, worldFromBase) {
+        this.robot = robot;
+        this.baseFromWorld = WORLDS[robot.id];
+        this.cellFromWorld = times(fromPose(worldFromBase), this.baseFromWorld);
+        this.joints_rad = robot.home_rad;
+    }
+    /** A pose of the controller's world in the cell. */
+    cell(trsf) { return toPose(times(this.cellFromWorld, trsf)); }
+    /** The flange is there, as the words ask for it; where no posture does, in the nearest, and `fits` says so. */
+    atFlange(flange, config) {
+        const { robot, joints_rad: near } = this, reach = solveAll(robot, toPose(times(this.baseFromWorld, flange)), near === undefined ? {} : { near });
+        if (reach.kind !== "reached") {
+            this.joints_rad = undefined;
+            return { branch: undefined, fits: true };
+        }
+        const all = reach.solutions.map(({ q_rad }) => [...q_rad]), fitting = all.find(each => this.fits(each, config)), q = fitting ?? all[0];
+        this.joints_rad = q;
+        return { branch: branchOf(robot, q), fits: fitting !== undefined };
+    }
+    fits(q, { shoulder, elbow, wrist }) {
+        const links = Array.from({ length: 7 }, () => identity());
+        linkPoses(this.robot.arm, q, links);
+        const [x, y] = links[5].position, ahead_mm = 1000 * (x * Math.cos(q[0]) + y * Math.sin(q[0]));
+        const asked = (word, yes, no, value, border) => Math.abs(value) < border || (word !== yes && word !== no) || (word === yes) === value > 0;
+        return asked(shoulder, "righty", "lefty", ahead_mm, BORDER_MM) && asked(elbow, "epositive", "enegative", q[2], BORDER_RAD) && asked(wrist, "wpositive", "wnegative", q[4], BORDER_RAD);
+    }
+    remember() {
+        const { joints_rad } = this;
+        return () => { this.joints_rad = joints_rad; };
+    }
+}

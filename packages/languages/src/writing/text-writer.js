@@ -1,0 +1,40 @@
+/** Collects lines together with the step that each came from, indented by blocks. */
+export class BlockWriter {
+    lines = [];
+    steps = [];
+    depth = 0;
+    add(line, step = "") {
+        this.lines.push(line === "" ? "" : "  ".repeat(this.depth) + line);
+        this.steps.push(step);
+    }
+    /** A line that opens a block, what is inside, and the line that closes it. */
+    block(open, close, step, inside) {
+        this.add(open, step);
+        this.depth++;
+        inside();
+        this.depth--;
+        this.add(close, step);
+    }
+    /** The lines of what is inside go one level down. */
+    indented(inside) {
+        this.depth++;
+        inside();
+        this.depth--;
+    }
+    /** All lines of another writer, at this depth. */
+    append(other) {
+        for (const [i, line] of other.lines.entries())
+            this.add(line, other.steps[i] ?? "");
+    }
+    file(name, lineEnd) {
+        return { name, text: this.lines.map(line => line + lineEnd).join(""), lines: this.steps };
+    }
+    /** Number and length of the longest line, from 1. */
+    longest() {
+        let at = 0;
+        for (const [i, line] of this.lines.entries())
+            if (line.length > (this.lines[at]?.length ?? 0))
+                at = i;
+        return { line: at + 1, length: this.lines[at]?.length ?? 0, step: this.steps[at] ?? "" };
+    }
+}
