@@ -12,3 +12,4 @@ export * from "./kuka/index.ts";
 export * from "./yaskawa/index.ts";
 export * from "./fanuc/index.ts";
 export * from "./abb/index.ts";
+export * from "./table.ts";

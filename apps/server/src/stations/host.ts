@@ -3,8 +3,10 @@ import { robotById, type Refusal, type Scheduler } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
 import { createHost, type AskOf, type Host, type OpenedStation } from "@twincell/messages";
 import { nodeNetwork } from "../sockets/node-network.ts";
+import { PLUG_IN, plugInFor } from "./plug-in.ts";
 
 const refused = (why: Refusal): OpenedStation => ({ kind: "refused", why });
+const noRobot = (id: string): OpenedStation => refused({ code: "station.no-robot", sentence: `There is no robot “${id}” in the library.`, hint: "Choose one of the library." });
 /** Of the one who commands: without a sign of life for this long the robot is stopped (row X-41 with the watch's own period). */
 const HEARTBEAT_S = 0.08;
 
@@ -15,13 +17,15 @@ export function stationHost(scheduler: Scheduler, version: string): Host {
     scheduler, version,
     brands: BRANDS.map(({ id, name, vendor, dialect, ports }) => ({ id, name, vendor, dialect, ports: { ...ports } })),
     async open(ask: AskOf<"open">): Promise<OpenedStation> {
-      const brand = brandById(ask.brand), robot = robotById(ask.robot), dialect = brand && dialectById(brand.dialect);
-      if (!brand || !dialect) return refused({ code: "station.no-brand", sentence: `There is no driver for “${ask.brand}”.`, hint: `There are: ${BRANDS.map(({ id }) => id).join(", ")}.` });
-      if (!robot) return refused({ code: "station.no-robot", sentence: `There is no robot “${ask.robot}” in the library.`, hint: "Choose one of the library." });
+      const robot = robotById(ask.robot), brand = ask.brand === PLUG_IN && robot ? plugInFor(robot) : brandById(ask.brand), dialect = brand && dialectById(brand.dialect);
+      if (ask.brand === PLUG_IN && !robot) return noRobot(ask.robot);
+      if (ask.brand === PLUG_IN && !ask.address) return refused({ code: "station.no-address", sentence: "A plug-in runs by itself, and where was not said.", hint: "Start it and give its address." });
+      if (!brand || !dialect) return refused({ code: "station.no-brand", sentence: `There is no driver for “${ask.brand}”.`, hint: `There are: ${BRANDS.map(({ id }) => id).join(", ")}, ${PLUG_IN}.` });
+      if (!robot) return noRobot(ask.robot);
       return openStation({
         id: ask.station, brand, robot, scheduler, dialect, heartbeat_s: HEARTBEAT_S,
         ...(ask.name === undefined ? {} : { name: ask.name }), ...(ask.worldFromBase ? { worldFromBase: ask.worldFromBase } : {}),
-        ...(ask.address ? { at: { network, host: ask.address.host, ...(ask.address.ports ? { ports: ask.address.ports } : {}) } } : {}),
+        ...(ask.address ? { at: { network, host: ask.address.host, ...(ask.address.ports ? { ports: ask.address.ports } : {}), ...(ask.address.data ? { data: ask.address.data } : {}) } } : {}),
       });
     },
   });

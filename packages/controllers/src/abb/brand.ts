@@ -1,4 +1,5 @@
 import type { Brand } from "../real/index.ts";
+import { ABB_CANNOT } from "./cannot.ts";
 import { EGM_PORT } from "./codec/index.ts";
 import { abbFace } from "./driver/index.ts";
 import { createVirtualAbb } from "./virtual/index.ts";
@@ -7,7 +8,7 @@ const PORTS = { egm: EGM_PORT }, REBOOT_S = 2;
 
 /** Controllers with externally guided motion: IRC5 and OmniCore. The controller sends to the port; it listens on none. */
 export const abb: Brand = {
-  id: "abb", name: "ABB (EGM)", dialect: "rapid", vendor: "ABB", ports: PORTS,
+  id: "abb", name: "ABB (EGM)", dialect: "rapid", vendor: "ABB", ports: PORTS, cannot: ABB_CANNOT,
   face: ({ ports, ...options }) => abbFace({ ...options, ports: { ...PORTS, ...ports } }),
   async virtual({ ports, robot, scheduler, network, host, start_rad, maxSpeed }) {
     const started = await createVirtualAbb({

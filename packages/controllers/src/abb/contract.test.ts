@@ -2,6 +2,7 @@ import { manualScheduler, robotById } from "@twincell/core";
 import { createRealController } from "../real/index.ts";
 import { describeController } from "../testing/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
+import { ABB_CANNOT } from "./cannot.ts";
 import { abbFace } from "./driver/index.ts";
 import { createVirtualAbb } from "./virtual/index.ts";
 
@@ -9,7 +10,7 @@ const HOST = "127.0.0.1", irb120 = robotById("abb_irb120")!;
 
 describeController("ABB driver (EGM) on its virtual controller", {
   robot: irb120, scheduler: manualScheduler,
-  cannot: [{ test: "T-10", because: "EGM has no word for the motors: an emergency stop brakes hard and then falls silent, which ends EGM on the controller; a person starts it there again" }],
+  cannot: ABB_CANNOT,
   // The last of the way is first-order, and the end is seen a cycle later.
   answer_s: 0.4,
   resolution: { q_rad: 1e-5, position_m: 3e-5, angle_rad: 6e-5 },

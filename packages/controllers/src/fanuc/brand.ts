@@ -1,4 +1,5 @@
 import type { Brand } from "../real/index.ts";
+import { FANUC_CANNOT } from "./cannot.ts";
 import { RMI_PORT, RMI_SESSION_PORT } from "./codec-rmi.ts";
 import { createFanucFace } from "./driver.ts";
 import { createVirtualFanuc, fanucInput } from "./virtual/controller.ts";
@@ -7,7 +8,7 @@ const PORTS = { connect: RMI_PORT, session: RMI_SESSION_PORT };
 
 /** FANUC as apps meet it: the Remote Motion Interface of R-30iB controllers and later. */
 export const fanuc: Brand = {
-  id: "fanuc", name: "FANUC", dialect: "fanuc-ls", vendor: "FANUC", ports: PORTS,
+  id: "fanuc", name: "FANUC", dialect: "fanuc-ls", vendor: "FANUC", ports: PORTS, cannot: FANUC_CANNOT,
   face: ({ robot, scheduler, network, host, ports }) => createFanucFace({ robot, scheduler, network, host, port: ports?.["connect"] ?? RMI_PORT }),
   async virtual({ robot, scheduler, network, host, ports, start_rad, maxSpeed }) {
     const started = await createVirtualFanuc({

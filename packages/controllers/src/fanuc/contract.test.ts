@@ -2,13 +2,14 @@ import { manualScheduler, robotById } from "@twincell/core";
 import { createRealController } from "../real/index.ts";
 import { describeController } from "../testing/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
+import { FANUC_CANNOT } from "./cannot.ts";
 import { createFanucFace, createVirtualFanuc, fanucJoints } from "./index.ts";
 
 const robot = robotById("fanuc_lrmate200id")!, HOST = "127.0.0.5";
 
 describeController("FANUC driver on its virtual controller, over RMI", {
   robot, scheduler: manualScheduler,
-  cannot: [{ test: "T-17", because: "A command and its answer take about 10 ms to come through, three times of which is more than one frame; how the greatest speed scales a motion is measured at the robot instead." }],
+  cannot: FANUC_CANNOT,
   async make({ robot: driven, scheduler, start_rad, maxSpeed, initialize, onMotion }) {
     const network = memoryNetwork(scheduler), joints = fanucJoints(robot)!;
     await createVirtualFanuc({ robot: driven, scheduler, network, host: HOST, joints, start_rad, digits: 12, ...(maxSpeed === undefined ? {} : { maxSpeed }) });

@@ -1,6 +1,7 @@
 import type { OperatingMode } from "@twincell/core";
 import type { Brand } from "../real/index.ts";
 import { kukaAxes } from "./axes.ts";
+import { KUKA_CANNOT } from "./cannot.ts";
 import { C3_PORT } from "./codec-c3.ts";
 import { createKukaFace } from "./driver/face.ts";
 import { createVirtualKuka, startLoop } from "./virtual/controller.ts";
@@ -12,7 +13,7 @@ const INPUT = /^\$IN\[([0-9]{1,4})\]$/;
 
 /** KUKA as apps meet it. The virtual controller begins in EXT with its drives on and the program TWINCELL running. */
 export const kuka: Brand = {
-  id: "kuka", name: "KUKA", dialect: "krl", ports: { variables: C3_PORT }, vendor: "KUKA",
+  id: "kuka", name: "KUKA", dialect: "krl", ports: { variables: C3_PORT }, vendor: "KUKA", cannot: KUKA_CANNOT,
   face: ({ robot, scheduler, network, host, ports }) => createKukaFace({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT }),
   async virtual({ robot, scheduler, network, host, ports, interpret, start_rad, maxSpeed }) {
     if (!kukaAxes(robot)) return { kind: "taken", sentence: `How a KUKA controller counts the axes of ${robot.name} is not known.` };

@@ -2,14 +2,13 @@ import { manualScheduler } from "@twincell/core";
 import { createRealController } from "../real/index.ts";
 import { describeController } from "../testing/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
+import { KUKA_CANNOT, KUKA_RSI_CANNOT } from "./cannot.ts";
 import { axisConfig, createKukaFace, createKukaRsiFace, createVirtualKuka, kukaAxes, RSI_NAME, startLoop } from "./index.ts";
 import { HOST, interpretMoves, KR6 } from "./testing/bench.ts";
 
 describeController("KUKA driver on its virtual controller, over variables", {
   robot: KR6, scheduler: manualScheduler,
-  cannot: [
-    { test: "T-17", because: "A command takes two questions, a cycle and a poll to come through (about 10 ms), three times of which is more than one frame; how the greatest speed scales a motion is measured at the robot instead." },
-  ],
+  cannot: KUKA_CANNOT,
   async make({ robot, scheduler, start_rad, maxSpeed, initialize, onMotion }) {
     const network = memoryNetwork(scheduler), axes = kukaAxes(KR6)!, model = "#KR6R900SIXX";
     // As many digits as there are: what is compared here is the driver, not the rounding of a 32-bit REAL (that is T-23's).
@@ -27,9 +26,7 @@ describeController("KUKA driver on its virtual controller, over variables", {
 
 describeController("KUKA driver on its virtual controller, over RSI", {
   robot: KR6, scheduler: manualScheduler,
-  cannot: [
-    { test: "T-17", because: "The driver makes the path itself, at the speeds of the robot it was handed: what a virtual controller is slowed down to is not asked for." },
-  ],
+  cannot: KUKA_RSI_CANNOT,
   async make({ robot, scheduler, start_rad, maxSpeed, initialize, onMotion }) {
     const network = memoryNetwork(scheduler), axes = kukaAxes(KR6)!, model = "#KR6R900SIXX", config = axisConfig("127.0.0.1", 49_152);
     const kuka = await createVirtualKuka({ robot, scheduler, network, host: HOST, interpret: interpretMoves, axes, model, start_rad, digits: 14, rsi: { config, decimals: 10 }, ...(maxSpeed === undefined ? {} : { maxSpeed }) });

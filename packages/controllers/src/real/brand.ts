@@ -1,9 +1,14 @@
 import type { CommandOutcome, Interpreted, OperatingMode, Robot, Scheduler } from "@twincell/core";
 import type { Network } from "../transport/index.ts";
+import type { Cannot } from "./cannot.ts";
 import type { Face } from "./face.ts";
 
 /** Ports by the brand's own names for them; those left out are the vendor's own. */
 export type PortNumbers = Readonly<Record<string, number>>;
+
+/** What stands in the controller's own parameter file and is never guessed: numbers of each joint, by the name of the datum. */
+export type ControllerData = Readonly<Record<string, readonly number[]>>;
+export interface Datum { readonly id: string; readonly name: string; /** Where a person finds it. */ readonly where: string }
 
 export interface FaceOptions {
   readonly robot: Robot;
@@ -11,6 +16,7 @@ export interface FaceOptions {
   readonly network: Network;
   readonly host: string;
   readonly ports?: PortNumbers;
+  readonly data?: ControllerData;
 }
 export interface BrandVirtualOptions extends FaceOptions {
   /** Executes a text of the brand's own language; see `Brand.dialect`. */
@@ -58,8 +64,12 @@ export interface Brand {
   readonly dialect: string;
   /** The vendor's own port numbers. */
   readonly ports: PortNumbers;
+  /** What a person must say of a real controller before it can be driven; one number a joint. */
+  readonly data?: readonly Datum[];
   /** Vendor of the robots it drives, as robots name it. */
   readonly vendor: string;
+  /** What its driver cannot do, with the reasons. */
+  readonly cannot: readonly Cannot[];
   face(options: FaceOptions): Face;
   virtual(options: BrandVirtualOptions): Promise<BrandStarted>;
 }

@@ -4,12 +4,13 @@ import { createRealController } from "../real/index.ts";
 import { describeController } from "../testing/contract.ts";
 import { memoryNetwork } from "../transport/index.ts";
 import { createTwin } from "../twin/index.ts";
+import { UR_CANNOT } from "./cannot.ts";
 import { createUrFace, createVirtualUr, ROBOT_MODE, SAFETY_MODE } from "./index.ts";
 import { HOST, robot, urBench } from "./testing/bench.ts";
 
 describeController("UR driver on its virtual controller", {
   // Two cycles of 2 ms and the way there and back.
-  robot, scheduler: manualScheduler, answer_s: 0.005,
+  robot, scheduler: manualScheduler, answer_s: 0.005, cannot: UR_CANNOT,
   async make({ scheduler, robot: driven, start_rad, maxSpeed, initialize, onMotion }) {
     const network = memoryNetwork(scheduler);
     const started = await createVirtualUr({

@@ -2,6 +2,7 @@ import { manualScheduler, robotById } from "@twincell/core";
 import { createRealController } from "../real/index.ts";
 import { describeController } from "../testing/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
+import { YASKAWA_CANNOT } from "./cannot.ts";
 import { EXAMPLE_SCALE, resolution_rad } from "./codec/index.ts";
 import { yaskawaFace } from "./driver/index.ts";
 import { createVirtualYaskawa } from "./virtual/index.ts";
@@ -11,7 +12,7 @@ const HOST = "127.0.0.1", gp8 = robotById("yaskawa_gp8")!;
 
 describeController("Yaskawa driver on its virtual controller", {
   robot: gp8, scheduler: manualScheduler,
-  cannot: [{ test: "T-03", because: "speed is said with each command and the accelerations stay what they are: half the speed is shown on the way instead, below" }],
+  cannot: YASKAWA_CANNOT,
   // Half a pulse of every axis at once, over a reach of 0.9 m and the hand.
   resolution: { q_rad: Math.max(...half_rad), position_m: half_rad.slice(0, 3).reduce((sum, value) => sum + 0.9 * value, 0) + half_rad.slice(3).reduce((sum, value) => sum + 0.08 * value, 0), angle_rad: half_rad.reduce((sum, value) => sum + value, 0) },
   async make({ robot, scheduler, start_rad, maxSpeed, initialize, onMotion }) {

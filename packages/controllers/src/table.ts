@@ -1,0 +1,62 @@
+import { LIBRARY, manualScheduler, type Robot } from "@twincell/core";
+import { BRANDS } from "./brands.ts";
+import { axisConfig, createKukaRsiFace, kukaAxes } from "./kuka/index.ts";
+import { KUKA_RSI_CANNOT } from "./kuka/cannot.ts";
+import type { Ability, Cannot, Face, FaceOptions } from "./real/index.ts";
+import { memoryNetwork } from "./transport/index.ts";
+
+/** One driver of the table: a brand, or another way to the same controller. */
+export interface Driver {
+  readonly name: string;
+  /** Folder of its code and of its tests. */
+  readonly folder: string;
+  readonly vendor: string;
+  readonly cannot: readonly Cannot[];
+  /** Where it stands on another driver: the rows from T-19 on that tests of its own show; the others are shown through that one. */
+  readonly own?: readonly string[];
+  face(options: FaceOptions): Face;
+}
+
+export const DRIVERS: readonly Driver[] = BRANDS.flatMap((brand): Driver[] => {
+  const { name, vendor, cannot } = brand, driver: Driver = { name, folder: brand.id, vendor, cannot, face: options => brand.face(options) };
+  return brand.id === "kuka" ? [driver, { ...driver, name: "KUKA (RSI)", cannot: KUKA_RSI_CANNOT, own: ["T-21", "T-23", "T-27"], face: overRsi }] : [driver];
+});
+function overRsi(options: FaceOptions): Face {
+  return createKukaRsiFace({ ...options, axes: kukaAxes(options.robot)!, model: "", config: axisConfig("127.0.0.1", 49_152) });
+}
+
+/** T-01 … T-18 are the contract suite's, T-19 … T-27 the tests' of each driver. */
+export const ROWS: readonly `T-${number}`[] = Array.from({ length: 27 }, (_, i) => `T-${String(i + 1).padStart(2, "0")}` as `T-${number}`);
+const ABILITIES: readonly { readonly row: Ability; readonly title: string }[] = [
+  { row: "texts", title: "program texts" }, { row: "signals", title: "signals" }, { row: "override", title: "override" }, { row: "payload", title: "load" },
+];
+
+/** The face of a driver for a robot of its vendor, without a line: what it has and has not. */
+export function unconnected(driver: Driver): Face {
+  const scheduler = manualScheduler(), robot: Robot = LIBRARY.find(({ vendor, arm }) => vendor === driver.vendor && arm.joints.length === 6)!;
+  return driver.face({ robot, scheduler, network: memoryNetwork(scheduler), host: "127.0.0.1" });
+}
+
+/** What each driver declares, as tables in Markdown; what one cannot do stands below with its reason. */
+export function driverTables(drivers: readonly Driver[]): string {
+  const mark = (driver: Driver, row: string): string => driver.cannot.some(cannot => cannot.row === row) ? "–" : row === "T-18" ? "holds" : !driver.own || driver.own.includes(row) ? "✓" : "(✓)";
+  const lines = (rows: readonly (readonly string[])[]): string => rows.map(cells => `| ${cells.join(" | ")} |`).join("\n");
+  const table = (first: string, heads: readonly string[], of: (driver: Driver) => readonly string[]): string =>
+    lines([[first, ...heads], ["---", ...heads.map(() => "---")], ...drivers.map(driver => [driver.name, ...of(driver)])]);
+  const contract = ROWS.slice(0, 18), wire = ROWS.slice(18);
+  return [
+    table("driver", contract, driver => contract.map(row => mark({ ...driver, own: contract }, row))),
+    "T-18: an override of 0 holds every robot where it is; only virtual robots jump, so that no driver has `jumpTo`.",
+    table("driver", wire, driver => wire.map(row => mark(driver, row))),
+    "(✓): shown by the tests of the same brand's other driver, whose connection it uses.",
+    table("driver", [...ABILITIES.map(({ title }) => title), "watchdog on the robot"], driver => {
+      const { watchdog } = unconnected(driver);
+      return [...ABILITIES.map(({ row }) => mark({ ...driver, own: [row] }, row)), watchdog.kind === "robot" ? `${Math.round(1000 * watchdog.within_s)} ms` : "–"];
+    }),
+    ...drivers.map(driver => {
+      const { watchdog } = unconnected(driver);
+      const reasons = [...driver.cannot.map(({ row, because }) => `- ${row}: ${because}`), ...(watchdog.kind === "none" ? [`- watchdog: ${watchdog.because.replace(/\.?$/, ".")}`] : [])];
+      return `**${driver.name}** cannot\n\n${reasons.length === 0 ? "- nothing of the above is missing" : reasons.join("\n")}`;
+    }),
+  ].join("\n\n");
+}
