@@ -38,3 +38,10 @@ test("behind the loops of a pallet the frame and the tool are said anew", () => 
   const lines = written(home, { id: "pal", type: "pallet", pallet: "tray", steps: [on("over", "tray", 0.05)] }, on("x", "table", 0.2)).split("\r\n").map(line => line.replace(/^ *[0-9]+: */, ""));
   expect(lines.slice(lines.indexOf("ENDFOR ;"), lines.indexOf("/POS"))).toEqual(["ENDFOR ;", "ENDFOR ;", "ENDFOR ;", "UFRAME_NUM=1 ;", "UTOOL_NUM=1 ;", "L P[3] 100mm/sec FINE    ;"]);
 });
+
+test("registers carry the names of what they hold; CNT is a share of the shorter half of both ways", () => {
+  const text = written(home, on("a", "table", 0.1), { ...on("b", "table", 0.2), blend_m: 0.02 }, { ...on("c", "table", 0.3), blend_m: 0, blend_ratio: 0.3 }, on("d", "table", 0.2));
+  for (const line of ["PR[1:flange]=LPOS ;", "UTOOL[1]=PR[1:flange] ;", "PR[11:table]=LPOS ;", "UFRAME[1]=PR[11:table] ;"]) expect(text).toContain(`  ${line}\r\n`);
+  // 20 mm of the 50 mm that are half of either way.
+  expect(text.match(/(?:FINE|CNT\d+)(?= +;)/g)).toEqual(["FINE", "FINE", "CNT40", "CNT30", "FINE"]);
+});

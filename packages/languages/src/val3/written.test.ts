@@ -88,10 +88,10 @@ test("a point without a posture of its own is reached in the one that is nearest
   }
 });
 
-test("behind a loop nobody knows whether the robot stands: the program waits for the end of motions once more", () => {
-  const files = written(program([{ id: "r", type: "repeat", times: 2, steps: [{ id: "m", type: "move", path: "lin", target: at([100, 50, 300]), speed: { mps: 0.25 }, blend_m: 0 }] }, { id: "w", type: "wait", s: 1 }]));
+test("in a loop and behind it nobody knows whether the robot stands: the program waits for the end of motions once more", () => {
+  const files = written(program([{ id: "r", type: "repeat", times: 2, steps: [{ id: "v", type: "wait", s: 0.5 }, { id: "m", type: "move", path: "lin", target: at([100, 50, 300]), speed: { mps: 0.25 }, blend_m: 0 }] }, { id: "w", type: "wait", s: 1 }]));
   const lines = files.get("start.pgx")!.map(line => line.trim());
   expect(lines.slice(lines.indexOf("begin") + 1, lines.indexOf("end"))).toEqual([
-    "//* Fill trays", "for l_count=1 to 2 step 1", "movel(p10,torch,m)", "waitEndMove()", "endFor", "waitEndMove()", "delay(1)",
+    "//* Fill trays", "for l_count=1 to 2 step 1", "waitEndMove()", "delay(0.5)", "movel(p10,torch,m)", "waitEndMove()", "endFor", "waitEndMove()", "delay(1)",
   ]);
 });
