@@ -1,6 +1,6 @@
 import { describe, expect, test } from "vitest";
 import {
-  boxMesh, checkProgram, emptyProgram, fromAxisAngle, identity, linkSolids, pose, robotById, verifyProgram,
+  boxMesh, checkProgram, emptyProgram, fromAxisAngle, identity, linkSolids, pose, robotById, seededRandom, verifyProgram,
   type CellGeometry, type Finding, type MoveStep, type Program, type Step, type Vector3, type Verdict,
 } from "../index.ts";
 
@@ -80,6 +80,29 @@ describe("M-49 a held part counts in the collision check", () => {
     const unheld = checkProgram(programOf(...carry(LOW_M)), robot, { cell: empty, certify: true });
     expect(verifyProgram(unheld.certificate!, programOf(...carry(LOW_M)), unheld.plan, robot, empty).kind).toBe("confirmed");
     expect(verifyProgram(unheld.certificate!, programOf(...carry(LOW_M)), unheld.plan, robot, cell)).toMatchObject({ kind: "refuted", step: "lift" });
+  });
+});
+
+describe("M-49 held part: laws", () => {
+  test("taken again from where it was put, it is carried from there", () => {
+    const back = [to("at again", -0.2, 0.305), grip("take again", true), to("lift again", -0.2, LOW_M), to("back", 0.2, LOW_M)];
+    expect(sentencesOf(check(cellOf(TABLE, WALL, CARTON), [...carry(HIGH_M), ...place(), ...back]))).toEqual(["back: The held “Carton” would touch “Wall” at t."]);
+    expect(sentencesOf(check(cellOf(TABLE, CARTON), [...carry(HIGH_M), ...place(), ...back]))).toEqual([]);
+  });
+
+  test("held part: found exactly where the swept box of the carton meets a block, by arithmetic (40 blocks, seed 49)", () => {
+    // The tool keeps its orientation on straight lines, so the carton sweeps boxes along the axes: up at y = 0.2, then across at the carrying height.
+    const random = seededRandom(49), found = { met: 0, clear: 0 }, half = 0.05, rise_m = HIGH_M - 0.305;
+    for (let i = 0; i < 40; i++) {
+      const x = 0.55 + (random() - 0.5) * 0.22, y = -0.1 + random() * 0.2, z = 0.41 + random() * 0.09, size: Vector3 = [0.02 + random() * 0.04, 0.02 + random() * 0.04, 0.1];
+      const besides_m = Math.abs(x - 0.55) - half - size[0] / 2, above_m = 0.2 + rise_m - (z + size[2] / 2), gap_m = Math.max(besides_m, above_m);
+      if (Math.abs(gap_m) < 0.001) continue;
+      const verdict = check(cellOf(TABLE, CARTON, box("block", "Block", [x, y, z], size)), carry(HIGH_M)), said = sentencesOf(verdict);
+      expect(said, `block ${i}: ${gap_m}`).toEqual(gap_m < 0 ? ["across: The held “Carton” would touch “Block” at t."] : []);
+      found[gap_m < 0 ? "met" : "clear"]++;
+    }
+    expect(found.met).toBeGreaterThan(5);
+    expect(found.clear).toBeGreaterThan(5);
   });
 });
 
