@@ -61,7 +61,7 @@ describe.each(SIZES)("the studio at $name", size => {
   });
 
   test.runIf(size.dialogs)("STOP works while a dialog is open", async () => {
-    for (const dialog of ["palette", "shortcuts", "controls", "export", "import", "robots"] as const) {
+    for (const dialog of ["palette", "shortcuts", "controls", "export", "import", "robots", "station"] as const) {
       await page.evaluate(name => window.twincell.stores.dialogStore.setState({ open: name }), dialog);
       await page.getByRole("dialog").waitFor();
       await frames(page, 3);

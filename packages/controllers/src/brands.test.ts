@@ -79,3 +79,17 @@ describe.each(BRANDS.map(brand => [brand.id, brand] as const))("the cabinet and 
     expect(await goesAgain()).toEqual({ kind: "done" });
   });
 });
+
+test("what a person says of a controller reaches its driver: pulses per degree of a Yaskawa, one a joint", async () => {
+  const brand = BRANDS.find(({ id }) => id === "yaskawa")!, [datum] = brand.data!, joints = 6;
+  const connected = async (numbers: readonly number[]): Promise<CommandOutcome> => {
+    const scheduler = manualScheduler(), network = memoryNetwork(scheduler), robot = LIBRARY.find(({ vendor }) => vendor === brand.vendor)!;
+    const started = await brand.virtual({ robot, scheduler, network, host: HOST, interpret: () => ({ kind: "not-understood", faults: [] }) });
+    if (started.kind === "taken") throw new Error(started.sentence);
+    const connecting = createRealController({ face: brand.face({ robot, scheduler, network, host: HOST, data: { [datum!.id]: numbers } }), scheduler }).connect();
+    await scheduler.elapse(2);
+    return connecting;
+  };
+  expect(await connected(new Array<number>(joints).fill(1000))).toEqual({ kind: "done" });
+  expect(await connected([1000, 1000])).toMatchObject({ kind: "refused", why: { code: "yaskawa.pulses" } });
+});

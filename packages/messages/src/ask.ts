@@ -26,7 +26,7 @@ export const askSchema = z.discriminatedUnion("type", [
   z.strictObject({
     type: z.literal("open"), ...asked, ...station, brand: text, robot: text, name: z.exactOptional(text), worldFromBase: z.exactOptional(pose),
     /** Where the controller is; left out, a virtual one is started where the host is. */
-    address: z.exactOptional(z.strictObject({ host: text, ports: z.exactOptional(z.record(text, port)) })),
+    address: z.exactOptional(z.strictObject({ host: text, ports: z.exactOptional(z.record(text, port)), data: z.exactOptional(z.record(text, angles)) })),
   }),
   z.strictObject({ type: z.enum(["close", "connect", "disconnect", "take", "release", "confirm", "reset"]), ...asked, ...station }),
   z.strictObject({ type: z.literal("hold"), ...asked, ...station, pressed: z.boolean() }),

@@ -37,7 +37,7 @@ ${ROBOT_HELP}`,
     if (verifyPath !== undefined && cell !== undefined) {
       const read = readCertificate(await readText(verifyPath));
       if (read.kind === "not-a-certificate") throw new UseFault(`${verifyPath}: ${read.sentence}`);
-      const { plan } = checkProgram(program, robot, { worldFromBase: cell.worldFromBase }), answer = verifyProgram(read.certificate, plan, robot, cell);
+      const { plan } = checkProgram(program, robot, { worldFromBase: cell.worldFromBase }), answer = verifyProgram(read.certificate, program, plan, robot, cell);
       process.stdout.write(`${JSON.stringify(answer)}\n`);
       process.stderr.write(`${verified(answer)}\n`);
       return answer.kind === "confirmed" ? 0 : 1;

@@ -25,7 +25,7 @@ export function stationHost(scheduler: Scheduler, version: string): Host {
       return openStation({
         id: ask.station, brand, robot, scheduler, dialect, heartbeat_s: HEARTBEAT_S,
         ...(ask.name === undefined ? {} : { name: ask.name }), ...(ask.worldFromBase ? { worldFromBase: ask.worldFromBase } : {}),
-        ...(ask.address ? { at: { network, host: ask.address.host, ...(ask.address.ports ? { ports: ask.address.ports } : {}) } } : {}),
+        ...(ask.address ? { at: { network, host: ask.address.host, ...(ask.address.ports ? { ports: ask.address.ports } : {}), ...(ask.address.data ? { data: ask.address.data } : {}) } } : {}),
       });
     },
   });

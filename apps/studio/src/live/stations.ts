@@ -36,7 +36,7 @@ export interface NewStation {
   readonly robot: string;
   readonly place: HostPlace;
   readonly stand: Pose<"world", "base">;
-  readonly address?: { readonly host: string; readonly ports?: Readonly<Record<string, number>> };
+  readonly address?: { readonly host: string; readonly ports?: Readonly<Record<string, number>>; readonly data?: Readonly<Record<string, readonly number[]>> };
 }
 
 const refusedAs = (sentence: string, hint: string): CommandOutcome => ({ kind: "refused", why: { code: "station.none", sentence, hint } });
@@ -52,7 +52,7 @@ export async function addStation({ brand, robot: robotId, place, stand, address 
   lives.set(id, { robot, q_rad: Float64Array.from(robot.home_rad), revision: 0, received_s: 0, sent_s: 0 });
   stands.set(id, stand);
   const opened = await host.ask({
-    type: "open", station: id, brand, robot: robotId, worldFromBase: document.robot.worldFromBase, ...(address ? { address: { host: address.host, ...(address.ports ? { ports: { ...address.ports } } : {}) } } : {}),
+    type: "open", station: id, brand, robot: robotId, worldFromBase: document.robot.worldFromBase, ...(address ? { address: { host: address.host, ...(address.ports ? { ports: { ...address.ports } } : {}), ...(address.data ? { data: Object.fromEntries(Object.entries(address.data).map(([name, numbers]) => [name, [...numbers]])) } : {}) } } : {}),
   });
   if (opened.kind !== "done") { lives.delete(id); return opened; }
   const took = await host.ask({ type: "take", station: id });

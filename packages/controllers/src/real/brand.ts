@@ -6,12 +6,17 @@ import type { Face } from "./face.ts";
 /** Ports by the brand's own names for them; those left out are the vendor's own. */
 export type PortNumbers = Readonly<Record<string, number>>;
 
+/** What stands in the controller's own parameter file and is never guessed: numbers of each joint, by the name of the datum. */
+export type ControllerData = Readonly<Record<string, readonly number[]>>;
+export interface Datum { readonly id: string; readonly name: string; /** Where a person finds it. */ readonly where: string }
+
 export interface FaceOptions {
   readonly robot: Robot;
   readonly scheduler: Scheduler;
   readonly network: Network;
   readonly host: string;
   readonly ports?: PortNumbers;
+  readonly data?: ControllerData;
 }
 export interface BrandVirtualOptions extends FaceOptions {
   /** Executes a text of the brand's own language; see `Brand.dialect`. */
@@ -59,6 +64,8 @@ export interface Brand {
   readonly dialect: string;
   /** The vendor's own port numbers. */
   readonly ports: PortNumbers;
+  /** What a person must say of a real controller before it can be driven; one number a joint. */
+  readonly data?: readonly Datum[];
   /** Vendor of the robots it drives, as robots name it. */
   readonly vendor: string;
   /** What its driver cannot do, with the reasons. */

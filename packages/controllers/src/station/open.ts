@@ -1,5 +1,5 @@
 import { planProgram, unrolled, type CommandOutcome, type Dialect, type OperatingMode, type Pose, type Program, type Refusal, type Robot, type Scheduler } from "@twincell/core";
-import { createRealController, type Brand, type BrandVirtual, type PortNumbers } from "../real/index.ts";
+import { createRealController, type Brand, type BrandVirtual, type ControllerData, type PortNumbers } from "../real/index.ts";
 import { memoryNetwork, type Network } from "../transport/index.ts";
 import type { Seat } from "../guard/index.ts";
 import { createStation, type Station } from "./station.ts";
@@ -14,7 +14,7 @@ export interface OpenOptions {
   readonly name?: string;
   readonly worldFromBase?: Pose<"world", "base">;
   /** Where the controller is. Left out, a virtual one is started beside its driver, in memory. */
-  readonly at?: { readonly network: Network; readonly host: string; readonly ports?: PortNumbers };
+  readonly at?: { readonly network: Network; readonly host: string; readonly ports?: PortNumbers; readonly data?: ControllerData };
   readonly deadMan?: boolean;
   readonly heartbeat_s?: number;
 }
@@ -57,7 +57,7 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
     virtual = started.virtual;
   }
   const ports = options.at?.ports ?? virtual?.ports, name = options.name ?? `${near ? "Virtual " : ""}${robot.name}`;
-  const face = brand.face({ robot, scheduler, network, host, ...(ports ? { ports } : {}) });
+  const face = brand.face({ robot, scheduler, network, host, ...(ports ? { ports } : {}), ...(options.at?.data ? { data: options.at.data } : {}) });
   const controller = createRealController({ face, scheduler, name, ...(worldFromBase ? { worldFromBase } : {}) });
   const station = createStation({
     controller, scheduler, name, silence_s: face.stale_s,

@@ -12,7 +12,11 @@ const ALARM_BY_HAND = 4499;
 /** Controllers with the high-speed Ethernet server: FS100, DX200, YRC1000. */
 export const yaskawa: Brand = {
   id: "yaskawa", name: "Yaskawa", dialect: "inform", vendor: "Yaskawa", ports: PORTS, cannot: YASKAWA_CANNOT,
-  face: ({ ports, ...options }) => yaskawaFace({ ...options, ports: { ...PORTS, ...ports } }),
+  data: [{ id: "pulses_per_degree", name: "Pulses per degree", where: "In the controller's parameter file ALL.PRM, group RC; S axis first." }],
+  face: ({ ports, data, ...options }) => {
+    const pulsesPerDegree = data?.["pulses_per_degree"];
+    return yaskawaFace({ ...options, ports: { ...PORTS, ...ports }, ...(pulsesPerDegree ? { scale: { pulsesPerDegree, source: "said by a person" } } : {}) });
+  },
   async virtual({ ports, ...options }) {
     const started = await createVirtualYaskawa({ ...options, ports: { ...PORTS, ...ports } });
     if (started.kind === "taken") return started;

@@ -5,8 +5,9 @@ import type { Vector3 } from "../spatial/vector.ts";
 import { bodiesOf, farApart, objectBody, placeBody, reachesOf, SolidShelf, WORLD, type Body } from "./bodies.ts";
 import type { CellGeometry, CellObject, Contact } from "./cell.ts";
 import { pairScratch } from "./intersect.ts";
-import { between, movePoints } from "./relative.ts";
+import { between, movePoints, rigidFromPose } from "./relative.ts";
 import { solidDistance, solidKeepsApart, solidsTouch } from "./solid.ts";
+import { POINT_MESH } from "./tip.ts";
 
 /** The tool touches a work piece when it is nearer than this (row N-51) [m]. */
 export const TOUCH_M = 0.0005;
@@ -132,6 +133,34 @@ export class CellCollider {
       }
     }
     return out;
+  }
+
+  /**
+   * The standing object nearest to a point of the world, if nearer than `within_m`: 0 for one that holds it. Of several as near the first.
+   *
+   * @param counts  which objects are looked at.
+   */
+  nearestObject(point_m: Vector3, within_m: number, counts: (id: string) => boolean): string | undefined {
+    const point = this.#shelf.of(POINT_MESH), worldFromPoint = rigidFromPose({ position: point_m, quaternion: [0, 0, 0, 1] });
+    let nearest: string | undefined, limit = within_m;
+    for (const { kind, carrier, name, solid, worldFromBody } of this.#bodies) {
+      if (kind !== "object" || carrier !== WORLD || !counts(name)) continue;
+      this.#scratch.witness.fill(-1);
+      const distance = solidDistance(point, solid, between(worldFromPoint, worldFromBody, this.#scratch.relative), limit, this.#scratch, this.#points);
+      if (distance < limit) { limit = distance; nearest = name; }
+    }
+    return nearest;
+  }
+
+  /** Standing objects nearer than `within_m` to the standing object of this id. */
+  standingNear(id: string, within_m: number): string[] {
+    const body = this.#object(id);
+    if (body?.carrier !== WORLD) return [];
+    return this.#bodies.filter(other => {
+      if (other === body || other.kind !== "object" || other.carrier !== WORLD || farApart(body.box, other.box, within_m)) return false;
+      this.#scratch.witness.fill(-1);
+      return solidDistance(body.solid, other.solid, between(body.worldFromBody, other.worldFromBody, this.#scratch.relative), within_m, this.#scratch, this.#points) < within_m;
+    }).map(({ name }) => name);
   }
 
   /**

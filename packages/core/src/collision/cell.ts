@@ -10,6 +10,8 @@ export interface CellObject {
   readonly mesh: TriangleMesh;
   /** What may stand on it, where that is known [kg]. */
   readonly carries_kg?: number;
+  /** A work piece that a gripper may take and carry (row M-19). */
+  readonly graspable?: true;
 }
 
 /** The solid of one robot link, in that link's frame (link 0 is the base). */
@@ -21,6 +23,8 @@ export interface CellGeometry {
   readonly links: readonly LinkSolid[];
   /** Solid of the tool in the flange frame. */
   readonly tool?: { readonly name: string; readonly mesh: TriangleMesh };
+  /** Where the fingers of the tool meet, or where it sucks. */
+  readonly flangeFromGrip?: Pose<"flange", "grip">;
   readonly objects: readonly CellObject[];
   /** Pairs that may touch, by link name, "tool" or object id (the tool tip and the work piece it traces, for instance). */
   readonly allowedPairs: readonly (readonly [string, string])[];

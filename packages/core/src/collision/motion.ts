@@ -22,6 +22,8 @@ export type MotionVerdict =
 export interface MotionOptions {
   /** Wanted distance [m]; 0 asks for no contact only. `marginOf` says what comes on top. */
   readonly margin_m?: number;
+  /** Which pairs are looked at; all by default. */
+  readonly watched?: (pair: SolidPair) => boolean;
   /** Which pairs keep the margin; the others only must not touch. All pairs by default. */
   readonly keepsMargin?: (pair: SolidPair) => boolean;
   /** How near to the margin the answer may be undecided; it then counts as contact [m]. */
@@ -49,12 +51,12 @@ export interface CertifiedPiece { readonly a: string; readonly b: string; readon
 export function checkMotion(
   collider: CellCollider, motion: JointMotion, from: number, to: number, options: MotionOptions = {},
 ): MotionVerdict {
-  const { margin_m = 0, resolution_m = 0.0002, maxChecks = 100_000, keepsMargin = () => true, proof } = options, maps = proof === undefined ? options.maps : undefined;
+  const { margin_m = 0, resolution_m = 0.0002, maxChecks = 100_000, keepsMargin = () => true, watched = () => true, proof } = options, maps = proof === undefined ? options.maps : undefined;
   const pairs = collider.pairs, rates = pairs.map(pair => relativeRate(pair, motion.maxRate));
   const turns = pairs.map(pair => relativeTurn(pair, motion.maxRate));
   const margins = pairs.map(pair => (keepsMargin(pair) ? marginOf(pair, margin_m, collider.shapeError_m) : 0));
   const q = new Float64Array(motion.maxRate.length);
-  const stack: Interval[] = [{ from, to, open: pairs.map((_, i) => i) }];
+  const stack: Interval[] = [{ from, to, open: pairs.map((_, i) => i).filter(i => watched(pairs[i]!)) }];
   let checks = 0;
   for (let interval = stack.pop(); interval; interval = stack.pop()) {
     if (checks >= maxChecks) return { kind: "undecided", at: interval.from, checks };

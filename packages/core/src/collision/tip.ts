@@ -8,6 +8,12 @@ import { buildSolid, solidDistance, type Solid } from "./solid.ts";
 /** Half the size of the point that feels: far below any tolerance of a robot. */
 const POINT_M = 1e-6;
 
+/** A solid as small as a point. */
+export const POINT_MESH: TriangleMesh = {
+  positions: Float64Array.of(POINT_M, POINT_M, POINT_M, -POINT_M, -POINT_M, POINT_M, -POINT_M, POINT_M, -POINT_M, POINT_M, -POINT_M, -POINT_M),
+  indices: Uint32Array.of(0, 1, 3, 0, 2, 1, 0, 3, 2, 1, 2, 3),
+};
+
 interface Felt { readonly id: string; readonly solid: Solid; readonly worldFromObject: Rigid }
 
 /**
@@ -24,10 +30,7 @@ export class TipFeeler {
 
   constructor(objects: readonly { readonly id: string; readonly mesh: TriangleMesh; readonly worldFromObject: Pose }[]) {
     this.#objects = objects.map(({ id, mesh, worldFromObject }) => ({ id, solid: buildSolid(mesh), worldFromObject: rigidFromPose(worldFromObject) }));
-    this.#point = buildSolid({
-      positions: Float64Array.of(POINT_M, POINT_M, POINT_M, -POINT_M, -POINT_M, POINT_M, -POINT_M, POINT_M, -POINT_M, POINT_M, -POINT_M, -POINT_M),
-      indices: Uint32Array.of(0, 1, 3, 0, 2, 1, 0, 3, 2, 1, 2, 3),
-    });
+    this.#point = buildSolid(POINT_MESH);
   }
 
   /** Ids of the objects nearer than `within_m` to the point, in an emptied `out`. A point inside an object touches it. */

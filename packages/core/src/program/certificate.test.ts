@@ -12,7 +12,7 @@ const CELL = cellWith([0.9, 0, 0.25]);
 const move = (id: string, path: MoveStep["path"], position: Vector3): MoveStep => ({ id, type: "move", path, target: { pose: { position, quaternion: fromAxisAngle([1, 0, 0], Math.PI) }, frame: "world", tool: "flange" }, speed: path === "ptp" ? { ratio: 0.5 } : { mps: 0.2 }, blend_m: 0 });
 const program: Program = { ...emptyProgram(robot.id, "Past the post"), steps: [move("a", "ptp", [0.55, 0.2, 0.5]), move("b", "lin", [0.55, -0.2, 0.5]), move("c", "lin", [0.5, -0.2, 0.6])] };
 const checked = checkProgram(program, robot, { cell: CELL, margin_m: 0.002, certify: true }), certificate = checked.certificate!;
-const verify = (claimed: ProgramCertificate, cell = CELL, plan = checked.plan): ReturnType<typeof verifyProgram> => verifyProgram(claimed, plan, robot, cell);
+const verify = (claimed: ProgramCertificate, cell = CELL, plan = checked.plan): ReturnType<typeof verifyProgram> => verifyProgram(claimed, program, plan, robot, cell);
 
 describe("M-49 a program carries what proves it clear", () => {
   test("one certificate for each motion, confirmed by the second proof, and the same verdict as without", () => {

@@ -1,10 +1,12 @@
-import { CellCollider, robotAndCell } from "../collision/cell-collider.ts";
+import { CellCollider } from "../collision/cell-collider.ts";
 import type { CellGeometry } from "../collision/cell.ts";
 import { verifyCertificate, type CertificateVerdict, type MotionCertificate } from "../collision/certificate.ts";
 import { marginOf, type JointMotion } from "../collision/motion.ts";
 import type { Robot } from "../robots/robot.ts";
 import type { MotionSegment, Plan } from "../trajectory/plan.ts";
 import { sampleSegment } from "../trajectory/sample.ts";
+import { HeldParts } from "./held.ts";
+import type { Program } from "./program.ts";
 
 /** The proof of one motion of a plan: t is seconds after its start. */
 export interface SegmentCertificate extends MotionCertificate {
@@ -40,22 +42,29 @@ export function motionOf(segment: MotionSegment, rates: Float64Array): JointMoti
 /**
  * Proves a program's certificate again, motion by motion, with a collider made anew and by the other method of `verifyCertificate`.
  *
- * @param plan  laid out again from the program: a certificate of another program or another cell does not fit it.
+ * @param program  says with `plan` which parts are held when.
+ * @param plan     laid out again from the program: a certificate of another program or another cell does not fit it.
  */
-export function verifyProgram(certificate: ProgramCertificate, plan: Plan, robot: Robot, cell: CellGeometry): ProgramCertificateVerdict {
+export function verifyProgram(certificate: ProgramCertificate, program: Program, plan: Plan, robot: Robot, cell: CellGeometry): ProgramCertificateVerdict {
   const collider = new CellCollider(cell, robot.arm), rates = new Float64Array(robot.arm.joints.length);
   collider.allowContactsAt(robot.home_rad);
-  const wanted = new Map(collider.pairs.map(pair => [`${pair.contact.a}\n${pair.contact.b}`, robotAndCell(pair) ? marginOf(pair, certificate.margin_m, cell.shapeError_m) : 0]));
+  const parts = new HeldParts(collider, cell, program, robot.arm, plan.segments, certificate.margin_m);
   let segments = 0, looks = 0;
   for (const segment of plan.segments) {
+    const stretches = parts.enter(segment);
     if (segment.kind !== "motion" || segment.times_s.length < 2) continue;
     const own = certificate.segments.find(({ step, start_s }) => step === segment.step && Math.abs(start_s - segment.start_s) < SAME_TIME_S);
     if (own === undefined || own.from > 0 || own.to < segment.duration_s) return { kind: "missing", step: segment.step, start_s: segment.start_s };
-    const low = own.pieces.find(({ a, b, atLeast_m }) => atLeast_m < (wanted.get(`${a}\n${b}`) ?? 0));
-    if (low !== undefined) return { kind: "refuted", step: segment.step, reason: "below margin", a: low.a, b: low.b, at_s: segment.start_s + low.from };
-    const verdict = verifyCertificate(collider, robot.arm, motionOf(segment, rates), own);
-    if (verdict.kind === "refuted") return { kind: "refuted", step: segment.step, reason: verdict.reason, a: verdict.a, b: verdict.b, at_s: segment.start_s + verdict.at };
-    segments++; looks += verdict.looks;
+    for (const { from, to, watched, keepsMargin } of stretches) {
+      const proof = stretches.length === 1 ? own : { ...own, from, to, pieces: own.pieces.filter(piece => piece.from >= from && piece.to <= to) };
+      const wanted = new Map(collider.pairs.map(pair => [`${pair.contact.a}\n${pair.contact.b}`, watched(pair) && keepsMargin(pair) ? marginOf(pair, certificate.margin_m, cell.shapeError_m) : 0]));
+      const low = proof.pieces.find(({ a, b, atLeast_m }) => atLeast_m < (wanted.get(`${a}\n${b}`) ?? 0));
+      if (low !== undefined) return { kind: "refuted", step: segment.step, reason: "below margin", a: low.a, b: low.b, at_s: segment.start_s + low.from };
+      const verdict = verifyCertificate(collider, robot.arm, motionOf(segment, rates), proof, watched);
+      if (verdict.kind === "refuted") return { kind: "refuted", step: segment.step, reason: verdict.reason, a: verdict.a, b: verdict.b, at_s: segment.start_s + verdict.at };
+      looks += verdict.looks;
+    }
+    segments++;
   }
   return { kind: "confirmed", segments, looks };
 }

@@ -6,7 +6,7 @@ import type { Plan } from "../trajectory/plan.ts";
 import { GRIPPER_S } from "../trajectory/planner.ts";
 import { motionAssumptions } from "../robots/jerk.ts";
 import { checkBranch, checkImpasses } from "./checks/branch.ts";
-import { checkCollision } from "./checks/collision.ts";
+import { checkCollision, type Collisions } from "./checks/collision.ts";
 import { layOut, type Layout } from "./checks/layout.ts";
 import { checkLimits } from "./checks/limits.ts";
 import { checkReach } from "./checks/reach.ts";
@@ -21,6 +21,7 @@ import { checkStand } from "./checks/stand.ts";
 import { checkTorque } from "./checks/torque.ts";
 import { checkWorkspace } from "./checks/workspace.ts";
 import type { ProgramCertificate, SegmentCertificate } from "./certificate.ts";
+import { GRIP_REACH_M, partsAreFollowed } from "./held.ts";
 import type { Program, Step } from "./program.ts";
 import type { Verdict } from "./verdict.ts";
 import { everyStep } from "./walk.ts";
@@ -105,13 +106,24 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
       ...robot.assumptions, ...motionAssumptions(robot),
       ...assumed(written, layout), ...unjudged,
       ...(torque.kind === "known" ? ["Torques are those of masses and accelerations; friction is not counted."] : []),
-      cell === undefined ? "Collisions were not looked at: no cell was given." : "Objects stand where the cell draws them; gripped objects are not carried along.",
+      cell === undefined ? "Collisions were not looked at: no cell was given." : "Objects stand where the cell draws them.",
+      ...(collision === undefined ? [] : carried(program, written, collision)),
     ],
   };
   const plan = asWritten(layout);
   if (certificates === undefined) return { verdict, plan };
   const segments = certificates.map(each => ({ ...each, step: writtenId(layout, each.step) }));
   return { verdict, plan, certificate: { robot: robot.id, program: program.name, margin_m, segments } };
+}
+
+/** What is taken for true of the parts that are gripped. */
+function carried(program: Program, steps: readonly Step[], { taken, missed }: Collisions): string[] {
+  if (!steps.some(step => step.type === "gripper")) return [];
+  if (!partsAreFollowed(program)) return ["Gripped parts stand where they were drawn: the program decides between motions, and a part may be held on one side only."];
+  return [
+    ...(taken > 0 ? ["The part at the grip point moves with the gripper from where it closes to where it opens, and stays there; nothing that lies on it comes along."] : []),
+    ...(missed > 0 ? [`The gripper closes on nothing ${missed === 1 ? "once" : `${missed} times`}: no work piece is drawn within ${GRIP_REACH_M * 1000} mm of its grip point.`] : []),
+  ];
 }
 
 const writtenId = (layout: Layout, id: string): string => layout.turns.get(id)?.written.id ?? id;

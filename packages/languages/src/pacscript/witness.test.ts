@@ -107,6 +107,10 @@ test("statements that are no steps are told with their place", () => {
   expect(faults("Sub Main\nWait IO[1] = On, 500\nEnd Sub\n")).toMatchObject([{ line: 2, column: 16 }]);
 });
 
+test("two words that close a block stand on one line: End and Sub on two are not the end of a sub", () => {
+  expect(pacScript.parse("Sub Main\nEnd\nSub\n", robot)).toMatchObject({ kind: "not-understood", faults: [{ line: 3, column: 1, expected: "a statement" }, { line: 4 }, { line: 2 }] });
+});
+
 testLongText(pacScript, robot, () => `Sub Main\n${Array.from({ length: 50_000 }, (_, i) => `  Move L, @0 P(${i % 300}, 300, 300, 180, 0, 90, -1)\n  Delay 100\n`).join("")}End Sub\n`);
 testHundredPrograms(pacScript, robot);
 

@@ -1,4 +1,4 @@
-import { PlainFault, boxMesh, revolvedMesh, robotById, type CellGeometry, type LinkSolid, type TriangleMesh } from "@twincell/core";
+import { PlainFault, boxMesh, revolvedMesh, robotById, type CellGeometry, type LinkSolid, type Pose, type TriangleMesh } from "@twincell/core";
 import type { CellDocument, Shape } from "../document.ts";
 import { decodeMesh } from "./codec.ts";
 
@@ -34,9 +34,10 @@ export function cellGeometry(document: CellDocument, links: readonly LinkSolid[]
     worldFromBase: document.robot.worldFromBase,
     links,
     ...(tool?.shape === undefined ? {} : { tool: { name: tool.name, mesh: shapeMesh(tool.shape) } }),
+    ...(tool === undefined ? {} : { flangeFromGrip: tool.flangeFromTcp as Pose as Pose<"flange", "grip"> }),
     objects: document.objects.map(object => ({
       id: object.id, name: object.name, worldFromObject: object.worldFromObject, mesh: shapeMesh(object.shape),
-      ...(object.carries_kg === undefined ? {} : { carries_kg: object.carries_kg }),
+      ...(object.carries_kg === undefined ? {} : { carries_kg: object.carries_kg }), ...(object.role === "workpiece" ? { graspable: true as const } : {}),
     })),
     allowedPairs: document.allowedPairs,
     ...pairsOf(document),

@@ -61,7 +61,7 @@ function Body() {
       <div className="export-main stack">
         {file && (
           <>
-            <div className="row-flex">
+            <div className="row-flex export-head">
               <Segments label={words.export.files} className="seg small-seg" value={String(Math.min(chosen, files.length - 1))} onChange={value => setChosen(Number(value))} options={files.map((each, i) => ({ value: String(i), words: each.name }))} />
               <span className="dim small">{words.export.lines(file.lines.length)}</span><span className="grow" />
               <button className="btn" onClick={() => void copy(file.text)}>{words.export.copy}</button>

@@ -1,4 +1,4 @@
-import { compose, identity, LIBRARY, type Pose } from "@twincell/core";
+import { compose, identity, LIBRARY, robotById, type Pose } from "@twincell/core";
 import { useEffect, useState } from "react";
 import { useStore } from "zustand";
 import { lookForServer } from "../../live/station-hosts.ts";
@@ -12,11 +12,14 @@ import { Frame } from "../../ui/Frame.tsx";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { BRAND_LIST } from "../../live/brand-list.ts";
 import { words } from "../../words/index.ts";
+import "./stations.css";
 
 export default function AddStation() {
   const open = useStore(dialogStore, state => state.open === "station");
   return open ? <Open /> : null;
 }
+
+const numbersOf = (text: string): number[] => text.split(/[\s,;]+/).filter(part => part !== "").map(Number);
 
 /** Beside the robot of the cell, and beside those that are there already. */
 const APART_M = 1.6;
@@ -24,16 +27,18 @@ const APART_M = 1.6;
 function Open() {
   const document = useStore(cellStore, state => state.document), count = useStore(stationStore, state => state.stations.length), server = useStore(stationStore, state => state.server);
   const [brand, setBrand] = useState(BRAND_LIST[0]?.id ?? ""), [robot, setRobot] = useState(""), [place, setPlace] = useState<HostPlace>("page"), [host, setHost] = useState("");
-  const [x_m, setX] = useState(0), [y_m, setY] = useState((count + 1) * APART_M), [turned_rad, setTurned] = useState(0), [busy, setBusy] = useState(false);
+  const [x_m, setX] = useState(0), [y_m, setY] = useState((count + 1) * APART_M), [turned_rad, setTurned] = useState(0), [busy, setBusy] = useState(false), [typed, setTyped] = useState<Readonly<Record<string, string>>>({});
   useEffect(() => { lookForServer(); }, []);
   const chosen = BRAND_LIST.find(({ id }) => id === brand), robots = LIBRARY.filter(({ vendor }) => vendor === chosen?.vendor), robotId = robots.find(({ id }) => id === robot)?.id ?? robots[0]?.id ?? "";
+  const asked = place === "server" ? chosen?.data ?? [] : [], data = Object.fromEntries(asked.map(({ id }) => [id, numbersOf(typed[id] ?? "")]));
+  const whole = asked.every(({ id }) => data[id]!.length === (robotById(robotId)?.arm.joints.length ?? 0) && data[id]!.every(value => Number.isFinite(value) && value !== 0));
   if (!document) return null;
   const add = async (): Promise<void> => {
     setBusy(true);
     const beside: Pose<"base", "base"> = { ...identity(), position: [x_m, y_m, 0], quaternion: [0, 0, Math.sin(turned_rad / 2), Math.cos(turned_rad / 2)] };
     const outcome = await addStation({
       brand, robot: robotId, place, stand: compose(document.robot.worldFromBase, beside),
-      ...(place === "server" ? { address: { host: host.trim() } } : {}),
+      ...(place === "server" ? { address: { host: host.trim(), ...(asked.length > 0 ? { data } : {}) } } : {}),
     });
     setBusy(false);
     if (outcome.kind === "done") closeDialog();
@@ -41,7 +46,7 @@ function Open() {
   };
   return (
     <Frame open title={words.stations.addTitle} onClose={closeDialog} width={520} foot={
-      <><span className="grow small muted">{words.app.notSafety}</span><button type="submit" form="add-station" className="btn primary" disabled={busy || robotId === "" || (place === "server" && host.trim() === "")}>{busy ? words.stations.connecting : words.stations.addAndConnect}</button></>
+      <><span className="grow small muted">{words.app.notSafety}</span><button type="submit" form="add-station" className="btn primary" disabled={busy || robotId === "" || (place === "server" && (host.trim() === "" || !whole))}>{busy ? words.stations.connecting : words.stations.addAndConnect}</button></>
     }>
       <form id="add-station" className="add-station stack" onSubmit={event => { event.preventDefault(); void add(); }}>
         <div className="pair"><span className="label">{words.stations.brand}</span><Chooser label={words.stations.brand} value={brand} onChange={setBrand} options={BRAND_LIST.map(({ id, name }) => ({ value: id, words: name }))} /></div>
@@ -51,6 +56,10 @@ function Open() {
         {server === false && <p className="small muted">{words.stations.noServer} {words.stations.noServerHint}</p>}
         {place === "server" && <div className="pair"><label className="label" htmlFor="station-address">{words.stations.address}</label>
           <span className="field text"><input id="station-address" value={host} placeholder={words.stations.addressHint} spellCheck={false} autoComplete="off" onChange={event => setHost(event.currentTarget.value)} /></span></div>}
+        {asked.map(({ id, name, where }) => (
+          <div className="pair" key={id}><label className="label" htmlFor={`station-${id}`}>{name}<span className="small dim block">{where}</span></label>
+            <span className="field text"><input id={`station-${id}`} value={typed[id] ?? ""} placeholder={words.stations.numbers} spellCheck={false} autoComplete="off" onChange={event => setTyped({ ...typed, [id]: event.currentTarget.value })} /></span></div>
+        ))}
         <div className="pair"><span className="label">{words.stations.stand}</span>
           <span className="fields-3">
             <NumberField label={words.stations.x} mark="X" quantity="length" value={x_m} decimals={0} onChange={setX} />

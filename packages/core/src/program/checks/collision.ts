@@ -1,15 +1,16 @@
 import { CellCollider, clearance as noClearance, robotAndCell } from "../../collision/cell-collider.ts";
 import type { CellGeometry } from "../../collision/cell.ts";
-import { certifyMotion } from "../../collision/certificate.ts";
+import { certifyMotion, type MotionCertificate } from "../../collision/certificate.ts";
 import { ClearanceMaps } from "../../collision/clearance-map.ts";
 import { checkMotion, type MotionVerdict } from "../../collision/motion.ts";
 import type { SerialArm } from "../../robots/arm.ts";
 import { resolveMove, type Move } from "../../trajectory/moves.ts";
-import type { MotionSegment } from "../../trajectory/plan.ts";
+import type { MotionSegment, Segment } from "../../trajectory/plan.ts";
 import { RunPlanner } from "../../trajectory/run.ts";
 import { sampleSegment } from "../../trajectory/sample.ts";
 import { motionOf, type SegmentCertificate } from "../certificate.ts";
 import { freshStepIds } from "../edit.ts";
+import { HeldParts, type Stretch } from "../held.ts";
 import type { MoveStep } from "../program.ts";
 import type { Repair } from "../verdict.ts";
 import { raised } from "./repairs.ts";
@@ -35,36 +36,53 @@ const CLEARANCE_LOOKS = 200;
 /** Clearance above this is plenty and not measured [m]. */
 const CLEARANCE_CUTOFF_M = 0.5;
 
+/** What was found beside the findings. */
+export interface Collisions {
+  /** The least clearance seen between robot and cell [m]; null when there is nothing to keep clear of. */
+  readonly clearance_m: number | null;
+  readonly unproven: ReadonlySet<string>;
+  /** Times the gripper closed on a part, and on nothing. */
+  readonly taken: number;
+  readonly missed: number;
+}
+
 /**
- * Proves every motion of the plan free of contact, between the nodes as well; standing still is covered by the motions
- * that end there.
- *
- * @returns the least clearance seen between robot and cell [m]; null when there is nothing to keep clear of.
+ * Proves every motion of the plan free of contact, between the nodes as well, with the parts that are held on the way (`HeldParts`);
+ * standing still is covered by the motions that end there.
  */
-export function checkCollision(scene: CheckScene, options: CollisionOptions): { readonly clearance_m: number | null; readonly unproven: ReadonlySet<string> } {
-  const collider = new CellCollider(options.cell, scene.robot.arm), prover = new Prover(collider, options.margin_m, scene.robot.arm);
+export function checkCollision(scene: CheckScene, options: CollisionOptions): Collisions {
+  const { cell, margin_m } = options, collider = new CellCollider(cell, scene.robot.arm), prover = new Prover(collider, margin_m, scene.robot.arm);
   collider.allowContactsAt(scene.robot.home_rad);
+  const parts = new HeldParts(collider, cell, scene.program, scene.robot.arm, scene.layout.plan.segments, margin_m);
   const unproven = new Set<string>(), found = new Set<string>(), all = [...motions(scene)];
-  let repaired = 0;
-  for (let i = 0; i < all.length; i++) {
-    const segment = all[i]!;
+  let repaired = 0, i = 0;
+  for (const segment of scene.layout.plan.segments) {
+    const stretches = parts.enter(segment);
+    if (segment !== all[i]) continue;
     if (options.cancelled?.() === true) { for (const rest of all.slice(i)) unproven.add(rest.step); break; }
     options.onProgress?.(i / all.length);
-    const { verdict, certificate } = options.certificates === undefined ? { verdict: prover.prove(segment), certificate: null } : prover.certify(segment);
+    i++;
+    const { verdict, certificate } = options.certificates === undefined ? { verdict: prover.prove(segment, stretches), certificate: null } : prover.certify(segment, stretches);
     if (certificate !== null) options.certificates?.push({ step: segment.step, start_s: segment.start_s, ...certificate });
     if (verdict.kind === "undecided") unproven.add(segment.step);
     if (verdict.kind !== "contact" || found.has(segment.step)) continue;
     found.add(segment.step);
-    const a = nameOf(verdict.a, options.cell), b = nameOf(verdict.b, options.cell), at_s = segment.start_s + verdict.at;
-    const sentence = verdict.margin_m > 0 && verdict.distance_m > 0
-      ? `${capital(a)} comes within ${mm(verdict.distance_m)} of ${b} at ${seconds(at_s)}; the margin is ${mm(verdict.margin_m)}.`
-      : `${capital(a)} touches ${b} at ${seconds(at_s)}.`;
+    const at_s = segment.start_s + verdict.at, sentence = sentenceOf(verdict, cell, parts.held, at_s);
     const move = scene.layout.moves.get(segment.step);
     const repairs = move === undefined || repaired >= MOST_REPAIRED ? [] : collisionRepairs(scene, move, prover, segment, verdict.at);
     repaired++;
     scene.add(segment.step, "bad", { code: "collision.contact", value: verdict.distance_m, limit: verdict.margin_m, unit: "m", at_s, sentence, repairs });
   }
-  return { clearance_m: options.cell.objects.length === 0 ? null : leastClearance(collider, all, options.cancelled), unproven };
+  const { taken, missed } = parts;
+  return { clearance_m: cell.objects.length === 0 ? null : leastClearance(collider, parts, scene.layout.plan.segments, all, options.cancelled), unproven, taken, missed };
+}
+
+function sentenceOf(contact: Extract<MotionVerdict, { kind: "contact" }>, cell: CellGeometry, held: string | undefined, at_s: number): string {
+  const carried = held !== undefined && (contact.a === held || contact.b === held), first = carried ? held : contact.a, other = first === contact.a ? contact.b : contact.a;
+  const a = carried ? `the held ${nameOf(first, cell)}` : nameOf(first, cell), b = nameOf(other, cell);
+  return contact.margin_m > 0 && contact.distance_m > 0
+    ? `${capital(a)} comes within ${mm(contact.distance_m)} of ${b} at ${seconds(at_s)}; the margin is ${mm(contact.margin_m)}.`
+    : `${capital(a)} ${carried ? "would touch" : "touches"} ${b} at ${seconds(at_s)}.`;
 }
 
 /** Proves single motions; keeps the working memory of one collider. */
@@ -77,25 +95,47 @@ class Prover {
     this.collider = collider; this.margin_m = margin_m; this.rates = new Float64Array(arm.joints.length); this.maps = new ClearanceMaps(collider, arm);
   }
 
-  prove(segment: MotionSegment): MotionVerdict {
-    return checkMotion(this.collider, motionOf(segment, this.rates), 0, segment.duration_s, { margin_m: this.margin_m, keepsMargin: robotAndCell, maps: this.maps });
+  /** The whole motion with everything watched, or stretch by stretch as given. */
+  prove(segment: MotionSegment, stretches: readonly Stretch[] = [{ from: 0, to: segment.duration_s, watched: () => true, keepsMargin: robotAndCell }]): MotionVerdict {
+    const motion = motionOf(segment, this.rates);
+    let checks = 0;
+    for (const { from, to, ...pairs } of stretches) {
+      const verdict = checkMotion(this.collider, motion, from, to, { margin_m: this.margin_m, maps: this.maps, ...pairs });
+      if (verdict.kind !== "clear") return verdict;
+      checks += verdict.checks;
+    }
+    return { kind: "clear", checks };
   }
 
   /** As `prove`, and what proves it; slower, because nothing that was found before is used. */
-  certify(segment: MotionSegment): ReturnType<typeof certifyMotion> {
-    return certifyMotion(this.collider, motionOf(segment, this.rates), 0, segment.duration_s, { margin_m: this.margin_m, keepsMargin: robotAndCell });
+  certify(segment: MotionSegment, stretches: readonly Stretch[]): ReturnType<typeof certifyMotion> {
+    const motion = motionOf(segment, this.rates), proven: MotionCertificate[] = [];
+    let checks = 0;
+    for (const { from, to, ...pairs } of stretches) {
+      const { verdict, certificate } = certifyMotion(this.collider, motion, from, to, { margin_m: this.margin_m, ...pairs });
+      if (verdict.kind !== "clear" || certificate === null) return { verdict, certificate: null };
+      checks += verdict.checks;
+      proven.push(certificate);
+    }
+    const clearance_m = Math.min(...proven.map(each => each.clearance_m));
+    return { verdict: { kind: "clear", checks }, certificate: { from: 0, to: segment.duration_s, clearance_m, pieces: proven.flatMap(({ pieces }) => pieces) } };
   }
 }
 
-function leastClearance(collider: CellCollider, all: readonly MotionSegment[], cancelled: (() => boolean) | undefined): number {
+/** What a held part rests on does not count as long as it may touch it or be near. */
+function leastClearance(collider: CellCollider, parts: HeldParts, segments: readonly Segment[], all: readonly MotionSegment[], cancelled: (() => boolean) | undefined): number {
   const near = noClearance(), total_s = all.reduce((sum, segment) => sum + segment.duration_s, 0), period_s = total_s / CLEARANCE_LOOKS;
   let least = CLEARANCE_CUTOFF_M, due_s = 0, passed_s = 0;
   const q = new Float64Array(all[0] === undefined ? 0 : all[0].q_rad.length / all[0].times_s.length);
-  for (const segment of all) {
+  parts.rewind();
+  for (const segment of segments) {
+    const stretches = parts.enter(segment);
+    if (segment.kind !== "motion" || segment.times_s.length < 2) continue;
     if (cancelled?.() === true) break;
     for (; due_s <= passed_s + segment.duration_s; due_s += period_s) {
-      sampleSegment(segment, due_s - passed_s, q);
-      collider.clearance(q, least, near, robotAndCell);
+      const t_s = due_s - passed_s, { watched, keepsMargin } = stretches.find(({ to }) => t_s <= to) ?? stretches.at(-1)!;
+      sampleSegment(segment, t_s, q);
+      collider.clearance(q, least, near, pair => watched(pair) && keepsMargin(pair));
       least = Math.min(least, near.distance_m);
       if (!(period_s > 0)) break;
     }

@@ -14,7 +14,7 @@ const RULES: ExpressionRules = {
 const elsewhere = (what: string): string => `${what}, which is not executed here.`;
 const SIGNS = ["<=", ">=", "<>", "(", ")", "[", "]", ",", ":", "=", "<", ">", "+", "-", "*", "/", "^", "#", "@", "&", "."];
 const GRAMMAR: BasicGrammar = {
-  lexicon: { comment: "'", quotes: "\"", doubled: false, lineEnds: true, signs: SIGNS, word: /end\s+(?:sub|if|select)\b|exit\s+(?:sub|for|do)\b|[A-Za-z_][A-Za-z0-9_]*[%!$&]?/iy },
+  lexicon: { comment: "'", quotes: "\"", doubled: false, lineEnds: true, signs: SIGNS, word: /end[ \t]+(?:sub|if|select)\b|exit[ \t]+(?:sub|for|do)\b|[A-Za-z_][A-Za-z0-9_]*[%!$&]?/iy },
   expression: RULES,
   alike: { endif: "end if" },
   unsayable: {
