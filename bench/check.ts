@@ -61,7 +61,7 @@ function wholeMinute(robot: Robot, geometry: CellGeometry): Figure[] {
     const { plan, certificate } = checkProgram(program, robot, { cell: geometry, margin_m: MINUTE_MARGIN_M, certify: true });
     certified.push(performance.now() - begun_ms);
     begun_ms = performance.now();
-    const answer = verifyProgram(certificate!, plan, robot, geometry);
+    const answer = verifyProgram(certificate!, program, plan, robot, geometry);
     verified.push(performance.now() - begun_ms);
     pieces = certificate!.segments.reduce((sum, segment) => sum + segment.pieces.length, 0);
     note = `${steps.length} steps, ${verdict.duration_s.toFixed(0)} s of motion, ${verdict.steps.filter(step => step.verdict === "bad").length} bad, least clearance ${((verdict.clearance_m ?? 0) * 1000).toFixed(0)} mm; ${answer.kind}`;

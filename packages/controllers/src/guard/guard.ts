@@ -47,6 +47,8 @@ export interface Guard {
   seat(name: string): Seat;
   /** Anyone may stop. */
   stop(emergency?: boolean): void;
+  /** Who keeps the link knows that it is gone, maybe before it was silent for long, and maybe back before that. */
+  linkLost(): void;
   /** Why a point may not be added to a program (row T-42); null when it may. */
   pointRefusal(q_rad: ArrayLike<number>): Refusal | null;
   onChange(listen: (state: GuardState) => void): () => void;
@@ -266,6 +268,7 @@ export function createGuard(options: GuardOptions): Guard {
     get state() { return state; },
     seat,
     stop(emergency = false) { send({ type: "stop", emergency }); },
+    linkLost() { if (state.link !== "lost") { notice(linkWentDown(robot.name, scheduler.now_s() - Math.min(heard_s, scheduler.now_s()))); send({ type: "link-lost" }); } },
     pointRefusal,
     onChange: listen => changes.add(listen),
     onNotice: listen => notices.add(listen),

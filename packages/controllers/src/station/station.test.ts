@@ -70,6 +70,22 @@ describe("a station", () => {
     expect(await again).toEqual({ kind: "done" });
   });
 
+  test("X-41 a line that breaks and is back sooner than anybody would call it silent asks for a person's word all the same", async () => {
+    const scheduler = manualScheduler(), face = nearFace(robot, scheduler);
+    const station = createStation({ controller: createRealController({ face, scheduler, name: "Cell 1" }), scheduler, deadMan: false, silence_s: 5 }), seat = station.seat("you");
+    await station.connect();
+    await scheduler.elapse(0.1);
+    seat.take();
+    const moving = seat.robot.moveJoints(shifted(0.5));
+    await scheduler.elapse(0.3);
+    face.breakLine();
+    face.virtual.stop();
+    await scheduler.elapse(0.5);
+    expect((await moving).kind).toBe("stopped");
+    expect(station.link).toMatchObject({ state: "open" });
+    expect(await seat.robot.moveToZero()).toMatchObject({ kind: "refused", why: { code: "guard.link-unconfirmed" } });
+  });
+
   test("two people: one commands, anyone stops", async () => {
     const { scheduler, station, seat } = await bench();
     const other = station.seat("somebody");

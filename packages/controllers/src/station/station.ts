@@ -91,6 +91,7 @@ export function createStation(options: StationOptions): Station {
     if (worst_rad > alarm_rad && !alarmed) notices.call(deviates(name, worst_rad, alarm_rad));
     alarmed = worst_rad > alarm_rad;
   });
+  const unlink = real?.onLink(({ state }) => { if (state === "lost") guard.linkLost(); });
   const unnotice = guard.onNotice(why => { notices.call(why); });
 
   return {
@@ -116,6 +117,7 @@ export function createStation(options: StationOptions): Station {
     onNotice: listen => notices.add(listen),
     close() {
       unwatch();
+      unlink?.();
       unnotice();
       guard.close();
       twin.close();

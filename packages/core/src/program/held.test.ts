@@ -108,7 +108,7 @@ describe("M-49 held part: laws", () => {
 
 describe("M-20 what the gripper takes", () => {
   test("M-20 nothing is taken when nothing is there, and the verdict says so", () => {
-    const away = { ...CARTON, worldFromObject: pose([0.55, 0.2, 0.25 - 0.016] as Vector3) }, near = { ...CARTON, worldFromObject: pose([0.55, 0.2, 0.25 - 0.014] as Vector3) };
+    const away = { ...CARTON, worldFromObject: pose<"world", "object">([0.55, 0.2, 0.25 - 0.016] as Vector3) }, near = { ...CARTON, worldFromObject: pose<"world", "object">([0.55, 0.2, 0.25 - 0.014] as Vector3) };
     const nothing = check(cellOf(WALL, away), carry(LOW_M));
     expect(sentencesOf(nothing)).toEqual([]);
     expect(nothing.assumptions).toContain("The gripper closes on nothing once: no work piece is drawn within 20 mm of its grip point.");
@@ -116,7 +116,7 @@ describe("M-20 what the gripper takes", () => {
   });
 
   test("M-20 the nearest part is taken, and no fixture", () => {
-    const lid = { ...box("lid", "Lid", [0.55, 0.2, 0.287], [0.02, 0.02, 0.02]), graspable: true } as const, low = { ...CARTON, worldFromObject: pose([0.55, 0.2, 0.225] as Vector3) };
+    const lid = { ...box("lid", "Lid", [0.55, 0.2, 0.287], [0.02, 0.02, 0.02]), graspable: true } as const, low = { ...CARTON, worldFromObject: pose<"world", "object">([0.55, 0.2, 0.225] as Vector3) };
     const post = box("post", "Post", [0.55, 0.1, 0.4], [0.02, 0.02, 0.08]);
     expect(sentencesOf(check(cellOf(low, lid, post), carry(LOW_M)))).toEqual(["across: The held “Lid” would touch “Post” at t."]);
     expect(contactsOf(check(cellOf(WALL, box("carton", "Carton", [0.55, 0.2, 0.25], [0.1, 0.1, 0.1])), carry(LOW_M)))).toEqual([]);
