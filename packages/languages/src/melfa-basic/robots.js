@@ -1,6 +1,0 @@
-/** Robots whose controllers speak MELFA-BASIC. Joint angles are those of the library in degrees: its zeros are the maker's. */
-const SPOKEN = { mitsubishi_rv7fl: { nonFlip: "positive" } };
-/** What is known of the robot's controller, or undefined for a robot whose controller does not speak MELFA-BASIC. */
-export const spokenBy = (robot) => Object.hasOwn(SPOKEN, robot.id) ? SPOKEN[robot.id] : undefined;
-/** Numbers of inputs and of outputs. */
-export const LINES = [0, 32767];

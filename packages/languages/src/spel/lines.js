@@ -1,7 +1,0 @@
-export const LINES = {
-    motion: /^\s*(?:Go|Move|TGo|TMove|BGo|BMove|Jump\w*|Arc3?|CVMove|Pass|Home|Pulse)\b/i,
-    opens: /^\s*(?:If\b.*\bThen\s*(?:'.*)?$|For\b|Do\b|While\b|Select\b)/i,
-    parts: /^\s*(?:Else|ElseIf|Case|Default)\b/i,
-    closes: /^\s*(?:EndIf|Next|Loop|Wend|Send)\b/i,
-    keeps: /^\s*(?:#|Function\b|Fend\b)/i,
-};

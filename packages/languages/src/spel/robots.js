@@ -1,8 +1,0 @@
-/** Robots whose controllers speak SPEL+. Joint angles are those of the library in degrees: its zeros are the maker's. */
-const SPOKEN = { epson_c4_a601s: { noFlip: "positive" } };
-/** What is known of the robot's controller, or undefined for a robot whose controller does not speak SPEL+. */
-export const spokenBy = (robot) => Object.hasOwn(SPOKEN, robot.id) ? SPOKEN[robot.id] : undefined;
-/** Numbers of inputs and of outputs. */
-export const LINES = [0, 511];
-/** The output that closes the gripper, and its name. */
-export const GRIPPER = { name: "doGripper", output: 15 };
