@@ -3,6 +3,7 @@ import type { Face, FaceEvents, FaceMotion, Opened } from "../real/index.ts";
 import type { ByteStream, Network } from "../transport/index.ts";
 import { jointPart, RMI_ERROR, RMI_PORT, RmiReader, rmiBytes, rmiErrorWords, rmiJoints, rmiNumber, type RmiKey, type RmiPacket } from "./codec-rmi.ts";
 import { fanucJoints, JOINTS, jointsOf, shownOf, type FanucJoints } from "./joints.ts";
+import { DONE, refused, stopped } from "../outcomes.ts";
 
 export interface FanucFaceOptions {
   readonly robot: Robot;
@@ -25,9 +26,6 @@ interface Moving { readonly resolve: (outcome: CommandOutcome) => void; sequence
 
 const DIGITS = 12, PATIENCE_S = 2, STANDS_DEG = 2e-4;
 const refusal = (code: string, sentence: string, hint: string): Refusal => ({ code, sentence, hint });
-const refused = (why: Refusal): CommandOutcome => ({ kind: "refused", why });
-const stopped = (why: Refusal): CommandOutcome => ({ kind: "stopped", why });
-const DONE: CommandOutcome = { kind: "done" };
 const noAnswer = (sentence: string): Refusal => refusal("link.refused", sentence, "Look at the address, the cable, and whether option R912 is on the controller.");
 const closedHere = refusal("link.closed", "The connection was closed while the robot moved.", "Connect again, then command the move again.");
 const said = (id: number, hint: string): Refusal => refusal("fanuc.refused", `The controller refused: ${rmiErrorWords(id)}.`, hint);

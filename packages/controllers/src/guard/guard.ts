@@ -6,6 +6,7 @@ import { jointNumberRefusal, jointRefusal, percentRefusal } from "../refusals.ts
 import { jointMoveSpeed, speedBound, tcpOf } from "./speed.ts";
 import { AT_FIRST, guardStep, type GuardEvent, type GuardState } from "./state.ts";
 import { cameTooNear, commanderWentSilent, denialRefusal, leaseGivenBack, linkWentDown, switchLetGo, targetTooNear, tooFast } from "./words.ts";
+import { DONE, refused } from "../outcomes.ts";
 
 export interface GuardOptions {
   /** The robot behind the guard. Nothing else may command it. */
@@ -66,8 +67,6 @@ const REACTION_S = 0.02;
 const MANUAL_CAP_MPS = 0.25;
 /** Measured over one cycle the speed is a little noisy. */
 const SPEED_SLACK = 1.1;
-const DONE: CommandOutcome = { kind: "done" };
-const refused = (why: Refusal): CommandOutcome => ({ kind: "refused", why });
 
 /** Stands between any input and any robot. Everything it does on its own can only stop the robot or lead it back where it was safe. */
 export function createGuard(options: GuardOptions): Guard {

@@ -8,6 +8,7 @@ import type { Face } from "./face.ts";
 import { keepLink } from "./link.ts";
 import { sendSteps } from "./steps.ts";
 import { linkDown, notOpen, wasStopped } from "./words.ts";
+import { DONE, refused } from "../outcomes.ts";
 
 export interface RealOptions {
   readonly face: Face;
@@ -24,8 +25,6 @@ export interface RealOptions {
 type Lent = { -readonly [K in keyof JointSample]: JointSample[K] };
 interface Command { readonly settle: (outcome: CommandOutcome) => void; stopping: Refusal | null; seenMoving: boolean; moves: boolean; step: string; over: boolean }
 
-const DONE: CommandOutcome = { kind: "done" };
-const refused = (why: Refusal): CommandOutcome => ({ kind: "refused", why });
 /** A stop is over when the robot says so this many times, should the answer to the motion itself be lost. */
 const STANDS = 3;
 

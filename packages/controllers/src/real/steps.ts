@@ -4,8 +4,8 @@ import {
 import type { Face, FaceMotion } from "./face.ts";
 import { MotionMaker } from "./motion.ts";
 import { noPayload, notPrimitive, waitedInVain } from "./words.ts";
+import { DONE } from "../outcomes.ts";
 
-const DONE: CommandOutcome = { kind: "done" };
 const LOOK_S = 0.004;
 const refusedBy = (why: Refusal | null): CommandOutcome => why ? { kind: "refused", why } : DONE;
 

@@ -3,6 +3,7 @@ import { createGuard, type Guard, type GuardState, type Seat } from "../guard/in
 import { listeners } from "../listeners.ts";
 import { createTwin, PlanFollower, type Deviation, type Twin } from "../twin/index.ts";
 import { deviates, notEmitted } from "./words.ts";
+import { DONE } from "../outcomes.ts";
 
 export interface StationOptions {
   readonly controller: RobotController | RealController;
@@ -58,7 +59,6 @@ class HandedText implements Iterable<Step> {
 }
 
 const ALARM_RAD = Math.PI / 180;
-const DONE: CommandOutcome = { kind: "done" };
 
 /**
  * Makes a controller a station. Programs of controllers that take texts are handed over as text and watched; the guard's

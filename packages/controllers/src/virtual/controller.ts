@@ -4,6 +4,7 @@ import {
 } from "@twincell/core";
 import { listeners } from "../listeners.ts";
 import { busy, closed, drivesOff, guardOpen, guardStillOpen, jointNumberRefusal, jointRefusal, manualMode, percentRefusal, programFault, protective, stillBraking, stopped } from "../refusals.ts";
+import { DONE, refused } from "../outcomes.ts";
 
 export interface VirtualOptions {
   readonly robot: Robot;
@@ -53,8 +54,6 @@ export interface VirtualController extends RobotController {
 interface Command { readonly stepper: Stepper; readonly resolve: (outcome: CommandOutcome) => void; stopping: Refusal | null; begun: boolean; moving: boolean; step: string }
 type Lent = { -readonly [K in keyof JointSample]: JointSample[K] };
 
-const DONE: CommandOutcome = { kind: "done" };
-const refused = (why: Refusal): CommandOutcome => ({ kind: "refused", why });
 /** A page in the background gets few ticks: at most this much time is caught up in one. */
 const CATCH_UP_S = 1;
 

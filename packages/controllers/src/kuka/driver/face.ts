@@ -10,6 +10,7 @@ import { C3Client } from "./client.ts";
 import { KukaState, POLLED } from "./state.ts";
 import { runKrl } from "./text.ts";
 import * as say from "./words.ts";
+import { DONE, refused, stopped } from "../../outcomes.ts";
 
 export interface KukaFaceOptions {
   readonly robot: Robot;
@@ -35,9 +36,6 @@ export interface KukaFaceOptions {
 }
 interface Waiting { readonly number: number; readonly resolve: (outcome: CommandOutcome) => void; taken: boolean; cancelled: boolean }
 
-const DONE: CommandOutcome = { kind: "done" };
-const refused = (why: Refusal): CommandOutcome => ({ kind: "refused", why });
-const stopped = (why: Refusal): CommandOutcome => ({ kind: "stopped", why });
 const OUTPUT = /^\$(OUT|ANOUT)\[([0-9]{1,4})\]$/;
 /** Numbers are sent with more digits than a REAL keeps: rounding is left to the controller. */
 const DIGITS = 12;

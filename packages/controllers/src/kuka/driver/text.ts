@@ -1,12 +1,12 @@
-import type { CommandOutcome, EmittedFile, Refusal, Robot, Scheduler } from "@twincell/core";
+import type { CommandOutcome, EmittedFile, Robot, Scheduler } from "@twincell/core";
 import { C3_COMMAND } from "../codec-c3.ts";
 import { OVERWRITE } from "../codec-c3-requests.ts";
 import type { C3Client } from "./client.ts";
 import type { KukaState } from "./state.ts";
 import * as say from "./words.ts";
+import { refused } from "../../outcomes.ts";
 
 const CHUNK = 32_000, LOOK_S = 0.012, FOLDER = "KRC:\\R1\\PROGRAM\\";
-const refused = (why: Refusal): CommandOutcome => ({ kind: "refused", why });
 
 export interface RunningText { readonly outcome: Promise<CommandOutcome>; stop(): void }
 

@@ -12,10 +12,8 @@ import { primaryClient, type PrimaryClient } from "./primary-client.ts";
 import { openRtde, type RtdeClient } from "./rtde-client.ts";
 import { GRIPPER_LINE, OUTPUTS, RATE_HZ, UrReading } from "./state.ts";
 import * as words from "./words.ts";
+import { DONE, refused, stopped } from "../../outcomes.ts";
 
-const DONE: CommandOutcome = { kind: "done" };
-const refused = (why: Refusal): CommandOutcome => ({ kind: "refused", why });
-const stopped = (why: Refusal): CommandOutcome => ({ kind: "stopped", why });
 /** Without a state for this long the link is lost; the heartbeat goes five times as often as the robot wants it [s]. */
 const STALE_S = 0.08, BEAT_S = WATCHDOG_S / 5;
 /** A stop that the program on the robot does not confirm in this time goes through the dashboard as well [s]. */
