@@ -7,3 +7,4 @@ export * from "./constants.ts";
 export * from "./changes.ts";
 export * from "./outline.ts";
 export * from "./doors.ts";
+export * from "./forgiving.ts";
