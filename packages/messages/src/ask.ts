@@ -27,7 +27,11 @@ export const askSchema = z.discriminatedUnion("type", [
     type: z.literal("open"), ...asked, ...station, brand: text, robot: text, name: z.exactOptional(text), worldFromBase: z.exactOptional(pose),
     /** Where the controller is; left out, a virtual one is started where the host is. */
     address: z.exactOptional(z.strictObject({ host: text, ports: z.exactOptional(z.record(text, port)), data: z.exactOptional(z.record(text, angles)) })),
+    /** Opened to watch: nothing is commanded until somebody takes it to command. */
+    watch: z.exactOptional(z.boolean()),
   }),
+  /** Only to watch it from now on, or to command it again. */
+  z.strictObject({ type: z.literal("watch"), ...asked, ...station, on: z.boolean() }),
   z.strictObject({ type: z.enum(["close", "connect", "disconnect", "take", "release", "confirm", "reset"]), ...asked, ...station }),
   z.strictObject({ type: z.literal("hold"), ...asked, ...station, pressed: z.boolean() }),
   z.strictObject({ type: z.literal("speed"), ...asked, ...station, percent: z.number() }),

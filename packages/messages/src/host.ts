@@ -26,6 +26,8 @@ export interface HostedStation<Seat extends HostedSeat = HostedSeat> {
   seat(who: string): Seat;
   connect(): Promise<CommandOutcome>;
   disconnect(): void;
+  /** Only to watch it from now on, or to command it again: the connection is opened anew, as one or the other. */
+  watch(seat: Seat, on: boolean): Promise<CommandOutcome>;
   run(seat: Seat, program: Program, asText: boolean): Promise<CommandOutcome>;
   stop(emergency: boolean): void;
   /** The pendant of a virtual controller; null where a person stands before a real one. */
@@ -146,6 +148,7 @@ export function createHost(options: HostOptions): Host {
           case "release": return seat.release();
           case "confirm": return seat.confirm();
           case "reset": return seat.robot.reset();
+          case "watch": return station.watch(seat, ask.on);
           case "hold": return seat.hold(ask.pressed);
           case "speed": return seat.robot.setSpeed(ask.percent);
           case "move": return seat.robot.moveJoints(ask.q_rad);

@@ -41,7 +41,7 @@ export const tellSchema = z.discriminatedUnion("type", [
   }),
   z.strictObject({
     type: z.literal("guard"), ...station, holder: text.nullable(), pressed: z.boolean(), link: z.enum(["up", "lost", "unconfirmed"]),
-    motion: z.enum(["at-rest", "moving", "stopping", "returning"]), trip: z.enum(["none", "return-due", "return-wanted"]), emergency: z.boolean(),
+    motion: z.enum(["at-rest", "moving", "stopping", "returning"]), trip: z.enum(["none", "return-due", "return-wanted"]), emergency: z.boolean(), watching: z.boolean(),
   }),
   z.strictObject({ type: z.literal("notice"), ...station, why: refusal }),
   z.strictObject({ type: z.literal("pong"), sent_s: z.number(), host_s: z.number() }),

@@ -23,7 +23,7 @@ export function stationHost(scheduler: Scheduler, version: string): Host {
       if (!brand || !dialect) return refused({ code: "station.no-brand", sentence: `There is no driver for “${ask.brand}”.`, hint: `There are: ${BRANDS.map(({ id }) => id).join(", ")}, ${PLUG_IN}.` });
       if (!robot) return noRobot(ask.robot);
       return openStation({
-        id: ask.station, brand, robot, scheduler, dialect, heartbeat_s: HEARTBEAT_S,
+        id: ask.station, brand, robot, scheduler, dialect, heartbeat_s: HEARTBEAT_S, ...(ask.watch === undefined ? {} : { watching: ask.watch }),
         ...(ask.name === undefined ? {} : { name: ask.name }), ...(ask.worldFromBase ? { worldFromBase: ask.worldFromBase } : {}),
         ...(ask.address ? { at: { network, host: ask.address.host, ...(ask.address.ports ? { ports: ask.address.ports } : {}), ...(ask.address.data ? { data: ask.address.data } : {}) } } : {}),
       });

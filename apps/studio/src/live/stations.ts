@@ -27,7 +27,7 @@ const shelf = browserShelf();
 const lives = new Map<string, StationLive>(), recordings = new Map<string, Recording>(), told_ms = new Map<string, number>(), alive = new Map<string, number>();
 const TELL_EVERY_MS = 100, ALIVE_EVERY_MS = 25;
 const NO_LINK: StationState["link"] = { state: "closed", sentence: "", attempts: 0, rate_Hz: 0, late_s: 0, roundTrip_s: null, missing: 0 };
-const AT_REST: StationState["guard"] = { holder: null, pressed: false, link: "up", motion: "at-rest", trip: "none", emergency: false };
+const AT_REST: StationState["guard"] = { holder: null, pressed: false, link: "up", motion: "at-rest", trip: "none", emergency: false, watching: false };
 
 export const stationLive = (id: string): StationLive | undefined => lives.get(id);
 
@@ -37,13 +37,15 @@ export interface NewStation {
   readonly place: HostPlace;
   readonly stand: Pose<"world", "base">;
   readonly address?: { readonly host: string; readonly ports?: Readonly<Record<string, number>>; readonly data?: Readonly<Record<string, readonly number[]>> };
+  /** Only to watch what others do with it. */
+  readonly watch?: boolean;
 }
 
 const refusedAs = (sentence: string, hint: string): CommandOutcome => ({ kind: "refused", why: { code: "station.none", sentence, hint } });
 const hostOf = (id: string) => { const place = stationOf(id)?.place; return place && hostAt(place); };
 
 /** Opens and connects a station, and takes its lease. Programs of the cell are carried out as if its robot stood where the cell's stands. */
-export async function addStation({ brand, robot: robotId, place, stand, address }: NewStation): Promise<CommandOutcome> {
+export async function addStation({ brand, robot: robotId, place, stand, address, watch = false }: NewStation): Promise<CommandOutcome> {
   const host = hostAt(place), robot = robotById(robotId), { document } = cellStore.getState();
   if (!host || !robot || !document) return refusedAs(words.stations.noServer, words.stations.noServerHint);
   const taken = new Set(stationStore.getState().stations.map(({ id }) => id));
@@ -52,9 +54,10 @@ export async function addStation({ brand, robot: robotId, place, stand, address 
   lives.set(id, { robot, q_rad: Float64Array.from(robot.home_rad), revision: 0, received_s: 0, sent_s: 0 });
   stands.set(id, stand);
   const opened = await host.ask({
-    type: "open", station: id, brand, robot: robotId, worldFromBase: document.robot.worldFromBase, ...(address ? { address: { host: address.host, ...(address.ports ? { ports: { ...address.ports } } : {}), ...(address.data ? { data: Object.fromEntries(Object.entries(address.data).map(([name, numbers]) => [name, [...numbers]])) } : {}) } } : {}),
+    type: "open", station: id, brand, robot: robotId, worldFromBase: document.robot.worldFromBase, ...(watch ? { watch } : {}), ...(address ? { address: { host: address.host, ...(address.ports ? { ports: { ...address.ports } } : {}), ...(address.data ? { data: Object.fromEntries(Object.entries(address.data).map(([name, numbers]) => [name, [...numbers]])) } : {}) } } : {}),
   });
   if (opened.kind !== "done") { lives.delete(id); return opened; }
+  if (watch) return host.ask({ type: "connect", station: id });
   const took = await host.ask({ type: "take", station: id });
   return took.kind === "done" ? host.ask({ type: "connect", station: id }) : took;
 }
@@ -65,6 +68,13 @@ export const askStation = (id: string, type: "connect" | "disconnect" | "confirm
   hostOf(id)?.ask({ type, station: id }) ?? Promise.resolve(refusedAs(words.stations.gone, ""));
 export const atPendant = (id: string, act: PendantAct): Promise<CommandOutcome> =>
   hostOf(id)?.ask({ type: "pendant", station: id, act }) ?? Promise.resolve(refusedAs(words.stations.gone, ""));
+/** Only to watch it from now on; or to command it, with its lease. */
+export async function watchStation(id: string, on: boolean): Promise<CommandOutcome> {
+  const host = hostOf(id);
+  if (!host) return refusedAs(words.stations.gone, "");
+  const turned = await host.ask({ type: "watch", station: id, on });
+  return turned.kind === "done" && !on ? host.ask({ type: "take", station: id }) : turned;
+}
 export function stopStation(id: string, emergency = false): void { hostOf(id)?.stop(id, emergency); }
 export async function pullPlug(id: string, pulled: boolean): Promise<void> {
   const outcome = await hostOf(id)?.ask({ type: "plug", station: id, pulled });
@@ -98,7 +108,7 @@ export async function runStation(id: string): Promise<CommandOutcome> {
 
 /** All that are at rest begin in the same turn. */
 export async function runAll(): Promise<void> {
-  const ready = stationStore.getState().stations.filter(({ running, link }) => !running && link.state === "open");
+  const ready = stationStore.getState().stations.filter(({ running, link, guard }) => !running && link.state === "open" && !guard.watching);
   const outcomes = await Promise.all(ready.map(async station => ({ station, outcome: await runStation(station.id) })));
   for (const { station, outcome } of outcomes) if (outcome.kind !== "done") notify(outcome.kind === "stopped" ? "warn" : "bad", `${station.name}: ${outcome.why.sentence}`, outcome.why.hint);
 }

@@ -51,6 +51,8 @@ export const en = {
     plan: "From the plan", command: "From the command", watchdog: "If nobody commands", mode: "Mode", safety: "Safety", step: "Step", ms: (s: number) => `${(s * 1000).toFixed(1)} ms`,
     pendant: "Cabinet", key: "Mode switch", gate: "Gate", gateOpen: "Open the gate", gateClose: "Close the gate", red: "Press the red button", redOut: "Turn the red button out", reboot: "Off and on again",
     noServer: "Real controllers are reached through the Twincell server.", noServerHint: "Start npx twincell serve and open the address it prints.", gone: "This controller is no longer there.",
+    watching: "Watched only. Nothing is commanded from here; STOP still stops it.", watchingShort: "watched only", take: "Take it to command", watch: "Only watch", watchTip: "Gives the command back. From then on nothing but a stop is sent.",
+    purpose: "Open it", purposes: { command: "to command", watch: "to watch only" }, purposeHint: "Watched only: whoever moves the robot is left alone. A stop is still sent.",
     unreached: (robot: string, n: number) => `${robot} does not reach ${plural(n, "step")} of the program.`, unreachedHint: "Bring the points nearer, or choose a larger robot.", faultHint: "Its controllers were closed here. Nothing goes on by itself.",
     done: (name: string) => `${name}: the program is done.`, card: (name: string) => `Controller ${name}`,
   },

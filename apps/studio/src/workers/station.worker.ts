@@ -28,7 +28,7 @@ const host = createHost({
     if (!brand || !dialect || !robot) return refused({ code: "station.none", sentence: `There is no virtual controller “${ask.brand}” for “${ask.robot}”.`, hint: "Choose another robot." });
     if (ask.address) return refused({ code: "station.no-network", sentence: "A page has no network of its own: real controllers are reached through the server.", hint: "Start Twincell with npx twincell serve and open its address." });
     return openStation({
-      id: ask.station, brand, robot, scheduler, dialect,
+      id: ask.station, brand, robot, scheduler, dialect, ...(ask.watch === undefined ? {} : { watching: ask.watch }),
       ...(ask.name === undefined ? {} : { name: ask.name }), ...(ask.worldFromBase ? { worldFromBase: ask.worldFromBase } : {}),
     });
   },

@@ -14,6 +14,8 @@ export interface StationOptions {
   readonly isSafe?: (q_rad: Float64Array) => boolean;
   /** Motion only while the commander keeps a switch pressed; see the guard. */
   readonly deadMan?: boolean;
+  /** Begins as one that is only watched; see the guard. */
+  readonly watching?: boolean;
   /** Without a sample for this long the link counts as lost; see the guard. */
   readonly silence_s?: number;
   readonly heartbeat_s?: number;
@@ -78,6 +80,7 @@ export function createStation(options: StationOptions): Station {
   const guard = createGuard({
     controller: handing, scheduler,
     ...(options.flangeFromTcp ? { flangeFromTcp: options.flangeFromTcp } : {}), ...(options.isSafe ? { isSafe: options.isSafe } : {}),
+    ...(options.watching === undefined ? {} : { watching: options.watching }),
     ...(options.deadMan === undefined ? {} : { deadMan: options.deadMan }), ...(options.silence_s === undefined ? {} : { silence_s: options.silence_s }),
     ...(options.heartbeat_s === undefined ? {} : { heartbeat_s: options.heartbeat_s }), ...(options.brakingTime_s === undefined ? {} : { brakingTime_s: options.brakingTime_s }),
   });

@@ -235,6 +235,8 @@ export function createKukaFace(options: KukaFaceOptions): Face {
       if (waiting && !waiting.taken) waiting.cancelled = true;
       brake(emergency);
       text?.stop();
+      // A program of somebody else's does not listen to our variables.
+      if (!text && state?.programState === "P_ACTIVE" && !state.loopRuns && types.includes(C3_TYPE.control)) void client?.order({ kind: "control", command: C3_COMMAND.stop, interpreter: 1 });
     },
     setOverride(ratio) {
       void client?.ask({ kind: "write", wide: true, name: "$OV_PRO", value: String(Math.round(100 * ratio)) });

@@ -32,6 +32,8 @@ interface Open {
   readonly orders: Orders;
   /** Timers that end with the connection. */
   readonly stops: (() => void)[];
+  /** Opened to watch: no inputs are taken and no program is uploaded. */
+  readonly watched: boolean;
   remote: boolean;
   said: string;
   /** Heartbeats since the controller last told that it heard one, and the one that it told. */
@@ -100,6 +102,7 @@ export function createUrFace(options: FaceOptions): Face {
     return answer.kind === "connected" ? answer.stream : answer.sentence;
   }
   async function attempt(events: FaceEvents): Promise<Opened> {
+    const watched = options.isWatched?.() ?? false;
     const mine = ++life, isMine = (): boolean => mine === life, streams: ByteStream[] = [];
     const failed = (why: Refusal, again = true): Opened => {
       for (const stream of streams) stream.close();
@@ -120,7 +123,7 @@ export function createUrFace(options: FaceOptions): Face {
     if (model.trim() !== wanted) return failed(words.otherModel(robot, wanted, model.trim()), false);
     const isRemote = await dashboard.ask("is in remote control");
     let at: Open | null = null;
-    const rtde = await openRtde(third!, scheduler, OUTPUTS, INPUTS, RATE_HZ, {
+    const rtde = await openRtde(third!, scheduler, OUTPUTS, watched ? [] : INPUTS, RATE_HZ, {
       state() {
         if (!at || !isMine()) return;
         events.sample(at.reading.read(at.remote, message(at)));
@@ -135,14 +138,14 @@ export function createUrFace(options: FaceOptions): Face {
       rtde: client, dashboard, reading, orders: new Orders(client.inputs, robot, Math.floor(scheduler.now_s() * 1000) % 1_000_000), stops: [],
       primary: primaryClient(second!, said => { if (isMine()) onMessage(() => at, said); }, lost),
       // Controllers before 5.6 know no local control, and do not understand the question.
-      remote: isRemote !== "false", said: "", unheard: 0, echo: NaN,
+      watched, remote: isRemote !== "false", said: "", unheard: 0, echo: NaN,
     };
     open = at;
     at.stops.push(scheduler.every(BEAT_S, () => {
       if (!at) return;
       at.orders.beat();
       at.rtde.send(GROUPS.heartbeat);
-      if (++at.unheard > DEAF) lost("The controller sends states and does not hear what is sent to it.");
+      if (!watched && ++at.unheard > DEAF) lost("The controller sends states and does not hear what is sent to it.");
     }));
     let asking = false;
     at.stops.push(scheduler.every(ASK_REMOTE_S, () => {
@@ -152,7 +155,7 @@ export function createUrFace(options: FaceOptions): Face {
     }));
     if (!await until(() => reading.robotMode !== 0 || reading.runtime !== 0, STALE_S * 10)) { closeAll(); return { kind: "failed", why: words.noAnswer("RTDE sends no states."), again: true }; }
     // A program of somebody else's is left alone; it is told when a motion is asked for.
-    if (reading.mayMove && at.remote && reading.isIdle) await program();
+    if (!watched && reading.mayMove && at.remote && reading.isIdle) await program();
     return open === at ? { kind: "open" } : { kind: "failed", why: words.noAnswer("The connection broke while it was being opened."), again: true };
   }
 
@@ -252,7 +255,8 @@ export function createUrFace(options: FaceOptions): Face {
   function stop(emergency: boolean): void {
     const at = open;
     if (!at) return;
-    if (textRunning || at.rtde.waiting > 0) void at.dashboard.ask("stop");
+    // Whatever program runs there: of one that is only watched nothing else is known.
+    if (textRunning || at.watched || at.rtde.waiting > 0) void at.dashboard.ask("stop");
     const number = at.orders.stop();
     at.rtde.send(GROUPS.order);
     awaited = number;
