@@ -4,7 +4,7 @@ import { OVERWRITE } from "../codec-c3-requests.ts";
 import type { C3Client } from "./client.ts";
 import type { KukaState } from "./state.ts";
 import * as say from "./words.ts";
-import { refused } from "../../outcomes.ts";
+import { refused, stopped } from "../../outcomes.ts";
 
 const CHUNK = 32_000, LOOK_S = 0.012, FOLDER = "KRC:\\R1\\PROGRAM\\";
 
@@ -20,10 +20,10 @@ export function runKrl(files: readonly EmittedFile[], client: C3Client, state: K
   const control = (command: number): Promise<boolean> => client.order({ kind: "control", command, interpreter: 1 });
 
   async function outcome(): Promise<CommandOutcome> {
-    const main = files.find(({ name }) => /\.src$/i.test(name));
+    const main = mainOf(files);
     if (!main) return refused(say.fileRefused("without .src"));
     for (const file of files) if (!await put(client, file)) return refused(say.fileRefused(file.name));
-    const name = main.name.replace(/\.src$/i, "").toUpperCase();
+    const name = nameOf(main);
     await control(C3_COMMAND.cancel);
     if (!await client.order({ kind: "select", run: false, name: `${FOLDER}${main.name}`, parameters: "", force: false })) return refused(say.programRefused(name));
     if (!wanted || !await control(C3_COMMAND.start)) return refused(wanted ? say.programRefused(name) : say.stoppedHere(robot));
@@ -35,6 +35,7 @@ export function runKrl(files: readonly EmittedFile[], client: C3Client, state: K
     let seen = state.sample.sequence, second = false;
     return new Promise(resolve => {
       const stopLooking = scheduler.every(LOOK_S, () => {
+        if (client.isClosed) { stopLooking(); resolve(stopped(say.closedHere)); return; }
         if (state.sample.sequence === seen) return;
         seen = state.sample.sequence;
         const end = (with_: CommandOutcome): void => {
@@ -59,6 +60,11 @@ export function runKrl(files: readonly EmittedFile[], client: C3Client, state: K
     },
   };
 }
+
+const mainOf = (files: readonly EmittedFile[]): EmittedFile | undefined => files.find(({ name }) => /\.src$/i.test(name));
+const nameOf = ({ name }: EmittedFile): string => name.replace(/\.src$/i, "").toUpperCase();
+/** What the controller will call the program of those files; "" when there is none. */
+export const programOf = (files: readonly EmittedFile[]): string => { const main = mainOf(files); return main ? nameOf(main) : ""; };
 
 async function put(client: C3Client, { name, text }: EmittedFile): Promise<boolean> {
   const bytes = Uint8Array.from(text, sign => sign.charCodeAt(0) & 255);
