@@ -136,7 +136,7 @@ export function createKukaRsiFace(options: KukaRsiFaceOptions): Face {
     settle({ kind: "stopped", why: say.closedHere });
   }
 
-  const { runText } = base;
+  const { runText, handText } = base;
   return {
     brand: "KUKA", robot, stale_s: base.stale_s, open, close,
     watchdog: config.onlySend ? { kind: "none", because: "RSI only sends; nothing from here moves the robot." } : { kind: "robot", within_s: (options.timeout ?? 100) * cycle_s },
@@ -156,7 +156,7 @@ export function createKukaRsiFace(options: KukaRsiFaceOptions): Face {
     setOverride(ratio) { override = ratio; return null; },
     reset: () => base.reset(),
     setSignal: (signal, value) => base.setSignal(signal, value), setGripper: closed => base.setGripper(closed),
-    ...(runText ? { runText: files => runText.call(base, files) } : {}),
+    ...(runText ? { runText: files => runText.call(base, files) } : {}), ...(handText ? { handText: files => handText.call(base, files) } : {}),
   };
 }
 
