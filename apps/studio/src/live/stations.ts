@@ -54,7 +54,7 @@ export async function addStation({ brand, robot: robotId, place, stand, address,
   lives.set(id, { robot, q_rad: Float64Array.from(robot.home_rad), revision: 0, received_s: 0, sent_s: 0 });
   stands.set(id, stand);
   const opened = await host.ask({
-    type: "open", station: id, brand, robot: robotId, worldFromBase: document.robot.worldFromBase, ...(watch ? { watch } : {}), ...(address ? { address: { host: address.host, ...(address.ports ? { ports: { ...address.ports } } : {}), ...(address.data ? { data: Object.fromEntries(Object.entries(address.data).map(([name, numbers]) => [name, [...numbers]])) } : {}) } } : {}),
+    type: "open", station: id, brand, robot: robotId, worldFromBase: document.robot.worldFromBase, stand, ...(watch ? { watch } : {}), ...(address ? { address: { host: address.host, ...(address.ports ? { ports: { ...address.ports } } : {}), ...(address.data ? { data: Object.fromEntries(Object.entries(address.data).map(([name, numbers]) => [name, [...numbers]])) } : {}) } } : {}),
   });
   if (opened.kind !== "done") { lives.delete(id); return opened; }
   if (watch) return host.ask({ type: "connect", station: id });
@@ -113,6 +113,36 @@ export async function runAll(): Promise<void> {
   for (const { station, outcome } of outcomes) if (outcome.kind !== "done") notify(outcome.kind === "stopped" ? "warn" : "bad", `${station.name}: ${outcome.why.sentence}`, outcome.why.hint);
 }
 
+/** How each of a group ended, as its host said just before it answered. */
+const groupEnds = new Map<string, CommandOutcome>();
+
+/** All or none: every one is made ready first, then all begin on the clock of their host, and whoever is stopped stops all. */
+export async function startTogether(ids: readonly string[]): Promise<CommandOutcome> {
+  const group: { readonly station: StationState; readonly live: StationLive; readonly program: Program }[] = [];
+  for (const id of ids) {
+    const wanted = programFor(id), station = stationOf(id), live = lives.get(id);
+    if (!wanted || !station || !live) return refusedAs(words.stations.gone, "");
+    if (wanted.program.steps.length === 0) return refusedAs(words.run.nothing, "");
+    if (wanted.unreached.length > 0) return refusedAs(words.stations.unreached(live.robot.name, wanted.unreached.length), words.stations.unreachedHint);
+    group.push({ station, live, program: wanted.program });
+  }
+  const [first] = group, host = first && hostAt(first.station.place);
+  if (!host) return refusedAs(words.stations.gone, "");
+  if (group.some(({ station }) => station.place !== first.station.place)) return refusedAs(words.stations.twoClocks, words.stations.twoClocksHint);
+  const running = group.map(({ station, live, program }) => {
+    changeStation(station.id, { running: true, notice: "" });
+    return { id: station.id, recording: beginRecording(station, live, program.name) };
+  });
+  for (const id of ids) groupEnds.delete(id);
+  const outcome = await host.ask({ type: "together", members: group.map(({ station, program }) => ({ station: station.id, program, asText: true })) });
+  for (const { id, recording } of running) {
+    const own = groupEnds.get(id) ?? outcome;
+    await endRecording(id, recording, own);
+    changeStation(id, { running: false, notice: own.kind === "done" ? "" : own.why.sentence });
+  }
+  return outcome;
+}
+
 function beginRecording(station: StationState, { robot }: StationLive, program: string): Recording {
   const startedAt = new Date(), run = `${startedAt.toISOString().replace(/[:.]/g, "-")} ${station.id}`, file = openRunFile(shelf, run), cell = cellStore.getState().document?.name ?? "";
   const recorder = createRunRecorder(file.sink, { robot, startedAt_ns: BigInt(startedAt.getTime()) * 1_000_000n, program, cell, chunk_s: 0.5 });
@@ -155,6 +185,11 @@ function take(place: HostPlace, message: Told): void {
     case "link": if (message.state !== stationOf(message.station)?.link.state || due(`${message.station} link`)) changeStation(message.station, { link: message }); break;
     case "guard": changeStation(message.station, { guard: message }); break;
     case "notice": changeStation(message.station, { notice: message.why.sentence }); recordings.get(message.station)?.recorder.event(message.why.code, message.why.sentence, "warning"); break;
+    case "began":
+      notify("info", words.stations.began(message.stations.length, Math.round(1000 * message.spread_s)));
+      for (const id of message.stations) recordings.get(id)?.recorder.event("group.began", words.stations.began(message.stations.length, Math.round(1000 * message.spread_s)));
+      break;
+    case "ended": for (const { station, outcome } of message.stations) groupEnds.set(station, outcome); break;
     case "sample": show(message); break;
     case "fault":
       notify("bad", message.sentence, words.stations.faultHint);

@@ -51,6 +51,8 @@ export const en = {
     plan: "From the plan", command: "From the command", watchdog: "If nobody commands", mode: "Mode", safety: "Safety", step: "Step", ms: (s: number) => `${(s * 1000).toFixed(1)} ms`,
     pendant: "Cabinet", key: "Mode switch", gate: "Gate", gateOpen: "Open the gate", gateClose: "Close the gate", red: "Press the red button", redOut: "Turn the red button out", reboot: "Off and on again",
     noServer: "Real controllers are reached through the Twincell server.", noServerHint: "Start npx twincell serve and open the address it prints.", gone: "This controller is no longer there.",
+    together: "Start together", togetherTip: "All are made ready first. If one refuses nobody starts; whoever is stopped stops all.", togetherOf: "Those that start together", began: (n: number, ms: number) => `${n} robots began together, within ${ms} ms.`, togetherDone: "The common run is done.",
+    twoClocks: "Some of them are in this page and some on the server: they have no common clock.", twoClocksHint: "Start those of one place together.",
     watching: "Watched only. Nothing is commanded from here; STOP still stops it.", watchingShort: "watched only", take: "Take it to command", watch: "Only watch", watchTip: "Gives the command back. From then on nothing but a stop is sent.",
     purpose: "Open it", purposes: { command: "to command", watch: "to watch only" }, purposeHint: "Watched only: whoever moves the robot is left alone. A stop is still sent.",
     unreached: (robot: string, n: number) => `${robot} does not reach ${plural(n, "step")} of the program.`, unreachedHint: "Bring the points nearer, or choose a larger robot.", faultHint: "Its controllers were closed here. Nothing goes on by itself.",
@@ -153,6 +155,7 @@ export const en = {
   check: {
     title: "Verdict", clearance: "Clearance", margin: "Joint margin", reach: "Reach", cycle: "Cycle", reachOk: (n: number) => `${n} of ${n}`, reachBad: (bad: number, all: number) => `${bad} of ${all} fail`, notMeasured: "not measured",
     checking: "Checking …", percent: (p: number) => `Checking … ${p} %`, cancel: "Cancel check", again: "Check again", repairAll: (n: number) => `Repair all (${n})`, fine: "Every step can be carried out.", none: "There is nothing to check yet. Add a step first.", notYet: "Not checked yet.",
+    others: (n: number) => (n === 1 ? "Check against the other robot where it stands" : `Check against the ${n} other robots where they stand`),
     assumptions: "What this rests on", cancelled: "The check was cancelled.", stale: "The program changed; it is being checked again.", why: "Why", whyNone: "Nothing stands in the way.", more: (n: number) => `and ${n} more`, affected: (n: number) => `${plural(n, "point")} ${n === 1 ? "is" : "are"} affected.`, repaired: (n: number) => `${plural(n, "repair")} applied.`,
     shown: "This is how it would stand. Esc goes back.", at: (s: string) => `at ${s} s`, trouble: "The program could not be checked:", joint: "Joints at this moment",
   },

@@ -1,6 +1,7 @@
 import {
   distance, hardBrakingTime_s, identity, type CommandOutcome, type JointSample, type Pose, type Refusal, type RobotController, type Scheduler, type Signals,
 } from "@twincell/core";
+import type { Place } from "../cell/index.ts";
 import { listeners } from "../listeners.ts";
 import { jointNumberRefusal, jointRefusal, percentRefusal } from "../refusals.ts";
 import { jointMoveSpeed, speedBound, tcpOf } from "./speed.ts";
@@ -23,6 +24,8 @@ export interface GuardOptions {
   /** Longest time the robot needs to stop; how far ahead the clearance is looked at follows from it. */
   readonly brakingTime_s?: number;
   readonly flangeFromTcp?: Pose<"flange", "tcp">;
+  /** The other robots of the cell; see `createSharedCell`. */
+  readonly place?: Place;
   /** Begins as one that is only watched; see `Seat.watch`. */
   readonly watching?: boolean;
   /** Speed of the tool in manual mode. */
@@ -41,6 +44,8 @@ export interface Seat {
   confirm(): CommandOutcome;
   /** Only to look at what others do with the robot, or to command it again. While it is watched only a stop is sent. */
   watch(on: boolean): CommandOutcome;
+  /** Why a command would be turned down now; nothing is sent and nothing changes. */
+  readiness(): Refusal | null;
   /** Sign of life, where heartbeats are asked for. */
   alive(): void;
   /** The robot as this seat may command it. */
@@ -74,7 +79,7 @@ const SPEED_SLACK = 1.1;
 
 /** Stands between any input and any robot. Everything it does on its own can only stop the robot or lead it back where it was safe. */
 export function createGuard(options: GuardOptions): Guard {
-  const { controller, scheduler } = options, { robot, jumpTo } = controller, n = robot.arm.joints.length;
+  const { controller, scheduler, place } = options, { robot, jumpTo } = controller, n = robot.arm.joints.length;
   const rules = { deadMan: options.deadMan ?? controller.kind !== "virtual" };
   const isSafe = options.isSafe ?? (() => true), silence_s = options.silence_s ?? 0.06, cap_mps = options.manualCap_mps ?? MANUAL_CAP_MPS;
   const braking_s = options.brakingTime_s ?? hardBrakingTime_s(robot);
@@ -132,12 +137,13 @@ export function createGuard(options: GuardOptions): Guard {
 
   /** Asks, then lets the robot do it, then says how it ended and why. */
   async function command(who: string, target_rad: ArrayLike<number> | null, go: () => Promise<CommandOutcome>): Promise<CommandOutcome> {
-    const why = watchedOnly() ?? (target_rad ? jointRefusal(robot, target_rad) ?? pointRefusal(target_rad) : null);
+    const why = watchedOnly() ?? (target_rad ? jointRefusal(robot, target_rad) ?? pointRefusal(target_rad) ?? place?.targetRefusal(target_rad) ?? null : null);
     if (why) return refused(why);
     const denied = send({ type: "ask", who });
     if (denied) return refused(denied);
     because = null;
     leaving = !isSafe(q_rad);
+    place?.begin();
     capped = cappedFor(target_rad);
     applySpeed();
     let outcome: CommandOutcome | null = null;
@@ -176,7 +182,9 @@ export function createGuard(options: GuardOptions): Guard {
       q_rad[i] = lent.q_rad[i]!;
     }
     // From a part of full speed a joint stops in that part of the braking time, half as far as it would go in it.
-    for (let i = 0; i < n; i++) ahead_rad[i] = q_rad[i]! + ahead_rad[i]! * (part * braking_s / 2 + REACTION_S);
+    // From where it is commanded to be by now, where the controller says so: what was commanded will come.
+    const from_rad = lent.target_rad ?? lent.q_rad;
+    for (let i = 0; i < n; i++) ahead_rad[i] = from_rad[i]! + ahead_rad[i]! * (part * braking_s / 2 + REACTION_S);
     time_s = lent.time_s;
     [tip, tipBefore] = [tipBefore, tip];
     tcp(q_rad, tip);
@@ -184,6 +192,12 @@ export function createGuard(options: GuardOptions): Guard {
     if (underWay && manual && known) {
       const speed_mps = distance(tip.position, tipBefore.position) / dt_s;
       if (speed_mps > SPEED_SLACK * cap_mps) { notice(tooFast(speed_mps, cap_mps)); send({ type: "stop", emergency: false }); }
+    }
+    if (place) {
+      place.guarded = state.motion !== "at-rest";
+      place.tell(q_rad, ahead_rad);
+      const near = underWay ? place.tooNear() : null;
+      if (near) { notice(near); send({ type: "stop", emergency: false }); }
     }
     const here = isSafe(q_rad);
     if (leaving) { leaving = !here; return; }
@@ -233,6 +247,10 @@ export function createGuard(options: GuardOptions): Guard {
       watch(on) {
         if (on && state.holder === who && state.motion === "moving") because = leaseGivenBack;
         return act({ type: "watch", who, on });
+      },
+      readiness() {
+        const { denied } = guardStep(state, { type: "ask", who }, rules);
+        return denied ? denialRefusal(denied, robot.name, state.holder) : null;
       },
       confirm() { alive_s = scheduler.now_s(); return act({ type: "confirm", who }); },
       alive() { if (state.holder === who) alive_s = scheduler.now_s(); },
@@ -296,6 +314,7 @@ export function createGuard(options: GuardOptions): Guard {
     close() {
       if (state.motion !== "at-rest") controller.stop();
       unsubscribe();
+      place?.leave();
       stopWatching();
       changes.clear();
       notices.clear();

@@ -1,9 +1,10 @@
-import { planProgram, unrolled, type CommandOutcome, type Dialect, type OperatingMode, type Pose, type Program, type Refusal, type Robot, type Scheduler } from "@twincell/core";
+import { planProgram, unrolled, type CommandOutcome, type Dialect, type OperatingMode, type PlanAnswer, type Pose, type Program, type Refusal, type Robot, type Scheduler } from "@twincell/core";
 import { createRealController, type Brand, type BrandVirtual, type ControllerData, type PortNumbers } from "../real/index.ts";
 import { memoryNetwork, type Network } from "../transport/index.ts";
+import type { SharedCell } from "../cell/index.ts";
 import type { Seat } from "../guard/index.ts";
 import { DONE, refused } from "../outcomes.ts";
-import { createStation, type Station } from "./station.ts";
+import { createStation, type Armed, type Station, type StationJob } from "./station.ts";
 
 export interface OpenOptions {
   readonly id: string;
@@ -16,6 +17,8 @@ export interface OpenOptions {
   readonly worldFromBase?: Pose<"world", "base">;
   /** Where the controller is. Left out, a virtual one is started beside its driver, in memory. */
   readonly at?: { readonly network: Network; readonly host: string; readonly ports?: PortNumbers; readonly data?: ControllerData };
+  /** The cell it shares with other robots, and where it stands there; `worldFromBase` is where its programs take it to stand. */
+  readonly shared?: { readonly cell: SharedCell; readonly stand: Pose<"world", "base"> };
   readonly deadMan?: boolean;
   readonly heartbeat_s?: number;
   /** Opened to watch: whoever moves the robot is left alone, and from here it is not commanded. */
@@ -42,6 +45,8 @@ export interface BrandStation extends Station {
   readonly plug: ((pulled: boolean) => void) | null;
   /** Runs a program from that seat, compared with its plan all the way; as text where wanted and taken. */
   run(seat: Seat, program: Program, asText: boolean): Promise<CommandOutcome>;
+  /** The same in two, for a start together with others: what may be refused is told before anything moves. */
+  prepare(seat: Seat, program: Program, asText: boolean): Promise<Armed>;
   stop(emergency: boolean): void;
   /** Only to watch it from now on, or to command it again. */
   watch(seat: Seat, on: boolean): Promise<CommandOutcome>;
@@ -67,11 +72,16 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
   let isWatched = options.watching === true;
   const face = brand.face({ robot, scheduler, network, host, ...(ports ? { ports } : {}), ...(options.at?.data ? { data: options.at.data } : {}), isWatched: () => isWatched });
   const controller = createRealController({ face, scheduler, name, ...(worldFromBase ? { worldFromBase } : {}) });
+  const place = options.shared?.cell.join({ id: options.id, name, robot, worldFromBase: options.shared.stand, ...(virtual ? { brakingTime_s: virtual.brakingTime_s } : {}) });
   const station = createStation({
-    controller, scheduler, name, silence_s: face.stale_s, ...(options.watching === undefined ? {} : { watching: options.watching }),
+    controller, scheduler, name, silence_s: face.stale_s, ...(place ? { place } : {}), ...(options.watching === undefined ? {} : { watching: options.watching }),
     ...(worldFromBase ? { worldFromBase } : {}), ...(virtual ? { brakingTime_s: virtual.brakingTime_s } : {}),
     ...(options.heartbeat_s === undefined ? {} : { heartbeat_s: options.heartbeat_s }),
     deadMan: options.deadMan ?? near === null,
+  });
+  const layOut = (program: Program): PlanAnswer => planProgram(program, robot, { start_rad: controller.jointAngles(), ...(worldFromBase ? { worldFromBase } : {}) });
+  const jobOf = (program: Program, asText: boolean, answer: PlanAnswer): StationJob => ({
+    program, steps: () => unrolled(program, controller.signals), ...(asText ? { dialect } : {}), ...(answer.kind === "planned" ? { plan: answer.plan } : {}),
   });
   return {
     kind: "opened",
@@ -96,12 +106,11 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
         const rejoined = await rejoin(station);
         return on ? rejoined : rejoined.kind === "done" ? seat.watch(false) : rejoined;
       },
-      run(seat, program, asText) {
-        const answer = planProgram(program, robot, { start_rad: controller.jointAngles(), ...(worldFromBase ? { worldFromBase } : {}) });
-        return station.carryOut(seat, {
-          program, steps: () => unrolled(program, controller.signals),
-          ...(asText ? { dialect } : {}), ...(answer.kind === "planned" ? { plan: answer.plan } : {}),
-        });
+      run: (seat, program, asText) => station.carryOut(seat, jobOf(program, asText, layOut(program))),
+      async prepare(seat, program, asText) {
+        const answer = layOut(program);
+        if (answer.kind === "stuck") return { kind: "refused", why: { code: answer.stuck.code, sentence: answer.stuck.sentence, hint: answer.stuck.hint } };
+        return station.arm(seat, jobOf(program, asText, answer));
       },
       close() {
         station.close();

@@ -10,6 +10,7 @@ import { HoldButton } from "../../ui/HoldButton.tsx";
 import { Tip } from "../../ui/Tip.tsx";
 import { words } from "../../words/index.ts";
 import { Cabinet } from "./Cabinet.tsx";
+import { Together } from "./Together.tsx";
 import "./stations.css";
 
 /** The other controllers of the cell: each with its link, its guard, and what can be done with it now. */
@@ -23,7 +24,8 @@ export function Stations() {
       <div className="section stations">
         {stations.length === 0 && <p className="small muted">{words.stations.none}</p>}
         {stations.map(station => <Card key={station.id} station={station} />)}
-        {stations.length > 1 && <button className="btn primary" disabled={ready.length === 0} onClick={() => { void runAll(); }}><Play />{words.stations.runAll}</button>}
+        {stations.length > 1 && <Together stations={stations} />}
+        {stations.length > 1 && <button className="btn" disabled={ready.length === 0} onClick={() => { void runAll(); }}><Play />{words.stations.runAll}</button>}
         {stations.length === 0 && <button className="btn" onClick={() => openDialog("station")}><Plus />{words.stations.add}</button>}
       </div>
     </section>

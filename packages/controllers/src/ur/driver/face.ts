@@ -1,4 +1,4 @@
-import type { CommandOutcome, EmittedFile, Refusal } from "@twincell/core";
+import type { CommandOutcome, EmittedFile, HandedText, Refusal } from "@twincell/core";
 import type { Face, FaceEvents, FaceMotion, FaceOptions, Opened } from "../../real/index.ts";
 import type { ByteStream } from "../../transport/index.ts";
 import { REPLIES } from "../codec/dashboard.ts";
@@ -47,7 +47,7 @@ interface Open {
  */
 export function createUrFace(options: FaceOptions): Face {
   const { robot, scheduler, network, host } = options, ports = { ...UR_PORTS, ...options.ports };
-  let open: Open | null = null, life = 0, textRunning = false;
+  let open: Open | null = null, life = 0, textRunning = false, stops = 0;
   let settle: ((outcome: CommandOutcome) => void) | null = null, awaited = 0, goal: CommandOutcome = DONE;
 
   const end = (outcome: CommandOutcome): void => { const is = settle; settle = null; is?.(outcome); };
@@ -225,20 +225,26 @@ export function createUrFace(options: FaceOptions): Face {
     return why ? refused(why) : DONE;
   }
 
-  async function runText(files: readonly EmittedFile[]): Promise<CommandOutcome> {
-    const at = open, text = files[0]?.text;
-    if (!at) return refused(words.noAnswer("There is no connection."));
-    if (text === undefined || text.trim() === "") return refused(words.noText());
-    const { reading } = at;
-    if (!at.remote) return refused(words.inLocal(robot));
-    if (!reading.mayMove) return refused(words.notReady(robot, robotModeName(reading.robotMode), safetyModeName(reading.safetyMode)));
-    // Our own program makes room; its end is the sign that the next one to play is this text.
+  /** Our own program makes room for it; it is sent when it is to start, because a UR begins with a text as soon as it has it. */
+  async function handText(files: readonly EmittedFile[]): Promise<HandedText> {
+    const at = open, text = files[0]?.text, no = (why: Refusal): HandedText => { textRunning = false; return { kind: "refused", why }; };
+    if (!at) return no(words.noAnswer("There is no connection."));
+    if (text === undefined || text.trim() === "") return no(words.noText());
+    const { reading } = at, before = stops;
+    if (!at.remote) return no(words.inLocal(robot));
+    if (!reading.mayMove) return no(words.notReady(robot, robotModeName(reading.robotMode), safetyModeName(reading.safetyMode)));
     textRunning = true;
+    if (reading.listens) {
+      const why = await tell(at, "stop", REPLIES.stopped);
+      if (why || !await until(() => reading.isIdle, PROGRAM_S)) return no(why ?? words.otherProgram(robot));
+    }
+    if (!reading.isIdle) return no(words.otherProgram(robot));
+    return { kind: "handed", drop() { textRunning = false; }, start: () => startText(at, text, before) };
+  }
+  async function startText(at: Open, text: string, before: number): Promise<CommandOutcome> {
+    const { reading } = at;
     try {
-      if (reading.listens) {
-        const why = await tell(at, "stop", REPLIES.stopped);
-        if (why || !await until(() => reading.isIdle, PROGRAM_S)) return refused(why ?? words.otherProgram(robot));
-      }
+      if (open !== at || stops !== before) return stopped(words.ended(robot, open === at ? "it was stopped." : "the connection was closed."));
       if (!reading.isIdle) return refused(words.otherProgram(robot));
       at.said = "";
       at.primary.script(text);
@@ -251,9 +257,14 @@ export function createUrFace(options: FaceOptions): Face {
       return open === at && reading.mayMove ? DONE : stopped(words.ended(robot, message(at)));
     } finally { textRunning = false; }
   }
+  async function runText(files: readonly EmittedFile[]): Promise<CommandOutcome> {
+    const handed = await handText(files);
+    return handed.kind === "refused" ? handed : handed.start();
+  }
 
   function stop(emergency: boolean): void {
     const at = open;
+    stops++;
     if (!at) return;
     // Whatever program runs there: of one that is only watched nothing else is known.
     if (textRunning || at.watched || at.rtde.waiting > 0) void at.dashboard.ask("stop");
@@ -295,6 +306,6 @@ export function createUrFace(options: FaceOptions): Face {
       open.rtde.send(GROUPS.order);
       return null;
     },
-    runText,
+    runText, handText,
   };
 }
