@@ -1,6 +1,6 @@
 import { brakingTime_s, manualScheduler, robotById, seededRandom, type CommandOutcome } from "@twincell/core";
 import {
-  axisConfig, createFanucFace, createKukaFace, createKukaRsiFace, createRealController, createVirtualFanuc, createVirtualKuka, memoryNetwork, RSI_NAME, startLoop,
+  axisConfig, createFanucFace, createKukaFace, createKukaRsiFace, createRealController, createStaubliFace, createVirtualFanuc, createVirtualKuka, createVirtualStaubli, memoryNetwork, RSI_NAME, startLoop,
   type Face, type VirtualController,
 } from "@twincell/controllers";
 import { keptResults } from "./kept.ts";
@@ -49,10 +49,32 @@ async function fanucCell(scheduler: Clock, network: Line): Promise<Cell> {
     putRight() { Object.assign(faults, { refusing: false, silent: false, delay_s: 0, frozen: false }); pendant.setEmergencyStop(false); pendant.setGuardOpen(false); pendant.setKey("AUTO"); },
   };
 }
+async function staubliCell(scheduler: Clock, network: Line, random: () => number): Promise<Cell> {
+  const robot = robotById("staubli_rx160")!, started = await createVirtualStaubli({ robot, scheduler, network, host: HOST, interpret: nothing });
+  if (started.kind === "taken") throw new Error(started.sentence);
+  const { virtual } = started, { pendant, faults } = virtual;
+  return {
+    arm: virtual.arm, face: createStaubliFace({ robot, scheduler, network, host: HOST }), close() { virtual.close(); },
+    acts: {
+      "emergency stop": [() => { pendant.setEmergencyStop(true); }, "cabinet"], "door opened": [() => { pendant.setDoorOpen(true); }, "cabinet"], "arm fault": [() => { pendant.fail("it met something"); }, "cabinet"],
+      "mode to manual": [() => { pendant.setMode("manual"); }, "cabinet"], "hold": [() => { pendant.setHold(true); }, "cabinet"], "off and on": [() => { virtual.reboot(); }, "cabinet"],
+      // It has no watchdog: a motion that was sent goes on to its end.
+      "no answers": [() => { faults.silent = true; }, "weather"], "states stand still": [() => { faults.frozen = true; }, "weather"], "answers late": [() => { faults.delay_s = 0.3; }, "weather"],
+      "cut after some states": [() => { faults.dropAfter = 1 + Math.floor(5 * random()); }, "cut"], "byte by byte": [() => { faults.split = true; }, "weather"], "garbage in states": [() => { faults.garbage = 0.2; }, "weather"],
+    },
+    putRight() {
+      Object.assign(faults, { refusing: false, silent: false, delay_s: 0, garbage: 0, split: false, dropAfter: Infinity, frozen: false });
+      pendant.setEmergencyStop(false); pendant.setDoorOpen(false); pendant.setHold(false); pendant.setMode("remote"); pendant.acknowledge();
+      // The power comes on as soon as the robot stands.
+      const stop = scheduler.every(0.1, () => { if (pendant.setPower(true) === null) stop(); });
+    },
+  };
+}
 const CELLS: Readonly<Record<string, (scheduler: Clock, network: Line, random: () => number) => Promise<Cell>>> = {
   "KUKA over variables": (scheduler, network, random) => kukaCell(scheduler, network, random, false),
   "KUKA over RSI": (scheduler, network, random) => kukaCell(scheduler, network, random, true),
   "FANUC over RMI": fanucCell,
+  "Stäubli over simple_message": staubliCell,
 };
 
 async function soak(make: (typeof CELLS)[string]) {

@@ -1,5 +1,5 @@
-import { LIBRARY, manualScheduler, type Robot } from "@twincell/core";
-import { BRANDS } from "./brands.ts";
+import { manualScheduler, type Robot } from "@twincell/core";
+import { BRANDS, robotsOf } from "./brands.ts";
 import { axisConfig, createKukaRsiFace, kukaAxes } from "./kuka/index.ts";
 import { KUKA_RSI_CANNOT } from "./kuka/cannot.ts";
 import type { Ability, Cannot, Face, FaceOptions } from "./real/index.ts";
@@ -11,6 +11,7 @@ export interface Driver {
   /** Folder of its code and of its tests. */
   readonly folder: string;
   readonly vendor: string;
+  readonly drives?: (robot: Robot) => boolean;
   readonly cannot: readonly Cannot[];
   /** Where it stands on another driver: the rows from T-19 on that tests of its own show; the others are shown through that one. */
   readonly own?: readonly string[];
@@ -18,7 +19,7 @@ export interface Driver {
 }
 
 export const DRIVERS: readonly Driver[] = BRANDS.flatMap((brand): Driver[] => {
-  const { name, vendor, cannot } = brand, driver: Driver = { name, folder: brand.id, vendor, cannot, face: options => brand.face(options) };
+  const { name, vendor, drives, cannot } = brand, driver: Driver = { name, folder: brand.id, vendor, ...(drives ? { drives } : {}), cannot, face: options => brand.face(options) };
   return brand.id === "kuka" ? [driver, { ...driver, name: "KUKA (RSI)", cannot: KUKA_RSI_CANNOT, own: ["T-21", "T-23", "T-27"], face: overRsi }] : [driver];
 });
 function overRsi(options: FaceOptions): Face {
@@ -33,7 +34,7 @@ const ABILITIES: readonly { readonly row: Ability; readonly title: string }[] = 
 
 /** The face of a driver for a robot of its vendor, without a line: what it has and has not. */
 export function unconnected(driver: Driver): Face {
-  const scheduler = manualScheduler(), robot: Robot = LIBRARY.find(({ vendor, arm }) => vendor === driver.vendor && arm.joints.length === 6)!;
+  const scheduler = manualScheduler(), robot: Robot = robotsOf(driver).find(({ arm }) => arm.joints.length === 6)!;
   return driver.face({ robot, scheduler, network: memoryNetwork(scheduler), host: "127.0.0.1" });
 }
 

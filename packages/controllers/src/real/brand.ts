@@ -68,6 +68,8 @@ export interface Brand {
   readonly data?: readonly Datum[];
   /** Vendor of the robots it drives, as robots name it. */
   readonly vendor: string;
+  /** Whether its controllers are known to move that robot of the vendor's; all of them when left out. */
+  readonly drives?: (robot: Robot) => boolean;
   /** What its driver cannot do, with the reasons. */
   readonly cannot: readonly Cannot[];
   face(options: FaceOptions): Face;
