@@ -1,6 +1,5 @@
 import { createInterface } from "node:readline";
-import { BRANDS, brandById, type Brand, type Pendant } from "@twincell/controllers";
-import { LIBRARY } from "@twincell/core";
+import { BRANDS, brandById, robotsOf, type Brand, type Pendant } from "@twincell/controllers";
 import { dialectById } from "@twincell/languages";
 import { nodeNetwork, nodeScheduler } from "@twincell/server";
 import { given, type Given } from "../io/arguments.ts";
@@ -31,7 +30,7 @@ Ctrl-C ends it.`,
       throw new UseFault(id === undefined ? "BRAND is missing." : options.positionals.length > 1 ? `virtual takes one brand, not "${options.positionals[1]}" as well.` : `There is no virtual controller of "${id}".`,
         `Brands: ${BRANDS.map(each => each.id).join(", ")}.`);
     }
-    const wanted = options.text("robot") ?? LIBRARY.find(robot => robot.vendor === brand.vendor)?.id, { robot } = await robotOf(options, wanted);
+    const wanted = options.text("robot") ?? robotsOf(brand)[0]?.id, { robot } = await robotOf(options, wanted);
     const dialect = dialectById(brand.dialect), host = options.text("host") ?? "127.0.0.1";
     const started = await brand.virtual({
       robot, scheduler: nodeScheduler, network: nodeNetwork(), host, ports: askedPorts(options, brand),

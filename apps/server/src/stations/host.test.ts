@@ -73,7 +73,7 @@ describe.each(brands)("a station of %s", brand => {
   }, 60_000);
 });
 
-const EVERY_ROBOT: Readonly<Record<string, string>> = { ...ROBOTS, fanuc: "fanuc_lrmate200id", abb: "abb_irb120" };
+const EVERY_ROBOT: Readonly<Record<string, string>> = { ...ROBOTS, fanuc: "fanuc_lrmate200id", abb: "abb_irb120", staubli: "staubli_rx160" };
 const watchable = BRANDS.filter(({ id, cannot }) => id in EVERY_ROBOT && !cannot.some(({ row }) => row === "watch")).map(({ id }) => id);
 
 describe.each(watchable)("a station of %s that was opened to watch", brand => {

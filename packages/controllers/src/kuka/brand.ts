@@ -1,5 +1,5 @@
 import type { OperatingMode } from "@twincell/core";
-import type { Brand, BrandStarted, BrandVirtualOptions } from "../real/index.ts";
+import type { Brand, BrandStarted, BrandVirtualOptions, Face, FaceOptions } from "../real/index.ts";
 import { kukaAxes } from "./axes.ts";
 import { KUKA_CANNOT, KUKA_RSI_CANNOT } from "./cannot.ts";
 import { C3_PORT } from "./codec-c3.ts";
@@ -15,17 +15,19 @@ const PRESSES_S = 2, LOOK_S = 0.05;
 const INPUT = /^\$IN\[([0-9]{1,4})\]$/;
 
 const RSI = axisConfig("127.0.0.2", 49_152);
+const overRsi = ({ robot, scheduler, network, host, ports }: FaceOptions): Face => createKukaRsiFace({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT, config: RSI });
 
 /** KUKA as apps meet it. The virtual controller begins in EXT with its drives on and the program TWINCELL running. */
 export const kuka: Brand = {
-  id: "kuka", name: "KUKA", dialect: "krl", ports: { variables: C3_PORT }, vendor: "KUKA", cannot: KUKA_CANNOT,
+  id: "kuka", name: "KUKA", dialect: "krl", ports: { variables: C3_PORT }, vendor: "KUKA", cannot: KUKA_CANNOT, drives: robot => kukaAxes(robot) !== undefined,
+  otherWays: [{ name: "KUKA (RSI)", cannot: KUKA_RSI_CANNOT, shows: ["T-21", "T-23", "T-27"], tests: "rsi.test.ts", face: overRsi }],
   face: ({ robot, scheduler, network, host, ports }) => createKukaFace({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT }),
   virtual: options => start(options, false),
 };
 /** The same controllers, moved by increments of RSI where its sensor file names this computer; a virtual one sends to 127.0.0.2. */
 export const kukaOverRsi: Brand = {
   ...kuka, id: "kuka-rsi", name: "KUKA over RSI", cannot: KUKA_RSI_CANNOT,
-  face: ({ robot, scheduler, network, host, ports }) => createKukaRsiFace({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT, config: RSI }),
+  face: overRsi,
   virtual: options => start(options, true),
 };
 

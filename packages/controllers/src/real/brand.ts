@@ -58,6 +58,16 @@ export interface BrandVirtual {
 }
 export type BrandStarted = { readonly kind: "started"; readonly virtual: BrandVirtual } | { readonly kind: "taken"; readonly sentence: string };
 
+/** Another driver of a brand's controllers. */
+export interface OtherWay {
+  readonly name: string;
+  readonly cannot: readonly Cannot[];
+  /** The rows from T-19 on that tests of its own show, and how the names of those tests end; the others are shown through the brand's first driver. */
+  readonly shows: readonly Cannot["row"][];
+  readonly tests: string;
+  face(options: FaceOptions): Face;
+}
+
 /** A brand as apps meet it: one of these for each folder. */
 export interface Brand {
   readonly id: string;
@@ -70,8 +80,12 @@ export interface Brand {
   readonly data?: readonly Datum[];
   /** Vendor of the robots it drives, as robots name it. */
   readonly vendor: string;
+  /** Whether its controllers are known to move that robot of the vendor's; all of them when left out. */
+  readonly drives?: (robot: Robot) => boolean;
   /** What its driver cannot do, with the reasons. */
   readonly cannot: readonly Cannot[];
+  /** Other drivers of the same controllers, that apps do not offer by themselves. */
+  readonly otherWays?: readonly OtherWay[];
   face(options: FaceOptions): Face;
   virtual(options: BrandVirtualOptions): Promise<BrandStarted>;
 }

@@ -59,6 +59,9 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
   if (robot.vendor !== brand.vendor) {
     return { kind: "refused", why: { code: "station.other-brand", sentence: `${robot.name} is a robot of ${robot.vendor}; controllers of ${brand.name} drive those of ${brand.vendor}.`, hint: "Choose a robot of that brand." } };
   }
+  if (brand.drives?.(robot) === false) {
+    return { kind: "refused", why: { code: "station.other-brand", sentence: `${robot.name} does not stand on a controller of ${brand.name}.`, hint: `Choose another controller of ${brand.vendor}, or another robot.` } };
+  }
   const deaf = brand.cannot.find(({ row }) => row === "watch");
   if (deaf && options.watching === true) return cannotWatch(brand.name, deaf.because);
   const near = options.at === undefined ? memoryNetwork(scheduler) : null, network = options.at?.network ?? near!, host = options.at?.host ?? "127.0.0.1";

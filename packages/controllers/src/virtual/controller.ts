@@ -153,6 +153,8 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
     if (state !== "normal") { safety = state; why = reason; }
     message = reason.sentence;
     if (command && !command.stopping) { command.stopping = reason; command.stepper.stop(true); }
+    // Held where it stands there is nothing to brake, now or when the override comes back.
+    if (command && command.begun && !command.moving && override === 0) finish({ kind: "stopped", why: reason });
   }
 
   return {

@@ -1,4 +1,5 @@
 import type { CommandOutcome, Interpreted, MoveStep, Robot, Scheduler } from "@twincell/core";
+import { slowed } from "../../guard/index.ts";
 import type { DatagramSocket, Listening, Network } from "../../transport/index.ts";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
 import { kukaAxes, type KukaAxes } from "../axes.ts";
@@ -10,9 +11,8 @@ import { C3_TYPES, serveC3, type C3Server } from "./c3-server.ts";
 import { noFaults, type KukaFaults } from "./faults.ts";
 import type { Builtin } from "./builtin.ts";
 import { Globals, Timers, type GlobalType } from "./globals.ts";
-import { slowed } from "./job.ts";
 import { LoopRun } from "./loop-run.ts";
-import { Machine, type KukaMode, type Message } from "./machine.ts";
+import { Machine, T1_MPS, type KukaMode, type Message } from "./machine.ts";
 import { Programs, type ProgramState } from "./programs.ts";
 import { RsiRun, type RsiOptions } from "./rsi-run.ts";
 import { kukaVariables, type Now, type Variables } from "./variables.ts";
@@ -107,7 +107,7 @@ export async function createVirtualKuka(options: VirtualKukaOptions): Promise<Vi
   let booted_s = 0, last_s = 0;
   const timers = new Timers(() => 1000 * now.time_s), globals = new Globals([...LOOP_GLOBALS, ...options.globals ?? []], options.digits);
   const machine = new Machine(arm, options.mode ?? "EX", () => { programs.interrupted(); });
-  const slow = (step: MoveStep): MoveStep => machine.mode === "T1" ? slowed(robot, step, arm.jointAngles()) : step;
+  const slow = (step: MoveStep): MoveStep => machine.mode === "T1" ? slowed(robot, step, arm.jointAngles(), T1_MPS) : step;
   const builtins = new Map<string, Builtin>([[LOOP_NAME, new LoopRun(globals, timers, arm, machine, axes, slow)]]);
   const rsi = options.rsi ? new RsiRun({ robot, axes, arm, machine, scheduler, network, host, faults, globals, log }, options.rsi) : null;
   if (rsi) {
