@@ -10,7 +10,10 @@ export default defineConfig({
   base: "./",
   plugins: [react(), controllerProfiles()],
   worker: { format: "es" },
-  build: { target: "es2022", outDir: "dist", chunkSizeWarningLimit: 2000 },
+  build: {
+    target: "es2022", outDir: "dist", chunkSizeWarningLimit: 2000,
+    rolldownOptions: { input: ["index.html", "pendant/index.html"].map(page => fileURLToPath(new URL(page, import.meta.url))) },
+  },
   resolve: {
     // The headset emulator's rooms weigh 4.6 MB and are never used: tests bring their own emulator.
     alias: { "@iwer/devui": empty, "@iwer/sem": empty },

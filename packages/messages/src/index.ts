@@ -1,5 +1,7 @@
+export * from "./channel.ts";
 export * from "./ask.ts";
 export * from "./tell.ts";
 export * from "./read.ts";
 export * from "./host.ts";
 export * from "./client.ts";
+export * from "./pendant.ts";

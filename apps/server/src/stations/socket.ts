@@ -5,6 +5,7 @@ import { WebSocketServer, type WebSocket } from "ws";
 
 /** States that wait for a slow page beyond this many bytes are left out; the next one tells more anyway. */
 const MOST_WAITING = 1 << 20;
+const STATES = ['{"type":"sample"', '{"type":"pendant"'];
 export const STATIONS_PATH = "/stations";
 
 /**
@@ -13,7 +14,7 @@ export const STATIONS_PATH = "/stations";
  *
  * @param allowed  whether that request may come in at all: the access code of the local network.
  */
-export function stationSocket(server: Server, host: Host, allowed: (request: IncomingMessage) => boolean): { close(): void } {
+export function stationSocket(server: Server, host: Pick<Host, "join">, allowed: (request: IncomingMessage) => boolean): { close(): void } {
   const sockets = new WebSocketServer({ noServer: true, maxPayload: LONGEST_MESSAGE, perMessageDeflate: false });
   let count = 0;
   const turnAway = (socket: Duplex, status: string): void => { socket.end(`HTTP/1.1 ${status}\r\nConnection: close\r\n\r\n`); };
@@ -27,7 +28,7 @@ export function stationSocket(server: Server, host: Host, allowed: (request: Inc
 
   function welcome(socket: WebSocket): void {
     const seat = host.join(`studio ${++count}`, {
-      send(text) { if (socket.bufferedAmount < MOST_WAITING || !text.startsWith('{"type":"sample"')) socket.send(text); },
+      send(text) { if (socket.bufferedAmount < MOST_WAITING || !STATES.some(state => text.startsWith(state))) socket.send(text); },
       close() { socket.close(); },
     });
     socket.on("message", (data, binary) => { if (binary) socket.close(1003); else seat.hear(String(data as Buffer)); });

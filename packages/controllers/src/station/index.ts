@@ -1,2 +1,3 @@
 export * from "./station.ts";
 export * from "./open.ts";
+export * from "./cabinet.ts";

@@ -1,3 +1,4 @@
 export * from "./port.ts";
 export * from "./weather.ts";
 export * from "./memory.ts";
+export { surround, type Surroundings, type Trouble } from "./surroundings.ts";

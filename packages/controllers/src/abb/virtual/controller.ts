@@ -43,6 +43,11 @@ export interface VirtualAbb {
   frozen: boolean;
   /** Why the program stopped last, or "". */
   readonly message: string;
+  readonly motorsOn: boolean;
+  /** Whether the program waits for targets. */
+  readonly isRunning: boolean;
+  readonly inError: boolean;
+  setMotors(on: boolean): void;
   reboot(off_s: number): void;
   close(): void;
 }
@@ -147,6 +152,13 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
     robot, neutral, address: socket.address, brakingTime_s: brakingTime_s(robot) + 2 * cycle_s,
     get frozen() { return frozen; }, set frozen(is) { frozen = is; },
     get message() { return message; },
+    get motorsOn() { return motors === MOTORS.on; }, get isRunning() { return state === EGM_STATE.running; }, get inError() { return state === EGM_STATE.error; },
+    setMotors(on) {
+      if (on) { if (!pressed) motors = MOTORS.on; return; }
+      motors = MOTORS.off;
+      neutral.stop();
+      giveUp(EGM_STATE.stopped, "The motors were switched off.");
+    },
     pendant: {
       setMode(to_) {
         mode = to_;
