@@ -7,7 +7,7 @@ import { readTell, type TellOf } from "@twincell/messages";
 import { saveDocument, tracedCartonCell } from "@twincell/project";
 import type { BrowserContext, Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
-import { drawn, picture, Studio } from "./support/studio.ts";
+import { picture, Studio } from "./support/studio.ts";
 
 const root = fileURLToPath(new URL("../../../", import.meta.url)), HOST = "127.0.0.61";
 /** In front of the arm, the flange looking down. */
@@ -16,6 +16,10 @@ const to = (id: string, x: number, y: number, z: number): MoveStep => ({
   target: { pose: { position: [x, y, z], quaternion: [0, 1, 0, 0] } as unknown as Pose<"frame", "tcp">, frame: "world", tool: "flange" },
 });
 interface Said { readonly pendant: string; readonly ports: Readonly<Record<string, number>> }
+
+/** The studio's own 3D view is drawn by the processor here, which the signs of life of two pages and three processes need. */
+const NO_PICTURE = "{const get=HTMLCanvasElement.prototype.getContext;HTMLCanvasElement.prototype.getContext=function(kind,...more){return /webgl/.test(kind)?null:get.call(this,kind,...more)}}";
+const EXPECTED = /WebGL/;
 
 let studio: Studio;
 const children: ChildProcess[] = [];
@@ -116,9 +120,9 @@ class Listener {
 const farthest = (a: readonly number[], b: readonly number[]): number => Math.max(...a.map((q, i) => Math.abs(q - b[i]!)));
 
 test("T-26 T-27 X-41 a virtual UR as a process, a station at its address, its pendant in a second tab: by hand, somebody near, red button, lost tab", async () => {
-  const said = await virtual("ur", HOST), { page, context, problems } = await studio.open({ width: 1280, height: 720 });
+  const said = await virtual("ur", HOST), { page, context, problems } = await studio.open({ width: 1280, height: 720, script: NO_PICTURE });
   context.setDefaultTimeout(90_000);
-  await drawn(page);
+  await page.waitForFunction(() => window.twincell.stores.cellStore.getState().document !== null, null, { timeout: 60_000 });
   const carton = tracedCartonCell();
   const cell = {
     ...carton, name: "Pendant", robot: { ...carton.robot, worldFromBase: identity() }, objects: [], program: "To and fro",
@@ -201,7 +205,7 @@ test("T-26 T-27 X-41 a virtual UR as a process, a station at its address, its pe
   await second.getByRole("button", { name: "digital_in_2", exact: true }).click();
   await second.waitForFunction(() => document.querySelectorAll('.line[aria-pressed="true"]').length === 1, null, { timeout: 5_000 });
   twin.close();
-  expect([...problems, ...desk.problems, ...again.problems]).toEqual([]);
+  expect([...problems, ...desk.problems, ...again.problems].filter(problem => !EXPECTED.test(problem))).toEqual([]);
 }, 300_000);
 
 test("the pendant's page on a desk and on a phone, in both themes: everything within the width, keys as large as thumbs", async () => {
