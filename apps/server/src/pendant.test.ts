@@ -51,7 +51,7 @@ test("the page is served at /pendant/; pages of another origin and of another na
 
 test("X-41 T-26 whoever's connection ends while a jog key is held has let it go: the arm stands within 100 ms of the controller's time", async () => {
   const { socket, ask, client, told } = await visit(), { virtual, cabinet } = here.opened, { scheduler } = here;
-  expect(await client.ask({ type: "watch", station: "pendant", on: true })).toEqual({ kind: "done" });
+  expect(await client.ask({ type: "visit", station: "pendant", on: true })).toEqual({ kind: "done" });
   expect(told.find(message => message.type === "pendant")).toMatchObject({ words: { brandName: "Universal Robots", keys: [{ id: "manual" }, { id: "automatic" }, { id: "remote" }] } });
   await ask({ do: "key", position: "manual" });
   await ask({ do: "enable", pressed: true });
@@ -71,7 +71,7 @@ test("X-41 T-26 whoever's connection ends while a jog key is held has let it go:
 
 test("any bytes on the socket: a sentence and the end of that connection, never a crash, nothing moves (400 sockets)", async () => {
   const random = seededRandom(60), whole: Ask[] = [
-    { type: "watch", id: 0, station: "pendant", on: true }, { type: "pendant", id: 1, station: "pendant", act: { do: "key", position: "manual" } }, { type: "alive", station: "pendant" },
+    { type: "visit", id: 0, station: "pendant", on: true }, { type: "pendant", id: 1, station: "pendant", act: { do: "key", position: "manual" } }, { type: "alive", station: "pendant" },
     { type: "pendant", id: 2, station: "pendant", act: { do: "trouble", delay_s: 0.1 } }, { type: "stop", emergency: false },
   ];
   const before = here.opened.virtual.jointAngles().slice(), said: string[] = [];

@@ -3,8 +3,6 @@ import { describe, expect, test } from "vitest";
 import { BRANDS, createRealController, memoryNetwork, type Brand } from "./index.ts";
 
 const HOST = "127.0.0.9";
-/** Where the wire cannot switch drives on and start a program: a person does it at the cabinet, with the key. */
-const AT_THE_CABINET: ReadonlySet<string> = new Set(["abb"]);
 /** A brand's virtual controller with a robot of the library, and its driver, as apps start them. */
 async function bench(brand: Brand) {
   const robot = LIBRARY.find(({ vendor, arm }) => vendor === brand.vendor && arm.joints.length === 6)!, scheduler = manualScheduler(), network = memoryNetwork(scheduler);
@@ -25,7 +23,7 @@ async function bench(brand: Brand) {
   const goesAgain = async (): Promise<CommandOutcome> => {
     let outcome: CommandOutcome = { kind: "done" };
     for (let i = 0; i < 10; i++) {
-      if (AT_THE_CABINET.has(brand.id)) { virtual.pendant.setMode("manual"); virtual.pendant.setMode("remote"); } else real.reset();
+      real.reset();
       await scheduler.elapse(1);
       outcome = await ended(real.moveJoints(near(i % 2 === 0 ? 0.05 : -0.05)));
       if (outcome.kind === "done") break;

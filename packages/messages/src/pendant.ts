@@ -17,7 +17,7 @@ export interface HostedPendant {
 const SHOWN_S = 0.04;
 const DONE: CommandOutcome = { kind: "done" };
 
-/** One who stands before a pendant, from `watch` or their first act until they leave. */
+/** One who stands before a pendant, from `visit` or their first act until they leave. */
 export interface PendantVisit {
   act(act: PendantAct): Promise<CommandOutcome>;
   watch(on: boolean): CommandOutcome;
@@ -61,7 +61,7 @@ export function createPendantHost({ scheduler, version, words, pendant }: Pendan
       };
       const carryOut = async (ask: Asked): Promise<CommandOutcome> => {
         if (ask.type === "pendant" && ask.station === words.id) return visit.act(ask.act);
-        if (ask.type === "watch" && ask.station === words.id) return visit.watch(ask.on);
+        if (ask.type === "visit" && ask.station === words.id) return visit.watch(ask.on);
         return { kind: "refused", why: { code: "pendant.only", sentence: `This is the pendant of ${words.name} and nothing else.`, hint: "Command the controller at its own ports, from a station." } };
       };
       tell({ type: "hello", protocol: PROTOCOL, version, brands: [], stations: [words] });

@@ -28,7 +28,7 @@ export interface CabinetLink {
 }
 /** What a link needs of the connection. */
 export interface CabinetWire {
-  ask(request: { readonly type: "pendant"; readonly station: string; readonly act: PendantAct } | { readonly type: "watch"; readonly station: string; readonly on: boolean }): Promise<CommandOutcome>;
+  ask(request: { readonly type: "pendant"; readonly station: string; readonly act: PendantAct } | { readonly type: "visit"; readonly station: string; readonly on: boolean }): Promise<CommandOutcome>;
   alive(station: string): void;
 }
 
@@ -60,7 +60,7 @@ export function createCabinetLink(station: string, wire: CabinetWire): CabinetLi
       if (jogging) act({ do: "jog", joint: 1, direction: 0 });
       if (beat !== undefined) enable(false);
     },
-    watch(on) { void wire.ask({ type: "watch", station, on }).then(outcome => { if (outcome.kind !== "done") view.setState({ complaint: { sentence: outcome.why.sentence, hint: outcome.why.hint } }); }); },
+    watch(on) { void wire.ask({ type: "visit", station, on }).then(outcome => { if (outcome.kind !== "done") view.setState({ complaint: { sentence: outcome.why.sentence, hint: outcome.why.hint } }); }); },
     onShown(listen) {
       listeners.add(listen);
       if (shown) listen(shown);
