@@ -76,7 +76,9 @@ async function letGo(page: Page): Promise<void> {
 async function runFromStudio(page: Page, so: () => boolean | Promise<boolean>): Promise<void> {
   await page.bringToFront();
   const run = page.getByRole("button", { name: "Run here" }), goOn = page.getByRole("button", { name: "Go on" });
+  const said: string[] = [];
   for (let tries = 0; tries < 20; tries++) {
+    said.push((await page.locator(".station").innerText()).replaceAll("\n", " "));
     if (await goOn.count() > 0) await goOn.dispatchEvent("click");
     if (await run.count() > 0 && await run.isEnabled()) {
       await press(page, "Hold to move");
@@ -86,7 +88,7 @@ async function runFromStudio(page: Page, so: () => boolean | Promise<boolean>): 
     }
     await pause(300);
   }
-  throw new Error(`The program was started twenty times: ${await page.locator(".station").innerText()}`);
+  throw new Error(`The program was started twenty times: ${said.join(" | ")}`);
 }
 const degreesOn = async (page: Page, joint: number): Promise<number> => parseFloat(await page.locator(".desk-jog .axis-value").nth(joint - 1).innerText());
 /** What the page shows of the joints, when it does not change any more. */
