@@ -7,6 +7,8 @@ const HEADERS: Readonly<Record<string, string>> = {
   "content-security-policy": "default-src 'self'; script-src 'self' 'wasm-unsafe-eval' blob:; worker-src 'self' blob:; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' data: blob:; frame-ancestors 'none'; base-uri 'self'; form-action 'self'",
   "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp",
   "x-content-type-options": "nosniff", "referrer-policy": "no-referrer",
+  // The camera of a phone or of this computer may be asked for; nothing here listens.
+  "permissions-policy": "camera=(self), microphone=()",
 };
 
 /**
@@ -15,6 +17,13 @@ const HEADERS: Readonly<Record<string, string>> = {
  */
 const WRITES_CODE = /^\/assets\/physics\.worker-[\w-]+\.js$/;
 const WRITER_HEADERS: Readonly<Record<string, string>> = { ...HEADERS, "content-security-policy": "default-src 'none'; script-src 'self' 'wasm-unsafe-eval' 'unsafe-eval'; connect-src 'self'" };
+
+/** The same page, without the code in its address. Two slashes in front would name another machine. */
+function withoutCode(url: URL): string {
+  const kept = new URLSearchParams(url.searchParams);
+  kept.delete("code");
+  return `/${url.pathname.replace(/^\/+/, "")}${kept.size > 0 ? `?${kept.toString()}` : ""}`;
+}
 
 /** Names that a browser may have used for this machine. */
 export const LOOPBACK: readonly string[] = ["localhost", "127.0.0.1", "[::1]"];
@@ -50,7 +59,7 @@ export function studioListener(files: ReturnType<typeof staticFiles>, hosts: Rea
       const entry = access.enter(request.headers.cookie, url.searchParams.get("code"));
       if (entry.kind === "too-many-tries") { say(429, "Too many wrong codes. Start Twincell again for a new one.\n"); return; }
       if (entry.kind === "ask") { say(401, askForCode, { "content-type": "text/html; charset=utf-8" }); return; }
-      if (entry.kind === "welcome-with-cookie") { say(303, "", { "set-cookie": entry.cookie, location: "/" }); return; }
+      if (entry.kind === "welcome-with-cookie") { say(303, "", { "set-cookie": entry.cookie, location: withoutCode(url) }); return; }
     }
     const found = await files(path, String(request.headers["accept-encoding"] ?? ""), request.headers["if-none-match"]);
     response.writeHead(found.status, { ...(WRITES_CODE.test(path) ? WRITER_HEADERS : HEADERS), ...found.headers, ...(found.status === 200 ? { "content-length": String(found.body.length) } : {}) });

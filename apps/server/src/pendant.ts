@@ -4,7 +4,8 @@ import type { Scheduler } from "@twincell/core";
 import { createPendantHost, type HostedPendant, type StationWords } from "@twincell/messages";
 import { isServed, LOOPBACK, studioListener } from "./pages.ts";
 import { staticFiles } from "./static-files.ts";
-import { stationSocket } from "./stations/socket.ts";
+import { openDoors } from "./sockets/doors.ts";
+import { stationDoor } from "./stations/socket.ts";
 
 export interface ServePendantOptions {
   /** Folder of the built studio, in which the page of the pendant is. */
@@ -28,7 +29,7 @@ export async function servePendant({ studio, host, port, ...options }: ServePend
     server.listen(port, host, () => { resolve(null); });
   });
   if (problem) return { kind: "taken", sentence: `The pendant's page cannot be served at ${host}:${port}: ${problem.message}.` };
-  const socket = stationSocket(server, createPendantHost(options), request => isServed(hosts, request));
+  const socket = openDoors(server, [stationDoor(createPendantHost(options))], request => isServed(hosts, request));
   return {
     kind: "served", url: `http://${host}:${(server.address() as AddressInfo).port}/pendant/`,
     close() { socket.close(); server.closeAllConnections(); server.close(); },

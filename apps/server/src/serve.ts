@@ -2,13 +2,16 @@ import { createServer as createHttp } from "node:http";
 import { createServer as createHttps } from "node:https";
 import type { AddressInfo } from "node:net";
 import { join } from "node:path";
+import { createVideoRelay } from "@twincell/messages";
 import { accessCode } from "./access.ts";
 import { certificate, lanAddresses } from "./lan.ts";
 import { nodeScheduler } from "./clock.ts";
 import { isServed, LOOPBACK, studioListener } from "./pages.ts";
 import { stationHost } from "./stations/host.ts";
 import { recordHost } from "./stations/record-host.ts";
-import { stationSocket } from "./stations/socket.ts";
+import { openDoors } from "./sockets/doors.ts";
+import { stationDoor } from "./stations/socket.ts";
+import { videoDoor } from "./video/door.ts";
 import { staticFiles } from "./static-files.ts";
 
 export interface ServeOptions {
@@ -46,13 +49,12 @@ export async function serve(options: ServeOptions): Promise<Served> {
   });
   const stations = stationHost(nodeScheduler, options.version ?? "");
   const recorder = options.data === undefined ? null : await recordHost(stations, join(options.data, "recordings"), nodeScheduler, sentence => { console.error(sentence); });
-  const socket = stationSocket(server, stations, request => isServed(hosts, request) && (access === null || access.enter(request.headers.cookie, null).kind === "welcome"));
-  const port = (server.address() as AddressInfo).port;
-  const scheme = options.lan ? "https" : "http";
-  const query = access ? `/?code=${access.code}` : "/";
+  const port = (server.address() as AddressInfo).port, scheme = options.lan ? "https" : "http", query = access ? `?code=${access.code}` : "";
+  const relay = createVideoRelay(nodeScheduler.now_s, addresses.map(address => `${scheme}://${address}:${port}/camera/${query}`));
+  const socket = openDoors(server, [stationDoor(stations), videoDoor(relay)], request => isServed(hosts, request) && (access === null || access.enter(request.headers.cookie, null).kind === "welcome"));
   return {
-    url: `${scheme}://127.0.0.1:${port}${query}`,
-    lanUrls: addresses.map(address => `${scheme}://${address}:${port}${query}`),
+    url: `${scheme}://127.0.0.1:${port}/${query}`,
+    lanUrls: addresses.map(address => `${scheme}://${address}:${port}/${query}`),
     code: access?.code ?? null,
     close: () => new Promise(resolve => { recorder?.close(); stations.close(); socket.close(); server.closeAllConnections(); server.close(() => { resolve(); }); }),
   };
