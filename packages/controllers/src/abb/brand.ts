@@ -2,6 +2,7 @@ import type { Brand } from "../real/index.ts";
 import { ABB_CANNOT, ABB_EGM_CANNOT } from "./cannot.ts";
 import { EGM_PORT, RWS_PORT } from "./codec/index.ts";
 import { abbEgmFace, abbFace } from "./driver/index.ts";
+import { abbPendant } from "./pendant.ts";
 import { createVirtualAbb } from "./virtual/index.ts";
 
 const PORTS = { egm: EGM_PORT, rws: RWS_PORT }, REBOOT_S = 2;
@@ -21,7 +22,7 @@ export const abb: Brand = {
       kind: "started",
       virtual: {
         name: `Virtual ABB ${robot.name.replace(/^ABB /, "")}`, robot, ports: { ...PORTS, ...ports, rws: controller.rws!.port }, brakingTime_s: controller.brakingTime_s,
-        pendant: controller.pendant,
+        pendant: abbPendant(controller),
         jointAngles: out => controller.neutral.jointAngles(out),
         reboot() { controller.reboot(REBOOT_S); },
         close() { controller.close(); },
