@@ -1,4 +1,5 @@
 import { parseProgram, type CommandOutcome, type JointSample, type LinkReport, type Program, type Refusal, type RobotController, type Scheduler } from "@twincell/core";
+import { actWords, type Act } from "./acts.ts";
 import type { Ask, AskOf, PendantAct } from "./ask.ts";
 import { PROTOCOL, readAsk, write } from "./read.ts";
 import type { StationWords, Tell, TellOf } from "./tell.ts";
@@ -63,6 +64,7 @@ const known = (value: number): number | null => Number.isFinite(value) ? value :
 /** Stations that any number of people look at, and each of which one commands. The same in a worker of the page and on a server. */
 export function createHost(options: HostOptions): Host {
   const stations = new Map<string, { readonly station: HostedStation; readonly forget: () => void }>(), channels = new Set<Channel>();
+  let acts = 0;
   const all = (message: Tell): void => {
     const text = write(message);
     for (const channel of channels) channel.send(text);
@@ -76,6 +78,13 @@ export function createHost(options: HostOptions): Host {
   };
   const guardWords = (station: HostedStation): TellOf<"guard"> => ({ type: "guard", station: station.words.id, ...station.guard.state });
   const tellLink = (station: HostedStation): void => { const says = linkWords(station); if (says) all(says); };
+
+  /** Everything that people do at a station is told to all who look at it, the recorders among them: who, what, and what became of it. */
+  function tellAct(who: string, act: Act, station: string): (outcome: CommandOutcome) => void {
+    const { target, ...words } = actWords(act), said = { type: "act" as const, station, number: acts++, who, ...words, target: [...target] };
+    all({ ...said, outcome: null });
+    return outcome => { all({ ...said, outcome }); };
+  }
 
   function watch(station: HostedStation): () => void {
     const { id } = station.words;
@@ -137,6 +146,14 @@ export function createHost(options: HostOptions): Host {
         if (ask.type === "open") return open(ask);
         const station = stations.get(ask.station)?.station;
         if (!station) return refuse("station.none", `There is no station “${ask.station}”.`, "Open it first.");
+        const told = tellAct(who, ask, ask.station);
+        // Whoever records it is told before it is gone.
+        if (ask.type === "close") told(DONE);
+        const outcome = await command(station, ask);
+        if (stations.get(ask.station)?.station === station) told(outcome);
+        return outcome;
+      }
+      async function command(station: HostedStation, ask: Exclude<Act, { readonly type: "stop" }>): Promise<CommandOutcome> {
         const seat = seatAt(station);
         switch (ask.type) {
           case "close": close(ask.station); return DONE;
@@ -191,7 +208,13 @@ export function createHost(options: HostOptions): Host {
           switch (ask.type) {
             case "ping": tell({ type: "pong", sent_s: ask.sent_s, host_s: options.scheduler.now_s() }); break;
             case "alive": { const entry = stations.get(ask.station); if (entry) seatAt(entry.station).alive(); break; }
-            case "stop": for (const [id, { station }] of stations) if (ask.station === undefined || ask.station === id) station.stop(ask.emergency); break;
+            // The stops go out first; what is told of them comes after.
+            case "stop": {
+              const meant = [...stations].filter(([id]) => ask.station === undefined || ask.station === id);
+              for (const [, { station }] of meant) station.stop(ask.emergency);
+              for (const [id] of meant) tellAct(who, ask, id)(DONE);
+              break;
+            }
             default: {
               const { id } = ask;
               void carryOut(ask).then(outcome => { tell({ type: "answer", id, outcome }); });

@@ -1,3 +1,4 @@
+export * from "./acts.ts";
 export * from "./ask.ts";
 export * from "./tell.ts";
 export * from "./read.ts";

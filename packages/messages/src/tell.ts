@@ -43,6 +43,8 @@ export const tellSchema = z.discriminatedUnion("type", [
     type: z.literal("guard"), ...station, holder: text.nullable(), pressed: z.boolean(), link: z.enum(["up", "lost", "unconfirmed"]),
     motion: z.enum(["at-rest", "moving", "stopping", "returning"]), trip: z.enum(["none", "return-due", "return-wanted"]), emergency: z.boolean(),
   }),
+  /** Somebody did something there; told when it was asked for, and once more with what became of it. Acts with the same number are one. */
+  z.strictObject({ type: z.literal("act"), ...station, number: z.int(), who: text, action: text, detail: text, command: z.boolean(), target: angles, outcome: outcomeSchema.nullable() }),
   z.strictObject({ type: z.literal("notice"), ...station, why: refusal }),
   z.strictObject({ type: z.literal("pong"), sent_s: z.number(), host_s: z.number() }),
   /** Something came that could not be read; the connection ends after it. */

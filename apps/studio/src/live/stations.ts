@@ -1,5 +1,5 @@
 import { retargetProgram, robotById, type CommandOutcome, type JointSample, type Pose, type Program, type Robot } from "@twincell/core";
-import type { PendantAct, TellOf } from "@twincell/messages";
+import { actNote, type PendantAct, type TellOf } from "@twincell/messages";
 import { createRunRecorder, type RunRecorder } from "@twincell/recording";
 import { cellStore } from "../stores/cell.ts";
 import { programOf, robotOf } from "../stores/document.ts";
@@ -128,6 +128,13 @@ async function endRecording(id: string, { recorder, file, note }: Recording, out
   historyStore.setState({ runs: await listRuns(shelf) });
 }
 
+/** Everything that anybody does at that station while its run is recorded. */
+function recordAct(message: TellOf<"act">): void {
+  const recorder = recordings.get(message.station)?.recorder, said = actNote(message);
+  if (said?.kind === "command") recorder?.note("command", said.note);
+  else if (said) recorder?.note("operator", said.note);
+}
+
 /** Commands wait on nothing, but who holds the lease of a real robot says so many times a second. */
 function keepAlive(id: string): void {
   if (alive.has(id)) return;
@@ -145,6 +152,7 @@ function take(place: HostPlace, message: Told): void {
     case "link": if (message.state !== stationOf(message.station)?.link.state || due(`${message.station} link`)) changeStation(message.station, { link: message }); break;
     case "guard": changeStation(message.station, { guard: message }); break;
     case "notice": changeStation(message.station, { notice: message.why.sentence }); recordings.get(message.station)?.recorder.event(message.why.code, message.why.sentence, "warning"); break;
+    case "act": recordAct(message); break;
     case "sample": show(message); break;
     case "fault":
       notify("bad", message.sentence, words.stations.faultHint);
