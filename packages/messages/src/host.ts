@@ -1,4 +1,5 @@
 import { parseProgram, type CommandOutcome, type JointSample, type LinkReport, type Program, type Refusal, type RobotController, type Scheduler } from "@twincell/core";
+import { actWords, type Act } from "./acts.ts";
 import type { Ask, AskOf } from "./ask.ts";
 import { visitPendant, type HostedPendant, type PendantVisit } from "./pendant.ts";
 import type { Channel } from "./channel.ts";
@@ -69,10 +70,14 @@ const FIGURES_S = 0.5;
 const refuse = (code: string, sentence: string, hint: string): CommandOutcome => ({ kind: "refused", why: { code, sentence, hint } });
 const known = (value: number): number | null => Number.isFinite(value) ? value : null;
 
+const noStation = (id: string): CommandOutcome => refuse("station.none", `There is no station “${id}”.`, "Open it first.");
+const noPendant = ({ words }: HostedStation): CommandOutcome => refuse("station.no-pendant", `${words.name} is a real controller: its pendant is at the robot.`, "Go there.");
+
 /** Stations that any number of people look at, and each of which one commands. The same in a worker of the page and on a server. */
 export function createHost(options: HostOptions): Host {
   const stations = new Map<string, { readonly station: HostedStation; readonly forget: () => void }>(), channels = new Set<Channel>(), closing = new Set<(station: HostedStation) => void>();
   let people = 0;
+  let acts = 0;
   const all = (message: Tell): void => {
     const text = write(message);
     for (const channel of channels) channel.send(text);
@@ -86,6 +91,13 @@ export function createHost(options: HostOptions): Host {
   };
   const guardWords = (station: HostedStation): TellOf<"guard"> => ({ type: "guard", station: station.words.id, ...station.guard.state });
   const tellLink = (station: HostedStation): void => { const says = linkWords(station); if (says) all(says); };
+
+  /** Everything that people do at a station is told to all who look at it, the recorders among them: who, what, and what became of it. */
+  function tellAct(who: string, act: Act, station: string): (outcome: CommandOutcome) => void {
+    const { target, ...words } = actWords(act), said = { type: "act" as const, station, number: acts++, who, ...words, target: [...target] };
+    all({ ...said, outcome: null });
+    return outcome => { all({ ...said, outcome }); };
+  }
 
   function watch(station: HostedStation): () => void {
     const { id } = station.words;
@@ -152,8 +164,21 @@ export function createHost(options: HostOptions): Host {
       async function carryOut(ask: Exclude<Ask, AskOf<"stop" | "alive" | "ping">>): Promise<CommandOutcome> {
         if (ask.type === "open") return open(ask);
         if (ask.type === "together") return together(ask);
+        if (ask.type === "visit") return visited(ask);
         const station = stations.get(ask.station)?.station;
-        if (!station) return refuse("station.none", `There is no station “${ask.station}”.`, "Open it first.");
+        if (!station) return noStation(ask.station);
+        const told = tellAct(who, ask, ask.station);
+        // Whoever records it is told before it is gone.
+        if (ask.type === "close") told(DONE);
+        const outcome = await command(station, ask);
+        if (stations.get(ask.station)?.station === station) told(outcome);
+        return outcome;
+      }
+      async function visited(ask: AskOf<"visit">): Promise<CommandOutcome> {
+        const station = stations.get(ask.station)?.station;
+        return station ? visitTo(station)?.watch(ask.on) ?? noPendant(station) : noStation(ask.station);
+      }
+      async function command(station: HostedStation, ask: Exclude<Act, { readonly type: "stop" | "together" }>): Promise<CommandOutcome> {
         const seat = seatAt(station);
         switch (ask.type) {
           case "close": close(ask.station); return DONE;
@@ -173,11 +198,7 @@ export function createHost(options: HostOptions): Host {
             if (parsed.kind !== "program") return refuse("station.program", `The program cannot be read: ${parsed.faults[0]?.sentence ?? "it is empty"}`, "Export it again.");
             return station.run(seat, parsed.program, ask.asText);
           }
-          case "pendant": case "visit": {
-            const visit = visitTo(station);
-            if (visit) return ask.type === "visit" ? visit.watch(ask.on) : visit.act(ask.act);
-            return refuse("station.no-pendant", `${station.words.name} is a real controller: its pendant is at the robot.`, "Go there.");
-          }
+          case "pendant": return visitTo(station)?.act(ask.act) ?? noPendant(station);
           case "plug":
             if (!station.plug) return refuse("station.no-plug", `${station.words.name} is a real controller: its plug is in the wall.`, "Disconnect it instead.");
             station.plug(ask.pulled);
@@ -190,12 +211,14 @@ export function createHost(options: HostOptions): Host {
         if (new Set(ids).size < ids.length) return refuse("group.twice", "A station is named twice in the group.", "Name each once.");
         for (const { station: id, program, asText } of members) {
           const station = stations.get(id)?.station, parsed = parseProgram(program);
-          if (!station) return refuse("station.none", `There is no station “${id}”.`, "Open it first.");
+          if (!station) return noStation(id);
           if (parsed.kind !== "program") return refuse("station.program", `The program of ${station.words.name} cannot be read: ${parsed.faults[0]?.sentence ?? "it is empty"}`, "Export it again.");
           const seat = seatAt(station);
           ready.push({ station, prepare: () => station.prepare(seat, parsed.program, asText) });
         }
+        const told = members.map(({ station, program, asText }) => tellAct(who, { type: "together", program, asText, members: members.length }, station));
         const { outcome, each } = await options.together(ready, ({ spread_s }) => { all({ type: "began", stations: ids, spread_s }); });
+        for (const tellEnd of told) tellEnd(outcome);
         if (each.size > 0) all({ type: "ended", stations: [...each].map(([station, ended]) => ({ station, outcome: ended })) });
         return outcome;
       }
@@ -233,7 +256,13 @@ export function createHost(options: HostOptions): Host {
           switch (ask.type) {
             case "ping": tell({ type: "pong", sent_s: ask.sent_s, host_s: options.scheduler.now_s() }); break;
             case "alive": { const entry = stations.get(ask.station); if (entry) { seatAt(entry.station).alive(); visits.get(entry.station)?.alive(); } break; }
-            case "stop": for (const [id, { station }] of stations) if (ask.station === undefined || ask.station === id) station.stop(ask.emergency); break;
+            // The stops go out first; what is told of them comes after.
+            case "stop": {
+              const meant = [...stations].filter(([id]) => ask.station === undefined || ask.station === id);
+              for (const [, { station }] of meant) station.stop(ask.emergency);
+              for (const [id] of meant) tellAct(who, ask, id)(DONE);
+              break;
+            }
             default: {
               const { id } = ask;
               void carryOut(ask).then(outcome => { tell({ type: "answer", id, outcome }); });

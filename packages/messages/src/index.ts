@@ -1,3 +1,4 @@
+export * from "./acts.ts";
 export * from "./channel.ts";
 export * from "./ask.ts";
 export * from "./tell.ts";

@@ -62,6 +62,8 @@ export const tellSchema = z.discriminatedUnion("type", [
   /** A group began: from the first to the last that was seen moving, on the host's clock [s]. Or it ended, each in its way. */
   z.strictObject({ type: z.literal("began"), stations: z.array(text), spread_s: z.number() }),
   z.strictObject({ type: z.literal("ended"), stations: z.array(z.strictObject({ station: text, outcome: outcomeSchema })) }),
+  /** Somebody did something there; told when it was asked for, and once more with what became of it. Acts with the same number are one. */
+  z.strictObject({ type: z.literal("act"), ...station, number: z.int(), who: text, action: text, detail: text, command: z.boolean(), target: angles, outcome: outcomeSchema.nullable() }),
   z.strictObject({ type: z.literal("notice"), ...station, why: refusal }),
   /** To those who watch: `words` once, then only what is shown. */
   z.strictObject({ type: z.literal("pendant"), ...station, words: z.exactOptional(pendantWordsSchema), shown: pendantShownSchema }),

@@ -1,5 +1,5 @@
 import { retargetProgram, robotById, type CommandOutcome, type JointSample, type Pose, type Program, type Robot } from "@twincell/core";
-import type { TellOf } from "@twincell/messages";
+import { actNote, type TellOf } from "@twincell/messages";
 import { createRunRecorder, type RunRecorder } from "@twincell/recording";
 import { createCabinetLink, type CabinetLink } from "../cabinet/link.ts";
 import { cellStore } from "../stores/cell.ts";
@@ -175,6 +175,13 @@ async function endRecording(id: string, { recorder, file, note }: Recording, out
   historyStore.setState({ runs: await listRuns(shelf) });
 }
 
+/** Everything that anybody does at that station while its run is recorded. */
+function recordAct(message: TellOf<"act">): void {
+  const recorder = recordings.get(message.station)?.recorder, said = actNote(message);
+  if (said?.kind === "command") recorder?.note("command", said.note);
+  else if (said) recorder?.note("operator", said.note);
+}
+
 /** Commands wait on nothing, but who holds the lease of a real robot says so many times a second. */
 function keepAlive(id: string): void {
   if (alive.has(id)) return;
@@ -197,6 +204,7 @@ function take(place: HostPlace, message: Told): void {
       for (const id of message.stations) recordings.get(id)?.recorder.event("group.began", words.stations.began(message.stations.length, Math.round(1000 * message.spread_s)));
       break;
     case "ended": for (const { station, outcome } of message.stations) groupEnds.set(station, outcome); break;
+    case "act": recordAct(message); break;
     case "sample": show(message); break;
     case "pendant":
       cabinets.get(message.station)?.take(message);
