@@ -1,6 +1,6 @@
 import { brakingTime_s, manualScheduler, robotById, seededRandom, type CommandOutcome } from "@twincell/core";
 import {
-  axisConfig, createFanucFace, createKukaFace, createKukaRsiFace, createRealController, createStaubliFace, createVirtualFanuc, createVirtualKuka, createVirtualStaubli, memoryNetwork, RSI_NAME, startLoop,
+  axisConfig, createCs7Face, createFanucFace, createKukaFace, createKukaRsiFace, createRealController, createStaubliFace, createVirtualCs7, createVirtualFanuc, createVirtualKuka, createVirtualStaubli, memoryNetwork, RSI_NAME, startLoop,
   type Face, type VirtualController,
 } from "@twincell/controllers";
 import { keptResults } from "./kept.ts";
@@ -70,11 +70,32 @@ async function staubliCell(scheduler: Clock, network: Line, random: () => number
     },
   };
 }
+async function cs7Cell(scheduler: Clock, network: Line, random: () => number): Promise<Cell> {
+  const robot = robotById("staubli_rx90l")!, started = await createVirtualCs7({ robot, scheduler, network, host: HOST, interpret: nothing });
+  if (started.kind === "taken") throw new Error(started.sentence);
+  const { virtual } = started, { pendant, faults } = virtual;
+  return {
+    arm: virtual.arm, face: createCs7Face({ robot, scheduler, network, host: HOST }), close() { virtual.close(); },
+    acts: {
+      "emergency stop": [() => { pendant.setEmergencyStop(true); }, "cabinet"], "gate opened": [() => { pendant.setGuardOpen(true); }, "cabinet"], "arm fault": [() => { pendant.fail(); }, "cabinet"],
+      "pendant has it": [() => { pendant.setManual(true); }, "cabinet"], "off and on": [() => { virtual.reboot(); }, "cabinet"],
+      // It has no watchdog: a motion that was started goes on to its end, or until the next one to connect stops it.
+      "no answers": [() => { faults.silent = true; }, "weather"], "states stand still": [() => { faults.frozen = true; }, "weather"], "answers late": [() => { faults.delay_s = 0.3; }, "weather"],
+      "cut after some answers": [() => { faults.dropAfter = 1 + Math.floor(5 * random()); }, "weather"], "byte by byte": [() => { faults.split = true; }, "weather"], "garbage in answers": [() => { faults.garbage = 0.2; }, "weather"],
+    },
+    putRight() {
+      Object.assign(faults, { refusing: false, silent: false, delay_s: 0, garbage: 0, split: false, dropAfter: Infinity, frozen: false });
+      pendant.setEmergencyStop(false); pendant.setGuardOpen(false); pendant.setManual(false); pendant.type("ENABLE POWER");
+      const stop = scheduler.every(0.1, () => { if (virtual.isPowered) { stop(); pendant.type("CALIBRATE"); } });
+    },
+  };
+}
 const CELLS: Readonly<Record<string, (scheduler: Clock, network: Line, random: () => number) => Promise<Cell>>> = {
   "KUKA over variables": (scheduler, network, random) => kukaCell(scheduler, network, random, false),
   "KUKA over RSI": (scheduler, network, random) => kukaCell(scheduler, network, random, true),
   "FANUC over RMI": fanucCell,
   "Stäubli over simple_message": staubliCell,
+  "Stäubli CS7 over its monitor": cs7Cell,
 };
 
 async function soak(make: (typeof CELLS)[string]) {
