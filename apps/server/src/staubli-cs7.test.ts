@@ -2,9 +2,9 @@
  * Stäubli CS7 on the system's own sockets: our driver, V+ as it is exported, and a client that nobody here wrote and that moves a real RX90:
  * the C++ class Rx90 of luismarzo/rx90. TWINCELL_RX90 names its folder in a checkout, `rx90/Server_Client/No_modbus`.
  */
-import { createCs7Face, createRealController, createVirtualCs7, type VirtualCs7 } from "@twincell/controllers";
+import { createCs7Face, createRealController, createVirtualCs7, openStation, staubli, staubliCs7, type VirtualCs7 } from "@twincell/controllers";
 import { emptyProgram, robotById, type Program } from "@twincell/core";
-import { runnableFile, vPlus } from "@twincell/languages";
+import { runnableFile, val3, vPlus } from "@twincell/languages";
 import { spawn } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -74,6 +74,12 @@ test("N-62 CS7: a V+ program as it is exported is loaded from the disk and repla
   await typed("127.0.0.72", cs7.ports.line, [["do moves start", /\n\.$/]]);
   expect(farthest(cs7.arm.jointAngles(), shifted(-0.1))).toBeLessThan(1e-3);
 }, 60_000);
+
+test("a robot that stands on another controller of the vendor's is refused with both names", async () => {
+  const rx160 = robotById("staubli_rx160")!;
+  expect(await openStation({ id: "a", brand: staubliCs7, robot: rx160, scheduler, dialect: vPlus })).toMatchObject({ kind: "refused", why: { sentence: "Stäubli RX160 does not stand on a controller of Stäubli CS7 (V+)." } });
+  expect(await openStation({ id: "b", brand: staubli, robot, scheduler, dialect: val3 })).toMatchObject({ kind: "refused", why: { sentence: "Stäubli RX90L does not stand on a controller of Stäubli (VAL 3)." } });
+});
 
 test("the program of the handbook is what the virtual controller has built in: it is V+, and its motions are the same", () => {
   const text = readFileSync(new URL("../../../docs/controllers/TWINCELL.v2", import.meta.url), "utf8");

@@ -142,6 +142,27 @@ describe("the driver", () => {
     expect(elsewhere.real.link.sentence).toBe("Joint 2 of the controller's robot stands at -90.0°, where a Stäubli RX60 cannot be.");
   });
 
+  test("a slow serial line, 0.3 s an answer: states are fewer, motions come and end, the stop is typed at once", async () => {
+    const { scheduler, cs7, real, ended } = await bench();
+    cs7.faults.delay_s = 0.3;
+    await scheduler.elapse(1);
+    let states = 0;
+    real.onSample(() => { states++; });
+    await scheduler.elapse(10);
+    expect(states).toBeGreaterThan(20);
+    expect(states).toBeLessThan(40);
+    expect(await ended(real.moveJoints(far))).toEqual({ kind: "done" });
+    expect(farthest(cs7.arm.jointAngles(), far)).toBeLessThanOrEqual(ACCURACY_RAD);
+    real.setSpeed(10);
+    const back = real.moveJoints(shifted(0));
+    await scheduler.elapse(1.5);
+    expect(cs7.arm.isMoving()).toBe(true);
+    real.stop();
+    await scheduler.elapse(cs7.arm.brakingTime_s + 0.05);
+    expect(cs7.arm.isMoving()).toBe(false);
+    expect((await ended(back)).kind).toBe("stopped");
+  });
+
   test("what the controller says of its own accord, with a prompt behind it, is no answer to a question", async () => {
     const { scheduler, cs7, real, ended } = await bench();
     const moving = real.moveJoints(far);
