@@ -142,6 +142,16 @@ describe("the driver", () => {
     expect(elsewhere.real.link.sentence).toBe("Joint 2 of the controller's robot stands at -90.0°, where a Stäubli RX60 cannot be.");
   });
 
+  test("connecting disturbs nothing: a program that somebody started at the controller goes on under the eyes of who watches", async () => {
+    const { scheduler, cs7, real, ended } = await bench(), { pendant } = cs7, there = [20, -80, 80, 0, 0, 0];
+    real.disconnect();
+    pendant.write("JOB.V2", `.PROGRAM job()\nMOVE #PPOINT(${there.join(",")})\n.END\n`);
+    expect([pendant.type("LOAD job"), pendant.type("EXECUTE 1 job")]).toEqual(["", ""]);
+    expect(await ended(real.connect())).toEqual({ kind: "done" });
+    await scheduler.elapse(3);
+    expect(farthest(real.jointAngles(), there.map(value => value * Math.PI / 180))).toBeLessThanOrEqual(ACCURACY_RAD);
+  });
+
   test("a slow serial line, 0.3 s an answer: states are fewer, motions come and end, the stop is typed at once", async () => {
     const { scheduler, cs7, real, ended } = await bench();
     cs7.faults.delay_s = 0.3;

@@ -33,11 +33,12 @@ export function createCs7Face(options: Cs7FaceOptions): Face {
   const j_deg = new Float64Array(JOINTS).fill(NaN), values = new Map<string, boolean | number>(), known = new Map<string, number>();
   const lent: Lent = { sequence: 0, time_s: 0, q_rad: new Float64Array(JOINTS), moving: false, mode: "remote", safety: "normal", override: 1, gripperClosed: false, message: "", signals: values };
   let line: Line | null = null, events: FaceEvents | null = null, stopPolling: (() => void) | null = null, life = 0, polling = false;
-  let state: number = STATE.powerOff, motion = 0, done = 0, next = 1, begun_s = 0, moving: Moving | null = null, ratio = 1, locked = false, resetting = false, aside = "";
+  let state: number = STATE.powerOff, motion = 0, done = 0, next = 1, begun_s = 0, moving: Moving | null = null, ratio = 1, left = false, locked = false, resetting = false, aside = "";
 
   const settle = (outcome: CommandOutcome): void => { const ended = moving; moving = null; ended?.resolve(outcome); };
   function close(): void {
     life++;
+    left ||= moving !== null;
     stopPolling?.();
     stopPolling = null;
     line?.close();
@@ -147,8 +148,9 @@ export function createCs7Face(options: Cs7FaceOptions): Face {
     line = own;
     let late = false;
     const stop = scheduler.every(PATIENCE_S, () => { stop(); late = true; own.close(); });
-    // What another client may have left there is not to go on under our eyes.
-    halt();
+    // What was on its way when the line broke is not to go on; what others started is theirs.
+    if (left) halt();
+    left = false;
     await tell([`DO ${TWC.done} = 0`]);
     const [listed, where] = await Promise.all([own.ask(QUESTION), own.ask("WHERE")]);
     stop();
