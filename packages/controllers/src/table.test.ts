@@ -10,12 +10,12 @@ test("docs/controllers/README.md says what the drivers declare; after a change r
   expect(readFileSync(here("../../../docs/controllers/README.md"), "utf8")).toContain(`<!-- tables -->\n\n${driverTables(DRIVERS)}\n\n<!-- end of tables -->`);
 });
 
-test.each(DRIVERS.map(driver => [driver.name, driver] as const))("every row of %s is a row, has its reason, and every ✓ of the second table has a test that names it", (_, { cannot, folder, own }) => {
+test.each(DRIVERS.map(driver => [driver.name, driver] as const))("every row of %s is a row, has its reason, and every ✓ of the second table has a test that names it", (_, { cannot, folder, own, tests = ".test.ts" }) => {
   for (const { row, because } of cannot) {
-    expect([...ROWS, "texts", "signals", "override", "payload"]).toContain(row);
+    expect([...ROWS, "texts", "signals", "override", "payload", "watch"]).toContain(row);
     expect(because).toMatch(/^[A-Z].*\.$/);
   }
-  const files = readdirSync(here(`./${folder}`), { recursive: true, encoding: "utf8" }).filter(name => name.endsWith(own ? "rsi.test.ts" : ".test.ts")).map(name => here(`./${folder}/${name}`));
+  const files = readdirSync(here(`./${folder}`), { recursive: true, encoding: "utf8" }).filter(name => name.endsWith(tests)).map(name => here(`./${folder}/${name}`));
   const text = [...files, here("./brands.test.ts"), here("./table.test.ts"), ...(own ? [] : [here(`../../../apps/server/src/${folder}.test.ts`)])].map(file => readFileSync(file, "utf8")).join("\n");
   const titles = [...text.matchAll(/\btest(?:\.\w+)*(?:\([^"`]*\))?\(\s*["`]([^\n]*)/g)].map(([, title]) => title!).join("\n");
   for (const row of own ?? ROWS.slice(18)) if (cannot.every(each => each.row !== row)) expect(titles, row).toContain(row);

@@ -3,9 +3,10 @@ import { CS7_CANNOT } from "./cannot.ts";
 import { LINE_PORT } from "./codec.ts";
 import { createCs7Face } from "./driver/index.ts";
 import { vPlusJoints } from "./joints.ts";
+import { cs7Pendant } from "./pendant.ts";
 import { createVirtualCs7 } from "./virtual/index.ts";
 
-const PORTS = { line: LINE_PORT }, TYPES_S = 2, LOOK_S = 0.1;
+const PORTS = { line: LINE_PORT };
 
 /** CS7 and Adept MV as apps meet them: the monitor of V+ on a raw line. */
 export const staubliCs7: Brand = {
@@ -14,29 +15,13 @@ export const staubliCs7: Brand = {
   async virtual({ robot, scheduler, network, host, ports, interpret, start_rad, maxSpeed }) {
     const started = await createVirtualCs7({ robot, scheduler, network, host, interpret, port: ports?.["line"] ?? LINE_PORT, ...(start_rad ? { start_rad } : {}), ...(maxSpeed === undefined ? {} : { maxSpeed }) });
     if (started.kind === "taken") return started;
-    const { virtual } = started, { pendant, arm } = virtual;
+    const { virtual } = started, { arm } = virtual;
     return {
       kind: "started",
       virtual: {
         name: `Virtual ${robot.name}`, robot, ports: virtual.ports, brakingTime_s: arm.brakingTime_s,
         jointAngles: out => arm.jointAngles(out), reboot() { virtual.reboot(); }, close() { virtual.close(); },
-        pendant: {
-          setMode(mode) {
-            pendant.setManual(mode === "manual");
-            if (mode === "manual") return;
-            // Whoever gives the robot back types at the cabinet's terminal what it needs.
-            pendant.type("ENABLE POWER");
-            const until_s = scheduler.now_s() + TYPES_S, stop = scheduler.every(LOOK_S, () => {
-              if (virtual.isPowered && !virtual.calibrated) pendant.type("CALIBRATE");
-              if (virtual.isPowered || scheduler.now_s() > until_s) stop();
-            });
-          },
-          jog: q_rad => pendant.jog(q_rad),
-          emergencyStop(pressed) { pendant.setEmergencyStop(pressed); },
-          setGuardOpen(open) { pendant.setGuardOpen(open); },
-          protectiveStop() { pendant.fail(); },
-          setInput(signal, value) { pendant.setInput(signal, value === true || (typeof value === "number" && value !== 0)); },
-        },
+        pendant: cs7Pendant(virtual, scheduler),
       },
     };
   },

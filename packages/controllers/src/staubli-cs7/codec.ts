@@ -15,6 +15,9 @@ const MOST_LINES = 400;
 /** STATE(1): what the robot as a whole is doing. */
 export const STATE = { resetting: 0, fatal: 1, powerOff: 2, poweringOn: 3, manual: 4, calibrating: 5, program: 7, notCalibrated: 8 } as const;
 
+const STATE_NAMES = ["resetting", "fatal error", "power off", "power coming on", "manual control", "calibrating", "", "program control", "not calibrated"];
+export const stateName = (state: number): string => STATE_NAMES[state] ?? "";
+
 export const textBytes = (text: string): Uint8Array => Uint8Array.from(text, sign => { const code = sign.charCodeAt(0); return code < 128 ? code : 63; });
 export const commandBytes = (command: string): Uint8Array => textBytes(`${command}\r`);
 /** A byte of a text line: letters, signs, and what moves the cursor. */

@@ -153,7 +153,7 @@ describe("the driver", () => {
   });
 
   test("a slow serial line, 0.3 s an answer: states are fewer, motions come and end, the stop is typed at once", async () => {
-    const { scheduler, cs7, real, ended } = await bench();
+    const { scheduler, cs7, real, ended } = await bench({ face: { stale_s: 2 } });
     cs7.faults.delay_s = 0.3;
     await scheduler.elapse(1);
     let states = 0;

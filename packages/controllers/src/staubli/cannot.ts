@@ -7,4 +7,5 @@ export const STAUBLI_CANNOT: readonly Cannot[] = [
   { row: "texts", because: "The protocol carries joint points, no programs: VAL 3 texts go to the controller by USB stick or FTP and are started at its pendant." },
   { row: "signals", because: "The protocol of ros_server carries no signals." },
   { row: "payload", because: "The protocol carries no loads: set them at the controller." },
+  { row: "watch", because: "The program ros_server serves one client, and stops the robot when that one goes." },
 ];

@@ -21,7 +21,7 @@ export interface Cs7FaceOptions {
 type Lent = { -readonly [K in keyof Omit<JointSample, "step">]: Omit<JointSample, "step">[K] };
 interface Moving { readonly motion: FaceMotion; readonly resolve: (outcome: CommandOutcome) => void; id: number; begun: boolean; over: boolean; held: boolean; ending: CommandOutcome | null; looks: number; stood_s: number }
 
-const PERIOD_S = 0.1, STALE_S = 2, PATIENCE_S = 4, SHORT_S = 1, BEYOND_RAD = 0.02, STANDS_DEG = 0.0015;
+const PERIOD_S = 0.02, STALE_S = 0.08, PATIENCE_S = 4, SHORT_S = 1, BEYOND_RAD = 0.02, STANDS_DEG = 0.0015;
 const QUESTION = `LISTR STATE(1),STATE(2),${TWC.done}`;
 
 /**
@@ -170,7 +170,7 @@ export function createCs7Face(options: Cs7FaceOptions): Face {
   }
 
   return {
-    brand: "Stäubli CS7", robot, stale_s: options.stale_s ?? Math.max(STALE_S, 6 * period_s), open, close,
+    brand: "Stäubli CS7", robot, stale_s: options.stale_s ?? Math.max(STALE_S, 4 * period_s), open, close,
     watchdog: { kind: "none", because: "The monitor has no watchdog: a motion that was started goes on to its end when the line breaks, and streamed motion is refused." },
     move(wanted) {
       if (!line) return Promise.resolve(refused(closedHere));

@@ -33,7 +33,7 @@ export interface Cs7Pendant {
   setGuardOpen(open: boolean): void;
   /** The arm switches itself off. */
   fail(): void;
-  jog(q_rad: ArrayLike<number>): Promise<CommandOutcome>;
+  jog(q_rad: ArrayLike<number>, ratio?: number): Promise<CommandOutcome>;
   setInput(signal: string, value: boolean): void;
   /** Puts a file on the disk. */
   write(name: string, text: string): string | null;
@@ -42,7 +42,9 @@ export interface Cs7Pendant {
 }
 export interface VirtualCs7 {
   readonly robot: Robot; readonly arm: VirtualController; readonly pendant: Cs7Pendant; readonly faults: LineFaults; readonly ports: { readonly line: number };
-  readonly isPowered: boolean; readonly calibrated: boolean;
+  readonly machine: Machine; readonly isPowered: boolean; readonly calibrated: boolean;
+  /** A program has the robot. */
+  readonly isRunning: boolean;
   reboot(): void;
   close(): void;
 }
@@ -138,16 +140,16 @@ export async function createVirtualCs7(options: VirtualCs7Options): Promise<Cs7S
   return {
     kind: "started",
     virtual: {
-      robot, arm, faults, ports: { line: listening.address.port },
+      robot, arm, faults, machine, get isRunning() { return programs.isRunning; }, ports: { line: listening.address.port },
       get isPowered() { return machine.isPowered; }, get calibrated() { return machine.calibrated; },
       pendant: {
         setManual(on) { if (on) programs.abort(); machine.setManual(on); }, pressHighPower() { machine.press(); }, setEmergencyStop(pressed) { machine.setEmergency(pressed); },
         setGuardOpen(open) { machine.setGuard(open); }, fail() { machine.off(); }, setInput(signal, value) { arm.signals.write(signal, value); },
         write: (name, text) => programs.write(name, text),
         type(command) { const spoken = monitor(command); return spoken.asks ? spoken.asks("Y").text : spoken.text; },
-        async jog(q_rad) {
+        async jog(q_rad, ratio = 1) {
           if (!machine.manual || !machine.isPowered) return { kind: "refused", why: { code: "controller.not-manual", sentence: machine.manual ? "High power is off." : "The pendant is in COMP mode.", hint: "Press MAN at the pendant and switch high power on." } };
-          const step: MoveStep = { id: "jog", type: "move", path: "ptp", target: { q: Array.from(q_rad) }, speed: { ratio: 1 }, blend_m: 0 };
+          const step: MoveStep = { id: "jog", type: "move", path: "ptp", target: { q: Array.from(q_rad) }, speed: { ratio }, blend_m: 0 };
           return arm.run([slowed(robot, step, arm.jointAngles(), MANUAL_MPS)], { tools: {}, frames: {} });
         },
       },

@@ -18,6 +18,8 @@ export class Machine {
   get isPowered(): boolean { return this.power; }
   get manual(): boolean { return this.isManual; }
   get speed(): number { return this.percent; }
+  get isPressed(): boolean { return this.emergency; }
+  get isGuardOpen(): boolean { return this.guardOpen && !this.isManual; }
   get state(): number {
     if (!this.power) return STATE.powerOff;
     if (!this.calibrated) return STATE.notCalibrated;

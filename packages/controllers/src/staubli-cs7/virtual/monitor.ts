@@ -1,6 +1,6 @@
 import { compose, flangePose, inverse, toVplusYpr, type Interpreted, type Pose, type Robot, type Step } from "@twincell/core";
 import type { VirtualController } from "../../virtual/index.ts";
-import { readPoint, STATE, valuesText, whereText } from "../codec.ts";
+import { readPoint, STATE, stateName, valuesText, whereText } from "../codec.ts";
 import { JOINTS, shownOf, type VPlusJoints } from "../joints.ts";
 import type { Machine } from "./machine.ts";
 import type { Programs } from "./programs.ts";
@@ -107,7 +107,7 @@ export function createMonitor({ robot, arm, machine, programs, joints, interpret
       case "PROCEED": return said(programs.proceed());
       case "LOAD": return said(programs.load(rest));
       case "DIRECTORY": return { text: programs.names.map(name => `.PROGRAM ${name}`).join("\r\n").replace(/^/gm, " ") + "\r\n" };
-      case "STATUS": return { text: `Robot ${["resetting", "fatal error", "power off", "power coming on", "manual mode", "calibrating", "", "program control", "not calibrated"][machine.state] ?? ""}, speed ${machine.speed}, task 1 ${programs.isRunning ? "executing" : "idle"}\r\n` };
+      case "STATUS": return { text: `Robot ${stateName(machine.state)}}, speed ${machine.speed}, task 1 ${programs.isRunning ? "executing" : "idle"}\r\n` };
       case "SIGNAL": {
         const lines = rest.split(",").map(Number);
         if (lines.some(n => !Number.isInteger(n) || n === 0 || Math.abs(n) > 512)) return said("*Illegal digital signal*");

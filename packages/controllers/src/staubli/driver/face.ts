@@ -20,7 +20,7 @@ type Lent = { -readonly [K in keyof Omit<JointSample, "step">]: Omit<JointSample
 /** One motion: said, braked for another speed, held, or stopped. */
 interface Moving { readonly motion: FaceMotion; readonly resolve: (outcome: CommandOutcome) => void; sequence: number; sent_s: number; saidBy: "nobody" | "us" | "taken"; braking: boolean; ending: CommandOutcome | null; statuses: number; stood_s: number }
 
-const NOT_YET = 0, STALE_S = 0.2, FIRST_S = 4, PATIENCE_S = 2, SHORT_S = 5;
+const NOT_YET = 0, STALE_S = 0.08, FIRST_S = 4, PATIENCE_S = 2, SHORT_S = 5;
 /** At its target a 32-bit number is this near, and an arm that has settled is near enough [rad]. */
 const THERE_RAD = 1e-6, NEAR_RAD = 2e-4, NEAR_S = 0.3;
 /** Between two states a standing arm turns less [rad]. */
