@@ -4,7 +4,7 @@ import { BRANDS, createRealController, memoryNetwork, robotsOf, type Brand } fro
 
 const HOST = "127.0.0.9";
 /** Where the wire cannot switch drives on and start a program: a person does it at the cabinet, with the key. */
-const AT_THE_CABINET: ReadonlySet<string> = new Set(["staubli"]);
+const AT_THE_CABINET: ReadonlySet<string> = new Set(["staubli", "staubli-cs7"]);
 /** A brand's virtual controller with a robot of the library, and its driver, as apps start them. */
 async function bench(brand: Brand) {
   const robot = robotsOf(brand).find(({ arm }) => arm.joints.length === 6)!, scheduler = manualScheduler(), network = memoryNetwork(scheduler);

@@ -4,11 +4,12 @@ import { fanuc } from "./fanuc/index.ts";
 import { kuka } from "./kuka/index.ts";
 import type { Brand } from "./real/index.ts";
 import { staubli } from "./staubli/index.ts";
+import { staubliCs7 } from "./staubli-cs7/index.ts";
 import { universalRobots } from "./ur/index.ts";
 import { yaskawa } from "./yaskawa/index.ts";
 
 /** Every brand there is a driver and a virtual controller for. */
-export const BRANDS: readonly Brand[] = [universalRobots, kuka, yaskawa, fanuc, abb, staubli];
+export const BRANDS: readonly Brand[] = [universalRobots, kuka, yaskawa, fanuc, abb, staubli, staubliCs7];
 export const brandById = (id: string): Brand | undefined => BRANDS.find(brand => brand.id === id);
 /** Brands whose robots that one is. */
 export const brandsFor = (vendor: string): readonly Brand[] => BRANDS.filter(brand => brand.vendor === vendor);

@@ -14,4 +14,5 @@ export * from "./yaskawa/index.ts";
 export * from "./fanuc/index.ts";
 export * from "./abb/index.ts";
 export * from "./staubli/index.ts";
+export * from "./staubli-cs7/index.ts";
 export * from "./table.ts";

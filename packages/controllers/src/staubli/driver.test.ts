@@ -158,6 +158,17 @@ describe("the driver", () => {
     expect(await ended(real.moveJoints(far))).toEqual({ kind: "done" });
   });
 
+  test("connecting disturbs nothing: a program started at the pendant goes on under the eyes of who watches", async () => {
+    const { scheduler, staubli, real, ended } = await bench(), there = [10, 20, 30, 0, 20, 0];
+    real.disconnect();
+    expect(staubli.pendant.load(`movej ${there.join(" ")}`)).toBeNull();
+    const running = staubli.pendant.start();
+    expect(await ended(real.connect())).toEqual({ kind: "done" });
+    expect(await ended(running)).toBe("");
+    await scheduler.elapse(0.1);
+    expect(farthest(real.jointAngles(), there.map(value => value * Math.PI / 180))).toBeLessThanOrEqual(ACCURACY_RAD);
+  });
+
   test("half the speed is half the speed on the way; lowered in the middle of a motion it counts at once", async () => {
     const { scheduler, staubli, real, ended } = await bench(), long = shifted(1);
     let last = staubli.arm.jointAngles(), most = 0;

@@ -48,7 +48,7 @@ export function createStaubliFace(options: StaubliFaceOptions): Face {
   const status = noStatus(), raw = new Float64Array(AXES), before_rad = new Float64Array(JOINTS).fill(NaN), answer = noPoint();
   const lent: Lent = { sequence: 0, time_s: 0, q_rad: new Float64Array(JOINTS), moving: false, mode: "manual", safety: "normal", override: 1, gripperClosed: false, message: "" };
   let motionLine: ByteStream | null = null, feedback: ByteStream | null = null, events: FaceEvents | null = null, life = 0;
-  let statuses = 0, states = 0, moving: Moving | null = null, ratio = 1, locked = false, next = NOT_YET + 1, halts = 0, begun_s = 0, onState: (() => void) | null = null;
+  let statuses = 0, states = 0, moving: Moving | null = null, ratio = 1, left = false, locked = false, next = NOT_YET + 1, halts = 0, begun_s = 0, onState: (() => void) | null = null;
 
   const settle = (outcome: CommandOutcome): void => { const ended = moving; moving = null; ended?.resolve(outcome); };
   const send = (sequence: number, q_rad: ArrayLike<number> | null, velocity: number, duration_s: number): void => {
@@ -70,6 +70,7 @@ export function createStaubliFace(options: StaubliFaceOptions): Face {
 
   function close(): void {
     life++;
+    left ||= moving !== null;
     for (const stream of [motionLine, feedback]) stream?.close();
     motionLine = feedback = null;
     events = null;
@@ -194,8 +195,9 @@ export function createStaubliFace(options: StaubliFaceOptions): Face {
     if ("code" in orders) return fail(orders, true);
     motionLine = orders;
     listen(orders, mine, onReply);
-    // What another client may have left there is not to go on under our eyes.
-    halt();
+    // What was on its way when the line broke is not to go on; what others started is theirs.
+    if (left) halt();
+    left = false;
     begun_s = scheduler.now_s();
     // The program waits for a second before it tells anything.
     await new Promise<void>(resolve => {

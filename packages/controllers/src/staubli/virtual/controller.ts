@@ -40,7 +40,7 @@ export interface StaubliPendant {
   /** The arm switches itself off. */
   fail(because: string): void;
   /** A joint move by the jog keys, in manual mode with the enabling switch pressed. */
-  jog(q_rad: ArrayLike<number>): Promise<CommandOutcome>;
+  jog(q_rad: ArrayLike<number>, ratio?: number): Promise<CommandOutcome>;
   setInput(signal: string, value: boolean | number): void;
   /** Reads a VAL 3 text into memory; it does not run yet. */
   load(text: string): string | null;
@@ -55,8 +55,11 @@ export interface VirtualStaubli {
   readonly pendant: StaubliPendant;
   readonly faults: LineFaults;
   readonly ports: { readonly motion: number; readonly feedback: number };
+  readonly machine: Machine;
   readonly isPowered: boolean;
   readonly mode: StaubliMode;
+  /** A program of the pendant has the arm. */
+  readonly runsText: boolean;
   /** Points and motions that wait or are carried out. */
   readonly waiting: number;
   /** Line of the VAL 3 program that is carried out. */
@@ -134,17 +137,17 @@ export async function createVirtualStaubli(options: VirtualStaubliOptions): Prom
   return {
     kind: "started",
     virtual: {
-      robot, arm, faults, ports: { motion: address(motion), feedback: address(feedback) },
-      get isPowered() { return machine.isPowered; }, get mode() { return machine.mode; }, get waiting() { return stack.waiting; }, get line() { return stack.line; },
+      robot, arm, faults, machine, ports: { motion: address(motion), feedback: address(feedback) },
+      get isPowered() { return machine.isPowered; }, get mode() { return machine.mode; }, get waiting() { return stack.waiting; }, get runsText() { return stack.runsText; }, get line() { return stack.line; },
       pendant: {
         setMode(mode) { machine.setMode(mode); }, setEnabling(pressed) { machine.setEnabling(pressed); }, acknowledge() { machine.acknowledge(); },
         setPower(on) { if (!on) machine.disablePower(); return on ? machine.enablePower() : null; },
         setHold(on) { machine.setHold(on); }, setMonitorSpeed: percent => machine.setMonitorSpeed(percent),
         setEmergencyStop(pressed) { machine.setEmergency(pressed); }, setDoorOpen(open) { machine.setDoor(open); }, fail(because) { machine.fail(because); },
         setInput(signal, value) { arm.signals.write(signal, value); },
-        async jog(q_rad) {
+        async jog(q_rad, ratio = 1) {
           if (machine.mode !== "manual" || !machine.moves) return { kind: "refused", why: { code: "controller.not-manual", sentence: machine.mode === "manual" ? "The enabling switch is not pressed." : `The mode is ${machine.mode}; the arm is jogged in manual mode.`, hint: "Turn the mode selector to manual and press the enabling switch." } };
-          const step: MoveStep = { id: "jog", type: "move", path: "ptp", target: { q: Array.from(q_rad) }, speed: { ratio: 1 }, blend_m: 0 };
+          const step: MoveStep = { id: "jog", type: "move", path: "ptp", target: { q: Array.from(q_rad) }, speed: { ratio }, blend_m: 0 };
           return arm.run([slowed(robot, step, arm.jointAngles(), MANUAL_MPS)], { tools: {}, frames: {} });
         },
         load(text) {

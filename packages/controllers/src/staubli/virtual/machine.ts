@@ -41,6 +41,9 @@ export class Machine {
   /** Whether motions of the stack are carried out. */
   get moves(): boolean { return this.power && !this.held && (this.isMode !== "manual" || this.enabling); }
   get isHeld(): boolean { return this.held; }
+  get monitorSpeed(): number { return this.percent; }
+  get isPressed(): boolean { return this.emergency; }
+  get isDoorOpen(): boolean { return this.doorOpen && this.isMode !== "manual"; }
 
   private off(): void {
     if (!this.power) return;

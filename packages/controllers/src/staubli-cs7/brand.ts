@@ -1,0 +1,28 @@
+import type { Brand } from "../real/index.ts";
+import { CS7_CANNOT } from "./cannot.ts";
+import { LINE_PORT } from "./codec.ts";
+import { createCs7Face } from "./driver/index.ts";
+import { vPlusJoints } from "./joints.ts";
+import { cs7Pendant } from "./pendant.ts";
+import { createVirtualCs7 } from "./virtual/index.ts";
+
+const PORTS = { line: LINE_PORT };
+
+/** CS7 and Adept MV as apps meet them: the monitor of V+ on a raw line. */
+export const staubliCs7: Brand = {
+  id: "staubli-cs7", name: "Stäubli CS7 (V+)", dialect: "v-plus", vendor: "Stäubli", ports: PORTS, cannot: CS7_CANNOT, drives: robot => vPlusJoints(robot) !== undefined,
+  face: ({ robot, scheduler, network, host, ports }) => createCs7Face({ robot, scheduler, network, host, port: ports?.["line"] ?? LINE_PORT }),
+  async virtual({ robot, scheduler, network, host, ports, interpret, start_rad, maxSpeed }) {
+    const started = await createVirtualCs7({ robot, scheduler, network, host, interpret, port: ports?.["line"] ?? LINE_PORT, ...(start_rad ? { start_rad } : {}), ...(maxSpeed === undefined ? {} : { maxSpeed }) });
+    if (started.kind === "taken") return started;
+    const { virtual } = started, { arm } = virtual;
+    return {
+      kind: "started",
+      virtual: {
+        name: `Virtual ${robot.name}`, robot, ports: virtual.ports, brakingTime_s: arm.brakingTime_s,
+        jointAngles: out => arm.jointAngles(out), reboot() { virtual.reboot(); }, close() { virtual.close(); },
+        pendant: cs7Pendant(virtual, scheduler),
+      },
+    };
+  },
+};

@@ -1,0 +1,1 @@
+export { createCs7Face, type Cs7FaceOptions } from "./face.ts";
