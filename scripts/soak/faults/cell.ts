@@ -1,5 +1,5 @@
-import { memoryNetwork, openStation, type Brand, type BrandStation } from "@twincell/controllers";
-import { emptyProgram, LIBRARY, manualScheduler, seededRandom, type CommandOutcome, type ManualScheduler, type MoveStep, type Program, type Robot } from "@twincell/core";
+import { memoryNetwork, openStation, robotsOf, type Brand, type BrandStation } from "@twincell/controllers";
+import { emptyProgram, manualScheduler, seededRandom, type CommandOutcome, type ManualScheduler, type MoveStep, type Program, type Robot } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
 import { watched, type Watched } from "./watched.ts";
 
@@ -66,7 +66,7 @@ function counted(scheduler: ManualScheduler): { readonly scheduler: ManualSchedu
 /** Opens and connects a station of that brand with a robot of the library, on a clock and a network of its own. */
 export async function openCell(brand: Brand, seed: number): Promise<Cell> {
   const random = seededRandom(seed), { scheduler, running } = counted(manualScheduler()), isFar = random() < 0.5;
-  const robots = LIBRARY.filter(({ vendor, arm }) => vendor === brand.vendor && arm.joints.length === 6), robot = robots[Math.floor(random() * robots.length)], dialect = dialectById(brand.dialect);
+  const robots = robotsOf(brand).filter(({ arm }) => arm.joints.length === 6), robot = robots[Math.floor(random() * robots.length)], dialect = dialectById(brand.dialect);
   if (!robot || !dialect) throw new Error(`The library has no six-axis robot of ${brand.vendor}, or no language ${brand.dialect}.`);
   const seen = watched(brand, scheduler, random), far = isFar ? memoryNetwork(scheduler, seed) : null;
   if (far) {

@@ -1,3 +1,5 @@
+import { videoWords } from "./video.ts";
+
 /** English. Field terms as a programmer says them; sentences end with a full stop and carry the number and the unit. */
 const plural = (count: number, one: string, many = `${one}s`): string => `${count} ${count === 1 ? one : many}`;
 
@@ -49,10 +51,27 @@ export const en = {
     virtual: "virtual", links: { closed: "not connected", connecting: "connecting", open: "connected", lost: "connection lost" },
     figures: (hz: string, late: string, missing: number) => `${hz} Hz · ${late} late · ${missing} missing`, trip: (ms: string) => `answers in ${ms}`,
     plan: "From the plan", command: "From the command", watchdog: "If nobody commands", mode: "Mode", safety: "Safety", step: "Step", ms: (s: number) => `${(s * 1000).toFixed(1)} ms`,
-    pendant: "Cabinet", key: "Mode switch", gate: "Gate", gateOpen: "Open the gate", gateClose: "Close the gate", red: "Press the red button", redOut: "Turn the red button out", reboot: "Off and on again",
+    pendant: "Pendant and cabinet", pendantAlone: "On a page of its own",
     noServer: "Real controllers are reached through the Twincell server.", noServerHint: "Start npx twincell serve and open the address it prints.", gone: "This controller is no longer there.",
+    together: "Start together", togetherTip: "All are made ready first. If one refuses nobody starts; whoever is stopped stops all.", togetherOf: "Those that start together", began: (n: number, ms: number) => `${n} robots began together, within ${ms} ms.`, togetherDone: "The common run is done.",
+    twoClocks: "Some of them are in this page and some on the server: they have no common clock.", twoClocksHint: "Start those of one place together.",
+    watching: "Watched only. Nothing is commanded from here; STOP still stops it.", watchingShort: "watched only", take: "Take it to command", watch: "Only watch", watchTip: "Gives the command back. From then on nothing but a stop is sent.",
+    purpose: "Open it", purposes: { command: "to command", watch: "to watch only" }, purposeHint: "Watched only: whoever moves the robot is left alone. A stop is still sent.",
     unreached: (robot: string, n: number) => `${robot} does not reach ${plural(n, "step")} of the program.`, unreachedHint: "Bring the points nearer, or choose a larger robot.", faultHint: "Its controllers were closed here. Nothing goes on by itself.",
     done: (name: string) => `${name}: the program is done.`, card: (name: string) => `Controller ${name}`,
+  },
+  cabinet: {
+    title: "Pendant", none: "There is no virtual controller here whose pendant could be shown. Open one in the studio first.", picture: "The arm as it stands now", connecting: "Connecting to the controller …", lost: "The connection to the controller is gone; whatever was held has been let go. Start it again and load this page anew.",
+    virtual: "virtual controller", moves: "moves", stands: "stands", hand: "Hands on the pendant", key: "Mode key", around: "Around the robot",
+    stop: "STOP", red: "Press the red button", redOut: "Turn the red button out", redShort: "Emergency stop", redOutShort: "Turn out",
+    enable: "Enabling switch", enableKey: ", or hold E", enableHold: "hold", keep: "Keep it pressed for me, until this window loses focus",
+    servo: { on: "on", coming: "coming on", off: "off" }, override: "Speed", jog: "Jog keys", flange: "Flange in the base", tip: { x: "X", y: "Y", z: "Z", rx: "Rx", ry: "Ry", rz: "Rz" },
+    jogging: (joint: number, direction: number) => `Joint ${joint} is jogged in ${direction > 0 ? "+" : "−"}.`, ready: "Hold a jog key: its joint moves, at 250 mm/s at most.", howToJog: "Hold the enabling switch, then a jog key.", notManual: "The jog keys work in a manual mode only.",
+    near: "Somebody near the robot", gate: "Gate open", protective: "Protective stop", because: "Somebody asked for it at the pendant.", noAlarms: "No alarms.", noProgram: "No program is chosen.",
+    program: (name: string, running: boolean) => (running ? `${name} runs.` : `${name} does not run.`),
+    signals: "Signals", outputs: "Out", noSignals: "Its protocol carries no signals.", connected: (n: number) => (n === 0 ? "Nobody is connected" : `${plural(n, "connection")}`), listens: (host: string, ports: string) => `At ${host}: ${ports}.`,
+    faults: "Faults", delay: "Late by", loss: "Lost", hangs: "Controller hangs", unplug: "Pull the network plug", reboot: "Off and on again",
+    honest: "A controller made of numbers: nothing outside moves. Not a certified safety device.",
   },
   tree: {
     cell: "Cell", program: "Program", axes: (n: number) => `${n} axes`, noTool: "No tool (flange)", robot: "Robot", tool: "Tool", object: "Object", frame: "Frame",
@@ -151,6 +170,7 @@ export const en = {
   check: {
     title: "Verdict", clearance: "Clearance", margin: "Joint margin", reach: "Reach", cycle: "Cycle", reachOk: (n: number) => `${n} of ${n}`, reachBad: (bad: number, all: number) => `${bad} of ${all} fail`, notMeasured: "not measured",
     checking: "Checking …", percent: (p: number) => `Checking … ${p} %`, cancel: "Cancel check", again: "Check again", repairAll: (n: number) => `Repair all (${n})`, fine: "Every step can be carried out.", none: "There is nothing to check yet. Add a step first.", notYet: "Not checked yet.",
+    others: (n: number) => (n === 1 ? "Check against the other robot where it stands" : `Check against the ${n} other robots where they stand`),
     assumptions: "What this rests on", cancelled: "The check was cancelled.", stale: "The program changed; it is being checked again.", why: "Why", whyNone: "Nothing stands in the way.", more: (n: number) => `and ${n} more`, affected: (n: number) => `${plural(n, "point")} ${n === 1 ? "is" : "are"} affected.`, repaired: (n: number) => `${plural(n, "repair")} applied.`,
     shown: "This is how it would stand. Esc goes back.", at: (s: string) => `at ${s} s`, trouble: "The program could not be checked:", joint: "Joints at this moment",
   },
@@ -179,7 +199,7 @@ export const en = {
     zoom: "Time shown", zooms: { all: "All", hour: "1 h", tenMinutes: "10 min", minute: "1 min", ten: "10 s" }, overview: "Where the time shown lies in the recording", moreMarks: (n: number) => `and ${n} more; zoom in to see them.`,
     noCycles: "No cycle yet: a cycle begins where a program starts.", cycle: (n: number) => `Cycle ${n}`, overlaySays: "Choose two cycles to lay them over each other in the view.", first: "first", second: "second", cycleEnds: { again: "then the next", done: "done", stopped: "stopped", refused: "refused", open: "not ended" }, endOverlay: "Take the overlay away",
     longer: (s: string) => `The second takes ${s} s longer.`, shorter: (s: string) => `The second takes ${s} s less.`, asLong: "Both take the same time.", apart: (mm: string, s: string) => `At the same time since the start they are at most ${mm} mm apart, after ${s} s.`, offPath: (mm: string) => `The ways themselves lie at most ${mm} mm apart.`,
-    notReported: "not reported", cycleTimes: "Cycle times", cyclesSay: (n: number, median: string, fastest: string, slowest: string) => `${plural(n, "cycle")}, ${median} s in the middle, ${fastest} … ${slowest} s`, use: "Use", useSays: (moving: string, stopped: string, recorded: string) => `${moving} % in motion, ${stopped} % stopped by safety, of ${recorded} recorded`, alarms: "Alarms", noAlarms: "No alarm.", alarmTimes: (n: number) => plural(n, "time"), load: "Joint load", temperature: "Joint temperature", travel: "Travel per joint", perHour: "per hour", hints: "Hints", noHints: "Nothing stands out.", noService: "Service intervals: not reported. Robots here come without their makers' papers.",
+    notReported: "not reported", cycleTimes: "Cycle times", cyclesSay: (n: number, median: string, fastest: string, slowest: string) => `${plural(n, "cycle")}, ${median} s in the middle, ${fastest} … ${slowest} s`, use: "Use", useSays: (moving: string, stopped: string, recorded: string) => `${moving} % in motion, ${stopped} % stopped by safety, of ${recorded} recorded`, alarms: "Alarms", noAlarms: "No alarm.", alarmTimes: (n: number) => plural(n, "time"), load: "Joint load", temperature: "Joint temperature", travel: "Travel per joint", perHour: "per hour", hints: "Hints", noHints: "Nothing stands out.", noService: "Service intervals: not reported. Robots here come without their makers' papers: say them below.", serviceTitle: "Service intervals", serviceSays: "What each joint may travel between two services, from the robot's papers; 0 where it is not known. Kept in this browser.", serviceOf: (joint: string) => `Service interval of ${joint}`, served: (percent: string, hours: string) => `${percent} % of its interval, ${hours} left`, hoursOf: (hours: number) => Number.isFinite(hours) ? `${Math.round(hours).toLocaleString("en")} h` : "no end",
     slower: (percent: string, from: string, to: string) => `Cycles became ${percent} % slower: from ${from} s to ${to} s.`, loadRises: (joint: number, percent: string) => `The load of joint ${joint} rose by ${percent} %: look for friction, or a heavier part.`, temperatureRises: (joint: number, percent: string) => `Joint ${joint} became ${percent} % warmer.`, repeats: (code: string, n: number) => `${code} came ${plural(n, "time")}.`, serviceDue: (joint: number, percent: string) => `Joint ${joint} used up ${percent} % of its service interval.`, percent: "%", joint: (n: number) => `J${n}`,
   },
   file: {
@@ -188,7 +208,7 @@ export const en = {
     damaged: "The cell kept in this browser could not be read; an earlier copy was opened.", lost: "The cell kept in this browser could not be read; the example was opened instead.", unreadable: (name: string) => `${name} could not be read from the disk.`, mesh: (name: string, faces: number) => `${name} was added with ${faces.toLocaleString("en")} triangles.`, unknownKind: (name: string) => `${name} is neither a cell, nor a recording, nor a program text of a language known here, nor an STL or OBJ mesh.`, unknownHint: "Drop a .json cell saved by Twincell, a recording (.mcap), a program text (.v2, .src, .script, .mod, .JBI …), or an STL or OBJ mesh.",
   },
   welcome: {
-    title: "Start with a cell", example: "Open an example", exampleSays: "A Stäubli RX90L, a carton on a table, four edges to trace.", drop: "Drop a CAD file", dropSays: "STL, OBJ and PLY meshes become objects; cells and program texts open.", connect: "Connect a controller", connectSays: (robot: string) => `The virtual ${robot} is connected. Real controllers come later.`, robot: "Choose a robot", robotSays: (robots: number) => `Or take one of the ${robots} robots of the library.`, connected: "connected", empty: "Empty cell", choose: "Choose a file",
+    title: "Start with a cell", example: "Open an example", exampleSays: "A Stäubli RX90L, a carton on a table, four edges to trace.", drop: "Drop a CAD file", dropSays: "STL, OBJ and PLY meshes become objects; cells and program texts open.", connect: "Connect a controller", connectSays: (robot: string) => `The virtual ${robot} is connected; other controllers, real ones too, are added in Run.`, robot: "Choose a robot", robotSays: (robots: number) => `Or take one of the ${robots} robots of the library.`, connected: "connected", empty: "Empty cell", choose: "Choose a file",
   },
   export: {
     title: "Export", dialect: "Language", files: "Files", text: "Text", warnings: "Notes", none: "No notes.", download: "Download as zip", downloadFiles: "Single files", copy: "Copy text", step: (name: string) => `from ${name}`, cannot: "This program cannot be written in this language:", manifest: "Manifest", lines: (n: number) => plural(n, "line"), copied: "The text is in the clipboard.", notCopied: "The browser did not allow copying.", notCopiedHint: "Select the text and copy it by hand.",
@@ -231,5 +251,6 @@ export const en = {
     teach: "Teach", check: "Check", run: "Run", history: "History", theme: "Theme: light or dark", mute: "Sounds on or off", camera: "Main or close camera", headset: "Enter the headset", trace: "Trace edges", recordPtp: "Record point, PTP", recordLin: "Record point, LIN", recordMoving: "Record while moving: on or off", touchUp: "Touch up the selected point", wait: "Add a wait", gripperClose: "Add: close gripper", gripperOpen: "Add: open gripper", set: "Add: set a signal", waitFor: "Add: wait for a signal", comment: "Add: comment", repeat: "Add: loop around the step",
     ready: "Do Ready: go home", zero: "All joints to zero", aidNext: "Next orientation aid", aidPrevious: "Previous orientation aid", remove: "Delete what is selected", duplicate: "Duplicate the selected step", clear: "Clear the program", anotherRobot: "Another robot …", play: "Play or pause", physics: "Play with physics, or without", resume: "Let the robot go on", conveyor: "Open the conveyor example", stepOn: "Next step", stepBack: "Previous step", start: "To the start", checkNow: "Check now", repairAll: "Repair all", plots: "Plots", up: "Move the step up", down: "Move the step down", rename: "Rename", startRun: "Run on the virtual controller", frame: (name: string) => `Jog in ${name}`, coach: "Show the coach again", box: "Add a box", deselect: "Leave",
   },
+  video: videoWords,
   sheet: { label: "Tools", jog: "Jog", program: "Program", why: "Why", run: "Run", dead: "Hold to move" },
 };

@@ -1,8 +1,11 @@
-import { planProgram, unrolled, type CommandOutcome, type Dialect, type OperatingMode, type Pose, type Program, type Refusal, type Robot, type Scheduler } from "@twincell/core";
-import { createRealController, type Brand, type BrandVirtual, type ControllerData, type PortNumbers } from "../real/index.ts";
+import { planProgram, unrolled, type CommandOutcome, type Dialect, type PlanAnswer, type Pose, type Program, type Refusal, type Robot, type Scheduler } from "@twincell/core";
+import { createRealController, type Brand, type ControllerData, type PortNumbers } from "../real/index.ts";
 import { memoryNetwork, type Network } from "../transport/index.ts";
+import type { SharedCell } from "../cell/index.ts";
 import type { Seat } from "../guard/index.ts";
-import { createStation, type Station } from "./station.ts";
+import { DONE, refused } from "../outcomes.ts";
+import { openCabinet, type Cabinet, type CabinetOpened } from "./cabinet.ts";
+import { createStation, type Armed, type Station, type StationJob } from "./station.ts";
 
 export interface OpenOptions {
   readonly id: string;
@@ -15,31 +18,29 @@ export interface OpenOptions {
   readonly worldFromBase?: Pose<"world", "base">;
   /** Where the controller is. Left out, a virtual one is started beside its driver, in memory. */
   readonly at?: { readonly network: Network; readonly host: string; readonly ports?: PortNumbers; readonly data?: ControllerData };
+  /** The cell it shares with other robots, and where it stands there; `worldFromBase` is where its programs take it to stand. */
+  readonly shared?: { readonly cell: SharedCell; readonly stand: Pose<"world", "base"> };
   readonly deadMan?: boolean;
   readonly heartbeat_s?: number;
+  /** Opened to watch: whoever moves the robot is left alone, and from here it is not commanded. */
+  readonly watching?: boolean;
 }
-
-/** What a person does before a virtual cabinet. */
-export type CabinetAct =
-  | { readonly do: "mode"; readonly mode: OperatingMode }
-  | { readonly do: "jog"; readonly q_rad: readonly number[] }
-  | { readonly do: "emergency-stop"; readonly pressed: boolean }
-  | { readonly do: "guard"; readonly open: boolean }
-  | { readonly do: "protective-stop"; readonly because: string }
-  | { readonly do: "input"; readonly signal: string; readonly value: boolean | number }
-  | { readonly do: "reboot" };
 
 /** A station of a brand, and what a person can do at its cabinet where that is virtual. */
 export interface BrandStation extends Station {
   /** What is said of it. */
   readonly words: { readonly id: string; readonly name: string; readonly brand: string; readonly robot: string; readonly virtual: boolean; readonly watchdog: string };
   /** null where a person stands before a real one. */
-  readonly pendant: ((act: CabinetAct) => Promise<CommandOutcome>) | null;
+  readonly pendant: Cabinet | null;
   /** Pulls the plug of the wire to a virtual controller, or puts it back. */
   readonly plug: ((pulled: boolean) => void) | null;
   /** Runs a program from that seat, compared with its plan all the way; as text where wanted and taken. */
   run(seat: Seat, program: Program, asText: boolean): Promise<CommandOutcome>;
+  /** The same in two, for a start together with others: what may be refused is told before anything moves. */
+  prepare(seat: Seat, program: Program, asText: boolean): Promise<Armed>;
   stop(emergency: boolean): void;
+  /** Only to watch it from now on, or to command it again. */
+  watch(seat: Seat, on: boolean): Promise<CommandOutcome>;
 }
 export type OpenedBrand = { readonly kind: "opened"; readonly station: BrandStation } | { readonly kind: "refused"; readonly why: Refusal };
 
@@ -49,58 +50,85 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
   if (robot.vendor !== brand.vendor) {
     return { kind: "refused", why: { code: "station.other-brand", sentence: `${robot.name} is a robot of ${robot.vendor}; controllers of ${brand.name} drive those of ${brand.vendor}.`, hint: "Choose a robot of that brand." } };
   }
-  const near = options.at === undefined ? memoryNetwork(scheduler) : null, network = options.at?.network ?? near!, host = options.at?.host ?? "127.0.0.1";
-  let virtual: BrandVirtual | null = null;
-  if (near) {
-    const started = await brand.virtual({ robot, scheduler, network, host, interpret: text => dialect.interpret(text, robot, worldFromBase) });
-    if (started.kind === "taken") { near.close(); return { kind: "refused", why: { code: "station.taken", sentence: started.sentence, hint: "Try it again." } }; }
-    virtual = started.virtual;
+  if (brand.drives?.(robot) === false) {
+    return { kind: "refused", why: { code: "station.other-brand", sentence: `${robot.name} does not stand on a controller of ${brand.name}.`, hint: `Choose another controller of ${brand.vendor}, or another robot.` } };
   }
+  const deaf = brand.cannot.find(({ row }) => row === "watch");
+  if (deaf && options.watching === true) return cannotWatch(brand.name, deaf.because);
+  const near = options.at === undefined ? memoryNetwork(scheduler) : null, network = options.at?.network ?? near!, host = options.at?.host ?? "127.0.0.1";
+  let opened: Extract<CabinetOpened, { kind: "opened" }> | null = null;
+  if (near) {
+    const started = await openCabinet({ brand, robot, scheduler, network, host, interpret: text => dialect.interpret(text, robot, worldFromBase) });
+    if (started.kind === "taken") { near.close(); return { kind: "refused", why: { code: "station.taken", sentence: started.sentence, hint: "Try it again." } }; }
+    opened = started;
+  }
+  const virtual = opened?.virtual, cabinet = opened?.cabinet ?? null;
   const ports = options.at?.ports ?? virtual?.ports, name = options.name ?? `${near ? "Virtual " : ""}${robot.name}`;
-  const face = brand.face({ robot, scheduler, network, host, ...(ports ? { ports } : {}), ...(options.at?.data ? { data: options.at.data } : {}) });
+  let isWatched = options.watching === true;
+  const face = brand.face({ robot, scheduler, network, host, ...(ports ? { ports } : {}), ...(options.at?.data ? { data: options.at.data } : {}), isWatched: () => isWatched });
   const controller = createRealController({ face, scheduler, name, ...(worldFromBase ? { worldFromBase } : {}) });
+  const place = options.shared?.cell.join({ id: options.id, name, robot, worldFromBase: options.shared.stand, ...(virtual ? { brakingTime_s: virtual.brakingTime_s } : {}) });
   const station = createStation({
-    controller, scheduler, name, silence_s: face.stale_s,
+    controller, scheduler, name, silence_s: face.stale_s, ...(place ? { place } : {}), ...(options.watching === undefined ? {} : { watching: options.watching }),
     ...(worldFromBase ? { worldFromBase } : {}), ...(virtual ? { brakingTime_s: virtual.brakingTime_s } : {}),
     ...(options.heartbeat_s === undefined ? {} : { heartbeat_s: options.heartbeat_s }),
     deadMan: options.deadMan ?? near === null,
+  });
+  const layOut = (program: Program): PlanAnswer => planProgram(program, robot, { start_rad: controller.jointAngles(), ...(worldFromBase ? { worldFromBase } : {}) });
+  const jobOf = (program: Program, asText: boolean, answer: PlanAnswer): StationJob => ({
+    program, steps: () => unrolled(program, controller.signals), ...(asText ? { dialect } : {}), ...(answer.kind === "planned" ? { plan: answer.plan } : {}),
   });
   return {
     kind: "opened",
     station: {
       ...station,
       words: {
-        id: options.id, name, brand: brand.id, robot: robot.id, virtual: virtual !== null,
+        id: options.id, name, brand: brand.id, robot: robot.id, virtual: cabinet !== null,
         watchdog: face.watchdog.kind === "robot" ? `The robot stops by itself within ${Math.round(face.watchdog.within_s * 1000)} ms.` : `The robot does not stop by itself: ${face.watchdog.because}`,
       },
-      pendant: virtual && (act => atCabinet(virtual, act)),
-      plug: near && (pulled => { near.weather.frozen = pulled; }),
+      pendant: cabinet,
+      plug: cabinet && (pulled => { void cabinet.act("", { do: "trouble", unplugged: pulled }); }),
       stop(emergency) { station.guard.stop(emergency); },
-      run(seat, program, asText) {
-        const answer = planProgram(program, robot, { start_rad: controller.jointAngles(), ...(worldFromBase ? { worldFromBase } : {}) });
-        return station.carryOut(seat, {
-          program, steps: () => unrolled(program, controller.signals),
-          ...(asText ? { dialect } : {}), ...(answer.kind === "planned" ? { plan: answer.plan } : {}),
-        });
+      async watch(seat, on) {
+        const { state } = station.guard;
+        if (on === state.watching) return DONE;
+        if (deaf && on) return cannotWatch(brand.name, deaf.because);
+        if (on) {
+          const turned = seat.watch(true);
+          if (turned.kind !== "done") return turned;
+        }
+        isWatched = on;
+        const rejoined = await rejoin(station);
+        return on ? rejoined : rejoined.kind === "done" ? seat.watch(false) : rejoined;
+      },
+      run: (seat, program, asText) => station.carryOut(seat, jobOf(program, asText, layOut(program))),
+      async prepare(seat, program, asText) {
+        const answer = layOut(program);
+        if (answer.kind === "stuck") return { kind: "refused", why: { code: answer.stuck.code, sentence: answer.stuck.sentence, hint: answer.stuck.hint } };
+        return station.arm(seat, jobOf(program, asText, answer));
       },
       close() {
         station.close();
-        virtual?.close();
+        opened?.close();
         near?.close();
       },
     },
   };
 }
 
-async function atCabinet({ pendant, reboot }: BrandVirtual, act: CabinetAct): Promise<CommandOutcome> {
-  switch (act.do) {
-    case "mode": pendant.setMode(act.mode); break;
-    case "jog": return pendant.jog(act.q_rad);
-    case "emergency-stop": pendant.emergencyStop(act.pressed); break;
-    case "guard": pendant.setGuardOpen(act.open); break;
-    case "protective-stop": pendant.protectiveStop(act.because); break;
-    case "input": pendant.setInput(act.signal, act.value); break;
-    case "reboot": reboot(); break;
-  }
-  return { kind: "done" };
+const cannotWatch = (brand: string, because: string): { readonly kind: "refused"; readonly why: Refusal } => ({ kind: "refused", why: { code: "station.no-watching", sentence: `Controllers of ${brand} cannot only be watched: ${because}`, hint: "Open it to command; it moves only when it is told to." } });
+
+/** Closes an open link and opens it again; resolves with the first state that comes over it. */
+async function rejoin(station: Station): Promise<CommandOutcome> {
+  if (station.link?.state !== "open") return DONE;
+  station.disconnect();
+  const connected = await station.connect();
+  if (connected.kind !== "done") return connected;
+  return new Promise(resolve => {
+    const offs = [
+      station.onSample(() => { end(DONE); }),
+      station.onLink(({ state, sentence }) => { if (state !== "open") end(refused({ code: "link.lost", sentence, hint: "Connect it, then try again." })); }),
+    ];
+    const end = (outcome: CommandOutcome): void => { for (const off of offs) off(); resolve(outcome); };
+  });
 }

@@ -1,4 +1,4 @@
-import type { CommandOutcome, EmittedFile, Refusal, Robot, Scheduler } from "@twincell/core";
+import type { CommandOutcome, EmittedFile, HandedText, Refusal, Robot, Scheduler } from "@twincell/core";
 import type { Face, FaceEvents, FaceMotion, Opened } from "../../real/index.ts";
 import type { Network } from "../../transport/index.ts";
 import { AXES, axesOf, e6axis, e6pos, kukaAxes, type KukaAxes } from "../axes.ts";
@@ -8,7 +8,7 @@ import { LOOP_NAME, LOOP_VERSION, TWC, TWC_KIND, TWC_RESULT, WATCH_TIMER } from 
 import { isKukaModel } from "../models.ts";
 import { C3Client } from "./client.ts";
 import { KukaState, POLLED } from "./state.ts";
-import { programOf, runKrl } from "./text.ts";
+import { handKrl, programOf, runKrl } from "./text.ts";
 import * as say from "./words.ts";
 import { DONE, refused, stopped } from "../../outcomes.ts";
 
@@ -61,7 +61,7 @@ export function createKukaFace(options: KukaFaceOptions): Face {
   const program = options.program ?? LOOP_NAME, period_s = options.period_s ?? 0.012, watch_s = options.watch_s ?? 0.5, gripper = options.gripperOutput === undefined ? "" : `$OUT[${options.gripperOutput}]`;
   const lines = [...new Set([...options.signals ?? [], ...gripper === "" ? [] : [gripper]])], names = [...POLLED, ...lines];
   let client: C3Client | null = null, state: KukaState | null = null, stopPolling: (() => void) | null = null, waiting: Waiting | null = null;
-  let types: readonly number[] = [], loop: Refusal | null = say.noLoop, polling = false, fed_s = 0, life = 0, drives = { on: 0, off: 0 };
+  let types: readonly number[] = [], loop: Refusal | null = say.noLoop, polling = false, fed_s = 0, life = 0, stops = 0, drives = { on: 0, off: 0 };
   let text: { stop: () => void } | null = null;
   /** The last text that was handed over from here: where the link broke it may still be selected, and makes room. */
   let handed = "";
@@ -233,14 +233,44 @@ export function createKukaFace(options: KukaFaceOptions): Face {
     return now.loopRuns || await start() ? DONE : refused(say.startRefused(now.programState));
   }
 
+  /** Our own program has its place again; it moves nothing by itself. */
+  const back = async (own: C3Client): Promise<void> => {
+    if (client === own && loop === null) await own.order({ kind: "select", run: true, name: program, parameters: "", force: true });
+  };
+  async function handText(files: readonly EmittedFile[]): Promise<HandedText> {
+    const own = client, now = state, before = stops;
+    if (!own || !now) return { kind: "refused", why: say.closedHere };
+    if (!types.includes(C3_TYPE.fileWrite)) return { kind: "refused", why: say.noFiles };
+    if (!types.includes(C3_TYPE.control)) return { kind: "refused", why: say.noProgramControl };
+    handed = programOf(files);
+    const selected = await handKrl(files, own);
+    if (selected.kind === "refused") { await back(own); return selected; }
+    return {
+      kind: "handed",
+      drop() { void back(own); },
+      async start() {
+        if (client !== own || stops !== before) { await back(own); return stopped(client === own ? say.stoppedHere(robot) : say.closedHere); }
+        const run = runKrl(selected.name, own, now, scheduler, robot);
+        text = run;
+        const outcome = await run.outcome;
+        text = null;
+        await back(own);
+        return outcome;
+      },
+    };
+  }
+
   return {
     brand: "KUKA", robot, stale_s: options.stale_s ?? Math.max(STALE_S, 4 * period_s),
     watchdog: { kind: "robot", within_s: watch_s },
     open, close, move, reset,
     stop(emergency) {
+      stops++;
       if (waiting && !waiting.taken) waiting.cancelled = true;
       brake(emergency);
       text?.stop();
+      // A program of somebody else's does not listen to our variables.
+      if (!text && state?.programState === "P_ACTIVE" && !state.loopRuns && types.includes(C3_TYPE.control)) void client?.order({ kind: "control", command: C3_COMMAND.stop, interpreter: 1 });
     },
     setOverride(ratio) {
       void client?.ask({ kind: "write", wide: true, name: "$OV_PRO", value: String(Math.round(100 * ratio)) });
@@ -257,19 +287,10 @@ export function createKukaFace(options: KukaFaceOptions): Face {
       void client?.ask({ kind: "write", wide: true, name: gripper, value: closed ? "TRUE" : "FALSE" });
       return null;
     },
+    handText,
     async runText(files: readonly EmittedFile[]) {
-      const own = client, now = state;
-      if (!own || !now) return refused(say.closedHere);
-      if (!types.includes(C3_TYPE.fileWrite)) return refused(say.noFiles);
-      if (!types.includes(C3_TYPE.control)) return refused(say.noProgramControl);
-      handed = programOf(files);
-      const run = runKrl(files, own, now, scheduler, robot);
-      text = run;
-      const outcome = await run.outcome;
-      text = null;
-      // Our own program has its place again; it moves nothing by itself.
-      if (client === own && loop === null) await own.order({ kind: "select", run: true, name: program, parameters: "", force: true });
-      return outcome;
+      const ready = await handText(files);
+      return ready.kind === "refused" ? ready : ready.start();
     },
   };
 }

@@ -136,7 +136,14 @@ export function createKukaRsiFace(options: KukaRsiFaceOptions): Face {
     settle({ kind: "stopped", why: say.closedHere });
   }
 
-  const { runText } = base;
+  const { runText, handText } = base;
+  async function counted(running: Promise<CommandOutcome>): Promise<CommandOutcome> {
+    texts++;
+    const outcome = await running;
+    texts--;
+    return outcome;
+  }
+
   return {
     brand: "KUKA", robot, stale_s: base.stale_s, open, close,
     watchdog: config.onlySend ? { kind: "none", because: "RSI only sends; nothing from here moves the robot." } : { kind: "robot", within_s: (options.timeout ?? 100) * cycle_s },
@@ -157,12 +164,11 @@ export function createKukaRsiFace(options: KukaRsiFaceOptions): Face {
     setOverride(ratio) { override = ratio; return null; },
     reset: () => base.reset(),
     setSignal: (signal, value) => base.setSignal(signal, value), setGripper: closed => base.setGripper(closed),
-    ...(runText ? {
-      async runText(files: readonly EmittedFile[]) {
-        texts++;
-        const outcome = await runText.call(base, files);
-        texts--;
-        return outcome;
+    ...(runText ? { runText: files => counted(runText.call(base, files)) } : {}),
+    ...(handText ? {
+      async handText(files: readonly EmittedFile[]) {
+        const handed = await handText.call(base, files);
+        return handed.kind === "handed" ? { ...handed, start: () => counted(handed.start()) } : handed;
       },
     } : {}),
   };
