@@ -4,15 +4,17 @@ import { saveDocument, tracedCartonCell } from "@twincell/project";
 import { ledger, quantile } from "../apps/studio/browser-tests/support/ledger.ts";
 import { drawn, Studio } from "../apps/studio/browser-tests/support/studio.ts";
 import { figure, type Bench, type Figure } from "./figure.ts";
+import { stationLate } from "./twin-station.ts";
+import { stopLate } from "./twin-stop.ts";
 
-const SECONDS = 10;
+const SECONDS = Number(process.env["TWINCELL_BENCH_S"] ?? 10);
 
 /**
  * How late the twin shows what the controller samples, in real time: with timers of this process, at 500 samples a second,
- * and in the page while its exported text runs. A sample is due at its own time; its age is taken where the pose is shown, so
+ * in the page while its exported text runs, over a server between processes, and how long a stop is under way. A sample is due at its own time; its age is taken where the pose is shown, so
  * a timer that comes late counts.
  */
-export const run: Bench = async () => [...await inProcess(), ...await inPage()];
+export const run: Bench = async () => [...await inProcess(), ...await inPage(), ...await stationLate(), ...await stopLate()];
 
 async function inProcess(): Promise<Figure[]> {
   const robot = robotById("staubli_rx90l");

@@ -1,12 +1,11 @@
 import { createRealController, createUrFace } from "@twincell/controllers";
 import { robotById } from "@twincell/core";
 import { nodeNetwork, nodeScheduler } from "@twincell/server";
-import { spawn, spawnSync, type ChildProcess } from "node:child_process";
-import { createInterface } from "node:readline";
+import { spawn, spawnSync } from "node:child_process";
 import { setTimeout as pause } from "node:timers/promises";
-import { fileURLToPath } from "node:url";
 import { quantile } from "../apps/studio/browser-tests/support/ledger.ts";
 import { figure, type Bench, type Figure } from "./figure.ts";
+import { virtual } from "./stations.ts";
 
 /** As long as the budget is asked over: TWINCELL_BENCH_S=600. */
 const SECONDS = Number(process.env["TWINCELL_BENCH_S"] ?? 20), HOST = "127.0.0.46";
@@ -18,19 +17,11 @@ const python = process.env["TWINCELL_PYTHON"] ?? "python3";
  * from one arrival to the next.
  */
 export const run: Bench = async () => {
-  const controller = await startVirtual();
+  const controller = await virtual("ur", HOST);
   try {
     return [...await ours(), ...await peer()];
   } finally { controller.kill("SIGTERM"); }
 };
-
-function startVirtual(): Promise<ChildProcess> {
-  const child = spawn(process.execPath, [fileURLToPath(new URL("../apps/cli/src/main.ts", import.meta.url)), "virtual", "ur", "--host", HOST, "--json"], { stdio: ["pipe", "pipe", "inherit"] });
-  return new Promise((resolve, reject) => {
-    createInterface({ input: child.stdout }).once("line", () => { resolve(child); });
-    child.once("exit", code => { reject(new Error(`The virtual controller ended with ${code}.`)); });
-  });
-}
 
 async function ours(): Promise<Figure[]> {
   const robot = robotById("ur10e");

@@ -1,5 +1,6 @@
 import { hold, release, releaseAll } from "./live/held.ts";
 import { linkMeter } from "./live/link-meter.ts";
+import { stationLive } from "./live/stations.ts";
 import { showJoints, theLive, touchingNow } from "./live/live.ts";
 import { physicsNow } from "./live/physics.ts";
 import { playheadNow } from "./live/playhead.ts";
@@ -34,7 +35,7 @@ import { watchStore } from "./stores/watch.ts";
 /** What the browser's console and tests can reach: every store, the live state, and the commands by name. */
 const twincell = {
   stores: { aidStore, bindingStore, cellStore, commandStore, controlStore, dialogStore, foreignStore, gamepadStore, historyStore, jogStore, languageStore, noticeStore, physicsStore, playStore, postStore, roomStore, selectionStore, soundStore, stationStore, traceStore, videoStore, viewStore, watchStore },
-  live: { now: theLive, shown: shownRobot, touching: touchingNow, showJoints, hold, release, releaseAll, playhead: playheadNow, physics: physicsNow, link: linkMeter },
+  live: { now: theLive, shown: shownRobot, touching: touchingNow, showJoints, hold, release, releaseAll, playhead: playheadNow, physics: physicsNow, link: linkMeter, station: stationLive },
   document: { commit, undo, redo, show: showDocument, open: openCellText },
   run: runCommand, seek,
 };
