@@ -1,4 +1,19 @@
 import { BRANDS } from "@twincell/controllers";
+import { PLUG_IN, PLUG_IN_PORT } from "@twincell/messages";
+import { words } from "../words/index.ts";
 
-/** What the dialog offers before any host was asked: brands with a virtual controller in the page. */
-export const BRAND_LIST = BRANDS.map(({ id, name, vendor, data = [] }) => ({ id, name, vendor, data }));
+export interface OfferedBrand {
+  readonly id: string;
+  readonly name: string;
+  /** Of the robots that it drives; null where that is any. */
+  readonly vendor: string | null;
+  readonly data: readonly { readonly id: string; readonly name: string; readonly where: string }[];
+  /** A port that is asked for, where there is no vendor who fixed it. */
+  readonly port: number | null;
+}
+
+/** What the dialog offers: brands with a virtual controller in the page, and drivers that are processes of their own (row T-60). */
+export const BRAND_LIST: readonly OfferedBrand[] = [
+  ...BRANDS.map(({ id, name, vendor, data = [] }) => ({ id, name, vendor, data, port: null })),
+  { id: PLUG_IN, name: words.stations.plugInBrand, vendor: null, data: [], port: PLUG_IN_PORT },
+];
