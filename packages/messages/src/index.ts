@@ -6,6 +6,7 @@ export * from "./read.ts";
 export * from "./host.ts";
 export * from "./client.ts";
 export * from "./pendant.ts";
+export * from "./plug-in.ts";
 export * from "./video/wire.ts";
 export * from "./video/clock.ts";
 export * from "./video/relay.ts";

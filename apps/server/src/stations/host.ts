@@ -1,9 +1,9 @@
 import { brandById, BRANDS, createSharedCell, openStation, startTogether } from "@twincell/controllers";
 import { robotById, type Refusal, type Scheduler } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
-import { createHost, type AskOf, type Host, type OpenedStation } from "@twincell/messages";
+import { createHost, PLUG_IN, type AskOf, type Host, type OpenedStation } from "@twincell/messages";
 import { nodeNetwork } from "../sockets/node-network.ts";
-import { PLUG_IN, plugInFor } from "./plug-in.ts";
+import { plugInFor } from "./plug-in.ts";
 
 const refused = (why: Refusal): OpenedStation => ({ kind: "refused", why });
 const noRobot = (id: string): OpenedStation => refused({ code: "station.no-robot", sentence: `There is no robot “${id}” in the library.`, hint: "Choose one of the library." });

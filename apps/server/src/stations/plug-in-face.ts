@@ -1,9 +1,8 @@
 import type { Face, FaceEvents, FaceMotion, FaceOptions, Opened } from "@twincell/controllers";
 import { emptyProgram, type CommandOutcome, type JointSample, type Pose, type Refusal, type Step } from "@twincell/core";
-import { createClient, type Client, type Tell, type TellOf } from "@twincell/messages";
+import { createClient, PLUG_IN_PORT, type Client, type Tell, type TellOf } from "@twincell/messages";
 import { lines } from "./lines.ts";
 
-export const PLUG_IN_PORT = 7077;
 /** What a plug-in calls its one robot. */
 const STATION = "robot";
 /**

@@ -1,8 +1,7 @@
 import type { Brand } from "@twincell/controllers";
 import type { Robot } from "@twincell/core";
-import { createPlugInFace, PLUG_IN_PORT } from "./plug-in-face.ts";
-
-export const PLUG_IN = "plug-in";
+import { PLUG_IN, PLUG_IN_PORT } from "@twincell/messages";
+import { createPlugInFace } from "./plug-in-face.ts";
 
 /** A maker's own driver as a brand for that robot, whoever makes it. There is no virtual controller: what a plug-in does is not known here. */
 export const plugInFor = (robot: Robot): Brand => ({

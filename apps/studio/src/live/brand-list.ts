@@ -1,4 +1,20 @@
 import { BRANDS, robotsOf } from "@twincell/controllers";
+import { LIBRARY, type Robot } from "@twincell/core";
+import { PLUG_IN, PLUG_IN_PORT } from "@twincell/messages";
+import { words } from "../words/index.ts";
 
-/** What the dialog offers before any host was asked: brands with a virtual controller in the page. */
-export const BRAND_LIST = BRANDS.map(brand => ({ id: brand.id, name: brand.name, data: brand.data ?? [], robots: robotsOf(brand) }));
+export interface OfferedBrand {
+  readonly id: string;
+  readonly name: string;
+  /** Of the library, that it drives. */
+  readonly robots: readonly Robot[];
+  readonly data: readonly { readonly id: string; readonly name: string; readonly where: string }[];
+  /** A port that is asked for, where there is no vendor who fixed it. */
+  readonly port: number | null;
+}
+
+/** What the dialog offers: brands with a virtual controller in the page, and drivers that are processes of their own (row T-60). */
+export const BRAND_LIST: readonly OfferedBrand[] = [
+  ...BRANDS.map(brand => ({ id: brand.id, name: brand.name, robots: robotsOf(brand), data: brand.data ?? [], port: null })),
+  { id: PLUG_IN, name: words.stations.plugInBrand, robots: LIBRARY, data: [], port: PLUG_IN_PORT },
+];

@@ -46,6 +46,7 @@ export const en = {
     title: "Other controllers", add: "Add a controller", addTitle: "Add a controller to the cell", none: "No other controller yet. Virtual ones speak their maker's own protocol here in the page; real ones are reached through the server.",
     brand: "Maker", robot: "Robot", where: "Where it is", here: "Virtual, in this page", there: "On the network", address: "Address", addressHint: "For instance 192.168.0.10", port: (name: string) => `Port ${name}`,
     numbers: "One number a joint, commas between", stand: "Stands at", x: "x", y: "y", turned: "Turned", connecting: "Connecting …", addAndConnect: "Add and connect",
+    plugInBrand: "Plug-in: a driver of its own", plugInHint: "A process of its maker's that speaks Twincell's messages, on the machine of the server or beside it. See docs/controllers/plug-in.md.", portLabel: "Port", portWrong: "A whole number from 1 to 65535.",
     connect: "Connect", disconnect: "Disconnect", run: "Run here", runAll: "Run on all", stop: "Stop", reset: "Reset", remove: "Remove", confirm: "Go on", confirmTip: "The link is back. Motion goes on only after a person says so.",
     pull: "Pull the plug", plugIn: "Put the plug back", hold: "Hold to move", holdTip: "A real robot moves only while this is held.",
     virtual: "virtual", links: { closed: "not connected", connecting: "connecting", open: "connected", lost: "connection lost" },
