@@ -37,7 +37,7 @@ function Title() {
 }
 function PlayKey() {
   const playing = useStore(historyStore, state => state.playing);
-  return <Key id="past-play" words={playing ? WORDS.pause : WORDS.play} color="#3fb8b3" ink="#04211f" onPress={playOrPause} />;
+  return <Key id="past-play" words={playing ? WORDS.pause : WORDS.play} color="#3fb8b3" ink="#04211f" atOnce onPress={playOrPause} />;
 }
 function playOrPause(): void { if (historyStore.getState().playing) theHistory.pause(); else theHistory.play(); }
 const NowKey = () => <Key id="past-now" words={WORDS.backToNow} onPress={() => { toggleRoom("history"); }} />;
