@@ -140,12 +140,6 @@ test("T-54 in the headset: travel back with ray, stick and keys; the robot stand
   expect((await standsOff()).t_s).toBe(rested.t_s);
   await expect.poll(async () => (await standsOff()).off_rad).toBeLessThan(1e-6);
 
-  await person.press("right", "past-play");
-  await page.waitForFunction(from => window.twincell.stores.historyStore.getState().t_s > from + 0.3, rested.t_s);
-  await person.press("right", "past-play");
-  expect(await page.evaluate(() => window.twincell.stores.historyStore.getState().playing)).toBe(false);
-  await expect.poll(async () => (await standsOff()).off_rad).toBeLessThan(1e-6);
-
   await person.press("right", "past-now");
   await page.waitForFunction(() => window.twincell.stores.viewStore.getState().mode === "run");
   expect(await page.evaluate(() => Array.from(window.twincell.live.now().q_rad))).toEqual(now);

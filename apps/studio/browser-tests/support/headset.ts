@@ -22,7 +22,8 @@ export class Person {
       Object.defineProperties(window, { innerWidth: { value: w, configurable: true }, innerHeight: { value: h, configurable: true } });
       return own;
     }, [width, height] as const);
-    await this.page.getByRole("button", { name: "Headset" }).click();
+    // Sent, not aimed: a page drawn in software takes long to stand still for a pointer.
+    await this.page.getByRole("button", { name: "Headset" }).dispatchEvent("click");
     await this.page.waitForFunction(() => window.twincell.stores.viewStore.getState().inHeadset && window.twincellScene!.gl.xr.getSession()?.inputSources.length === 2);
     await kept.evaluate(own => { Object.defineProperties(window, own); });
     await this.page.waitForFunction(() => window.twincellScene!.scene.getObjectByName("wrist-panel") !== undefined);

@@ -20,23 +20,30 @@ const STICK_PART_PER_S = 0.25, STICK_DEAD = 0.15;
 
 /** The time line of what was recorded, in the room: the robots stand where they stood then (row T-54). */
 export function PastPanel({ keys }: { readonly keys: KeyAim }) {
-  const { open, name, opening, playing, t_s, duration_s, moment } = useStore(historyStore), there = open !== null || name !== "";
+  const there = useStore(historyStore, state => state.open !== null || state.name !== ""), opening = useStore(historyStore, state => state.opening);
   // Looking back begins with the panel and ends with it: then the robot is where it is.
   useEffect(() => beginLookingBack(), []);
   return (
-    <RoomPanel id="past-panel" place={[-0.95, 1.25, -0.95]} turn_rad={0.75} width={WIDTH_PX} keys={keys} title={<><Words>{there ? name : WORDS.history}</Words><Words color={QUIET}>{there ? WORDS.past(clock(t_s), clock(duration_s)) : ""}</Words></>} above={there && !opening && <Line keys={keys} />}>
-      {there
-        ? <>
-          <Row>
-            <Key id="past-play" words={playing ? WORDS.pause : WORDS.play} color="#3fb8b3" ink="#04211f" onPress={() => { if (playing) theHistory.pause(); else theHistory.play(); }} />
-            <Key id="past-alarm" words={WORDS.lastAlarm} onPress={() => { theHistory.lastAlarm(); }} />
-          </Row>
-          <Row><Key id="past-now" words={WORDS.backToNow} onPress={() => { toggleRoom("history"); }} /></Row>
-          <Words color={moment.recorded && !moment.message ? QUIET : WARNS}>{!moment.recorded ? WORDS.gap : moment.message || WORDS.stick}</Words>
-        </>
-        : <Runs />}
+    <RoomPanel id="past-panel" place={[-0.95, 1.25, -0.95]} turn_rad={0.75} width={WIDTH_PX} keys={keys} title={<Title />} above={there && !opening && <Line keys={keys} />}>
+      {there ? <><Row><PlayKey /><Key id="past-alarm" words={WORDS.lastAlarm} onPress={theHistory.lastAlarm} /></Row><Row><NowKey /></Row><Says /></> : <Runs />}
     </RoomPanel>
   );
+}
+
+// Each of these changes by itself: a key that is made anew ten times a second could not be pressed.
+function Title() {
+  const { open, name, t_s, duration_s } = useStore(historyStore), there = open !== null || name !== "";
+  return <><Words>{there ? name : WORDS.history}</Words><Words color={QUIET}>{there ? WORDS.past(clock(t_s), clock(duration_s)) : ""}</Words></>;
+}
+function PlayKey() {
+  const playing = useStore(historyStore, state => state.playing);
+  return <Key id="past-play" words={playing ? WORDS.pause : WORDS.play} color="#3fb8b3" ink="#04211f" atOnce onPress={playOrPause} />;
+}
+function playOrPause(): void { if (historyStore.getState().playing) theHistory.pause(); else theHistory.play(); }
+const NowKey = () => <Key id="past-now" words={WORDS.backToNow} onPress={() => { toggleRoom("history"); }} />;
+function Says() {
+  const recorded = useStore(historyStore, state => state.moment.recorded), message = useStore(historyStore, state => state.moment.message);
+  return <Words color={recorded && !message ? QUIET : WARNS}>{!recorded ? WORDS.gap : message || WORDS.stick}</Words>;
 }
 
 /** Nothing is open: the last runs to choose from. */
@@ -46,7 +53,7 @@ function Runs() {
     <>
       <Words color={QUIET}>{runs.length === 0 ? WORDS.noRuns : WORDS.chooseRun}</Words>
       {runs.slice(0, MOST_RUNS).map((run, i) => <Row key={run.id}><Key id={`past-run-${i}`} words={run.name} onPress={() => { void theHistory.open(run.id); }} /></Row>)}
-      <Row><Key id="past-now" words={WORDS.backToNow} onPress={() => { toggleRoom("history"); }} /></Row>
+      <Row><NowKey /></Row>
     </>
   );
 }

@@ -8,10 +8,12 @@ import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { leaveHeadset } from "../../stores/headset.ts";
 import { jogStore } from "../../stores/jog.ts";
+import { noticeStore } from "../../stores/notices.ts";
 import { playStore } from "../../stores/play.ts";
 import { deleteSteps } from "../../stores/program.ts";
 import { toggleRoom } from "../../stores/room.ts";
 import { sound } from "../../stores/sound.ts";
+import { stationStore } from "../../stores/stations.ts";
 import { stopEverything } from "../../stores/stop.ts";
 import { watchStore } from "../../stores/watch.ts";
 import { WORDS } from "../words.ts";
@@ -30,6 +32,7 @@ export function WristPanel({ keys, wearer }: { readonly keys: KeyAim; readonly w
       pointerEventsType={(_id: number, _type: string, state: unknown) => handOf(state) !== wearer} onHoverChange={(aimed: boolean) => { aimAt(keys, "wrist", aimed); }}>
       <ReadOut />
       <State />
+      <Said />
       <Row>
         <Key id="record" words={WORDS.record} color="#3fb8b3" ink="#04211f" onPress={() => { if (runCommand("program.record-ptp")) sound("done"); }} />
         <Key id="delete-last" words={WORDS.deletePoint} onPress={deleteLast} />
@@ -69,6 +72,13 @@ function State() {
   const blocked = useStore(jogStore, state => state.blocked !== null), touching = useStore(watchStore, state => state.contacts.length > 0);
   const words = blocked ? WORDS.blocked : touching ? WORDS.inContact : WORDS.points(points);
   return <Text id="state" fontSize={WORDS_PX} color={blocked || touching ? "#ff8a82" : "#b9c4ca"}>{words}</Text>;
+}
+
+/** The last thing that went wrong: in the room nobody sees the notices of the page, nor the cards of other controllers. */
+function Said() {
+  const notice = useStore(noticeStore, ({ notices }) => notices.findLast(({ tone }) => tone === "bad" || tone === "warn")?.sentence ?? "");
+  const other = useStore(stationStore, ({ stations }) => { const said = stations.find(station => station.notice !== ""); return said ? `${said.name}: ${said.notice}` : ""; });
+  return notice || other ? <Text id="said" fontSize={WORDS_PX} color="#ffcf70">{notice || other}</Text> : null;
 }
 
 /** Place of the tool tip, read three times a second. */
