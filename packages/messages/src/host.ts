@@ -28,6 +28,8 @@ export interface HostedStation<Seat extends HostedSeat = HostedSeat> {
   disconnect(): void;
   /** Only to watch it from now on, or to command it again: the connection is opened anew, as one or the other. */
   watch(seat: Seat, on: boolean): Promise<CommandOutcome>;
+  readonly ahead: { horizon_s: number; onChange(listen: (words: { readonly q_rad: Float64Array; readonly in_s: number; readonly problem: { readonly code: string; readonly sentence: string; readonly in_s: number } | null } | null) => void): () => void };
+  preview(program: Program): CommandOutcome;
   run(seat: Seat, program: Program, asText: boolean): Promise<CommandOutcome>;
   /** Makes a program ready to be started: what may be refused is told before anything moves. */
   prepare(seat: Seat, program: Program, asText: boolean): Promise<HostedArmed>;
@@ -104,6 +106,7 @@ export function createHost(options: HostOptions): Host {
           ...(signals ? { signals: Object.fromEntries(signals) } : {}),
         });
       }),
+      station.ahead.onChange(words => { all({ type: "ahead", station: id, ahead: words && { q_rad: Array.from(words.q_rad), in_s: words.in_s, problem: words.problem } }); }),
       station.onLink(() => { tellLink(station); }),
       station.onGuard(() => { all(guardWords(station)); }),
       station.onNotice(why => { all({ type: "notice", station: id, why }); }),
@@ -168,6 +171,11 @@ export function createHost(options: HostOptions): Host {
             const parsed = parseProgram(ask.program);
             if (parsed.kind !== "program") return refuse("station.program", `The program cannot be read: ${parsed.faults[0]?.sentence ?? "it is empty"}`, "Export it again.");
             return station.run(seat, parsed.program, ask.asText);
+          }
+          case "look-ahead": station.ahead.horizon_s = ask.seconds; return DONE;
+          case "preview": {
+            const parsed = parseProgram(ask.program);
+            return parsed.kind === "program" ? station.preview(parsed.program) : refuse("station.program", `The program cannot be read: ${parsed.faults[0]?.sentence ?? "it is empty"}`, "Export it again.");
           }
           case "pendant": return station.pendant?.(ask.act) ?? refuse("station.no-pendant", `${station.words.name} is a real controller: its pendant is at the robot.`, "Go there.");
           case "plug":
