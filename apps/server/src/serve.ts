@@ -1,13 +1,17 @@
-import { createServer as createHttp, type IncomingMessage, type RequestListener, type ServerResponse } from "node:http";
+import { createServer as createHttp } from "node:http";
 import { createServer as createHttps } from "node:https";
 import type { AddressInfo } from "node:net";
 import { join } from "node:path";
-import { accessCode, askForCode, type AccessCode } from "./access.ts";
+import { createVideoRelay } from "@twincell/messages";
+import { accessCode } from "./access.ts";
 import { certificate, lanAddresses } from "./lan.ts";
 import { nodeScheduler } from "./clock.ts";
+import { isServed, LOOPBACK, studioListener } from "./pages.ts";
 import { stationHost } from "./stations/host.ts";
 import { recordHost } from "./stations/record-host.ts";
-import { stationSocket } from "./stations/socket.ts";
+import { openDoors } from "./sockets/doors.ts";
+import { stationDoor } from "./stations/socket.ts";
+import { videoDoor } from "./video/door.ts";
 import { staticFiles } from "./static-files.ts";
 
 export interface ServeOptions {
@@ -32,25 +36,11 @@ export interface Served {
   close(): Promise<void>;
 }
 
-/** Cross-origin isolation gives the studio precise clocks and shared memory; nothing is ever loaded from elsewhere. */
-const HEADERS: Readonly<Record<string, string>> = {
-  "content-security-policy": "default-src 'self'; script-src 'self' 'wasm-unsafe-eval' blob:; worker-src 'self' blob:; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' data: blob:; frame-ancestors 'none'; base-uri 'self'; form-action 'self'",
-  "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp",
-  "x-content-type-options": "nosniff", "referrer-policy": "no-referrer",
-};
-
-/**
- * MuJoCo's bindings write their own invokers when they start. Only the worker that holds them may do so, which has no page to
- * change and nobody but this origin to talk to; everything else stays without.
- */
-const WRITES_CODE = /^\/assets\/physics\.worker-[\w-]+\.js$/;
-const WRITER_HEADERS: Readonly<Record<string, string>> = { ...HEADERS, "content-security-policy": "default-src 'none'; script-src 'self' 'wasm-unsafe-eval' 'unsafe-eval'; connect-src 'self'" };
-
 /** Serves the built studio on loopback, or on the local network when asked. Rejects when the port is taken. */
 export async function serve(options: ServeOptions): Promise<Served> {
   const addresses = options.lan ? lanAddresses() : [];
   const access = options.lan ? accessCode() : null;
-  const hosts = new Set(["localhost", "127.0.0.1", "[::1]", ...addresses]);
+  const hosts = new Set([...LOOPBACK, ...addresses]);
   const listener = studioListener(staticFiles(options.studio), hosts, access);
   const server = options.lan ? createHttps({ ...await certificate(options.data, addresses) }, listener) : createHttp(listener);
   await new Promise<void>((resolve, reject) => {
@@ -59,53 +49,13 @@ export async function serve(options: ServeOptions): Promise<Served> {
   });
   const stations = stationHost(nodeScheduler, options.version ?? "");
   const recorder = options.data === undefined ? null : await recordHost(stations, join(options.data, "recordings"), nodeScheduler, sentence => { console.error(sentence); });
-  const socket = stationSocket(server, stations, request => isServed(hosts, request) && (access === null || access.enter(request.headers.cookie, null).kind === "welcome"));
-  const port = (server.address() as AddressInfo).port;
-  const scheme = options.lan ? "https" : "http";
-  const query = access ? `/?code=${access.code}` : "/";
+  const port = (server.address() as AddressInfo).port, scheme = options.lan ? "https" : "http", query = access ? `?code=${access.code}` : "";
+  const relay = createVideoRelay(nodeScheduler.now_s, addresses.map(address => `${scheme}://${address}:${port}/camera/${query}`));
+  const socket = openDoors(server, [stationDoor(stations), videoDoor(relay)], request => isServed(hosts, request) && (access === null || access.enter(request.headers.cookie, null).kind === "welcome"));
   return {
-    url: `${scheme}://127.0.0.1:${port}${query}`,
-    lanUrls: addresses.map(address => `${scheme}://${address}:${port}${query}`),
+    url: `${scheme}://127.0.0.1:${port}/${query}`,
+    lanUrls: addresses.map(address => `${scheme}://${address}:${port}/${query}`),
     code: access?.code ?? null,
     close: () => new Promise(resolve => { recorder?.close(); stations.close(); socket.close(); server.closeAllConnections(); server.close(() => { resolve(); }); }),
   };
-}
-
-const isServed = (hosts: ReadonlySet<string>, request: IncomingMessage): boolean => hosts.has((request.headers.host ?? "").replace(/:\d+$/, ""));
-
-function studioListener(files: ReturnType<typeof staticFiles>, hosts: ReadonlySet<string>, access: AccessCode | null): RequestListener {
-  return (request, response) => {
-    answer(request, response).catch((problem: unknown) => {
-      if (!response.headersSent) response.writeHead(500, { "content-type": "text/plain; charset=utf-8" });
-      response.end("The server could not answer this request.\n");
-      console.error(problem instanceof Error ? problem.message : String(problem));
-    });
-  };
-
-  async function answer(request: IncomingMessage, response: ServerResponse): Promise<void> {
-    const say = (status: number, text: string, headers: Record<string, string> = {}) => {
-      response.writeHead(status, { ...HEADERS, "content-type": "text/plain; charset=utf-8", ...headers });
-      response.end(request.method === "HEAD" ? undefined : text);
-    };
-    // A page elsewhere that points its own name at this machine must not be served.
-    if (!isServed(hosts, request)) { say(421, "This address is not served here.\n"); return; }
-    if (request.method !== "GET" && request.method !== "HEAD") { say(405, "Only reading is possible here.\n", { allow: "GET, HEAD" }); return; }
-    let url: URL, path: string;
-    try {
-      url = new URL(request.url ?? "/", "http://here");
-      path = decodeURIComponent(url.pathname);
-    } catch (problem) {
-      say(400, `This address cannot be read: ${(problem as Error).message}.\n`);
-      return;
-    }
-    if (access) {
-      const entry = access.enter(request.headers.cookie, url.searchParams.get("code"));
-      if (entry.kind === "too-many-tries") { say(429, "Too many wrong codes. Start Twincell again for a new one.\n"); return; }
-      if (entry.kind === "ask") { say(401, askForCode, { "content-type": "text/html; charset=utf-8" }); return; }
-      if (entry.kind === "welcome-with-cookie") { say(303, "", { "set-cookie": entry.cookie, location: "/" }); return; }
-    }
-    const found = await files(path, String(request.headers["accept-encoding"] ?? ""), request.headers["if-none-match"]);
-    response.writeHead(found.status, { ...(WRITES_CODE.test(path) ? WRITER_HEADERS : HEADERS), ...found.headers, ...(found.status === 200 ? { "content-length": String(found.body.length) } : {}) });
-    response.end(request.method === "HEAD" ? undefined : found.body);
-  }
 }

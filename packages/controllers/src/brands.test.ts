@@ -1,13 +1,13 @@
 import { LIBRARY, manualScheduler, type CommandOutcome } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { BRANDS, createRealController, memoryNetwork, type Brand } from "./index.ts";
+import { BRANDS, createRealController, memoryNetwork, robotsOf, type Brand } from "./index.ts";
 
 const HOST = "127.0.0.9";
 /** Where the wire cannot switch drives on and start a program: a person does it at the cabinet, with the key. */
-const AT_THE_CABINET: ReadonlySet<string> = new Set(["abb"]);
+const AT_THE_CABINET: ReadonlySet<string> = new Set(["staubli"]);
 /** A brand's virtual controller with a robot of the library, and its driver, as apps start them. */
 async function bench(brand: Brand) {
-  const robot = LIBRARY.find(({ vendor, arm }) => vendor === brand.vendor && arm.joints.length === 6)!, scheduler = manualScheduler(), network = memoryNetwork(scheduler);
+  const robot = robotsOf(brand).find(({ arm }) => arm.joints.length === 6)!, scheduler = manualScheduler(), network = memoryNetwork(scheduler);
   const started = await brand.virtual({ robot, scheduler, network, host: HOST, interpret: () => ({ kind: "not-understood", faults: [] }) });
   if (started.kind === "taken") throw new Error(started.sentence);
   const { virtual } = started, real = createRealController({ face: brand.face({ robot, scheduler, network, host: HOST }), scheduler });

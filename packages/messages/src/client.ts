@@ -1,7 +1,7 @@
 import type { CommandOutcome } from "@twincell/core";
 import type { Ask, AskOf } from "./ask.ts";
 import { PROTOCOL, readTell, write } from "./read.ts";
-import type { Channel } from "./host.ts";
+import type { Channel } from "./channel.ts";
 import type { Tell, TellOf } from "./tell.ts";
 
 type Numbered = Extract<Ask, { readonly id: number }>;

@@ -1,13 +1,10 @@
 import { parseProgram, type CommandOutcome, type JointSample, type LinkReport, type Program, type Refusal, type RobotController, type Scheduler } from "@twincell/core";
-import type { Ask, AskOf, PendantAct } from "./ask.ts";
+import type { Ask, AskOf } from "./ask.ts";
+import { visitPendant, type HostedPendant, type PendantVisit } from "./pendant.ts";
+import type { Channel } from "./channel.ts";
 import { PROTOCOL, readAsk, write } from "./read.ts";
 import type { StationWords, Tell, TellOf } from "./tell.ts";
 
-/** A line of texts between a host and one who commands: a socket, or a worker's port. */
-export interface Channel {
-  send(text: string): void;
-  close(): void;
-}
 /** The place of one who commands at one station. */
 export interface HostedSeat {
   take(): CommandOutcome;
@@ -35,7 +32,7 @@ export interface HostedStation<Seat extends HostedSeat = HostedSeat> {
   prepare(seat: Seat, program: Program, asText: boolean): Promise<HostedArmed>;
   stop(emergency: boolean): void;
   /** The pendant of a virtual controller; null where a person stands before a real one. */
-  readonly pendant: ((act: PendantAct) => Promise<CommandOutcome>) | null;
+  readonly pendant: HostedPendant | null;
   readonly plug: ((pulled: boolean) => void) | null;
   onSample(listen: (lent: JointSample) => void): () => void;
   onLink(listen: (report: LinkReport) => void): () => void;
@@ -76,7 +73,8 @@ const known = (value: number): number | null => Number.isFinite(value) ? value :
 
 /** Stations that any number of people look at, and each of which one commands. The same in a worker of the page and on a server. */
 export function createHost(options: HostOptions): Host {
-  const stations = new Map<string, { readonly station: HostedStation; readonly forget: () => void }>(), channels = new Set<Channel>();
+  const stations = new Map<string, { readonly station: HostedStation; readonly forget: () => void }>(), channels = new Set<Channel>(), closing = new Set<(station: HostedStation) => void>();
+  let people = 0;
   const all = (message: Tell): void => {
     const text = write(message);
     for (const channel of channels) channel.send(text);
@@ -132,6 +130,7 @@ export function createHost(options: HostOptions): Host {
     if (!entry) return;
     stations.delete(id);
     entry.forget();
+    for (const forget of closing) forget(entry.station);
     entry.station.close();
     all({ type: "closed", station: id });
   }
@@ -139,13 +138,18 @@ export function createHost(options: HostOptions): Host {
   return {
     get stations() { return [...stations.values()].map(({ station }) => station); },
     join(who, channel) {
-      const seats = new Map<HostedStation, HostedSeat>();
+      const seats = new Map<HostedStation, HostedSeat>(), visits = new Map<HostedStation, PendantVisit>(), me = `${who} ${++people}`;
       let gone = false;
       const tell = (message: Tell): void => { if (!gone) channel.send(write(message)); };
       const seatAt = (station: HostedStation): HostedSeat => {
         let seat = seats.get(station);
         if (!seat) seats.set(station, seat = station.seat(who));
         return seat;
+      };
+      const visitTo = (station: HostedStation): PendantVisit | null => {
+        let visit = visits.get(station);
+        if (!visit && station.pendant) visits.set(station, visit = visitPendant(me, station.words.id, station.pendant, options.scheduler, tell));
+        return visit ?? null;
       };
 
       async function carryOut(ask: Exclude<Ask, AskOf<"stop" | "alive" | "ping">>): Promise<CommandOutcome> {
@@ -177,7 +181,11 @@ export function createHost(options: HostOptions): Host {
             const parsed = parseProgram(ask.program);
             return parsed.kind === "program" ? station.preview(parsed.program) : refuse("station.program", `The program cannot be read: ${parsed.faults[0]?.sentence ?? "it is empty"}`, "Export it again.");
           }
-          case "pendant": return station.pendant?.(ask.act) ?? refuse("station.no-pendant", `${station.words.name} is a real controller: its pendant is at the robot.`, "Go there.");
+          case "pendant": case "visit": {
+            const visit = visitTo(station);
+            if (visit) return ask.type === "visit" ? visit.watch(ask.on) : visit.act(ask.act);
+            return refuse("station.no-pendant", `${station.words.name} is a real controller: its pendant is at the robot.`, "Go there.");
+          }
           case "plug":
             if (!station.plug) return refuse("station.no-plug", `${station.words.name} is a real controller: its plug is in the wall.`, "Disconnect it instead.");
             station.plug(ask.pulled);
@@ -200,7 +208,10 @@ export function createHost(options: HostOptions): Host {
         return outcome;
       }
 
+      /** A station that is closed has no pendant any more that could be told of. */
+      const forget = (station: HostedStation): void => { visits.get(station)?.leave(); visits.delete(station); seats.delete(station); };
       channels.add(channel);
+      closing.add(forget);
       tell({ type: "hello", protocol: PROTOCOL, version: options.version, brands: options.brands, stations: [...stations.values()].map(({ station }) => station.words) });
       for (const { station } of stations.values()) {
         tell(guardWords(station));
@@ -211,7 +222,9 @@ export function createHost(options: HostOptions): Host {
         if (gone) return;
         gone = true;
         channels.delete(channel);
+        closing.delete(forget);
         for (const seat of seats.values()) seat.release();
+        for (const visit of visits.values()) visit.leave();
       };
       return {
         leave,
@@ -227,7 +240,7 @@ export function createHost(options: HostOptions): Host {
           const ask = heard.message;
           switch (ask.type) {
             case "ping": tell({ type: "pong", sent_s: ask.sent_s, host_s: options.scheduler.now_s() }); break;
-            case "alive": { const entry = stations.get(ask.station); if (entry) seatAt(entry.station).alive(); break; }
+            case "alive": { const entry = stations.get(ask.station); if (entry) { seatAt(entry.station).alive(); visits.get(entry.station)?.alive(); } break; }
             case "stop": for (const [id, { station }] of stations) if (ask.station === undefined || ask.station === id) station.stop(ask.emergency); break;
             default: {
               const { id } = ask;

@@ -1,7 +1,12 @@
 import type { Cannot } from "../real/index.ts";
 
-/** Over externally guided motion. */
+/** Over EGM and Robot Web Services 1.0. */
 export const ABB_CANNOT: readonly Cannot[] = [
+  { row: "payload", because: "The driver sends no loads: a program says its own (GripLoad)." },
+];
+
+/** Over externally guided motion alone. */
+export const ABB_EGM_CANNOT: readonly Cannot[] = [
   { row: "T-10", because: "EGM has no word for the motors: an emergency stop brakes hard and then falls silent, which ends EGM on the controller; a person starts it there again." },
   { row: "texts", because: "EGM carries targets, no programs." },
   { row: "signals", because: "EGM carries targets, no signals." },

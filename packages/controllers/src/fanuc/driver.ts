@@ -25,6 +25,8 @@ type Lent = { -readonly [K in keyof Omit<JointSample, "step">]: Omit<JointSample
 interface Moving { readonly resolve: (outcome: CommandOutcome) => void; sequence: number; cancelled: boolean; aborted: boolean; outcome: CommandOutcome | null; asOf: number }
 
 const DIGITS = 12, PATIENCE_S = 2, STANDS_DEG = 2e-4;
+/** With the watches behind it a stop is commanded within 100 ms of the last state (row X-41) [s]. */
+const STALE_S = 0.08;
 const refusal = (code: string, sentence: string, hint: string): Refusal => ({ code, sentence, hint });
 const noAnswer = (sentence: string): Refusal => refusal("link.refused", sentence, "Look at the address, the cable, and whether option R912 is on the controller.");
 const closedHere = refusal("link.closed", "The connection was closed while the robot moved.", "Connect again, then command the move again.");
@@ -210,7 +212,7 @@ export function createFanucFace(options: FanucFaceOptions): Face {
   }
 
   return {
-    brand: "FANUC", robot, stale_s: options.stale_s ?? Math.max(0.1, 4 * period_s), open, close, move,
+    brand: "FANUC", robot, stale_s: options.stale_s ?? Math.max(STALE_S, 4 * period_s), open, close, move,
     watchdog: { kind: "none", because: "The interface carries a motion that was sent out to its end, whoever is still there: streamed motion is refused." },
     stop(emergency) {
       if (emergency) locked = true;

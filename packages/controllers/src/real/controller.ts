@@ -38,6 +38,7 @@ export function createRealController(options: RealOptions): RealController {
   let command: Command | null = null, isClosed = false, said = "", moving = false, standing = 0, override = 1;
 
   const link = keepLink(face, scheduler, name, {
+    losing() { if (command) face.stop(false); },
     lost(why) { end({ kind: "stopped", why }); },
     sample(sample) {
       q_rad.set(sample.q_rad);

@@ -1,2 +1,3 @@
 export * from "./runner.ts";
-export * from "./text.ts";
+export { textSteps, type TextSteps } from "./text.ts";
+export { TextRun } from "./text-run.ts";

@@ -1,5 +1,6 @@
 import { Fragment, useEffect } from "react";
 import { useStore } from "zustand";
+import { shownInstead } from "../../live/shown.ts";
 import { stationLive } from "../../live/stations.ts";
 import type { Pose } from "@twincell/core";
 import { runCommand } from "../../stores/commands.ts";
@@ -23,7 +24,7 @@ export function StationViews() {
     if (!live) return null;
     return (
       <Fragment key={id}>
-        <ArmView robot={live.robot} worldFromBase={stand} live={() => live} prefix={`${id}/`} />
+        <ArmView robot={live.robot} worldFromBase={stand} live={() => shownInstead(id) ?? live} prefix={`${id}/`} />
         {ghost !== "none" && <ArmView robot={live.robot} worldFromBase={stand} live={() => live.ahead} prefix={`${id}/ahead/`} ghost={ghost === "blocked" ? BLOCKED : FREE} />}
       </Fragment>
     );

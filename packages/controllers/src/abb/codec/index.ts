@@ -1,1 +1,3 @@
 export * from "./egm.ts";
+export * from "./egm-module.ts";
+export * from "./rws.ts";

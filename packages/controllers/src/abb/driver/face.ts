@@ -1,159 +1,242 @@
-import { degrees, radians, Stepper, type CommandOutcome, type JointSample, type OperatingMode, type Pose, type Refusal, type Robot, type SafetyState, type Scheduler, type Step } from "@twincell/core";
-import type { Face, FaceEvents, FaceMotion, Opened } from "../../real/index.ts";
-import type { Address, DatagramSocket, Network } from "../../transport/index.ts";
-import { COMM_TIMEOUT_S, EGM_PORT, EGM_STATE, MOTORS, egmSensorWriter, noEgmRobot, noEgmSensor, readEgmRobot } from "../codec/index.ts";
-import { linkClosed, noDrives, noLines, nobody, notGuided, notGuidedBecause, otherAxes, taken, wasStopped } from "./words.ts";
+import type { CommandOutcome, EmittedFile, JointSample, Refusal, SafetyState } from "@twincell/core";
+import { DONE, refused } from "../../outcomes.ts";
+import { pathText, type Login } from "../../http/index.ts";
+import type { Face, FaceEvents, Opened } from "../../real/index.ts";
+import { COMM_TIMEOUT_S, EGM_STATE, isAbbModel, MOTORS, RWS_LOGIN, RWS_PORT } from "../codec/index.ts";
+import { createGuide, type GuideOptions } from "./guide.ts";
+import { RwsClient, RwsSession, type RwsReply } from "./rws-client.ts";
+import { PanelState } from "./rws-state.ts";
+import { bringUp } from "./bring-up.ts";
+import { SampleClock } from "./sample-clock.ts";
+import { runRapid, startProgram, stopProgram, type RunningText } from "./text.ts";
+import * as say from "./words.ts";
 
-export interface AbbFaceOptions {
-  readonly robot: Robot;
-  readonly scheduler: Scheduler;
-  readonly network: Network;
-  /** Address of the controller: messages of others are not listened to. */
-  readonly host: string;
-  /** Where the controller sends to. */
-  readonly ports?: { readonly egm: number };
-  /** Where to listen. Left out: everywhere, or at the controller's own address when that is one of this machine, so that several virtual ones have a port each. */
-  readonly local?: string;
-  /** Part of the robot's own joint speeds that 100 % stands for. */
-  readonly maxSpeed?: number;
+export interface AbbFaceOptions extends GuideOptions {
+  readonly ports?: { readonly egm?: number; readonly rws?: number };
+  /** ABB's own default user when left out. */
+  readonly login?: Login;
+  /** Without an EGM message for so long, in the middle of a motion, the line counts as lost [s]. */
   readonly stale_s?: number;
+  /** Resources are asked for this often [s]. */
+  readonly period_s?: number;
+  /** What the controller calls its robot, where that is not its name in the library. */
+  readonly model?: string;
+  /** The output that closes the gripper. */
+  readonly gripperSignal?: string;
 }
-
-const STALE_S = 0.08, OPEN_S = 3, LOOK_S = 0.01;
-/** A robot this near to the end of its path is there [rad]; the last of the way is first-order. */
-const THERE_RAD = 0.0005 * Math.PI / 180;
-/** A gap between two messages counts as at most so long: after a longer one the path goes on from where it was [s]. */
-const MOST_GAP_S = 0.05;
-const STILL_RAD_S = 1e-4, MOTION = "motion";
-
 type Lent = { -readonly [K in keyof Omit<JointSample, "step">]: JointSample[K] };
-interface Going { readonly stepper: Stepper; readonly resolve: (outcome: CommandOutcome) => void; isSent: boolean; stopping: Refusal | null }
 
-/** Externally Guided Motion as a face: the path is made here and told cycle by cycle, in answer to each state that the controller sends. */
+const STALE_S = 0.08, PANEL_STALE_S = 0.5, PERIOD_S = 0.02, WATCH_S = 0.01;
+/** A controller that guides says so within this time of being opened; one that does not is opened all the same [s]. */
+const GUIDES_S = 0.3;
+/** The robot has come to rest within this time, or is not heard any more [s]. */
+const BRAKES_S = 2;
+/** An axis that moved by less between two answers stands [rad]. */
+const STANDS_RAD = 2e-6;
+const PANEL = { ctrlstate: "/rw/panel/ctrlstate", opmode: "/rw/panel/opmode", ctrlexecstate: "/rw/rapid/execution", speedratio: "/rw/panel/speedratio" } as const;
+type Resource = keyof typeof PANEL | "lines";
+/** What matters for safety is asked for most often. */
+const TURNS: readonly Resource[] = ["ctrlstate", "ctrlexecstate", "ctrlstate", "opmode", "lines", "ctrlstate", "ctrlexecstate", "speedratio"];
+const SIGNALS = "/rw/iosystem/signals", JOINTS = "/rw/motionsystem/mechunits/ROB_1/jointtarget";
+
+/**
+ * An ABB controller over both of its interfaces: motions are guided by EGM, everything else (motors, mode, programs, signals,
+ * files) goes over Robot Web Services 1.0. While EGM is silent states come from there. When either line is lost in the middle of a
+ * motion the robot is stopped over the other one, and both are opened anew.
+ */
 export function abbFace(options: AbbFaceOptions): Face {
-  const { robot, scheduler, network, host } = options, n = robot.arm.joints.length, port = options.ports?.egm ?? EGM_PORT, maxSpeed = options.maxSpeed ?? 1;
-  const message = noEgmRobot(), answer = noEgmSensor(), write = egmSensorWriter(), q_rad = Float64Array.from(robot.home_rad), before_rad = q_rad.slice(), target_rad = q_rad.slice(), next_rad = q_rad.slice();
-  const sample: Lent = { sequence: 0, time_s: 0, q_rad, moving: false, mode: "remote", safety: "normal", override: 1, gripperClosed: false, message: "" };
-  let socket: DatagramSocket | null = null, events: FaceEvents | null = null, going: Going | null = null, override = 1, severed = false, told = 0, first: ((axes: number) => void) | null = null;
-  answer.axes = n;
+  const { robot, scheduler, network, host } = options, n = robot.arm.joints.length, port = options.ports?.rws ?? RWS_PORT, stale_s = options.stale_s ?? STALE_S, gripper = options.gripperSignal ?? "doGripper";
+  const guide = createGuide(options), { message } = guide, clock = new SampleClock(() => scheduler.now_s()), before_rad = new Float64Array(n);
+  let panel = new PanelState(n), events: FaceEvents | null = null, life = 0, polling = false, turn = 0, hasLines = true, axes = 0;
+  let poll: RwsClient | null = null, act: RwsClient | null = null, brake: RwsClient | null = null, timers: readonly (() => void)[] = [];
+  let broken: { readonly why: Refusal; readonly since_s: number } | null = null, severed = false, rising = false, text: RunningText | null = null, complaint = "";
+  const sample: Lent = { sequence: 0, time_s: 0, q_rad: new Float64Array(n), moving: false, mode: "manual", safety: "normal", override: 1, gripperClosed: false, message: "", signals: panel.lines };
 
-  const end = (outcome: CommandOutcome): void => { const ended = going; going = null; ended?.resolve(outcome); };
-  const modeOf = (): OperatingMode => message.motors === MOTORS.off || message.state === EGM_STATE.running ? "remote" : message.state === EGM_STATE.error ? "remote" : "manual";
-  const safetyOf = (): SafetyState => severed || message.motors === MOTORS.off ? "emergency-stop" : message.state === EGM_STATE.error ? "protective-stop" : "normal";
-
-  /** The next piece of the path, as long as the controller's own clock says. */
-  function advance(dt_s: number): void {
-    next_rad.set(target_rad);
-    if (going && !going.isSent) {
-      const state = going.stepper.advance(dt_s, override * maxSpeed, next_rad);
-      if (state.kind === "fault" && state.fault) { end({ kind: "stopped", why: state.fault }); return; }
-      if (state.kind !== "running") going.isSent = true;
-    }
-    for (let i = 0; i < n; i++) {
-      answer.joints_deg[i] = degrees(next_rad[i]!);
-      answer.speeds_deg_s[i] = dt_s > 0 ? degrees((next_rad[i]! - target_rad[i]!) / dt_s) : 0;
-    }
-    target_rad.set(next_rad);
+  const guides = (): boolean => scheduler.now_s() - guide.heard_s <= stale_s;
+  const isGuided = (): boolean => guides() && say.notGuidedBecause(message) === "";
+  function safetyOf(): SafetyState {
+    if (severed || rising) return "emergency-stop";
+    if (panel.safety !== "normal" || panel.mode === "manual" || !guides()) return panel.safety;
+    return message.motors === MOTORS.off ? "emergency-stop" : message.state === EGM_STATE.error ? "protective-stop" : "normal";
   }
-
-  function take(from: Address, dt_s: number): void {
-    let fastest = 0, gap_rad = 0;
-    for (let i = 0; i < n; i++) {
-      before_rad[i] = q_rad[i]!;
-      q_rad[i] = radians(message.joints_deg[i]!);
-      if (dt_s > 0) fastest = Math.max(fastest, Math.abs(q_rad[i]! - before_rad[i]!) / dt_s);
-      gap_rad = Math.max(gap_rad, Math.abs(target_rad[i]! - q_rad[i]!));
-    }
-    const because = notGuidedBecause(message);
-    if (because !== "") {
-      // The way is given up where the robot stands: nothing old is told when it listens again.
-      target_rad.set(q_rad);
-      end({ kind: "stopped", why: going?.stopping ?? notGuided(robot, because) });
-    }
-    if (going?.isSent && gap_rad <= THERE_RAD) end(going.stopping ? { kind: "stopped", why: going.stopping } : { kind: "done" });
-    sample.sequence = message.sequence; sample.time_s = message.time_ms / 1000;
-    sample.moving = fastest > STILL_RAD_S || (going !== null && !going.isSent && override > 0 && gap_rad > THERE_RAD);
-    sample.mode = modeOf(); sample.safety = safetyOf(); sample.override = override; sample.message = because;
+  function tell(q_rad: Float64Array, moving: boolean): void {
+    const isByEgm = guides(), because = say.notGuidedBecause(message);
+    sample.q_rad.set(q_rad);
+    sample.sequence = clock.sequence; sample.time_s = clock.time_s; sample.moving = moving;
+    sample.mode = panel.mode; sample.safety = safetyOf(); sample.override = isByEgm && !text ? guide.override : panel.speedRatio / 100;
+    sample.gripperClosed = panel.lines.get(gripper) === true;
+    sample.message = panel.words !== "" ? panel.words : complaint !== "" ? complaint : panel.mode === "manual" || text ? "" : isByEgm ? because : "EGM is silent: no program there waits for targets.";
     events?.sample(sample);
-    // Silence ends EGM on the controller: the last word of an emergency stop, once the robot stands.
-    if (severed && going === null) return;
-    advance(Math.min(MOST_GAP_S, Math.max(0, dt_s)));
-    answer.sequence = told = (told + 1) >>> 0;
-    answer.time_ms = message.time_ms;
-    socket?.send(write(answer), from);
   }
 
-  function hear(lent: Uint8Array, from: Address): void {
-    if (from.host !== host) return;
-    const last_ms = message.time_ms;
-    if (readEgmRobot(lent, message) !== null) return;
-    if (first) { first(message.axes); return; }
-    if (message.axes === n) take(from, (message.time_ms - last_ms) / 1000);
+  /** The line is gone: the robot comes to rest first where it can still be told. */
+  function breakBy(why: Refusal): void {
+    if (broken || !events) return;
+    broken = { why, since_s: scheduler.now_s() };
+    if (guide.isGoing) guide.stop(false, why); else lose();
+  }
+  function lose(): void {
+    const told = events, { why } = broken!;
+    close(why);
+    told?.lost(why.sentence);
+  }
+  function watch(): void {
+    const now_s = scheduler.now_s();
+    if (broken) { if (!guide.isGoing || !guides() || now_s - broken.since_s > BRAKES_S) lose(); return; }
+    if (!guide.isGoing || guides()) return;
+    broken = { why: say.guidingLost(robot, now_s - guide.heard_s), since_s: now_s };
+    lose();
+  }
+  function close(why: Refusal = say.linkClosed(robot)): void {
+    life++;
+    // Nobody will be there to end what is under way.
+    if (brake && (guide.isGoing || text)) void stopProgram(brake);
+    for (const stop of timers) stop();
+    timers = [];
+    for (const client of [poll, act, brake]) client?.close();
+    poll = act = brake = events = null;
+    polling = rising = false;
+    broken = null;
+    guide.close(why);
   }
 
-  function close(): void {
-    socket?.close();
-    socket = events = null;
-    first?.(-1);
-    end({ kind: "stopped", why: linkClosed(robot) });
+  async function round(client: RwsClient, mine: number): Promise<void> {
+    const resource = TURNS[turn++ % TURNS.length]!;
+    if (resource !== "lines" || hasLines) {
+      const reply = await client.get(resource === "lines" ? SIGNALS : PANEL[resource]);
+      if (mine !== life) return;
+      const flaw = take(resource, reply);
+      if (flaw !== null) { breakBy(say.servicesLost(robot, flaw)); return; }
+    }
+    if (guides()) return;
+    const reply = await client.get(JOINTS);
+    if (mine !== life || guides()) return;
+    before_rad.set(panel.q_rad);
+    if (reply.kind !== "answer" || panel.takeJoints(reply.states) !== n) { breakBy(say.servicesLost(robot, reply.kind === "answer" ? "it does not say where the robot is." : reply.sentence)); return; }
+    clock.ours();
+    tell(panel.q_rad, panel.q_rad.some((q, i) => Math.abs(q - before_rad[i]!) > STANDS_RAD));
   }
+  /** Why the answer is none, or null. */
+  function take(resource: Resource, reply: RwsReply): string | null {
+    if (reply.kind !== "answer") return reply.sentence;
+    if (resource === "lines") panel.takeLines(reply.states);
+    else if (!panel.takePanel(resource, reply.states)) return `it does not tell its ${resource}.`;
+    return null;
+  }
+
+  async function open(heard: FaceEvents): Promise<Opened> {
+    close();
+    const mine = life, session = new RwsSession(options.login ?? RWS_LOGIN);
+    const fail = (why: Refusal, again: boolean): Opened => { if (mine === life) close(); return { kind: "failed", why, again }; };
+    const client = (): RwsClient => new RwsClient({ network, scheduler, session, to: { host, port }, lost(sentence) { breakBy(say.servicesLost(robot, sentence)); }, roundTrip(seconds) { events?.roundTrip(seconds); } });
+    const own = poll = client(), type = await own.get("/rw/system/robottype");
+    if (mine !== life) return fail(say.linkClosed(robot), true);
+    if (type.kind !== "answer" && (type.kind === "lost" || type.status !== 404)) return fail(say.noServices(host, port, type.sentence), type.kind === "lost" || type.status === 503);
+    const model = type.kind === "answer" ? type.states[0]?.fields["robot-type"] : undefined;
+    if (model !== undefined && !isAbbModel(options.model ?? robot.name, model)) return fail(say.otherRobot(robot, model), false);
+    const now = panel = new PanelState(n);
+    sample.signals = now.lines;
+    for (const resource of ["ctrlstate", "opmode", "ctrlexecstate", "speedratio"] as const) {
+      const flaw = take(resource, await own.get(PANEL[resource]));
+      if (flaw !== null) return fail(say.noServices(host, port, flaw), true);
+    }
+    const joints = await own.get(JOINTS), count = joints.kind === "answer" ? now.takeJoints(joints.states) : null;
+    if (count === null) return fail(say.noServices(host, port, joints.kind === "answer" ? "it does not say where the robot is." : joints.sentence), true);
+    if (count !== n) return fail(say.otherAxes(robot, count), false);
+    // Each of the other lines is there before it is needed.
+    act = client();
+    brake = client();
+    const lines = await act.get(SIGNALS);
+    await brake.get(PANEL.ctrlstate);
+    hasLines = take("lines", lines) === null;
+    if (mine !== life) return fail(say.linkClosed(robot), true);
+    axes = n;
+    const deaf = await guide.open({
+      state(_, got) {
+        axes = got;
+        if (got !== n) { breakBy(say.otherAxes(robot, got)); return; }
+        clock.theirs(message.sequence, message.time_ms);
+        tell(guide.q_rad, guide.isMoving);
+      },
+    });
+    if (deaf) return fail(deaf, true);
+    for (const from_s = scheduler.now_s(); !guides() && axes === n && mine === life && scheduler.now_s() - from_s < GUIDES_S;) await pause(WATCH_S);
+    if (mine !== life) return fail(say.linkClosed(robot), true);
+    if (axes !== n) return fail(say.otherAxes(robot, axes), false);
+    severed = false;
+    complaint = "";
+    events = heard;
+    timers = [
+      scheduler.every(WATCH_S, watch),
+      scheduler.every(options.period_s ?? PERIOD_S, () => {
+        if (polling) return;
+        polling = true;
+        void round(own, mine).then(() => { if (mine === life) polling = false; });
+      }),
+    ];
+    return { kind: "open" };
+  }
+  const pause = (seconds: number): Promise<void> => new Promise(resolve => { const stop = scheduler.every(seconds, () => { stop(); resolve(); }); });
+
+  /** Orders that nobody waits for: what the controller says against them is told with the states. */
+  function order(answered: Promise<RwsReply>, what: string): void {
+    void answered.then(reply => { complaint = reply.kind === "refused" ? say.refusedThere(what, reply.sentence).sentence : ""; });
+  }
+  function setSignal(signal: string, value: boolean | number): Refusal | null {
+    const place = panel.places.get(signal);
+    if (!act) return say.linkClosed(robot);
+    if (place === undefined) return say.noSuchLine(signal);
+    order(act.post(`${SIGNALS}${pathText(place.split("/"))}?action=set`, { lvalue: String(Number(value)) }), `Writing "${signal}"`);
+    return null;
+  }
+  const setSpeedRatio = (client: RwsClient, ratio: number): void => { order(client.post(`${PANEL.speedratio}?action=setspeedratio`, { "speed-ratio": String(Math.round(100 * ratio)) }), "Setting the speed"); };
 
   return {
-    brand: "ABB", robot, stale_s: options.stale_s ?? STALE_S, watchdog: { kind: "robot", within_s: COMM_TIMEOUT_S },
-    async open(heard): Promise<Opened> {
-      close();
-      const bound = await network.bind({ host: options.local ?? (host.startsWith("127.") ? host : "0.0.0.0"), port });
-      if (bound.kind === "taken") return { kind: "failed", why: taken(bound.sentence), again: true };
-      const own = socket = bound.socket, from_s = scheduler.now_s();
-      const axes = await new Promise<number>(resolve => {
-        const stop = scheduler.every(LOOK_S, () => { if (scheduler.now_s() - from_s > OPEN_S) first?.(0); });
-        first = got => { stop(); first = null; resolve(got); };
-        own.onDatagram(hear);
-      });
-      if (axes !== n || socket !== own) {
-        own.close();
-        if (socket === own) socket = null;
-        return { kind: "failed", why: axes > 0 ? otherAxes(robot, axes) : axes < 0 ? linkClosed(robot) : nobody(port, host), again: axes <= 0 };
-      }
-      for (let i = 0; i < n; i++) target_rad[i] = q_rad[i] = radians(message.joints_deg[i]!);
-      severed = false;
-      events = heard;
-      return { kind: "open" };
-    },
-    close,
+    brand: "ABB", robot, watchdog: { kind: "robot", within_s: COMM_TIMEOUT_S },
+    get stale_s() { return events && !guides() ? Math.max(stale_s, PANEL_STALE_S) : stale_s; },
+    open, close() { close(); },
     move(motion) {
-      const because = notGuidedBecause(message), why = !socket ? linkClosed(robot) : because !== "" ? notGuided(robot, because) : null;
-      if (why) return Promise.resolve({ kind: "refused", why });
-      return new Promise(resolve => {
-        end({ kind: "stopped", why: wasStopped(robot) });
-        going = { stepper: new Stepper(robot, { tools: {}, frames: {} }, [stepOf(motion)], target_rad), resolve, isSent: false, stopping: null };
-      });
+      if (!events) return Promise.resolve(refused(say.linkClosed(robot)));
+      return guides() ? guide.move(motion) : Promise.resolve(refused(say.notGuided(robot, "EGM is silent.")));
     },
     stop(emergency) {
       severed ||= emergency;
-      if (!going) return;
-      going.stopping ??= wasStopped(robot);
-      going.stepper.stop(true);
+      if (emergency && brake) void brake.post(`${PANEL.ctrlstate}?action=setctrlstate`, { "ctrl-state": "motoroff" });
+      guide.stop(emergency);
+      text?.stop();
     },
-    setOverride(ratio) { override = ratio; return null; },
-    async reset() {
-      severed = false;
-      // The controller's own answer: EGM runs again only when somebody started it there.
-      await new Promise<void>(resolve => { const stop = scheduler.every(2 * MOST_GAP_S, () => { stop(); resolve(); }); });
-      return notGuidedBecause(message) === "" ? { kind: "done" } : { kind: "refused", why: noDrives(robot) };
+    setOverride(ratio) {
+      guide.setOverride(ratio);
+      if (act && (text || !guides())) setSpeedRatio(act, ratio);
+      return null;
     },
-    setSignal: () => noLines(),
-    setGripper: () => noLines(),
+    async reset(): Promise<CommandOutcome> {
+      if (!act) return refused(say.linkClosed(robot));
+      complaint = "";
+      guide.rearm();
+      const mine = life, up = panel.safety === "normal" && isGuided();
+      if (up && !severed) return DONE;
+      rising = severed || safetyOf() === "emergency-stop";
+      const outcome = await bringUp({ client: act, panel, scheduler, robot, ctrlstate: PANEL.ctrlstate, execution: PANEL.ctrlexecstate, isGuided });
+      if (mine === life) {
+        rising = false;
+        if (outcome.kind === "done") severed = false;
+      }
+      return outcome;
+    },
+    setSignal,
+    setGripper: closed => setSignal(gripper, closed),
+    async runText(files: readonly EmittedFile[]) {
+      const mine = life, client = act;
+      if (!client) return refused(say.linkClosed(robot));
+      setSpeedRatio(client, guide.override);
+      const run = text = runRapid(files, client, panel, scheduler, robot), outcome = await run.outcome;
+      text = null;
+      if (mine !== life || severed || panel.ctrl !== "motoron") return outcome;
+      // It moves nothing by itself.
+      await startProgram(client, "forever");
+      for (const from_s = scheduler.now_s(); !isGuided() && mine === life && scheduler.now_s() - from_s < GUIDES_S;) await pause(WATCH_S);
+      return outcome;
+    },
   };
-}
-
-/** A motion as a step: the base is the world here, and the flange its tool. */
-function stepOf(motion: FaceMotion): Step {
-  const base = { id: MOTION, type: "move", blend_m: 0, acceleration: { ratio: motion.acceleration } } as const;
-  const at = (baseFromFlange: Pose<"base", "flange">) => ({ pose: baseFromFlange as Pose as Pose<"frame", "tcp">, frame: "world", tool: "flange" });
-  switch (motion.path) {
-    case "joints": return { ...base, path: "ptp", target: { q: [...motion.q_rad] }, speed: { ratio: motion.ratio } };
-    case "line": return { ...base, path: "lin", target: at(motion.baseFromFlange), speed: { mps: motion.speed_mps } };
-    case "arc": return { ...base, path: "circ", target: at(motion.baseFromFlange), via: at(motion.baseFromVia), speed: { mps: motion.speed_mps } };
-  }
 }

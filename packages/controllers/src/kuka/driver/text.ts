@@ -4,7 +4,7 @@ import { OVERWRITE } from "../codec-c3-requests.ts";
 import type { C3Client } from "./client.ts";
 import type { KukaState } from "./state.ts";
 import * as say from "./words.ts";
-import { refused } from "../../outcomes.ts";
+import { refused, stopped } from "../../outcomes.ts";
 
 const CHUNK = 32_000, LOOK_S = 0.012, FOLDER = "KRC:\\R1\\PROGRAM\\";
 
@@ -12,10 +12,10 @@ export interface RunningText { readonly outcome: Promise<CommandOutcome>; stop()
 
 /** Writes a module to the controller and selects it in the place of the running program; the name under which it then stands there. */
 export async function handKrl(files: readonly EmittedFile[], client: C3Client): Promise<{ readonly kind: "selected"; readonly name: string } | { readonly kind: "refused"; readonly why: Refusal }> {
-  const main = files.find(({ name }) => /\.src$/i.test(name));
+  const main = mainOf(files);
   if (!main) return { kind: "refused", why: say.fileRefused("without .src") };
   for (const file of files) if (!await put(client, file)) return { kind: "refused", why: say.fileRefused(file.name) };
-  const name = main.name.replace(/\.src$/i, "").toUpperCase();
+  const name = nameOf(main);
   await client.order({ kind: "control", command: C3_COMMAND.cancel, interpreter: 1 });
   if (!await client.order({ kind: "select", run: false, name: `${FOLDER}${main.name}`, parameters: "", force: false })) return { kind: "refused", why: say.programRefused(name) };
   return { kind: "selected", name };
@@ -38,6 +38,7 @@ export function runKrl(name: string, client: C3Client, state: KukaState, schedul
     let seen = state.sample.sequence, second = false;
     return new Promise(resolve => {
       const stopLooking = scheduler.every(LOOK_S, () => {
+        if (client.isClosed) { stopLooking(); resolve(stopped(say.closedHere)); return; }
         if (state.sample.sequence === seen) return;
         seen = state.sample.sequence;
         const end = (with_: CommandOutcome): void => {
@@ -62,6 +63,11 @@ export function runKrl(name: string, client: C3Client, state: KukaState, schedul
     },
   };
 }
+
+const mainOf = (files: readonly EmittedFile[]): EmittedFile | undefined => files.find(({ name }) => /\.src$/i.test(name));
+const nameOf = ({ name }: EmittedFile): string => name.replace(/\.src$/i, "").toUpperCase();
+/** What the controller will call the program of those files; "" when there is none. */
+export const programOf = (files: readonly EmittedFile[]): string => { const main = mainOf(files); return main ? nameOf(main) : ""; };
 
 async function put(client: C3Client, { name, text }: EmittedFile): Promise<boolean> {
   const bytes = Uint8Array.from(text, sign => sign.charCodeAt(0) & 255);
