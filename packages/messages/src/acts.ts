@@ -5,7 +5,7 @@ import type { TellOf } from "./tell.ts";
 export interface ActWords { readonly action: string; readonly detail: string; readonly command: boolean; readonly target: readonly number[] }
 
 /** An ask that is an act at one station. Signs of life, looking, and questions for the time are none; starting together is an act at each of the members. */
-export type Act = Exclude<Ask, { readonly type: "alive" | "ping" | "open" | "visit" | "together" }>
+export type Act = Exclude<Ask, { readonly type: "alive" | "ping" | "open" | "visit" | "look-ahead" | "preview" | "together" }>
   | { readonly type: "together"; readonly program: unknown; readonly asText: boolean; readonly members: number };
 
 const AS_TEXT = " as text of the controller's own language";

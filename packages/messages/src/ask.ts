@@ -54,6 +54,10 @@ export const askSchema = z.discriminatedUnion("type", [
   z.strictObject({ type: z.literal("move"), ...asked, ...station, q_rad: angles }),
   z.strictObject({ type: z.literal("zero"), ...asked, ...station }),
   z.strictObject({ type: z.literal("run"), ...asked, ...station, program: z.unknown(), asText: z.boolean() }),
+  /** How far ahead of the robot is looked [s]. */
+  z.strictObject({ type: z.literal("look-ahead"), ...asked, ...station, seconds: z.number().min(0.5).max(10) }),
+  /** Shows where a program would take the robot; nothing is sent to it. */
+  z.strictObject({ type: z.literal("preview"), ...asked, ...station, program: z.unknown() }),
   /** All or none: every one is made ready first, then all start on one clock, and whoever is stopped stops all. */
   z.strictObject({ type: z.literal("together"), ...asked, members: z.array(z.strictObject({ station: text, program: z.unknown(), asText: z.boolean() })).min(2).max(16) }),
   /** Anyone may. Without a station it is all of them. */

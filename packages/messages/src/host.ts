@@ -26,6 +26,8 @@ export interface HostedStation<Seat extends HostedSeat = HostedSeat> {
   disconnect(): void;
   /** Only to watch it from now on, or to command it again: the connection is opened anew, as one or the other. */
   watch(seat: Seat, on: boolean): Promise<CommandOutcome>;
+  readonly ahead: { horizon_s: number; onChange(listen: (words: { readonly q_rad: Float64Array; readonly in_s: number; readonly problem: { readonly code: string; readonly sentence: string; readonly in_s: number } | null } | null) => void): () => void };
+  preview(program: Program): CommandOutcome;
   run(seat: Seat, program: Program, asText: boolean): Promise<CommandOutcome>;
   /** Makes a program ready to be started: what may be refused is told before anything moves. */
   prepare(seat: Seat, program: Program, asText: boolean): Promise<HostedArmed>;
@@ -71,6 +73,7 @@ const refuse = (code: string, sentence: string, hint: string): CommandOutcome =>
 const known = (value: number): number | null => Number.isFinite(value) ? value : null;
 
 const noStation = (id: string): CommandOutcome => refuse("station.none", `There is no station “${id}”.`, "Open it first.");
+const unreadable = (why = "it is empty"): CommandOutcome => refuse("station.program", `The program cannot be read: ${why}`, "Export it again.");
 const noPendant = ({ words }: HostedStation): CommandOutcome => refuse("station.no-pendant", `${words.name} is a real controller: its pendant is at the robot.`, "Go there.");
 
 /** Stations that any number of people look at, and each of which one commands. The same in a worker of the page and on a server. */
@@ -114,6 +117,7 @@ export function createHost(options: HostOptions): Host {
           ...(signals ? { signals: Object.fromEntries(signals) } : {}),
         });
       }),
+      station.ahead.onChange(words => { all({ type: "ahead", station: id, ahead: words && { q_rad: Array.from(words.q_rad), in_s: words.in_s, problem: words.problem } }); }),
       station.onLink(() => { tellLink(station); }),
       station.onGuard(() => { all(guardWords(station)); }),
       station.onNotice(why => { all({ type: "notice", station: id, why }); }),
@@ -164,7 +168,7 @@ export function createHost(options: HostOptions): Host {
       async function carryOut(ask: Exclude<Ask, AskOf<"stop" | "alive" | "ping">>): Promise<CommandOutcome> {
         if (ask.type === "open") return open(ask);
         if (ask.type === "together") return together(ask);
-        if (ask.type === "visit") return visited(ask);
+        if (ask.type === "visit" || ask.type === "look-ahead" || ask.type === "preview") return looked(ask);
         const station = stations.get(ask.station)?.station;
         if (!station) return noStation(ask.station);
         const told = tellAct(who, ask, ask.station);
@@ -174,9 +178,18 @@ export function createHost(options: HostOptions): Host {
         if (stations.get(ask.station)?.station === station) told(outcome);
         return outcome;
       }
-      async function visited(ask: AskOf<"visit">): Promise<CommandOutcome> {
+      /** What only looks: nothing of it reaches the robot, and nobody is told. */
+      async function looked(ask: AskOf<"visit"> | AskOf<"look-ahead"> | AskOf<"preview">): Promise<CommandOutcome> {
         const station = stations.get(ask.station)?.station;
-        return station ? visitTo(station)?.watch(ask.on) ?? noPendant(station) : noStation(ask.station);
+        if (!station) return noStation(ask.station);
+        switch (ask.type) {
+          case "visit": return visitTo(station)?.watch(ask.on) ?? noPendant(station);
+          case "look-ahead": station.ahead.horizon_s = ask.seconds; return DONE;
+          case "preview": {
+            const parsed = parseProgram(ask.program);
+            return parsed.kind === "program" ? station.preview(parsed.program) : unreadable(parsed.faults[0]?.sentence);
+          }
+        }
       }
       async function command(station: HostedStation, ask: Exclude<Act, { readonly type: "stop" | "together" }>): Promise<CommandOutcome> {
         const seat = seatAt(station);
@@ -195,7 +208,7 @@ export function createHost(options: HostOptions): Host {
           case "zero": return seat.robot.moveToZero();
           case "run": {
             const parsed = parseProgram(ask.program);
-            if (parsed.kind !== "program") return refuse("station.program", `The program cannot be read: ${parsed.faults[0]?.sentence ?? "it is empty"}`, "Export it again.");
+            if (parsed.kind !== "program") return unreadable(parsed.faults[0]?.sentence);
             return station.run(seat, parsed.program, ask.asText);
           }
           case "pendant": return visitTo(station)?.act(ask.act) ?? noPendant(station);

@@ -59,6 +59,8 @@ export const tellSchema = z.discriminatedUnion("type", [
     type: z.literal("guard"), ...station, holder: text.nullable(), pressed: z.boolean(), link: z.enum(["up", "lost", "unconfirmed"]),
     motion: z.enum(["at-rest", "moving", "stopping", "returning"]), trip: z.enum(["none", "return-due", "return-wanted"]), emergency: z.boolean(), watching: z.boolean(),
   }),
+  /** Where the robot will be in so many seconds, and the first thing in its way; null when nothing is looked ahead any more. */
+  z.strictObject({ type: z.literal("ahead"), ...station, ahead: z.strictObject({ q_rad: angles, in_s: z.number(), problem: z.strictObject({ code: text, sentence: text, in_s: z.number() }).nullable() }).nullable() }),
   /** A group began: from the first to the last that was seen moving, on the host's clock [s]. Or it ended, each in its way. */
   z.strictObject({ type: z.literal("began"), stations: z.array(text), spread_s: z.number() }),
   z.strictObject({ type: z.literal("ended"), stations: z.array(z.strictObject({ station: text, outcome: outcomeSchema })) }),

@@ -81,6 +81,8 @@ export function recordStations(channel: Channel, options: StationRecorderOptions
     if (message.type === "opened") { const { id, name, brand, robot, virtual, watchdog } = message; open({ id, name, brand, robot, virtual, watchdog }); return; }
     if (message.type === "closed") { close(message.station); return; }
     if (message.type === "fault") { options.onTrouble?.(message.sentence); return; }
+    // Where it will be is no record of where it was.
+    if (message.type === "ahead") return;
     if (message.type === "began" || message.type === "ended") { group(message); return; }
     const to = stations.get(message.station);
     if (!to) return;

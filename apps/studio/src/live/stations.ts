@@ -21,7 +21,12 @@ export interface StationLive {
   /** When the last sample was written here, and the host's clock when it handed it on [s]. */
   received_s: number;
   sent_s: number;
+  /** Where it will be, as its host tells. */
+  readonly ahead: { readonly q_rad: Float64Array; revision: number };
 }
+const newLive = (robot: Robot): StationLive => ({
+  robot, q_rad: Float64Array.from(robot.home_rad), revision: 0, received_s: 0, sent_s: 0, ahead: { q_rad: Float64Array.from(robot.home_rad), revision: 0 },
+});
 interface Recording { readonly recorder: RunRecorder; readonly file: RunFile; readonly note: (ending: RunEnding) => void }
 
 const shelf = browserShelf();
@@ -52,7 +57,7 @@ export async function addStation({ brand, robot: robotId, place, stand, address,
   const taken = new Set(stationStore.getState().stations.map(({ id }) => id));
   let id = robotId;
   for (let n = 2; taken.has(id); n++) id = `${robotId} ${n}`;
-  lives.set(id, { robot, q_rad: Float64Array.from(robot.home_rad), revision: 0, received_s: 0, sent_s: 0 });
+  lives.set(id, newLive(robot));
   stands.set(id, stand);
   const opened = await host.ask({
     type: "open", station: id, brand, robot: robotId, worldFromBase: document.robot.worldFromBase, stand, ...(watch ? { watch } : {}), ...(address ? { address: { host: address.host, ...(address.ports ? { ports: { ...address.ports } } : {}), ...(address.data ? { data: Object.fromEntries(Object.entries(address.data).map(([name, numbers]) => [name, [...numbers]])) } : {}) } } : {}),
@@ -81,6 +86,19 @@ export async function watchStation(id: string, on: boolean): Promise<CommandOutc
   if (!host) return refusedAs(words.stations.gone, "");
   const turned = await host.ask({ type: "watch", station: id, on });
   return turned.kind === "done" && !on ? host.ask({ type: "take", station: id }) : turned;
+}
+/** How far ahead its host looks, and the ghost runs [s]. */
+export function lookAhead(id: string, seconds: number): void {
+  changeStation(id, { ahead_s: seconds });
+  void hostOf(id)?.ask({ type: "look-ahead", station: id, seconds });
+}
+/** The ghost goes through the present program; nothing is sent to the robot. */
+export async function previewStation(id: string): Promise<CommandOutcome> {
+  const wanted = programFor(id), host = hostOf(id), live = lives.get(id);
+  if (!wanted || !host || !live) return refusedAs(words.stations.gone, "");
+  if (wanted.program.steps.length === 0) return refusedAs(words.run.nothing, "");
+  if (wanted.unreached.length > 0) return refusedAs(words.stations.unreached(live.robot.name, wanted.unreached.length), words.stations.unreachedHint);
+  return host.ask({ type: "preview", station: id, program: wanted.program });
 }
 export function stopStation(id: string, emergency = false): void { hostOf(id)?.stop(id, emergency); }
 export async function pullPlug(id: string, pulled: boolean): Promise<void> {
@@ -205,6 +223,7 @@ function take(place: HostPlace, message: Told): void {
       break;
     case "ended": for (const { station, outcome } of message.stations) groupEnds.set(station, outcome); break;
     case "act": recordAct(message); break;
+    case "ahead": foresee(message); break;
     case "sample": show(message); break;
     case "pendant":
       cabinets.get(message.station)?.take(message);
@@ -220,11 +239,11 @@ function take(place: HostPlace, message: Told): void {
 function appear(place: HostPlace, { id, name, brand, robot: robotId, virtual, watchdog }: Omit<TellOf<"opened">, "type">): void {
   const robot = robotById(robotId), { document } = cellStore.getState();
   if (!robot || stationOf(id)) return;
-  if (!lives.has(id)) lives.set(id, { robot, q_rad: Float64Array.from(robot.home_rad), revision: 0, received_s: 0, sent_s: 0 });
+  if (!lives.has(id)) lives.set(id, newLive(robot));
   const stand = stands.get(id) ?? document!.robot.worldFromBase;
   const station: StationState = {
     id, name: virtual ? shortName(robot) : name, brand, robot: robotId, virtual, watchdog, place, stand, link: NO_LINK, guard: AT_REST, mode: "automatic", safety: "normal", moving: false, override: 1,
-    step: "", message: "", plan_rad: null, command_rad: null, running: false, unplugged: false, notice: "",
+    step: "", message: "", plan_rad: null, command_rad: null, running: false, unplugged: false, notice: "", ghost: "none", foreseen: "", ahead_s: 2,
   };
   stationStore.setState(({ stations }) => ({ stations: [...stations, station] }));
   keepAlive(id);
@@ -245,6 +264,16 @@ const due = (what: string): boolean => {
   told_ms.set(what, now_ms);
   return true;
 };
+
+/** Angles go to the frame loop at once; words as slowly as people read. */
+function foresee({ station: id, ahead }: TellOf<"ahead">): void {
+  const live = lives.get(id), known = stationOf(id);
+  if (!live || !known) return;
+  if (ahead && ahead.q_rad.length === live.ahead.q_rad.length) { live.ahead.q_rad.set(ahead.q_rad); live.ahead.revision++; }
+  const ghost = !ahead ? "none" : ahead.problem ? "blocked" : "free";
+  if (ghost === known.ghost && !(ahead?.problem && due(`${id} ahead`))) return;
+  changeStation(id, { ghost, foreseen: ahead?.problem ? words.stations.inTime(ahead.problem.in_s.toFixed(1), ahead.problem.sentence) : "" });
+}
 
 function show(sample: TellOf<"sample">): void {
   const live = lives.get(sample.station), known = stationOf(sample.station);

@@ -21,6 +21,12 @@ export interface StationState extends StationWords {
   readonly plan_rad: number | null;
   readonly command_rad: number | null;
   readonly running: boolean;
+  /** Whether its ghost is shown, and how. Its angles are in `live/stations.ts`. */
+  readonly ghost: "none" | "free" | "blocked";
+  /** The first thing in its way ahead, with the time to come; "" while the way is free. */
+  readonly foreseen: string;
+  /** How far ahead is looked [s]. */
+  readonly ahead_s: number;
   /** The plug of a virtual controller was pulled. */
   readonly unplugged: boolean;
   /** The last thing the guard or the host said. */

@@ -54,6 +54,7 @@ export const en = {
     plan: "From the plan", command: "From the command", watchdog: "If nobody commands", mode: "Mode", safety: "Safety", step: "Step", ms: (s: number) => `${(s * 1000).toFixed(1)} ms`,
     pendant: "Pendant and cabinet", pendantAlone: "On a page of its own",
     noServer: "Real controllers are reached through the Twincell server.", noServerHint: "Start npx twincell serve and open the address it prints.", gone: "This controller is no longer there.",
+    preview: "Look ahead", previewTip: "A ghost goes through the program. Nothing is sent to the robot.", previewFree: (name: string) => `${name}: the way is free.`, ahead: "Ghost runs ahead by", aheadSays: (s: number) => `${s.toFixed(1)} s`, inTime: (s: string, what: string) => `In ${s} s: ${what}`,
     together: "Start together", togetherTip: "All are made ready first. If one refuses nobody starts; whoever is stopped stops all.", togetherOf: "Those that start together", began: (n: number, ms: number) => `${n} robots began together, within ${ms} ms.`, togetherDone: "The common run is done.",
     twoClocks: "Some of them are in this page and some on the server: they have no common clock.", twoClocksHint: "Start those of one place together.",
     watching: "Watched only. Nothing is commanded from here; STOP still stops it.", watchingShort: "watched only", take: "Take it to command", watch: "Only watch", watchTip: "Gives the command back. From then on nothing but a stop is sent.",

@@ -45,6 +45,8 @@ export interface Seen {
   readonly id: string;
   readonly name: string;
   readonly joints: number;
+  /** It moves, or its plan is under way. */
+  readonly moving: boolean;
   /** Where it will be in so many seconds: by its plan, else where it would come to rest, else where it stands. */
   expected(in_s: number, out: Float64Array): void;
   /** Distance to it with both in those postures, if it is below `cutoff_m`, else Infinity [m]. */
@@ -180,6 +182,7 @@ export function createSharedCell({ between_m = BETWEEN_ROBOTS_M, yielded_m = YIE
         const arm = new OtherArm(other.id, other.options.name, other.options.robot, solidsOf(other.options.robot), other.options.worldFromBase, other.q_rad);
         const neighbour: Neighbour = {
           id: other.id, name: other.options.name, joints: other.q_rad.length, member: other, arm, scratch: new Float64Array(other.q_rad.length), pairs: [], picked: null, floor_m: Infinity,
+          get moving() { return other.moving || other.path !== null; },
           kept_m: between_m, error_m: marginToLinks(robot, other.options.robot),
           expected(in_s, out) {
             if (other.path?.(in_s, out) !== true) out.set(in_s > 0 ? other.ahead_rad : other.q_rad);

@@ -1,8 +1,9 @@
-import { planProgram, unrolled, type CommandOutcome, type Dialect, type PlanAnswer, type Pose, type Program, type Refusal, type Robot, type Scheduler } from "@twincell/core";
+import { checkProgram, identity, linkSolids, planProgram, unrolled, type CellGeometry, type CommandOutcome, type Dialect, type Finding, type Pose, type Program, type Refusal, type Robot, type Scheduler } from "@twincell/core";
 import { createRealController, type Brand, type ControllerData, type PortNumbers } from "../real/index.ts";
 import { memoryNetwork, type Network } from "../transport/index.ts";
 import type { SharedCell } from "../cell/index.ts";
 import type { Seat } from "../guard/index.ts";
+import { LookAhead, wayBlocked } from "../twin/index.ts";
 import { DONE, refused } from "../outcomes.ts";
 import { openCabinet, type Cabinet, type CabinetOpened } from "./cabinet.ts";
 import { createStation, type Armed, type Station, type StationJob } from "./station.ts";
@@ -26,6 +27,9 @@ export interface OpenOptions {
   readonly watching?: boolean;
 }
 
+/** Programs of more motions are not checked where they are sent: it would keep the clock of the host waiting. */
+const MOST_CHECKED = 500;
+
 /** A station of a brand, and what a person can do at its cabinet where that is virtual. */
 export interface BrandStation extends Station {
   /** What is said of it. */
@@ -36,6 +40,8 @@ export interface BrandStation extends Station {
   readonly plug: ((pulled: boolean) => void) | null;
   /** Runs a program from that seat, compared with its plan all the way; as text where wanted and taken. */
   run(seat: Seat, program: Program, asText: boolean): Promise<CommandOutcome>;
+  /** Shows where it would take the robot, without a word to it; refused with the first thing in the way. */
+  preview(program: Program): CommandOutcome;
   /** The same in two, for a start together with others: what may be refused is told before anything moves. */
   prepare(seat: Seat, program: Program, asText: boolean): Promise<Armed>;
   stop(emergency: boolean): void;
@@ -74,10 +80,15 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
     ...(options.heartbeat_s === undefined ? {} : { heartbeat_s: options.heartbeat_s }),
     deadMan: options.deadMan ?? near === null,
   });
-  const layOut = (program: Program): PlanAnswer => planProgram(program, robot, { start_rad: controller.jointAngles(), ...(worldFromBase ? { worldFromBase } : {}) });
-  const jobOf = (program: Program, asText: boolean, answer: PlanAnswer): StationJob => ({
-    program, steps: () => unrolled(program, controller.signals), ...(asText ? { dialect } : {}), ...(answer.kind === "planned" ? { plan: answer.plan } : {}),
-  });
+  /** The program with its plan from where the robot stands, and what the check finds on it; why there is no plan, else. */
+  function jobOf(program: Program, asText: boolean): StationJob & { readonly findings: readonly Finding[]; readonly stuck: Refusal | null } {
+    const from = { start_rad: controller.jointAngles(), ...(worldFromBase ? { worldFromBase } : {}) }, answer = planProgram(program, robot, from);
+    const own: CellGeometry = { worldFromBase: worldFromBase ?? identity(), links: linkSolids(robot), objects: [], allowedPairs: [], shapeError_m: robot.shapeError_m };
+    const small = answer.plan.segments.length <= MOST_CHECKED;
+    const findings = small ? checkProgram(program, robot, { ...from, cell: own }).verdict.steps.flatMap(step => step.findings).sort((a, b) => a.at_s - b.at_s) : [];
+    const job = { program, steps: () => unrolled(program, controller.signals), findings, ...(asText ? { dialect } : {}) };
+    return answer.kind === "planned" ? { ...job, plan: answer.plan, stuck: null } : { ...job, stuck: { code: answer.stuck.code, sentence: answer.stuck.sentence, hint: answer.stuck.hint } };
+  }
   return {
     kind: "opened",
     station: {
@@ -101,11 +112,19 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
         const rejoined = await rejoin(station);
         return on ? rejoined : rejoined.kind === "done" ? seat.watch(false) : rejoined;
       },
-      run: (seat, program, asText) => station.carryOut(seat, jobOf(program, asText, layOut(program))),
+      async run(seat, program, asText) {
+        const job = jobOf(program, asText), blocked = job.plan && new LookAhead({ name, plan: job.plan, findings: job.findings, place: place ?? null, joints: robot.arm.joints.length }).preview().blocked;
+        return blocked ? refused(wayBlocked(blocked)) : station.carryOut(seat, job);
+      },
+      preview(program) {
+        const { plan, findings, stuck } = jobOf(program, false);
+        if (!plan) return refused(stuck!);
+        const { blocked, told } = station.ahead.preview(plan, findings), first = blocked ?? told;
+        return first ? refused({ ...wayBlocked(first), hint: blocked ? "It would not be sent. Clear the way, or change the program." : "It would be sent all the same; this is only told." }) : DONE;
+      },
       async prepare(seat, program, asText) {
-        const answer = layOut(program);
-        if (answer.kind === "stuck") return { kind: "refused", why: { code: answer.stuck.code, sentence: answer.stuck.sentence, hint: answer.stuck.hint } };
-        return station.arm(seat, jobOf(program, asText, answer));
+        const job = jobOf(program, asText);
+        return job.stuck ? { kind: "refused", why: job.stuck } : station.arm(seat, job);
       },
       close() {
         station.close();

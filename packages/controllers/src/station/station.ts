@@ -1,8 +1,9 @@
-import { samplePlan, withBranches, type CommandOutcome, type Dialect, type EmittedFile, type JointSample, type LinkReport, type Plan, type Pose, type Program, type RealController, type Refusal, type RobotController, type Scheduler, type Step } from "@twincell/core";
+import { samplePlan, withBranches, type CommandOutcome, type Dialect, type EmittedFile, type Finding, type JointSample, type LinkReport, type Plan, type Pose, type Program, type RealController, type Refusal, type RobotController, type Scheduler, type Step } from "@twincell/core";
 import type { Place } from "../cell/index.ts";
 import { createGuard, type Guard, type GuardState, type Seat } from "../guard/index.ts";
 import { listeners } from "../listeners.ts";
 import { createTwin, PlanFollower, type Deviation, type Twin } from "../twin/index.ts";
+import { createAhead, type Ahead } from "./ahead.ts";
 import { deviates, notEmitted } from "./words.ts";
 import { DONE } from "../outcomes.ts";
 
@@ -33,6 +34,8 @@ export interface StationJob {
   readonly dialect?: Dialect;
   readonly steps: () => Iterable<Step>;
   readonly plan?: Plan;
+  /** What the check found on the plan. */
+  readonly findings?: readonly Finding[];
 }
 
 /** A program that a controller has and is ready for. */
@@ -48,6 +51,8 @@ export interface Station {
   readonly twin: Twin;
   readonly link: LinkReport | null;
   readonly deviation: Readonly<Deviation>;
+  /** Where it will be. */
+  readonly ahead: Ahead;
   /** A place from which it may be commanded; each has its own. */
   seat(who: string): Seat;
   connect(): Promise<CommandOutcome>;
@@ -97,6 +102,7 @@ export function createStation(options: StationOptions): Station {
     ...(options.heartbeat_s === undefined ? {} : { heartbeat_s: options.heartbeat_s }), ...(options.brakingTime_s === undefined ? {} : { brakingTime_s: options.brakingTime_s }),
   });
   const twin = createTwin({ real: controller, scheduler, name });
+  const ahead = createAhead({ robot, name, scheduler, place: options.place ?? null });
   const deviation: Deviation = { plan_rad: NaN, command_rad: NaN };
 
   const unwatch = controller.onSample(sample => {
@@ -118,7 +124,7 @@ export function createStation(options: StationOptions): Station {
     return written?.kind === "cannot" ? { kind: "refused", why: notEmitted(job.dialect!.name, written.sentence, written.hint) } : { kind: "said", program, files: written?.files ?? null };
   }
   /** Lets the robot do it, compared with its plan all the way. */
-  async function follow(seat: Seat, steps: Iterable<Step>, program: Program, plan: Plan | undefined): Promise<CommandOutcome> {
+  async function follow(seat: Seat, steps: Iterable<Step>, program: Program, { plan, findings = [] }: StationJob): Promise<CommandOutcome> {
     const following = plan ? new PlanFollower(plan, n) : null;
     follower = following;
     if (options.place && plan && following) {
@@ -127,16 +133,23 @@ export function createStation(options: StationOptions): Station {
         return true;
       };
     }
+    const progress = { at_s: 0, rate: 1 };
+    const stopLooking = plan && following ? ahead.follow(plan, findings, () => {
+      progress.at_s = following.at_s;
+      progress.rate = override;
+      return progress;
+    }) : null;
     try {
       return await seat.robot.run(steps, program);
     } finally {
+      stopLooking?.();
       follower = null;
       if (options.place) options.place.path = null;
     }
   }
 
   return {
-    name, controller, guard, twin, deviation,
+    name, controller, guard, twin, deviation, ahead,
     link: real?.link ?? null,
     seat: who => guard.seat(who),
     connect: () => real?.connect() ?? Promise.resolve(DONE),
@@ -145,7 +158,7 @@ export function createStation(options: StationOptions): Station {
       const said = say(job);
       if (said.kind === "refused") return said;
       const { program, files } = said;
-      return follow(seat, files ? new TextOnItsWay(() => real!.runText!(files)) : job.steps(), program, job.plan);
+      return follow(seat, files ? new TextOnItsWay(() => real!.runText!(files)) : job.steps(), program, job);
     },
     async arm(seat, job) {
       const why = seat.readiness(), said = say(job);
@@ -161,7 +174,7 @@ export function createStation(options: StationOptions): Station {
       const start = handed ? handed.start : files ? () => real!.runText!(files) : null;
       return {
         kind: "armed", movesAtOnce: job.plan?.segments.some(({ kind, start_s, duration_s }) => kind === "motion" && start_s < SOON_S && duration_s > SOON_S) ?? false, readiness: () => seat.readiness(), drop() { handed?.drop(); },
-        start: () => follow(seat, start ? new TextOnItsWay(start) : job.steps(), program, job.plan),
+        start: () => follow(seat, start ? new TextOnItsWay(start) : job.steps(), program, job),
       };
     },
     onSample: listen => twin.onSample(listen),
@@ -172,6 +185,7 @@ export function createStation(options: StationOptions): Station {
       unwatch();
       unlink?.();
       unnotice();
+      ahead.close();
       guard.close();
       twin.close();
       controller.close();

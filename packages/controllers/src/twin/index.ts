@@ -1,2 +1,3 @@
 export * from "./twin.ts";
 export * from "./deviation.ts";
+export * from "./look-ahead.ts";

@@ -1,13 +1,14 @@
-import { Cable, ChevronDown, ChevronRight, Eye, Hand, Play, Plug, PlugZap, Plus, RotateCcw, Square, Trash2 } from "lucide-react";
+import { Cable, ChevronDown, ChevronRight, Eye, Ghost, Hand, Play, Plug, PlugZap, Plus, RotateCcw, Square, Trash2 } from "lucide-react";
 import { useState } from "react";
 import { useStore } from "zustand";
 import type { CommandOutcome } from "@twincell/core";
-import { askStation, cabinetOf, holdStation, pullPlug, removeStation, runAll, runStation, stopStation, watchStation } from "../../live/stations.ts";
+import { askStation, cabinetOf, holdStation, lookAhead, previewStation, pullPlug, removeStation, runAll, runStation, stopStation, watchStation } from "../../live/stations.ts";
 import { Desk } from "../../cabinet/Desk.tsx";
 import { openDialog } from "../../stores/dialogs.ts";
 import { notify } from "../../stores/notices.ts";
 import { stationStore, type StationState } from "../../stores/stations.ts";
 import { HoldButton } from "../../ui/HoldButton.tsx";
+import { Slide } from "../../ui/Slide.tsx";
 import { Tip } from "../../ui/Tip.tsx";
 import { words } from "../../words/index.ts";
 import { Together } from "./Together.tsx";
@@ -56,12 +57,14 @@ function Card({ station }: { readonly station: StationState }) {
           : running
           ? <button className="btn" onClick={() => { stopStation(id); }}><Square />{words.stations.stop}</button>
           : <button className="btn" disabled={!open || safety !== "normal" || guard.link !== "up"} onClick={() => { void runStation(id).then(outcome => { if (outcome.kind === "done") notify("done", words.stations.done(name)); else tell(name, outcome); }); }}><Play />{words.stations.run}</button>}
+        {!running && open && <Tip words={words.stations.previewTip}><button className="btn" onClick={() => { void previewStation(id).then(outcome => { if (outcome.kind === "done") notify("done", words.stations.previewFree(name)); else tell(name, outcome); }); }}><Ghost />{words.stations.preview}</button></Tip>}
         {guard.link === "unconfirmed" && open && !guard.watching && <Tip words={words.stations.confirmTip}><button className="btn primary" onClick={() => { ask("confirm"); }}>{words.stations.confirm}</button></Tip>}
         {open && !guard.watching && (safety !== "normal" || guard.emergency) && <button className="btn" onClick={() => { ask("reset"); }}><RotateCcw />{words.stations.reset}</button>}
         {link.state === "closed" && <button className="btn" onClick={() => { ask("connect"); }}><Cable />{words.stations.connect}</button>}
         {!virtual && open && !guard.watching && <Tip words={words.stations.holdTip}><HoldButton className="btn" label={words.stations.hold} onHold={() => { holdStation(id, true); }} onRelease={() => { holdStation(id, false); }}>{words.stations.hold}</HoldButton></Tip>}
         {virtual && <button className="btn" aria-pressed={unplugged} onClick={() => { void pullPlug(id, !unplugged); }}>{unplugged ? <PlugZap /> : <Plug />}{unplugged ? words.stations.plugIn : words.stations.pull}</button>}
       </div>
+      {station.foreseen !== "" && <p className="small station-foreseen" role="alert">{station.foreseen}</p>}
       {(station.notice || (!open && link.sentence)) && <p className="small station-says">{station.notice || link.sentence}</p>}
       {wide && <Details station={station} />}
     </article>
@@ -83,6 +86,7 @@ function Details({ station }: { readonly station: StationState }) {
         {station.message && <div><dt>{words.jog.message}</dt><dd>{station.message}</dd></div>}
         <div><dt>{words.stations.watchdog}</dt><dd>{station.watchdog}</dd></div>
       </dl>
+      <div className="station-ahead"><span className="small muted">{words.stations.ahead}</span><Slide label={words.stations.ahead} value={station.ahead_s} min={0.5} max={10} step={0.5} says={words.stations.aheadSays(station.ahead_s)} onChange={seconds => { lookAhead(station.id, seconds); }} /><span className="num small">{words.stations.aheadSays(station.ahead_s)}</span></div>
       {!station.guard.watching && <Tip words={words.stations.watchTip}><button className="btn tight" disabled={station.running || link.state !== "open"} onClick={() => { void watchStation(station.id, true).then(outcome => { tell(station.name, outcome); }); }}><Eye />{words.stations.watch}</button></Tip>}
       {station.virtual && <PendantPart station={station} />}
     </>

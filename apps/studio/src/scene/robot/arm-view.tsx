@@ -6,7 +6,7 @@ import { paintTouching } from "../paint.ts";
 import { raycastByTree } from "../pick/raycast.ts";
 import { poseMatrix } from "../pose-matrix.ts";
 import { linkDrawings } from "./link-geometry.ts";
-import { partMaterials } from "./materials.ts";
+import { ghostMaterials, partMaterials } from "./materials.ts";
 
 /** Where the angles come from: written in place, `revision` counts the changes. */
 export interface ArmState { readonly q_rad: ArrayLike<number>; readonly revision: number }
@@ -16,12 +16,17 @@ interface Props {
   readonly live: () => ArmState;
   /** Before the names of its links, so that no two robots have the same. The robot of the cell has none: it can be picked and touched. */
   readonly prefix?: string;
+  /** Drawn see-through in that colour, without shadow: where the robot will be. */
+  readonly ghost?: string;
 }
 
+/** A ghost is nothing to be clicked. */
+const noPick = (): void => undefined;
+
 /** An arm as its joint angles say, link by link. Draws, decides nothing. */
-export function ArmView({ robot, worldFromBase, live: now, prefix = "" }: Props) {
+export function ArmView({ robot, worldFromBase, live: now, prefix = "", ghost }: Props) {
   const drawings = useMemo(() => linkDrawings(robot), [robot]);
-  const materials = useMemo(() => partMaterials(robot.paint), [robot.paint]);
+  const materials = useMemo(() => ghost === undefined ? partMaterials(robot.paint) : ghostMaterials(ghost), [robot.paint, ghost]);
   const links = useRef<(Group | null)[]>([]);
   const seen = useRef(-1);
   const scratch = useMemo(() => ({
@@ -52,7 +57,7 @@ export function ArmView({ robot, worldFromBase, live: now, prefix = "" }: Props)
   return drawings.map(drawing => (
     <group key={drawing.name} name={prefix + drawing.name} matrixAutoUpdate={false} userData={prefix === "" ? { thing: { kind: "link", link: drawing.link } } : { station: true }}
       ref={group => { links.current[drawing.link] = group; }}>
-      {drawing.pieces.map(piece => <mesh key={piece.material} geometry={piece.geometry} material={materials[piece.material]} castShadow receiveShadow raycast={raycastByTree} />)}
+      {drawing.pieces.map(piece => <mesh key={piece.material} geometry={piece.geometry} material={materials[piece.material]} castShadow={ghost === undefined} receiveShadow={ghost === undefined} raycast={ghost === undefined ? raycastByTree : noPick} />)}
     </group>
   ));
 }

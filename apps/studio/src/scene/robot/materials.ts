@@ -16,3 +16,9 @@ export function partMaterials({ casting, dark, cover }: RobotPaint = PLAIN): Par
     mark: new MeshStandardMaterial({ color: "#f7f9fa", roughness: 0.5, metalness: 0, emissive: new Color("#f7f9fa"), emissiveIntensity: 0.12 }),
   };
 }
+
+/** See-through, in the colour of the theme: where a robot will be, which is not where it is. */
+export function ghostMaterials(color: string): PartMaterials {
+  const ghost = new MeshStandardMaterial({ color, transparent: true, opacity: 0.32, depthWrite: false, roughness: 0.9 });
+  return { casting: ghost, dark: ghost, cover: ghost, metal: ghost, mark: ghost };
+}

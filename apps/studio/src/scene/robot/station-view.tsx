@@ -1,4 +1,4 @@
-import { useEffect } from "react";
+import { Fragment, useEffect } from "react";
 import { useStore } from "zustand";
 import { shownInstead } from "../../live/shown.ts";
 import { stationLive } from "../../live/stations.ts";
@@ -9,16 +9,25 @@ import { stationStore } from "../../stores/stations.ts";
 import { viewStore } from "../../stores/view.ts";
 import { ArmView } from "./arm-view.tsx";
 
+/** Of the ghost that runs ahead: its way is free, or something is met on it. */
+const FREE = "#3fb8b3", BLOCKED = "#ff6157";
+
 /** The robots of the other controllers, each where it stands and as its last sample says. */
 export function StationViews() {
   const stations = useStore(stationStore, state => state.stations), past = useStore(historyStore, state => state.past), lookingBack = useStore(viewStore, state => state.mode === "history");
   // All of them are to be seen, also the one that has just come.
   useEffect(() => { runCommand("view.fit"); }, [stations.length]);
-  return stations.map(({ id, stand }) => {
+  return stations.map(({ id, stand, ghost }) => {
     // Where the past of a robot is looked at, its presence would stand in the same place.
     if (lookingBack && past && samePlace(past, stand)) return null;
     const live = stationLive(id);
-    return live ? <ArmView key={id} robot={live.robot} worldFromBase={stand} live={() => shownInstead(id) ?? live} prefix={`${id}/`} /> : null;
+    if (!live) return null;
+    return (
+      <Fragment key={id}>
+        <ArmView robot={live.robot} worldFromBase={stand} live={() => shownInstead(id) ?? live} prefix={`${id}/`} />
+        {ghost !== "none" && <ArmView robot={live.robot} worldFromBase={stand} live={() => live.ahead} prefix={`${id}/ahead/`} ghost={ghost === "blocked" ? BLOCKED : FREE} />}
+      </Fragment>
+    );
   });
 }
 
