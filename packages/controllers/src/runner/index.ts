@@ -1,2 +1,3 @@
 export * from "./runner.ts";
 export * from "./text.ts";
+export * from "./lines.ts";
