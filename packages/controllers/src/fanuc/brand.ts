@@ -10,6 +10,7 @@ const PORTS = { connect: RMI_PORT, session: RMI_SESSION_PORT, files: FTP_PORT };
 /** FANUC as apps meet it: the Remote Motion Interface of R-30iB controllers and later. */
 export const fanuc: Brand = {
   id: "fanuc", name: "FANUC", dialect: "fanuc-ls", vendor: "FANUC", ports: PORTS, cannot: FANUC_CANNOT,
+  terminal: ({ kind, address }) => kind === "digital-in" ? `DI[${address}]` : kind === "digital-out" ? `DO[${address}]` : undefined,
   face: ({ robot, scheduler, network, host, ports }) => createFanucFace({ robot, scheduler, network, host, port: ports?.["connect"] ?? RMI_PORT, ftpPort: ports?.["files"] ?? FTP_PORT }),
   async virtual({ robot, scheduler, network, host, ports, interpret, start_rad, maxSpeed }) {
     const started = await createVirtualFanuc({

@@ -1,4 +1,4 @@
-import type { OperatingMode } from "@twincell/core";
+import type { OperatingMode, SignalLine } from "@twincell/core";
 import type { Brand } from "../real/index.ts";
 import { kukaAxes } from "./axes.ts";
 import { KUKA_CANNOT } from "./cannot.ts";
@@ -8,12 +8,14 @@ import { createVirtualKuka, startLoop } from "./virtual/controller.ts";
 import type { KukaMode } from "./virtual/machine.ts";
 
 const KEY: Readonly<Record<OperatingMode, KukaMode>> = { manual: "T1", automatic: "AUT", remote: "EX" };
+const TERMINALS: Readonly<Record<SignalLine["kind"], string>> = { "digital-in": "$IN", "digital-out": "$OUT", "analogue-in": "$ANIN", "analogue-out": "$ANOUT" };
 const PRESSES_S = 2, LOOK_S = 0.05;
 const INPUT = /^\$IN\[([0-9]{1,4})\]$/;
 
 /** KUKA as apps meet it. The virtual controller begins in EXT with its drives on and the program TWINCELL running. */
 export const kuka: Brand = {
   id: "kuka", name: "KUKA", dialect: "krl", ports: { variables: C3_PORT }, vendor: "KUKA", cannot: KUKA_CANNOT,
+  terminal: ({ kind, address }) => `${TERMINALS[kind]}[${address}]`,
   face: ({ robot, scheduler, network, host, ports }) => createKukaFace({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT }),
   async virtual({ robot, scheduler, network, host, ports, interpret, start_rad, maxSpeed }) {
     if (!kukaAxes(robot)) return { kind: "taken", sentence: `How a KUKA controller counts the axes of ${robot.name} is not known.` };

@@ -1,4 +1,4 @@
-import type { CommandOutcome, Interpreted, OperatingMode, Robot, Scheduler } from "@twincell/core";
+import type { CommandOutcome, Interpreted, OperatingMode, Robot, Scheduler, SignalLine } from "@twincell/core";
 import type { Network } from "../transport/index.ts";
 import type { Cannot } from "./cannot.ts";
 import type { Face } from "./face.ts";
@@ -70,6 +70,8 @@ export interface Brand {
   readonly vendor: string;
   /** What its driver cannot do, with the reasons. */
   readonly cannot: readonly Cannot[];
+  /** What the driver calls the line that a program gives that number; undefined where it has none. Left out, lines keep the names of the program. */
+  terminal?(line: SignalLine & { readonly address: number }): string | undefined;
   face(options: FaceOptions): Face;
   virtual(options: BrandVirtualOptions): Promise<BrandStarted>;
 }

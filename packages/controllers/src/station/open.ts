@@ -1,6 +1,7 @@
-import { planProgram, unrolled, type CommandOutcome, type Dialect, type OperatingMode, type Pose, type Program, type Refusal, type Robot, type Scheduler } from "@twincell/core";
+import { planProgram, unrolled, type CommandOutcome, type Dialect, type OperatingMode, type Pose, type Program, type Refusal, type Robot, type Scheduler, type Signals, type Step } from "@twincell/core";
 import { createRealController, type Brand, type BrandVirtual, type ControllerData, type PortNumbers } from "../real/index.ts";
 import { memoryNetwork, type Network } from "../transport/index.ts";
+import { withLines } from "../runner/index.ts";
 import type { Seat } from "../guard/index.ts";
 import { createStation, type Station } from "./station.ts";
 
@@ -79,7 +80,7 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
       run(seat, program, asText) {
         const answer = planProgram(program, robot, { start_rad: controller.jointAngles(), ...(worldFromBase ? { worldFromBase } : {}) });
         return station.carryOut(seat, {
-          program, steps: () => unrolled(program, controller.signals),
+          program, steps: () => atTerminals(program, brand, controller.signals),
           ...(asText ? { dialect } : {}), ...(answer.kind === "planned" ? { plan: answer.plan } : {}),
         });
       },
@@ -90,6 +91,16 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
       },
     },
   };
+}
+
+/** The steps of a program as the wire takes them: lines with a number by the controller's own names for those, decisions too. */
+function* atTerminals(program: Program, brand: Brand, signals?: Signals): Generator<Step> {
+  const terminal = (name: string): string => {
+    const line = program.signals[name];
+    return (line?.address === undefined ? undefined : brand.terminal?.({ ...line, address: line.address })) ?? name;
+  };
+  const read = signals && { read: (name: string) => signals.read(terminal(name)), write: (name: string, value: boolean | number) => { signals.write(terminal(name), value); } };
+  for (const step of unrolled(program, read)) yield withLines(step, terminal);
 }
 
 async function atCabinet({ pendant, reboot }: BrandVirtual, act: CabinetAct): Promise<CommandOutcome> {
