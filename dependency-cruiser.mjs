@@ -47,7 +47,7 @@ export default {
       name: "vendors-are-strangers", severity: "error",
       comment: "brands and dialects meet only in the port above them and in the shared folders named here",
       from: { path: "^packages/(controllers|languages)/src/([^/]+)/", pathNot: "/testing/" },
-      to: { path: "^packages/(controllers|languages)/src/[^/]+/", pathNot: "^packages/[^/]+/src/($2|text|writing|transport|http|guard|twin|virtual|real|runner|testing)/" },
+      to: { path: "^packages/(controllers|languages)/src/[^/]+/", pathNot: "^packages/[^/]+/src/($2|text|writing|transport|http|guard|cell|twin|virtual|real|runner|testing)/" },
     },
     {
       name: "driver-and-virtual-are-strangers", severity: "error", comment: "they share the codec and nothing else",

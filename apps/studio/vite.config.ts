@@ -5,12 +5,15 @@ import { controllerProfiles } from "./vite-profiles.ts";
 
 const empty = fileURLToPath(new URL("src/scene/xr/no-emulator.ts", import.meta.url));
 
+/** The studio, and the small page by which a phone shows its camera. */
+const page = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
+
 export default defineConfig({
   root: fileURLToPath(new URL(".", import.meta.url)),
   base: "./",
   plugins: [react(), controllerProfiles()],
   worker: { format: "es" },
-  build: { target: "es2022", outDir: "dist", chunkSizeWarningLimit: 2000 },
+  build: { target: "es2022", outDir: "dist", chunkSizeWarningLimit: 2000, rolldownOptions: { input: [page("index.html"), page("camera/index.html")] } },
   resolve: {
     // The headset emulator's rooms weigh 4.6 MB and are never used: tests bring their own emulator.
     alias: { "@iwer/devui": empty, "@iwer/sem": empty },

@@ -79,6 +79,10 @@ test("on the local network: HTTPS, and no page without the access code", async (
   expect(entered.status).toBe(303);
   const cookie = String(entered.headers["set-cookie"]).split(";")[0]!;
   expect((await get("/", { cookie })).body).toContain("studio");
+  // The code opens the page it was put behind, and never one elsewhere.
+  for (const [path, location] of [["/", "/"], ["/camera/", "/camera/"], ["/camera/?name=Phone", "/camera/?name=Phone"], ["/.//evil.example/", "/evil.example/"]] as const) {
+    expect((await get(`${path}${path.includes("?") ? "&" : "?"}code=${served.code}`)).headers["location"]).toBe(location);
+  }
 }, 30_000);
 
 test("twenty wrong codes close the door", async () => {

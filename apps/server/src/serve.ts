@@ -2,12 +2,15 @@ import { createServer as createHttp, type IncomingMessage, type RequestListener,
 import { createServer as createHttps } from "node:https";
 import type { AddressInfo } from "node:net";
 import { join } from "node:path";
+import { createVideoRelay } from "@twincell/messages";
 import { accessCode, askForCode, type AccessCode } from "./access.ts";
 import { certificate, lanAddresses } from "./lan.ts";
 import { nodeScheduler } from "./clock.ts";
 import { stationHost } from "./stations/host.ts";
 import { recordHost } from "./stations/record-host.ts";
-import { stationSocket } from "./stations/socket.ts";
+import { openDoors } from "./sockets/doors.ts";
+import { stationDoor } from "./stations/socket.ts";
+import { videoDoor } from "./video/door.ts";
 import { staticFiles } from "./static-files.ts";
 
 export interface ServeOptions {
@@ -37,6 +40,8 @@ const HEADERS: Readonly<Record<string, string>> = {
   "content-security-policy": "default-src 'self'; script-src 'self' 'wasm-unsafe-eval' blob:; worker-src 'self' blob:; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' data: blob:; frame-ancestors 'none'; base-uri 'self'; form-action 'self'",
   "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp",
   "x-content-type-options": "nosniff", "referrer-policy": "no-referrer",
+  // The camera of a phone or of this computer may be asked for; nothing here listens.
+  "permissions-policy": "camera=(self), microphone=()",
 };
 
 /**
@@ -59,16 +64,22 @@ export async function serve(options: ServeOptions): Promise<Served> {
   });
   const stations = stationHost(nodeScheduler, options.version ?? "");
   const recorder = options.data === undefined ? null : await recordHost(stations, join(options.data, "recordings"), nodeScheduler, sentence => { console.error(sentence); });
-  const socket = stationSocket(server, stations, request => isServed(hosts, request) && (access === null || access.enter(request.headers.cookie, null).kind === "welcome"));
-  const port = (server.address() as AddressInfo).port;
-  const scheme = options.lan ? "https" : "http";
-  const query = access ? `/?code=${access.code}` : "/";
+  const port = (server.address() as AddressInfo).port, scheme = options.lan ? "https" : "http", query = access ? `?code=${access.code}` : "";
+  const relay = createVideoRelay(nodeScheduler.now_s, addresses.map(address => `${scheme}://${address}:${port}/camera/${query}`));
+  const socket = openDoors(server, [stationDoor(stations), videoDoor(relay)], request => isServed(hosts, request) && (access === null || access.enter(request.headers.cookie, null).kind === "welcome"));
   return {
-    url: `${scheme}://127.0.0.1:${port}${query}`,
-    lanUrls: addresses.map(address => `${scheme}://${address}:${port}${query}`),
+    url: `${scheme}://127.0.0.1:${port}/${query}`,
+    lanUrls: addresses.map(address => `${scheme}://${address}:${port}/${query}`),
     code: access?.code ?? null,
     close: () => new Promise(resolve => { recorder?.close(); stations.close(); socket.close(); server.closeAllConnections(); server.close(() => { resolve(); }); }),
   };
+}
+
+/** The same page, without the code in its address. Two slashes in front would name another machine. */
+function withoutCode(url: URL): string {
+  const kept = new URLSearchParams(url.searchParams);
+  kept.delete("code");
+  return `/${url.pathname.replace(/^\/+/, "")}${kept.size > 0 ? `?${kept.toString()}` : ""}`;
 }
 
 const isServed = (hosts: ReadonlySet<string>, request: IncomingMessage): boolean => hosts.has((request.headers.host ?? "").replace(/:\d+$/, ""));
@@ -102,7 +113,7 @@ function studioListener(files: ReturnType<typeof staticFiles>, hosts: ReadonlySe
       const entry = access.enter(request.headers.cookie, url.searchParams.get("code"));
       if (entry.kind === "too-many-tries") { say(429, "Too many wrong codes. Start Twincell again for a new one.\n"); return; }
       if (entry.kind === "ask") { say(401, askForCode, { "content-type": "text/html; charset=utf-8" }); return; }
-      if (entry.kind === "welcome-with-cookie") { say(303, "", { "set-cookie": entry.cookie, location: "/" }); return; }
+      if (entry.kind === "welcome-with-cookie") { say(303, "", { "set-cookie": entry.cookie, location: withoutCode(url) }); return; }
     }
     const found = await files(path, String(request.headers["accept-encoding"] ?? ""), request.headers["if-none-match"]);
     response.writeHead(found.status, { ...(WRITES_CODE.test(path) ? WRITER_HEADERS : HEADERS), ...found.headers, ...(found.status === 200 ? { "content-length": String(found.body.length) } : {}) });

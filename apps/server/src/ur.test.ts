@@ -1,6 +1,7 @@
 /**
  * Universal Robots on the system's own sockets: our driver, and clients that nobody here wrote. The Python that has them is named by
- * TWINCELL_PYTHON, or is the python3 of the path:  pip install ur_rtde==1.6.5, and UR's own RTDE client from its public repository.
+ * TWINCELL_PYTHON, or is the python3 of the path:  pip install ur_rtde==1.6.5 urx==0.11.0, and UR's own RTDE client from its public
+ * repository.
  */
 import { createRealController, createUrFace, createVirtualUr, type VirtualUr } from "@twincell/controllers";
 import { robotById } from "@twincell/core";
@@ -14,7 +15,7 @@ import { nodeNetwork } from "./sockets/node-network.ts";
 
 const robot = robotById("ur10e")!, network = nodeNetwork(), scheduler = nodeScheduler, ACCURACY_RAD = 0.001 * Math.PI / 180;
 const python = process.env["TWINCELL_PYTHON"] ?? "python3", has = (module: string): boolean => spawnSync(python, ["-c", `import ${module}`]).status === 0;
-const noUrRtde = !has("rtde_control"), noRtde = !has("rtde.rtde");
+const noUrRtde = !has("rtde_control"), noRtde = !has("rtde.rtde"), noUrx = !has("urx.urrtmon");
 const open: { close(): void }[] = [];
 afterEach(() => { for (const each of open.splice(0).reverse()) each.close(); });
 
@@ -86,7 +87,8 @@ describe("Universal Robots on real sockets", () => {
 
   test("any bytes on any port end that connection, and the next one is served", async () => {
     const { ur, log } = await virtualUr("127.0.0.43");
-    for (const port of Object.values(ur.ports)) {
+    // The read-only copies do not even look at what comes.
+    for (const port of Object.entries(ur.ports).filter(([name]) => !name.endsWith("Copy")).map(([, number]) => number)) {
       await new Promise<void>(resolve => {
         const socket = connect({ host: "127.0.0.43", port }, () => { socket.write(Buffer.alloc(1 << 20, "\u0000\u0001x")); });
         socket.resume();
@@ -112,6 +114,22 @@ describe("Universal Robots on real sockets", () => {
     expect(ur.digitalOut(3)).toBe(true);
     expect(log.filter(sentence => sentence.startsWith("RTDE: "))).toEqual([]);
   }, 60_000);
+
+  test.skipIf(noUrx)(`urx reads joints and the tool from the real-time interface${noUrx ? " (skipped: it is not installed)" : ""}`, async () => {
+    const { ur } = await virtualUr("127.0.0.47");
+    const told = await client("127.0.0.47", `
+import json, sys, time
+from urx.urrtmon import URRTMonitor
+monitor = URRTMonitor(sys.argv[1])
+monitor.daemon = True
+monitor.start()
+time.sleep(1)
+print(json.dumps({"q": list(monitor.q_actual()), "tcp": list(monitor.tcf_pose())}))
+`);
+    expect(farthest(told["q"] as number[], ur.jointAngles())).toBeLessThan(1e-12);
+    const slot = ur.memory.slotOf("actual_TCP_pose");
+    expect(farthest(told["tcp"] as number[], ur.memory.slots.subarray(slot, slot + 6))).toBeLessThan(1e-12);
+  }, 30_000);
 
   test.skipIf(noRtde)(`UR's own RTDE client receives 125 states a second and writes registers${noRtde ? " (skipped: it is not installed)" : ""}`, async () => {
     const { ur } = await virtualUr("127.0.0.45");

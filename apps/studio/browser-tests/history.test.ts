@@ -93,6 +93,12 @@ test("T-54 T-56 X-43 a day is scrubbed, its last alarm found, two cycles laid ov
   await page.getByText(/2159 cycles, 40\.00 s in the middle/).waitFor();
   await page.getByText(/The load of joint 2 rose by/).waitFor();
   expect(await page.getByText("Service intervals: not reported.").count()).toBe(1);
+  // A person says what stands in the robot's papers, and is told when it is time.
+  await page.getByText("Service intervals", { exact: true }).dispatchEvent("click");
+  const interval = page.getByRole("textbox", { name: "Service interval of J1" });
+  await interval.fill("1000");
+  await interval.press("Enter");
+  await page.getByText(/Joint 1 used up \d+ % of its service interval\./).waitFor();
   await page.screenshot({ path: picture("history-figures"), timeout: 90_000 });
   expect(problems).toEqual([]);
 }, 300_000);

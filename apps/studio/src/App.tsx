@@ -32,6 +32,8 @@ const Export = lazy(() => import("./features/export/Export.tsx"));
 const CollisionDialog = lazy(() => import("./features/collide/CollisionDialog.tsx"));
 const Robots = lazy(() => import("./features/robots/Robots.tsx"));
 const AddStation = lazy(() => import("./features/stations/AddStation.tsx"));
+const Cameras = lazy(() => import("./features/video/Cameras.tsx"));
+const VideoPanels = lazy(() => import("./features/video/VideoPanels.tsx"));
 const Stations = lazy(() => import("./features/stations/Stations.tsx").then(part => ({ default: part.Stations })));
 const Run = lazy(() => import("./features/run/Run.tsx"));
 const History = lazy(() => import("./features/history/History.tsx"));
@@ -51,6 +53,7 @@ export function App() {
           <SceneGuard><Suspense fallback={<p className="scene-note" role="status">{words.app.loadingScene}</p>}><Viewport /></Suspense></SceneGuard>
           <Overlay phone={phone} />
           <Physics />
+          <Suspense><VideoPanels /></Suspense>
           {!phone && <Coach />}
           <Welcome />
           <Notices />
@@ -66,6 +69,7 @@ export function App() {
         <Suspense><Robots /></Suspense>
         <Suspense><AddStation /></Suspense>
         <Suspense><CollisionDialog /></Suspense>
+        <Suspense><Cameras /></Suspense>
         <Files />
         <Shortcuts />
         <GamepadWatch />

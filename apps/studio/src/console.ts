@@ -3,6 +3,7 @@ import { linkMeter } from "./live/link-meter.ts";
 import { showJoints, theLive, touchingNow } from "./live/live.ts";
 import { physicsNow } from "./live/physics.ts";
 import { playheadNow } from "./live/playhead.ts";
+import { shownRobot } from "./live/shown.ts";
 import { aidStore } from "./stores/aids.ts";
 import { bindingStore } from "./stores/bindings.ts";
 import { cellStore } from "./stores/cell.ts";
@@ -25,13 +26,14 @@ import { selectionStore } from "./stores/selection.ts";
 import { soundStore } from "./stores/sound.ts";
 import { stationStore } from "./stores/stations.ts";
 import { traceStore } from "./stores/trace.ts";
+import { videoStore } from "./stores/video.ts";
 import { viewStore } from "./stores/view.ts";
 import { watchStore } from "./stores/watch.ts";
 
 /** What the browser's console and tests can reach: every store, the live state, and the commands by name. */
 const twincell = {
-  stores: { aidStore, bindingStore, cellStore, commandStore, controlStore, dialogStore, foreignStore, gamepadStore, historyStore, jogStore, languageStore, noticeStore, physicsStore, playStore, postStore, selectionStore, soundStore, stationStore, traceStore, viewStore, watchStore },
-  live: { now: theLive, touching: touchingNow, showJoints, hold, release, releaseAll, playhead: playheadNow, physics: physicsNow, link: linkMeter },
+  stores: { aidStore, bindingStore, cellStore, commandStore, controlStore, dialogStore, foreignStore, gamepadStore, historyStore, jogStore, languageStore, noticeStore, physicsStore, playStore, postStore, selectionStore, soundStore, stationStore, traceStore, videoStore, viewStore, watchStore },
+  live: { now: theLive, shown: shownRobot, touching: touchingNow, showJoints, hold, release, releaseAll, playhead: playheadNow, physics: physicsNow, link: linkMeter },
   document: { commit, undo, redo, show: showDocument, open: openCellText },
   run: runCommand, seek,
 };

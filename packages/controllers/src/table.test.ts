@@ -12,7 +12,7 @@ test("docs/controllers/README.md says what the drivers declare; after a change r
 
 test.each(DRIVERS.map(driver => [driver.name, driver] as const))("every row of %s is a row, has its reason, and every ✓ of the second table has a test that names it", (_, { cannot, folder, own, tests = ".test.ts" }) => {
   for (const { row, because } of cannot) {
-    expect([...ROWS, "texts", "signals", "override", "payload"]).toContain(row);
+    expect([...ROWS, "texts", "signals", "override", "payload", "watch"]).toContain(row);
     expect(because).toMatch(/^[A-Z].*\.$/);
   }
   const files = readdirSync(here(`./${folder}`), { recursive: true, encoding: "utf8" }).filter(name => name.endsWith(tests)).map(name => here(`./${folder}/${name}`));

@@ -33,7 +33,7 @@ function overRsi(options: FaceOptions): Face {
 /** T-01 … T-18 are the contract suite's, T-19 … T-27 the tests' of each driver. */
 export const ROWS: readonly `T-${number}`[] = Array.from({ length: 27 }, (_, i) => `T-${String(i + 1).padStart(2, "0")}` as `T-${number}`);
 const ABILITIES: readonly { readonly row: Ability; readonly title: string }[] = [
-  { row: "texts", title: "program texts" }, { row: "signals", title: "signals" }, { row: "override", title: "override" }, { row: "payload", title: "load" },
+  { row: "texts", title: "program texts" }, { row: "signals", title: "signals" }, { row: "override", title: "override" }, { row: "payload", title: "load" }, { row: "watch", title: "watch only" },
 ];
 
 /** The face of a driver for a robot of its vendor, without a line: what it has and has not. */

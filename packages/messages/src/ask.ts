@@ -24,16 +24,24 @@ export const pendantSchema = z.discriminatedUnion("do", [
 /** What one who commands may say to a host of stations. Lengths and counts are bounded; a program has its own door in core. */
 export const askSchema = z.discriminatedUnion("type", [
   z.strictObject({
-    type: z.literal("open"), ...asked, ...station, brand: text, robot: text, name: z.exactOptional(text), worldFromBase: z.exactOptional(pose),
+    type: z.literal("open"), ...asked, ...station, brand: text, robot: text, name: z.exactOptional(text),
+    /** Where its programs take it to stand; and where it does stand among the other robots of the cell, to which it is an obstacle then. */
+    worldFromBase: z.exactOptional(pose), stand: z.exactOptional(pose),
     /** Where the controller is; left out, a virtual one is started where the host is. */
     address: z.exactOptional(z.strictObject({ host: text, ports: z.exactOptional(z.record(text, port)), data: z.exactOptional(z.record(text, angles)) })),
+    /** Opened to watch: nothing is commanded until somebody takes it to command. */
+    watch: z.exactOptional(z.boolean()),
   }),
+  /** Only to watch it from now on, or to command it again. */
+  z.strictObject({ type: z.literal("watch"), ...asked, ...station, on: z.boolean() }),
   z.strictObject({ type: z.enum(["close", "connect", "disconnect", "take", "release", "confirm", "reset"]), ...asked, ...station }),
   z.strictObject({ type: z.literal("hold"), ...asked, ...station, pressed: z.boolean() }),
   z.strictObject({ type: z.literal("speed"), ...asked, ...station, percent: z.number() }),
   z.strictObject({ type: z.literal("move"), ...asked, ...station, q_rad: angles }),
   z.strictObject({ type: z.literal("zero"), ...asked, ...station }),
   z.strictObject({ type: z.literal("run"), ...asked, ...station, program: z.unknown(), asText: z.boolean() }),
+  /** All or none: every one is made ready first, then all start on one clock, and whoever is stopped stops all. */
+  z.strictObject({ type: z.literal("together"), ...asked, members: z.array(z.strictObject({ station: text, program: z.unknown(), asText: z.boolean() })).min(2).max(16) }),
   /** Anyone may. Without a station it is all of them. */
   z.strictObject({ type: z.literal("stop"), station: z.exactOptional(text), emergency: z.boolean() }),
   z.strictObject({ type: z.literal("pendant"), ...asked, ...station, act: pendantSchema }),

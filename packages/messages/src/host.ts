@@ -26,7 +26,11 @@ export interface HostedStation<Seat extends HostedSeat = HostedSeat> {
   seat(who: string): Seat;
   connect(): Promise<CommandOutcome>;
   disconnect(): void;
+  /** Only to watch it from now on, or to command it again: the connection is opened anew, as one or the other. */
+  watch(seat: Seat, on: boolean): Promise<CommandOutcome>;
   run(seat: Seat, program: Program, asText: boolean): Promise<CommandOutcome>;
+  /** Makes a program ready to be started: what may be refused is told before anything moves. */
+  prepare(seat: Seat, program: Program, asText: boolean): Promise<HostedArmed>;
   stop(emergency: boolean): void;
   /** The pendant of a virtual controller; null where a person stands before a real one. */
   readonly pendant: ((act: PendantAct) => Promise<CommandOutcome>) | null;
@@ -37,6 +41,12 @@ export interface HostedStation<Seat extends HostedSeat = HostedSeat> {
   onNotice(listen: (why: Refusal) => void): () => void;
   close(): void;
 }
+/** A program that a station has and is ready for. */
+export type HostedArmed =
+  | { readonly kind: "armed"; readonly movesAtOnce: boolean; readiness(): Refusal | null; start(): Promise<CommandOutcome>; drop(): void }
+  | { readonly kind: "refused"; readonly why: Refusal };
+export interface HostedMember { readonly station: HostedStation; readonly prepare: () => Promise<HostedArmed> }
+export interface HostedGroup { readonly outcome: CommandOutcome; readonly each: ReadonlyMap<string, CommandOutcome> }
 export type OpenedStation = { readonly kind: "opened"; readonly station: HostedStation } | { readonly kind: "refused"; readonly why: Refusal };
 
 /** What an app brings to its host. */
@@ -45,6 +55,8 @@ export interface HostOptions {
   readonly version: string;
   readonly brands: TellOf<"hello">["brands"];
   open(ask: AskOf<"open">): Promise<OpenedStation>;
+  /** Starts several at once, all or none. */
+  together(members: readonly HostedMember[], onStarted: (words: { readonly spread_s: number }) => void): Promise<HostedGroup>;
 }
 export interface Host {
   /** Somebody new; what comes from them goes into `hear`. Leaving gives back every lease they hold. */
@@ -135,6 +147,7 @@ export function createHost(options: HostOptions): Host {
 
       async function carryOut(ask: Exclude<Ask, AskOf<"stop" | "alive" | "ping">>): Promise<CommandOutcome> {
         if (ask.type === "open") return open(ask);
+        if (ask.type === "together") return together(ask);
         const station = stations.get(ask.station)?.station;
         if (!station) return refuse("station.none", `There is no station “${ask.station}”.`, "Open it first.");
         const seat = seatAt(station);
@@ -146,6 +159,7 @@ export function createHost(options: HostOptions): Host {
           case "release": return seat.release();
           case "confirm": return seat.confirm();
           case "reset": return seat.robot.reset();
+          case "watch": return station.watch(seat, ask.on);
           case "hold": return seat.hold(ask.pressed);
           case "speed": return seat.robot.setSpeed(ask.percent);
           case "move": return seat.robot.moveJoints(ask.q_rad);
@@ -161,6 +175,21 @@ export function createHost(options: HostOptions): Host {
             station.plug(ask.pulled);
             return DONE;
         }
+      }
+
+      async function together({ members }: AskOf<"together">): Promise<CommandOutcome> {
+        const ids = members.map(({ station }) => station), ready: HostedMember[] = [];
+        if (new Set(ids).size < ids.length) return refuse("group.twice", "A station is named twice in the group.", "Name each once.");
+        for (const { station: id, program, asText } of members) {
+          const station = stations.get(id)?.station, parsed = parseProgram(program);
+          if (!station) return refuse("station.none", `There is no station “${id}”.`, "Open it first.");
+          if (parsed.kind !== "program") return refuse("station.program", `The program of ${station.words.name} cannot be read: ${parsed.faults[0]?.sentence ?? "it is empty"}`, "Export it again.");
+          const seat = seatAt(station);
+          ready.push({ station, prepare: () => station.prepare(seat, parsed.program, asText) });
+        }
+        const { outcome, each } = await options.together(ready, ({ spread_s }) => { all({ type: "began", stations: ids, spread_s }); });
+        if (each.size > 0) all({ type: "ended", stations: [...each].map(([station, ended]) => ({ station, outcome: ended })) });
+        return outcome;
       }
 
       channels.add(channel);

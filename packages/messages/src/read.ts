@@ -3,7 +3,7 @@ import { askSchema, type Ask } from "./ask.ts";
 import { tellSchema, type Tell } from "./tell.ts";
 
 /** Counts up with every change that the other side would misunderstand. */
-export const PROTOCOL = 1;
+export const PROTOCOL = 2;
 /** A message longer than this is not looked at: a program of a hundred thousand steps is shorter. */
 export const LONGEST_MESSAGE = 32 * 1024 * 1024;
 

@@ -41,8 +41,11 @@ export const tellSchema = z.discriminatedUnion("type", [
   }),
   z.strictObject({
     type: z.literal("guard"), ...station, holder: text.nullable(), pressed: z.boolean(), link: z.enum(["up", "lost", "unconfirmed"]),
-    motion: z.enum(["at-rest", "moving", "stopping", "returning"]), trip: z.enum(["none", "return-due", "return-wanted"]), emergency: z.boolean(),
+    motion: z.enum(["at-rest", "moving", "stopping", "returning"]), trip: z.enum(["none", "return-due", "return-wanted"]), emergency: z.boolean(), watching: z.boolean(),
   }),
+  /** A group began: from the first to the last that was seen moving, on the host's clock [s]. Or it ended, each in its way. */
+  z.strictObject({ type: z.literal("began"), stations: z.array(text), spread_s: z.number() }),
+  z.strictObject({ type: z.literal("ended"), stations: z.array(z.strictObject({ station: text, outcome: outcomeSchema })) }),
   z.strictObject({ type: z.literal("notice"), ...station, why: refusal }),
   z.strictObject({ type: z.literal("pong"), sent_s: z.number(), host_s: z.number() }),
   /** Something came that could not be read; the connection ends after it. */

@@ -73,6 +73,78 @@ describe.each(brands)("a station of %s", brand => {
   }, 60_000);
 });
 
+const EVERY_ROBOT: Readonly<Record<string, string>> = { ...ROBOTS, fanuc: "fanuc_lrmate200id", abb: "abb_irb120" };
+const watchable = BRANDS.filter(({ id, cannot }) => id in EVERY_ROBOT && !cannot.some(({ row }) => row === "watch")).map(({ id }) => id);
+
+describe.each(watchable)("a station of %s that was opened to watch", brand => {
+  test("T-24 T-26 follows the pendant, refuses every command with one sentence, stops all the same, and stays so when the link comes back", async () => {
+    const { scheduler, join, samples, told } = bench(), { client } = join("you"), robot = EVERY_ROBOT[brand]!;
+    const ask = (request: Request) => answered(scheduler, client, "s", client.ask(request)), pass = (seconds: number) => answered(scheduler, client, "s", scheduler.elapse(seconds).then(() => ({ kind: "done" as const })));
+    const guard = () => told.findLast((message): message is TellOf<"guard"> => message.type === "guard")!;
+    const refuses = async () => {
+      const asked: Request[] = [
+        { type: "take", station: "s" }, { type: "release", station: "s" }, { type: "confirm", station: "s" }, { type: "reset", station: "s" }, { type: "hold", station: "s", pressed: true },
+        { type: "speed", station: "s", percent: 50 }, { type: "move", station: "s", q_rad: [0, 0, 0, 0, 0, 0] }, { type: "zero", station: "s" },
+        { type: "run", station: "s", program: program(robot), asText: true }, { type: "run", station: "s", program: program(robot), asText: false },
+      ];
+      for (const request of asked) expect(await ask(request), request.type).toMatchObject({ kind: "refused", why: { code: "guard.watching", hint: expect.stringContaining("Take it to command") as string } });
+    };
+    expect(await ask({ type: "open", station: "s", brand, robot, watch: true })).toEqual({ kind: "done" });
+    expect(await ask({ type: "connect", station: "s" })).toEqual({ kind: "done" });
+    await pass(0.4);
+    await refuses();
+    expect(samples("s").some(({ moving }) => moving)).toBe(false);
+
+    // Somebody at the robot jogs it, and it is followed.
+    await ask({ type: "pendant", station: "s", act: { do: "mode", mode: "manual" } });
+    await pass(1);
+    const from = samples("s").at(-1)!.q_rad, to_rad = from.map((angle, i) => (i === 0 ? angle + 0.2 : angle));
+    expect(await ask({ type: "pendant", station: "s", act: { do: "jog", q_rad: to_rad } })).toEqual({ kind: "done" });
+    await pass(0.3);
+    expect(samples("s").at(-1)!.q_rad[0]! - from[0]!).toBeCloseTo(0.2, 4);
+    await refuses();
+
+    // The line breaks and is mended: it is watched as before, and nobody says that it was stopped.
+    await ask({ type: "plug", station: "s", pulled: true });
+    await pass(1);
+    expect(guard()).toMatchObject({ link: "lost", watching: true });
+    expect(told.filter(message => message.type === "notice").map(({ why }) => why.sentence).join()).toMatch(/^Nothing was heard of .* only watched and was not stopped/);
+    await ask({ type: "plug", station: "s", pulled: false });
+    await pass(12);
+    expect(guard()).toMatchObject({ link: "up", watching: true });
+    await refuses();
+
+    // Taken to command it moves, after the pendant has given it back.
+    await ask({ type: "pendant", station: "s", act: { do: "mode", mode: brand === "fanuc" ? "automatic" : "remote" } });
+    await pass(1);
+    expect(await ask({ type: "watch", station: "s", on: false })).toEqual({ kind: "done" });
+    expect(await ask({ type: "take", station: "s" })).toEqual({ kind: "done" });
+    expect(guard()).toMatchObject({ watching: false, holder: "you", link: "up" });
+    await ask({ type: "reset", station: "s" });
+    await pass(4);
+    const moving = client.ask({ type: "move", station: "s", q_rad: from });
+    expect(await answered(scheduler, client, "s", moving)).toEqual({ kind: "done" });
+  }, 120_000);
+});
+
+test("T-26 who gives a robot up to be watched in the middle of a motion stops it first", async () => {
+  const { scheduler, join, samples } = bench(), { client } = join("you"), ask = (request: Request) => answered(scheduler, client, "s", client.ask(request));
+  await ask({ type: "open", station: "s", brand: "ur", robot: "ur10e" });
+  await ask({ type: "take", station: "s" });
+  await ask({ type: "connect", station: "s" });
+  await answered(scheduler, client, "s", scheduler.elapse(0.3).then(() => ({ kind: "done" as const })));
+  const moving = client.ask({ type: "zero", station: "s" });
+  for (let i = 0; i < 20; i++) { client.alive("s"); await scheduler.elapse(0.02); }
+  expect(samples("s").at(-1)!.moving).toBe(true);
+  expect(await ask({ type: "watch", station: "s", on: true })).toEqual({ kind: "done" });
+  expect(await answered(scheduler, client, "s", moving)).toMatchObject({ kind: "stopped" });
+}, 60_000);
+
+test.each(BRANDS.filter(({ cannot }) => cannot.some(({ row }) => row === "watch")))("$name cannot only be watched, and says why", async ({ id }) => {
+  const { scheduler, join } = bench(), { client } = join("you");
+  expect(await answered(scheduler, client, "s", client.ask({ type: "open", station: "s", brand: id, robot: EVERY_ROBOT[id]!, watch: true }))).toMatchObject({ kind: "refused", why: { code: "station.no-watching" } });
+});
+
 describe("a host of stations", () => {
   test("one commands, anyone stops, and who leaves gives the robot back", async () => {
     const { scheduler, client, join, leave, ask } = await connected(brands[0]!);

@@ -1,4 +1,4 @@
-import { brandById, BRANDS, openStation } from "@twincell/controllers";
+import { brandById, BRANDS, createSharedCell, openStation, startTogether } from "@twincell/controllers";
 import { robotById, type Refusal, type Scheduler } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
 import { createHost, type AskOf, type Host, type OpenedStation } from "@twincell/messages";
@@ -12,10 +12,11 @@ const HEARTBEAT_S = 0.08;
 
 /** Stations of this machine: drivers on the network, and virtual controllers beside them where no address is given. */
 export function stationHost(scheduler: Scheduler, version: string): Host {
-  const network = nodeNetwork();
+  const network = nodeNetwork(), cell = createSharedCell();
   return createHost({
     scheduler, version,
     brands: BRANDS.map(({ id, name, vendor, dialect, ports }) => ({ id, name, vendor, dialect, ports: { ...ports } })),
+    together: (members, onStarted) => startTogether(members, scheduler, onStarted),
     async open(ask: AskOf<"open">): Promise<OpenedStation> {
       const robot = robotById(ask.robot), brand = ask.brand === PLUG_IN && robot ? plugInFor(robot) : brandById(ask.brand), dialect = brand && dialectById(brand.dialect);
       if (ask.brand === PLUG_IN && !robot) return noRobot(ask.robot);
@@ -23,7 +24,7 @@ export function stationHost(scheduler: Scheduler, version: string): Host {
       if (!brand || !dialect) return refused({ code: "station.no-brand", sentence: `There is no driver for “${ask.brand}”.`, hint: `There are: ${BRANDS.map(({ id }) => id).join(", ")}, ${PLUG_IN}.` });
       if (!robot) return noRobot(ask.robot);
       return openStation({
-        id: ask.station, brand, robot, scheduler, dialect, heartbeat_s: HEARTBEAT_S,
+        id: ask.station, brand, robot, scheduler, dialect, heartbeat_s: HEARTBEAT_S, ...(ask.stand ? { shared: { cell, stand: ask.stand } } : {}), ...(ask.watch === undefined ? {} : { watching: ask.watch }),
         ...(ask.name === undefined ? {} : { name: ask.name }), ...(ask.worldFromBase ? { worldFromBase: ask.worldFromBase } : {}),
         ...(ask.address ? { at: { network, host: ask.address.host, ...(ask.address.ports ? { ports: ask.address.ports } : {}), ...(ask.address.data ? { data: ask.address.data } : {}) } } : {}),
       });

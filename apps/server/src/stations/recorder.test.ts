@@ -1,4 +1,4 @@
-import { BRANDS, openStation } from "@twincell/controllers";
+import { BRANDS, openStation, startTogether } from "@twincell/controllers";
 import { manualScheduler, robotById, LIBRARY } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
 import { createClient, createHost, type Tell } from "@twincell/messages";
@@ -14,6 +14,7 @@ function bench() {
   const scheduler = manualScheduler(), port = memoryFiles(), troubles: string[] = [], told: Tell[] = [];
   const host = createHost({
     scheduler, version: "test", brands: [],
+    together: (members, onStarted) => startTogether(members, scheduler, onStarted),
     open: async ask => {
       const brand = BRANDS.find(({ id }) => id === ask.brand)!, robot = robotById(ask.robot)!;
       return openStation({ id: ask.station, brand, robot, scheduler, dialect: dialectById(brand.dialect)! });

@@ -61,11 +61,17 @@ export function recordStations(channel: Channel, options: StationRecorderOptions
     if (roundTrip_s !== null) to.back.add(1000 * roundTrip_s);
   }
 
+  function group(message: TellOf<"began"> | TellOf<"ended">): void {
+    if (message.type === "began") for (const id of message.stations) stations.get(id)?.archive.event("group.began", `${message.stations.length} robots began together, within ${Math.round(1000 * message.spread_s)} ms.`);
+    else for (const { station, outcome } of message.stations) stations.get(station)?.archive.event("group.ended", outcome.kind === "done" ? "The common run is done." : outcome.why.sentence, outcome.kind === "done" ? "info" : "warning");
+  }
+
   const client: Client = createClient(channel, options.now_s, message => {
     if (message.type === "hello") { for (const words of message.stations) open(words); return; }
     if (message.type === "opened") { const { id, name, brand, robot, virtual, watchdog } = message; open({ id, name, brand, robot, virtual, watchdog }); return; }
     if (message.type === "closed") { close(message.station); return; }
     if (message.type === "fault") { options.onTrouble?.(message.sentence); return; }
+    if (message.type === "began" || message.type === "ended") { group(message); return; }
     const to = stations.get(message.station);
     if (!to) return;
     switch (message.type) {

@@ -11,6 +11,12 @@ const PLACES = [process.env["TWINCELL_CHROMIUM"], "/usr/bin/chromium", "/usr/bin
 const FLAGS = ["--headless=new", "--no-sandbox", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
   "--disable-quic", "--ignore-gpu-blocklist", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--autoplay-policy=no-user-gesture-required"];
 
+/**
+ * A camera that films the studio itself: the browser captures the page of that title, as a phone before the screen would, so that
+ * what the studio shows comes back in the picture. `getUserMedia` takes the browser's made-up camera.
+ */
+export const CAMERA_FLAGS = ["--auto-select-tab-capture-source-by-title=Twincell", "--use-fake-device-for-media-stream"];
+
 export interface OpenOptions {
   readonly width?: number;
   readonly height?: number;
@@ -37,7 +43,7 @@ export class Studio {
     this.browser = browser;
   }
 
-  static async start(): Promise<Studio> {
+  static async start(flags: readonly string[] = []): Promise<Studio> {
     const executablePath = PLACES.find(path => path !== undefined && existsSync(path));
     if (executablePath === undefined) throw new Error("No Chromium was found; set TWINCELL_CHROMIUM to its path.");
     const server = spawn(process.execPath, ["apps/cli/src/main.ts", "serve", "--port", "0"], { cwd: root, stdio: ["ignore", "pipe", "inherit"] });
@@ -50,7 +56,7 @@ export class Studio {
       });
       server.once("exit", code => { reject(new Error(`twincell serve ended with ${code ?? "a signal"}.`)); });
     });
-    const browser = await chromium.launch({ executablePath, headless: true, args: FLAGS });
+    const browser = await chromium.launch({ executablePath, headless: true, args: [...FLAGS, ...flags] });
     return new Studio(url, server, browser);
   }
 

@@ -16,6 +16,7 @@ export const viewCommands = (): readonly Command[] => [
   { id: "help.palette", group: "help", words: words.commands.palette, keys: ["Mod+K"], run: () => openDialog("palette") },
   { id: "help.shortcuts", group: "help", words: words.commands.shortcuts, keys: ["?"], run: () => openDialog("shortcuts") },
   { id: "help.controls", group: "help", words: words.commands.controls, run: () => openDialog("controls") },
+  { id: "view.cameras", group: "view", words: words.video.command, run: () => openDialog("cameras") },
   { id: "view.collision", group: "view", words: words.commands.collision, run: () => openDialog("collision") },
   { id: "help.coach", group: "help", words: words.commands.coach, run: () => viewStore.setState({ coachDone: false }) },
   { id: "cell.robot", group: "edit", words: words.commands.anotherRobot, run: () => openDialog("robots") },

@@ -1,10 +1,12 @@
-import { linkSolids, samplePlan, type CellGeometry } from "@twincell/core";
+import { linkSolids, OtherArm, samplePlan, type CellGeometry, type CellObject } from "@twincell/core";
 import { cellGeometry, type CellDocument } from "@twincell/project";
 import { cellStore } from "../stores/cell.ts";
 import { programOf, robotOf } from "../stores/document.ts";
 import { playStore } from "../stores/play.ts";
+import { stationStore } from "../stores/stations.ts";
 import type { FromChecker, ToChecker } from "../workers/check-messages.ts";
 import { loadReel } from "./playhead.ts";
+import { stationLive } from "./stations.ts";
 
 /** Who judges: a worker of the page, or a double in a test. */
 export interface Checker { post(message: ToChecker): void; listen(hear: (message: FromChecker) => void): void; close(): void }
@@ -53,8 +55,11 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
     id++;
     if (program.steps.length === 0) { loadReel(null); playStore.setState({ checking: null, trouble: null, plan: null, verdict: null, path: [] }); return; }
     if (!checker) { checker = hire(); checker.listen(hear); }
-    if (!geometry || !solids || solidsDiffer(document, solids)) geometry = cellGeometry(document, linkSolids(robot));
-    solids = document;
+    const others = playStore.getState().withOthers ? otherRobots() : [];
+    if (!geometry || !solids || others.length > 0 || solidsDiffer(document, solids)) geometry = cellGeometry(document, linkSolids(robot));
+    if (others.length > 0) geometry = { ...geometry, objects: [...geometry.objects, ...others] };
+    // Where they stood is not where they stand the next time.
+    solids = others.length > 0 ? null : document;
     busy = true;
     playStore.setState({ checking: 0, trouble: null });
     checker.post({ id, program, robot: robot.id, margin_m: MARGIN_M, ...(sent === geometry ? {} : { cell: geometry }) });
@@ -78,6 +83,12 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
     stop: () => { stop(); clearTimeout(timer); fire(); },
   };
 }
+
+/** The robots of the other controllers as they stand now. */
+const otherRobots = (): CellObject[] => stationStore.getState().stations.flatMap(({ id, name, stand }) => {
+  const live = stationLive(id);
+  return live ? new OtherArm(id, name, live.robot, linkSolids(live.robot), stand, live.q_rad).objects : [];
+});
 
 const solidsDiffer = (a: CellDocument, b: CellDocument): boolean =>
   a.objects !== b.objects || a.tools !== b.tools || a.tool !== b.tool || a.robot !== b.robot || a.allowedPairs !== b.allowedPairs || a.pairs !== b.pairs;

@@ -27,7 +27,7 @@ const shelf = browserShelf();
 const lives = new Map<string, StationLive>(), recordings = new Map<string, Recording>(), told_ms = new Map<string, number>(), alive = new Map<string, number>();
 const TELL_EVERY_MS = 100, ALIVE_EVERY_MS = 25;
 const NO_LINK: StationState["link"] = { state: "closed", sentence: "", attempts: 0, rate_Hz: 0, late_s: 0, roundTrip_s: null, missing: 0 };
-const AT_REST: StationState["guard"] = { holder: null, pressed: false, link: "up", motion: "at-rest", trip: "none", emergency: false };
+const AT_REST: StationState["guard"] = { holder: null, pressed: false, link: "up", motion: "at-rest", trip: "none", emergency: false, watching: false };
 
 export const stationLive = (id: string): StationLive | undefined => lives.get(id);
 
@@ -37,13 +37,15 @@ export interface NewStation {
   readonly place: HostPlace;
   readonly stand: Pose<"world", "base">;
   readonly address?: { readonly host: string; readonly ports?: Readonly<Record<string, number>>; readonly data?: Readonly<Record<string, readonly number[]>> };
+  /** Only to watch what others do with it. */
+  readonly watch?: boolean;
 }
 
 const refusedAs = (sentence: string, hint: string): CommandOutcome => ({ kind: "refused", why: { code: "station.none", sentence, hint } });
 const hostOf = (id: string) => { const place = stationOf(id)?.place; return place && hostAt(place); };
 
 /** Opens and connects a station, and takes its lease. Programs of the cell are carried out as if its robot stood where the cell's stands. */
-export async function addStation({ brand, robot: robotId, place, stand, address }: NewStation): Promise<CommandOutcome> {
+export async function addStation({ brand, robot: robotId, place, stand, address, watch = false }: NewStation): Promise<CommandOutcome> {
   const host = hostAt(place), robot = robotById(robotId), { document } = cellStore.getState();
   if (!host || !robot || !document) return refusedAs(words.stations.noServer, words.stations.noServerHint);
   const taken = new Set(stationStore.getState().stations.map(({ id }) => id));
@@ -52,9 +54,10 @@ export async function addStation({ brand, robot: robotId, place, stand, address 
   lives.set(id, { robot, q_rad: Float64Array.from(robot.home_rad), revision: 0, received_s: 0, sent_s: 0 });
   stands.set(id, stand);
   const opened = await host.ask({
-    type: "open", station: id, brand, robot: robotId, worldFromBase: document.robot.worldFromBase, ...(address ? { address: { host: address.host, ...(address.ports ? { ports: { ...address.ports } } : {}), ...(address.data ? { data: Object.fromEntries(Object.entries(address.data).map(([name, numbers]) => [name, [...numbers]])) } : {}) } } : {}),
+    type: "open", station: id, brand, robot: robotId, worldFromBase: document.robot.worldFromBase, stand, ...(watch ? { watch } : {}), ...(address ? { address: { host: address.host, ...(address.ports ? { ports: { ...address.ports } } : {}), ...(address.data ? { data: Object.fromEntries(Object.entries(address.data).map(([name, numbers]) => [name, [...numbers]])) } : {}) } } : {}),
   });
   if (opened.kind !== "done") { lives.delete(id); return opened; }
+  if (watch) return host.ask({ type: "connect", station: id });
   const took = await host.ask({ type: "take", station: id });
   return took.kind === "done" ? host.ask({ type: "connect", station: id }) : took;
 }
@@ -65,6 +68,13 @@ export const askStation = (id: string, type: "connect" | "disconnect" | "confirm
   hostOf(id)?.ask({ type, station: id }) ?? Promise.resolve(refusedAs(words.stations.gone, ""));
 export const atPendant = (id: string, act: PendantAct): Promise<CommandOutcome> =>
   hostOf(id)?.ask({ type: "pendant", station: id, act }) ?? Promise.resolve(refusedAs(words.stations.gone, ""));
+/** Only to watch it from now on; or to command it, with its lease. */
+export async function watchStation(id: string, on: boolean): Promise<CommandOutcome> {
+  const host = hostOf(id);
+  if (!host) return refusedAs(words.stations.gone, "");
+  const turned = await host.ask({ type: "watch", station: id, on });
+  return turned.kind === "done" && !on ? host.ask({ type: "take", station: id }) : turned;
+}
 export function stopStation(id: string, emergency = false): void { hostOf(id)?.stop(id, emergency); }
 export async function pullPlug(id: string, pulled: boolean): Promise<void> {
   const outcome = await hostOf(id)?.ask({ type: "plug", station: id, pulled });
@@ -98,9 +108,39 @@ export async function runStation(id: string): Promise<CommandOutcome> {
 
 /** All that are at rest begin in the same turn. */
 export async function runAll(): Promise<void> {
-  const ready = stationStore.getState().stations.filter(({ running, link }) => !running && link.state === "open");
+  const ready = stationStore.getState().stations.filter(({ running, link, guard }) => !running && link.state === "open" && !guard.watching);
   const outcomes = await Promise.all(ready.map(async station => ({ station, outcome: await runStation(station.id) })));
   for (const { station, outcome } of outcomes) if (outcome.kind !== "done") notify(outcome.kind === "stopped" ? "warn" : "bad", `${station.name}: ${outcome.why.sentence}`, outcome.why.hint);
+}
+
+/** How each of a group ended, as its host said just before it answered. */
+const groupEnds = new Map<string, CommandOutcome>();
+
+/** All or none: every one is made ready first, then all begin on the clock of their host, and whoever is stopped stops all. */
+export async function startTogether(ids: readonly string[]): Promise<CommandOutcome> {
+  const group: { readonly station: StationState; readonly live: StationLive; readonly program: Program }[] = [];
+  for (const id of ids) {
+    const wanted = programFor(id), station = stationOf(id), live = lives.get(id);
+    if (!wanted || !station || !live) return refusedAs(words.stations.gone, "");
+    if (wanted.program.steps.length === 0) return refusedAs(words.run.nothing, "");
+    if (wanted.unreached.length > 0) return refusedAs(words.stations.unreached(live.robot.name, wanted.unreached.length), words.stations.unreachedHint);
+    group.push({ station, live, program: wanted.program });
+  }
+  const [first] = group, host = first && hostAt(first.station.place);
+  if (!host) return refusedAs(words.stations.gone, "");
+  if (group.some(({ station }) => station.place !== first.station.place)) return refusedAs(words.stations.twoClocks, words.stations.twoClocksHint);
+  const running = group.map(({ station, live, program }) => {
+    changeStation(station.id, { running: true, notice: "" });
+    return { id: station.id, recording: beginRecording(station, live, program.name) };
+  });
+  for (const id of ids) groupEnds.delete(id);
+  const outcome = await host.ask({ type: "together", members: group.map(({ station, program }) => ({ station: station.id, program, asText: true })) });
+  for (const { id, recording } of running) {
+    const own = groupEnds.get(id) ?? outcome;
+    await endRecording(id, recording, own);
+    changeStation(id, { running: false, notice: own.kind === "done" ? "" : own.why.sentence });
+  }
+  return outcome;
 }
 
 function beginRecording(station: StationState, { robot }: StationLive, program: string): Recording {
@@ -145,6 +185,11 @@ function take(place: HostPlace, message: Told): void {
     case "link": if (message.state !== stationOf(message.station)?.link.state || due(`${message.station} link`)) changeStation(message.station, { link: message }); break;
     case "guard": changeStation(message.station, { guard: message }); break;
     case "notice": changeStation(message.station, { notice: message.why.sentence }); recordings.get(message.station)?.recorder.event(message.why.code, message.why.sentence, "warning"); break;
+    case "began":
+      notify("info", words.stations.began(message.stations.length, Math.round(1000 * message.spread_s)));
+      for (const id of message.stations) recordings.get(id)?.recorder.event("group.began", words.stations.began(message.stations.length, Math.round(1000 * message.spread_s)));
+      break;
+    case "ended": for (const { station, outcome } of message.stations) groupEnds.set(station, outcome); break;
     case "sample": show(message); break;
     case "fault":
       notify("bad", message.sentence, words.stations.faultHint);

@@ -4,6 +4,7 @@ import { cellStore } from "../stores/cell.ts";
 import { robotOf } from "../stores/document.ts";
 import { closeHistory, historyStore, windowAt } from "../stores/history.ts";
 import { notify } from "../stores/notices.ts";
+import { serviceStore } from "../stores/service.ts";
 import { viewStore } from "../stores/view.ts";
 import { words } from "../words/index.ts";
 import { listRuns, removeRun, runBlob, tidyRuns, type Shelf } from "./archive.ts";
@@ -36,7 +37,7 @@ export interface TravelBack {
   readonly moment: Moment | null;
   /** Id of the robot that was recorded, or "". */
   readonly robot: string;
-  /** Works out the figures of what is open. */
+  /** Works out the figures of what is open, with the service intervals that were said of its robot. */
   figures(): void;
   /** The file as it is kept, for a download. */
   file(id: string): Promise<Blob>;
@@ -129,7 +130,7 @@ export function travelBack(shelf: Shelf, scheduler: Scheduler, openRecordings: O
     },
     get moment() { return player?.moment ?? null; },
     get robot() { return player?.history.robot ?? ""; },
-    figures() { if (player) historyStore.setState({ figures: dashboardOf(player.history) }); },
+    figures() { if (player) historyStore.setState({ figures: dashboardOf(player.history, { serviceTravel: serviceStore.getState().travel[player.history.robot] ?? [] }) }); },
     file: id => runBlob(shelf, id),
     async remove(id) {
       if (historyStore.getState().open === id) close();

@@ -5,6 +5,7 @@ import { PerspectiveCamera, Quaternion } from "three";
 import { takeEffort_ms } from "../live/effort.ts";
 import { chosenAidAxis } from "../live/aids.ts";
 import { onTouching, theLive } from "../live/live.ts";
+import { shownRobot } from "../live/shown.ts";
 import { jogStore } from "../stores/jog.ts";
 import { viewStore } from "../stores/view.ts";
 import { closeCameraPosition, closeCameraSide, closeCameraUp } from "./camera/close-camera.ts";
@@ -27,7 +28,7 @@ export function RenderLoop({ meter, picture, cube }: { readonly meter: FrameMete
   useEffect(() => {
     let seen = -1, handle = 0;
     const watch = (): void => {
-      const { revision } = theLive();
+      const { revision } = shownRobot();
       if (revision !== seen) { seen = revision; invalidate(); }
       handle = requestAnimationFrame(watch);
     };

@@ -3,7 +3,7 @@ import type { ToolRecord } from "@twincell/project";
 import { useFrame } from "@react-three/fiber";
 import { useEffect, useMemo, useRef } from "react";
 import { BufferAttribute, type BufferGeometry, Color, type Group } from "three";
-import { theLive } from "../live/live.ts";
+import { shownRobot } from "../live/shown.ts";
 import { Fingers } from "./physical/fingers.tsx";
 import { shapeGeometry } from "./objects/shape-geometry.ts";
 import { paintTouching } from "./paint.ts";
@@ -47,7 +47,7 @@ export function ToolView({ tool, worldFromBase }: { readonly tool: ToolRecord; r
   useEffect(() => { seen.current = -1; }, [tool, worldFromBase]);
   useEffect(() => paintTouching(name => (name === "tool" || name === tool.name ? group.current : null)), [tool.name]);
   useFrame(() => {
-    const live = theLive();
+    const live = shownRobot();
     if (live.revision === seen.current || !group.current) return;
     seen.current = live.revision;
     poseMatrix(compose(worldFromBase, live.baseFromFlange, world), group.current.matrix);

@@ -17,11 +17,13 @@ export interface PlayState {
   readonly speed: number;
   /** TCP path in the world with the verdict of each stretch, for drawing. */
   readonly path: readonly PathStretch[];
+  /** The other robots of the cell count as obstacles, where they stand when it is checked. */
+  readonly withOthers: boolean;
   /** A repair being shown and not yet applied: the ids of the steps it would change. */
   readonly preview: string | null;
 }
 export const playStore = createStore<PlayState>(() => ({
-  plan: null, verdict: null, checking: null, trouble: null, t_s: 0, playing: false, speed: 1, path: [], preview: null,
+  plan: null, verdict: null, checking: null, trouble: null, t_s: 0, playing: false, speed: 1, path: [], withOthers: false, preview: null,
 }));
 
 /** Worst first wins: bad, warn, unknown, ok. */

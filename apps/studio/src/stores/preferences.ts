@@ -2,10 +2,11 @@ import { COLLISION_BEHAVIOURS, type CollisionBehaviour } from "@twincell/core";
 import { collideStore } from "./collide.ts";
 import { bindingStore, type Bindings } from "./bindings.ts";
 import { languageStore } from "./languages.ts";
+import { readServiceTravel, serviceStore, type ServiceState } from "./service.ts";
 import { viewStore, type ViewState } from "./view.ts";
 
 /** Choices of the person, not of the cell: kept beside the document, never in it. */
-interface Preferences { readonly theme?: ViewState["theme"]; readonly muted?: boolean; readonly coachDone?: boolean; readonly plots?: boolean; readonly bindings?: Bindings; readonly languages?: Readonly<Record<string, string>>; readonly collision?: CollisionBehaviour }
+interface Preferences { readonly theme?: ViewState["theme"]; readonly muted?: boolean; readonly coachDone?: boolean; readonly plots?: boolean; readonly bindings?: Bindings; readonly languages?: Readonly<Record<string, string>>; readonly collision?: CollisionBehaviour; readonly service?: ServiceState["travel"] }
 export interface TextStore { getItem(key: string): string | null; setItem(key: string, text: string): void }
 const KEY = "twincell.preferences";
 
@@ -17,14 +18,15 @@ export function keepPreferences(store: TextStore, prefersLight: boolean): () => 
   });
   if (kept.bindings) bindingStore.setState(kept.bindings);
   if (kept.languages) languageStore.setState({ chosen: kept.languages });
+  if (kept.service) serviceStore.setState({ travel: kept.service });
   if (kept.collision) collideStore.setState({ behaviour: kept.collision });
   const write = (): void => {
     const { theme, muted, coachDone, plots } = viewStore.getState();
     const { keyboard, buttons, axes } = bindingStore.getState();
-    try { store.setItem(KEY, JSON.stringify({ theme, muted, coachDone, plots, bindings: { keyboard, buttons, axes }, languages: languageStore.getState().chosen, collision: collideStore.getState().behaviour })); }
+    try { store.setItem(KEY, JSON.stringify({ theme, muted, coachDone, plots, bindings: { keyboard, buttons, axes }, languages: languageStore.getState().chosen, collision: collideStore.getState().behaviour, service: serviceStore.getState().travel })); }
     catch { return; } // a full or forbidden store: the choice holds until the page closes
   };
-  const stops = [viewStore.subscribe(write), bindingStore.subscribe(write), languageStore.subscribe(write), collideStore.subscribe(write)];
+  const stops = [viewStore.subscribe(write), bindingStore.subscribe(write), languageStore.subscribe(write), collideStore.subscribe(write), serviceStore.subscribe(write)];
   return () => { for (const stop of stops) stop(); };
 }
 
@@ -39,6 +41,7 @@ function read(store: TextStore): Preferences {
     ...(collision ? { collision } : {}),
     ...(bindings ? { bindings } : {}),
     ...(typeof languages === "object" && languages !== null ? { languages: Object.fromEntries(Object.entries(languages).filter((entry): entry is [string, string] => typeof entry[1] === "string")) } : {}),
+    service: readServiceTravel(has("service")),
     muted: has("muted") === true, coachDone: has("coachDone") === true, plots: has("plots") === true,
   };
 }

@@ -1,4 +1,4 @@
-import { brandById, BRANDS, openStation } from "@twincell/controllers";
+import { brandById, BRANDS, createSharedCell, openStation, startTogether } from "@twincell/controllers";
 import { manualScheduler, robotById, type Refusal } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
 import { createHost, type OpenedStation } from "@twincell/messages";
@@ -18,17 +18,20 @@ setInterval(() => {
   last_s = now_s;
 }, TICK_S * 1000);
 
+/** All robots of the page that stand in the cell. */
+const cell = createSharedCell();
 const refused = (why: Refusal): OpenedStation => ({ kind: "refused", why });
 
 const host = createHost({
   scheduler, version: "",
   brands: BRANDS.map(({ id, name, vendor, dialect, ports }) => ({ id, name, vendor, dialect, ports: { ...ports } })),
+  together: (members, onStarted) => startTogether(members, scheduler, onStarted),
   async open(ask): Promise<OpenedStation> {
     const brand = brandById(ask.brand), robot = robotById(ask.robot), dialect = brand && dialectById(brand.dialect);
     if (!brand || !dialect || !robot) return refused({ code: "station.none", sentence: `There is no virtual controller “${ask.brand}” for “${ask.robot}”.`, hint: "Choose another robot." });
     if (ask.address) return refused({ code: "station.no-network", sentence: "A page has no network of its own: real controllers are reached through the server.", hint: "Start Twincell with npx twincell serve and open its address." });
     return openStation({
-      id: ask.station, brand, robot, scheduler, dialect,
+      id: ask.station, brand, robot, scheduler, dialect, ...(ask.stand ? { shared: { cell, stand: ask.stand } } : {}), ...(ask.watch === undefined ? {} : { watching: ask.watch }),
       ...(ask.name === undefined ? {} : { name: ask.name }), ...(ask.worldFromBase ? { worldFromBase: ask.worldFromBase } : {}),
     });
   },

@@ -11,4 +11,5 @@ export const ABB_EGM_CANNOT: readonly Cannot[] = [
   { row: "texts", because: "EGM carries targets, no programs." },
   { row: "signals", because: "EGM carries targets, no signals." },
   { row: "payload", because: "EGM carries targets, no loads." },
+  { row: "watch", because: "EGM tells its state to the one who guides it, and to nobody else." },
 ];

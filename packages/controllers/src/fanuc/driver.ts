@@ -1,4 +1,4 @@
-import type { CommandOutcome, EmittedFile, JointSample, Refusal, Robot, Scheduler } from "@twincell/core";
+import type { CommandOutcome, EmittedFile, HandedText, JointSample, Refusal, Robot, Scheduler } from "@twincell/core";
 import type { Face, FaceEvents, FaceMotion, Opened } from "../real/index.ts";
 import type { ByteStream, Network } from "../transport/index.ts";
 import { FTP_PORT, programOf } from "./codec-ftp.ts";
@@ -30,6 +30,8 @@ type Lent = { -readonly [K in keyof Omit<JointSample, "step">]: Omit<JointSample
 interface Moving { readonly resolve: (outcome: CommandOutcome) => void; /** Not a motion but a program: it moves when it moves. */ readonly isText: boolean; sequence: number; cancelled: boolean; aborted: boolean; outcome: CommandOutcome | null; asOf: number }
 
 const DIGITS = 12, PATIENCE_S = 2, STANDS_DEG = 2e-4;
+/** With the watches behind it a stop is commanded within 100 ms of the last state (row X-41) [s]. */
+const STALE_S = 0.08;
 const refusal = (code: string, sentence: string, hint: string): Refusal => ({ code, sentence, hint });
 const noAnswer = (sentence: string): Refusal => refusal("link.refused", sentence, "Look at the address, the cable, and whether option R912 is on the controller.");
 const closedHere = refusal("link.closed", "The connection was closed while the robot moved.", "Connect again, then command the move again.");
@@ -47,7 +49,7 @@ export function createFanucFace(options: FanucFaceOptions): Face {
   const lent: Lent = { sequence: 0, time_s: 0, q_rad: new Float64Array(JOINTS), moving: false, mode: "remote", safety: "normal", override: 1, gripperClosed: false, message: "", signals: values };
   let stream: ByteStream | null = null, events: FaceEvents | null = null, stopPolling: (() => void) | null = null, life = 0, polling = false;
   const asked: { readonly key: RmiKey; readonly name: string; readonly since_s: number; readonly answer: (fields: Fields | null) => void }[] = [];
-  let textStopped = false;
+  let stops = 0;
   let moving: Moving | null = null, running = false, paused = false, locked = false, servos = true, pendant = false, fault = "", next = 1, time_ms = NaN, polls = 0;
 
   const wasStopped = (): Refusal => refusal("controller.stopped", `${robot.name} was stopped.`, "Command the move again when the way is clear.");
@@ -197,7 +199,7 @@ export function createFanucFace(options: FanucFaceOptions): Face {
     if (!stream) return refused(closedHere);
     if (!servos) return refused(refusal("fanuc.servo-off", fault === "" ? "The servos are off." : `The servos are off: ${fault}.`, "Reset the robot, then command the move again."));
     return new Promise(resolve => {
-      const mine: Moving = { resolve, isText, sequence: 0, cancelled: isText && textStopped, aborted: false, outcome: null, asOf: 0 };
+      const mine: Moving = { resolve, isText, sequence: 0, cancelled: false, aborted: false, outcome: null, asOf: 0 };
       moving = mine;
       void (async () => {
         if (!running) {
@@ -215,28 +217,34 @@ export function createFanucFace(options: FanucFaceOptions): Face {
       })();
     });
   }
-  /** Puts the listings on the controller, calls the first one and waits for its end. */
-  async function runText(files: readonly EmittedFile[]): Promise<CommandOutcome> {
-    const listings = files.filter(({ name }) => /\.ls$/i.test(name)).map(({ text }) => ({ program: programOf(text), text })), [first] = listings;
-    if (!first || listings.some(({ program }) => program === "")) return refused(refusal("fanuc.no-listing", "There is no TP listing among the files that begins with /PROG and a name.", "Hand over .LS files, the program to be run first."));
-    if (!stream) return refused(closedHere);
-    textStopped = false;
+  /** Puts the listings on the controller; started, the first one is called and runs to its end. */
+  async function handText(files: readonly EmittedFile[]): Promise<HandedText> {
+    const listings = files.filter(({ name }) => /\.ls$/i.test(name)).map(({ text }) => ({ program: programOf(text), text })), [first] = listings, before = stops;
+    if (!first || listings.some(({ program }) => program === "")) return { kind: "refused", why: refusal("fanuc.no-listing", "There is no TP listing among the files that begins with /PROG and a name.", "Hand over .LS files, the program to be run first.") };
+    if (!stream) return { kind: "refused", why: closedHere };
     const login = options.login ?? { user: "anonymous", password: "" };
     const why = await putFiles({ network, scheduler, to: { host, port: options.ftpPort ?? FTP_PORT }, ...login }, listings.map(({ program, text }) => ({ name: `${program}.LS`, bytes: Uint8Array.from(text, sign => sign.charCodeAt(0) & 255) })));
-    if (why !== null) return refused(refusal("fanuc.files", `The program was not put on the controller: ${why}`, "Look at the FTP server of the controller (port 21) and at the option for ASCII programs."));
-    if (textStopped) return stopped(wasStopped());
-    const outcome = await instruct("FRC_Call", { ProgramName: first.program }, true);
+    if (why !== null) return { kind: "refused", why: refusal("fanuc.files", `The program was not put on the controller: ${why}`, "Look at the FTP server of the controller (port 21) and at the option for ASCII programs.") };
+    return { kind: "handed", start: () => call(first.program, before), drop() { /* A listing that lies there moves nothing. */ } };
+  }
+  async function call(program: string, before: number): Promise<CommandOutcome> {
+    if (stops !== before) return stopped(wasStopped());
+    const outcome = await instruct("FRC_Call", { ProgramName: program }, true);
     if (outcome.kind !== "refused" || !stream) return outcome;
     const reply = await ask("Command", "FRC_ReadError", { Count: 1 }), text = typeof reply?.["ErrorData"] === "string" ? reply["ErrorData"] : "";
     return text === "" ? outcome : refused({ ...outcome.why, sentence: `${outcome.why.sentence.replace(/\.$/, "")}: ${text}` });
   }
 
   return {
-    brand: "FANUC", robot, stale_s: options.stale_s ?? Math.max(0.1, 4 * period_s), open, close, move, runText,
+    brand: "FANUC", robot, stale_s: options.stale_s ?? Math.max(STALE_S, 4 * period_s), open, close, move, handText,
+    async runText(files: readonly EmittedFile[]) {
+      const handed = await handText(files);
+      return handed.kind === "refused" ? handed : handed.start();
+    },
     watchdog: { kind: "none", because: "The interface carries a motion that was sent out to its end, whoever is still there: streamed motion is refused." },
     stop(emergency) {
       if (emergency) locked = true;
-      textStopped = true;
+      stops++;
       if (moving) moving.cancelled = true;
       void order("FRC_Abort").then(() => {
         running = false;

@@ -1,11 +1,12 @@
 import {
-  distance, hardBrakingTime_s, identity, type CommandOutcome, type JointSample, type Pose, type Refusal, type RobotController, type Scheduler,
+  distance, hardBrakingTime_s, identity, type CommandOutcome, type JointSample, type Pose, type Refusal, type RobotController, type Scheduler, type Signals,
 } from "@twincell/core";
+import type { Place } from "../cell/index.ts";
 import { listeners } from "../listeners.ts";
 import { jointNumberRefusal, jointRefusal, percentRefusal } from "../refusals.ts";
 import { jointMoveSpeed, speedBound, tcpOf } from "./speed.ts";
 import { AT_FIRST, guardStep, type GuardEvent, type GuardState } from "./state.ts";
-import { cameTooNear, commanderWentSilent, denialRefusal, leaseGivenBack, linkWentDown, switchLetGo, targetTooNear, tooFast } from "./words.ts";
+import { cameTooNear, commanderWentSilent, denialRefusal, leaseGivenBack, linkWentDown, switchLetGo, targetTooNear, tooFast, watchedLinkDown } from "./words.ts";
 import { DONE, refused } from "../outcomes.ts";
 
 export interface GuardOptions {
@@ -23,6 +24,10 @@ export interface GuardOptions {
   /** Longest time the robot needs to stop; how far ahead the clearance is looked at follows from it. */
   readonly brakingTime_s?: number;
   readonly flangeFromTcp?: Pose<"flange", "tcp">;
+  /** The other robots of the cell; see `createSharedCell`. */
+  readonly place?: Place;
+  /** Begins as one that is only watched; see `Seat.watch`. */
+  readonly watching?: boolean;
   /** Speed of the tool in manual mode. */
   readonly manualCap_mps?: number;
 }
@@ -37,6 +42,10 @@ export interface Seat {
   hold(pressed: boolean): CommandOutcome;
   /** A person's word that motion is wanted again, after a lost link or beside an obstacle. */
   confirm(): CommandOutcome;
+  /** Only to look at what others do with the robot, or to command it again. While it is watched only a stop is sent. */
+  watch(on: boolean): CommandOutcome;
+  /** Why a command would be turned down now; nothing is sent and nothing changes. */
+  readiness(): Refusal | null;
   /** Sign of life, where heartbeats are asked for. */
   alive(): void;
   /** The robot as this seat may command it. */
@@ -70,7 +79,7 @@ const SPEED_SLACK = 1.1;
 
 /** Stands between any input and any robot. Everything it does on its own can only stop the robot or lead it back where it was safe. */
 export function createGuard(options: GuardOptions): Guard {
-  const { controller, scheduler } = options, { robot, jumpTo } = controller, n = robot.arm.joints.length;
+  const { controller, scheduler, place } = options, { robot, jumpTo } = controller, n = robot.arm.joints.length;
   const rules = { deadMan: options.deadMan ?? controller.kind !== "virtual" };
   const isSafe = options.isSafe ?? (() => true), silence_s = options.silence_s ?? 0.06, cap_mps = options.manualCap_mps ?? MANUAL_CAP_MPS;
   const braking_s = options.brakingTime_s ?? hardBrakingTime_s(robot);
@@ -78,7 +87,7 @@ export function createGuard(options: GuardOptions): Guard {
   const changes = listeners<GuardState>(), notices = listeners<Refusal>();
 
   // A link that never was cannot be lost: silence counts from the first sample.
-  let state = AT_FIRST, heard_s = Infinity, alive_s = scheduler.now_s(), because: Refusal | null = null, manual = false;
+  let state: GuardState = { ...AT_FIRST, watching: options.watching ?? false }, heard_s = Infinity, alive_s = scheduler.now_s(), because: Refusal | null = null, manual = false;
   /** Wanted override, and the part of it that the cap leaves in this move. */
   let percent = 100, capped = 1, applied = 100;
   // What is known of the motion: latest angles, where it would stand if stopped now, the last pose that was safe with room to stop.
@@ -128,12 +137,13 @@ export function createGuard(options: GuardOptions): Guard {
 
   /** Asks, then lets the robot do it, then says how it ended and why. */
   async function command(who: string, target_rad: ArrayLike<number> | null, go: () => Promise<CommandOutcome>): Promise<CommandOutcome> {
-    const why = target_rad ? jointRefusal(robot, target_rad) ?? pointRefusal(target_rad) : null;
+    const why = watchedOnly() ?? (target_rad ? jointRefusal(robot, target_rad) ?? pointRefusal(target_rad) ?? place?.targetRefusal(target_rad) ?? null : null);
     if (why) return refused(why);
     const denied = send({ type: "ask", who });
     if (denied) return refused(denied);
     because = null;
     leaving = !isSafe(q_rad);
+    place?.begin();
     capped = cappedFor(target_rad);
     applySpeed();
     let outcome: CommandOutcome | null = null;
@@ -152,6 +162,9 @@ export function createGuard(options: GuardOptions): Guard {
     return outcome.kind === "stopped" && reason ? { kind: "stopped", why: reason } : outcome;
   }
 
+  const watchedOnly = (): Refusal | null => state.watching ? denialRefusal("watching", robot.name, null) : null;
+  const silent = (silent_s: number): Refusal => (state.watching ? watchedLinkDown : linkWentDown)(robot.name, silent_s);
+
   function pointRefusal(target_rad: ArrayLike<number>): Refusal | null {
     return jointRefusal(robot, target_rad) ?? (isSafe(Float64Array.from(target_rad)) ? null : targetTooNear);
   }
@@ -169,7 +182,9 @@ export function createGuard(options: GuardOptions): Guard {
       q_rad[i] = lent.q_rad[i]!;
     }
     // From a part of full speed a joint stops in that part of the braking time, half as far as it would go in it.
-    for (let i = 0; i < n; i++) ahead_rad[i] = q_rad[i]! + ahead_rad[i]! * (part * braking_s / 2 + REACTION_S);
+    // From where it is commanded to be by now, where the controller says so: what was commanded will come.
+    const from_rad = lent.target_rad ?? lent.q_rad;
+    for (let i = 0; i < n; i++) ahead_rad[i] = from_rad[i]! + ahead_rad[i]! * (part * braking_s / 2 + REACTION_S);
     time_s = lent.time_s;
     [tip, tipBefore] = [tipBefore, tip];
     tcp(q_rad, tip);
@@ -177,6 +192,12 @@ export function createGuard(options: GuardOptions): Guard {
     if (underWay && manual && known) {
       const speed_mps = distance(tip.position, tipBefore.position) / dt_s;
       if (speed_mps > SPEED_SLACK * cap_mps) { notice(tooFast(speed_mps, cap_mps)); send({ type: "stop", emergency: false }); }
+    }
+    if (place) {
+      place.guarded = state.motion !== "at-rest";
+      place.tell(q_rad, ahead_rad);
+      const near = underWay ? place.tooNear() : null;
+      if (near) { notice(near); send({ type: "stop", emergency: false }); }
     }
     const here = isSafe(q_rad);
     if (leaving) { leaving = !here; return; }
@@ -189,12 +210,21 @@ export function createGuard(options: GuardOptions): Guard {
   const stopWatching = scheduler.every(WATCH_S, () => {
     const now_s = scheduler.now_s();
     if (state.link === "lost") return;
-    if (now_s - heard_s > silence_s) { notice(linkWentDown(robot.name, now_s - heard_s)); send({ type: "link-lost" }); return; }
+    if (now_s - heard_s > silence_s) { notice(silent(now_s - heard_s)); send({ type: "link-lost" }); return; }
     const { heartbeat_s } = options, { holder } = state;
     if (heartbeat_s !== undefined && holder !== null && state.link === "up" && now_s - alive_s > heartbeat_s) {
       notice(commanderWentSilent(holder, now_s - alive_s));
       send({ type: "link-lost" });
     }
+  });
+
+  /** Lines of a robot that is only watched are read; who writes one is told. */
+  const linesOf = (signals: Signals): Signals => ({
+    read: signal => signals.read(signal),
+    write(signal, value) {
+      const why = watchedOnly();
+      if (why) notices.call(why); else signals.write(signal, value);
+    },
   });
 
   const act = (event: GuardEvent): CommandOutcome => {
@@ -214,18 +244,26 @@ export function createGuard(options: GuardOptions): Guard {
         if (!pressed && rules.deadMan && state.holder === who && state.motion === "moving") because = switchLetGo;
         return act({ type: pressed ? "press" : "let-go", who });
       },
+      watch(on) {
+        if (on && state.holder === who && state.motion === "moving") because = leaseGivenBack;
+        return act({ type: "watch", who, on });
+      },
+      readiness() {
+        const { denied } = guardStep(state, { type: "ask", who }, rules);
+        return denied ? denialRefusal(denied, robot.name, state.holder) : null;
+      },
       confirm() { alive_s = scheduler.now_s(); return act({ type: "confirm", who }); },
       alive() { if (state.holder === who) alive_s = scheduler.now_s(); },
       robot: {
         kind: controller.kind, name: controller.name, robot,
-        ...(controller.signals === undefined ? {} : { signals: controller.signals }),
+        ...(controller.signals === undefined ? {} : { signals: linesOf(controller.signals) }),
         onSample: listen => controller.onSample(listen),
         close: () => { act({ type: "release", who }); },
         isMoving: () => controller.isMoving(),
         jointAngle: joint => controller.jointAngle(joint),
         jointAngles: out => controller.jointAngles(out),
         setSpeed(to) {
-          const why = percentRefusal(to) ?? (state.holder === who ? null : denialRefusal(state.holder === null ? "no-lease" : "lease-taken", robot.name, state.holder));
+          const why = percentRefusal(to) ?? watchedOnly() ?? (state.holder === who ? null : denialRefusal(state.holder === null ? "no-lease" : "lease-taken", robot.name, state.holder));
           if (why) return refused(why);
           percent = to;
           return applySpeed();
@@ -246,13 +284,15 @@ export function createGuard(options: GuardOptions): Guard {
         run: (steps, context) => command(who, null, () => controller.run(steps, context)),
         stop: emergency => { guard.stop(emergency); },
         reset() {
+          const watched = watchedOnly();
+          if (watched) return refused(watched);
           if (state.motion !== "at-rest") return refused(denialRefusal("still-moving", robot.name, state.holder));
           const outcome = controller.reset();
           return outcome.kind === "done" ? act({ type: "reset", who }) : outcome;
         },
         ...(jumpTo ? {
           jumpTo(target_rad: ArrayLike<number>): CommandOutcome {
-            const why = pointRefusal(target_rad) ?? send({ type: "ask", who });
+            const why = watchedOnly() ?? pointRefusal(target_rad) ?? send({ type: "ask", who });
             if (why) return refused(why);
             const outcome = jumpTo(target_rad);
             send({ type: "ended" });
@@ -267,13 +307,14 @@ export function createGuard(options: GuardOptions): Guard {
     get state() { return state; },
     seat,
     stop(emergency = false) { send({ type: "stop", emergency }); },
-    linkLost() { if (state.link !== "lost") { notice(linkWentDown(robot.name, scheduler.now_s() - Math.min(heard_s, scheduler.now_s()))); send({ type: "link-lost" }); } },
+    linkLost() { if (state.link !== "lost") { notice(silent(scheduler.now_s() - Math.min(heard_s, scheduler.now_s()))); send({ type: "link-lost" }); } },
     pointRefusal,
     onChange: listen => changes.add(listen),
     onNotice: listen => notices.add(listen),
     close() {
       if (state.motion !== "at-rest") controller.stop();
       unsubscribe();
+      place?.leave();
       stopWatching();
       changes.clear();
       notices.clear();

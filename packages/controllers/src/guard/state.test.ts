@@ -4,6 +4,7 @@ import { AT_FIRST, guardStep, mayMove, type GuardAnswer, type GuardEvent, type G
 const people = ["a", "b"];
 const EVENTS: readonly GuardEvent[] = [
   ...people.flatMap(who => (["take", "release", "press", "let-go", "ask", "confirm", "reset"] as const).map(type => ({ type, who }))),
+  ...people.flatMap(who => [true, false].map(on => ({ type: "watch" as const, who, on }))),
   { type: "stop", emergency: false }, { type: "stop", emergency: true }, { type: "ended" }, { type: "too-near" }, { type: "link-lost" }, { type: "link-back" },
 ];
 interface Edge { readonly from: GuardState; readonly event: GuardEvent; readonly answer: GuardAnswer }
@@ -48,8 +49,8 @@ describe.each([{ deadMan: true }, { deadMan: false }])("guard, all states × all
   });
   test("X-41 a lost link stops, always; after it is back nothing moves until the holder confirms", () => {
     for (const { from, event, answer } of edges) {
-      if (event.type === "link-lost") expect(answer.effects).toContain("stop");
-      if (from.link === "up" || answer.state.link !== "up") continue;
+      if (event.type === "link-lost" && !from.watching) expect(answer.effects).toContain("stop");
+      if (from.link === "up" || answer.state.link !== "up" || from.watching) continue;
       expect(event).toEqual({ type: "confirm", who: from.holder });
       expect(answer.effects).toEqual([]);
     }
@@ -72,6 +73,22 @@ describe.each([{ deadMan: true }, { deadMan: false }])("guard, all states × all
         expect(answer.effects.some(effect => effect === "stop" || effect === "emergency-stop")).toBe(true);
         expect(answer.state.motion).toBe("stopping");
       }
+    }
+  });
+  test("what is only watched is left alone: no command, no lease, and of itself the guard sends nothing; a stop by anyone is sent", () => {
+    for (const { from, event, answer } of edges) {
+      if (answer.state.watching) expect(answer.state).toMatchObject({ holder: null, pressed: false, trip: "none" });
+      if (!from.watching) continue;
+      if (event.type === "stop") expect(answer.effects.length).toBe(1); else expect(answer.effects).toEqual([]);
+      if ("who" in event && event.type !== "watch") expect(answer.denied).toBe("watching");
+      if (!answer.state.watching) expect({ type: event.type, motion: underWay(answer.state), holder: answer.state.holder }).toEqual({ type: "watch", motion: false, holder: null });
+    }
+  });
+  test("one who commands gives the robot up to be watched; it is stopped, and nobody takes it from him", () => {
+    for (const { from, event, answer } of edges) {
+      if (event.type !== "watch" || !event.on || from.watching) continue;
+      if (from.holder !== null && from.holder !== event.who) expect(answer.denied).toBe("lease-taken");
+      else expect(answer.effects).toEqual(underWay(from) ? ["stop"] : []);
     }
   });
   test("one commander: the lease passes only through nobody", () => {

@@ -17,11 +17,15 @@ export interface GuardState {
   readonly trip: "none" | "return-due" | "return-wanted";
   /** Drives are off until reset. */
   readonly emergency: boolean;
+  /** Somebody else moves the robot, and from here it is only looked at: nothing is sent but a person's stop. */
+  readonly watching: boolean;
 }
-export const AT_FIRST: GuardState = { holder: null, pressed: false, link: "up", motion: "at-rest", trip: "none", emergency: false };
+export const AT_FIRST: GuardState = { holder: null, pressed: false, link: "up", motion: "at-rest", trip: "none", emergency: false, watching: false };
 
 export type GuardEvent =
   | { readonly type: "take" | "release" | "press" | "let-go" | "ask" | "confirm" | "reset"; readonly who: string }
+  /** From now on it is only watched, or it may be commanded again. */
+  | { readonly type: "watch"; readonly who: string; readonly on: boolean }
   /** Anyone may stop. */
   | { readonly type: "stop"; readonly emergency: boolean }
   /** The robot stands: the command, the braking or the way back is over. */
@@ -32,7 +36,7 @@ export type GuardEvent =
 /** What must be done at once. "forward": the asked move. "return": move to the last safe pose. */
 export type GuardEffect = "forward" | "return" | "stop" | "emergency-stop";
 /** Why an event was turned down. */
-export type GuardDenial = "lease-taken" | "no-lease" | "dead-man" | "link-lost" | "link-unconfirmed" | "emergency" | "return-wanted" | "busy" | "still-moving";
+export type GuardDenial = "lease-taken" | "no-lease" | "dead-man" | "link-lost" | "link-unconfirmed" | "emergency" | "return-wanted" | "busy" | "still-moving" | "watching";
 
 export interface GuardAnswer { readonly state: GuardState; readonly effects: readonly GuardEffect[]; readonly denied?: GuardDenial }
 export interface GuardRules {
@@ -42,7 +46,7 @@ export interface GuardRules {
 
 /** All that motion needs. Holds in every state in which the robot is moved. */
 export const mayMove = (state: GuardState, rules: GuardRules): boolean =>
-  state.holder !== null && (state.pressed || !rules.deadMan) && state.link === "up" && !state.emergency;
+  !state.watching && state.holder !== null && (state.pressed || !rules.deadMan) && state.link === "up" && !state.emergency;
 
 export function guardStep(state: GuardState, event: GuardEvent, rules: GuardRules): GuardAnswer {
   const underWay = state.motion === "moving" || state.motion === "returning";
@@ -53,7 +57,12 @@ export function guardStep(state: GuardState, event: GuardEvent, rules: GuardRule
   const deny = (denied: GuardDenial): GuardAnswer => ({ state, effects: [], denied });
   const to = (change: Partial<GuardState>, ...effects: GuardEffect[]): GuardAnswer => ({ state: { ...state, ...change }, effects });
 
+  if (state.watching && onlyCommands(event)) return deny("watching");
   switch (event.type) {
+    case "watch":
+      if (!event.on) return to({ watching: false });
+      if (state.holder !== null && state.holder !== event.who) return deny("lease-taken");
+      return { ...halted({}, underWay ? ["stop"] : []), state: { ...halted({}, []).state, holder: null, pressed: false, trip: "none", watching: true } };
     case "take":
       return state.holder === null ? to({ holder: event.who, pressed: false }) : state.holder === event.who ? to({}) : deny("lease-taken");
     case "release":
@@ -87,9 +96,10 @@ export function guardStep(state: GuardState, event: GuardEvent, rules: GuardRule
       // On the way back it is near by nature; at rest nothing needs stopping.
       return state.motion === "moving" ? to({ motion: "stopping", trip: "return-due" }, "stop") : to({});
     case "link-lost":
-      return halted({ link: "lost" }, ["stop"]);
+      // What is only watched was set going by others: a line that breaks here does not stop it there.
+      return state.watching ? to({ link: "lost" }) : halted({ link: "lost" }, ["stop"]);
     case "link-back":
-      return state.link === "lost" ? to({ link: "unconfirmed" }) : to({});
+      return state.link === "lost" ? to({ link: state.watching ? "up" : "unconfirmed" }) : to({});
   }
 
   function allowed(who: string, then: () => GuardAnswer): GuardAnswer {
@@ -97,6 +107,10 @@ export function guardStep(state: GuardState, event: GuardEvent, rules: GuardRule
     return denied ? deny(denied) : then();
   }
 }
+
+/** Whether only one who commands says that. */
+const onlyCommands = ({ type }: GuardEvent): boolean =>
+  type === "take" || type === "release" || type === "press" || type === "let-go" || type === "ask" || type === "confirm" || type === "reset";
 
 function whyNot(state: GuardState, who: string, rules: GuardRules): GuardDenial | null {
   if (state.link === "lost") return "link-lost";

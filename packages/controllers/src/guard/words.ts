@@ -14,10 +14,13 @@ export function denialRefusal(denied: GuardDenial, robot: string, holder: string
     case "emergency": return { code: "safety.emergency-stop", sentence: `The drives of ${robot} are off after an emergency stop.`, hint: "Reset the robot, then command the move again." };
     case "return-wanted": return { code: "guard.return-wanted", sentence: `${robot} stands too near to something.`, hint: "Confirm, and it goes back to its last safe pose." };
     case "busy": return { code: "controller.busy", sentence: `${robot} is still carrying out the command before.`, hint: "Wait until it is done, or stop it." };
+    case "watching": return onlyWatched(robot);
     case "still-moving": return { code: "controller.braking", sentence: `${robot} has not come to rest yet.`, hint: "Reset it when it stands." };
   }
 }
 
+export const onlyWatched = (robot: string): Refusal => ({ code: "guard.watching", sentence: `${robot} was opened to watch: nothing is commanded from here.`, hint: "Take it to command first. A stop works all the same." });
+export const watchedLinkDown = (robot: string, silent_s: number): Refusal => ({ code: "guard.link-lost", sentence: `Nothing was heard of ${robot} for ${Math.round(silent_s * 1000)} ms. It is only watched and was not stopped.`, hint: "It is looked for by itself." });
 export const targetTooNear: Refusal = { code: "guard.clearance", sentence: "At the target the robot would be nearer to something than the clearance margin.", hint: CLEARANCE_HINT };
 export const cameTooNear: Refusal = { code: "guard.clearance", sentence: "The robot came within the clearance margin of something and was stopped.", hint: "It goes back to its last safe pose. " + CLEARANCE_HINT };
 export const linkWentDown = (robot: string, silent_s: number): Refusal => ({ code: "guard.link-lost", sentence: `Nothing was heard of ${robot} for ${Math.round(silent_s * 1000)} ms; it was told to stop.`, hint: "Mend the link, then confirm that motion is wanted." });

@@ -10,4 +10,5 @@ export const KUKA_CANNOT: readonly Cannot[] = [
 export const KUKA_RSI_CANNOT: readonly Cannot[] = [
   { row: "T-17", because: "The driver makes the path itself, at the speeds of the robot it was handed: what a virtual controller is slowed down to is not asked for." },
   { row: "payload", because: "The driver sends no loads: set them at the controller." },
+  { row: "watch", because: "RSI is a loop of the one who corrects the robot; to look at it alone use the variables." },
 ];

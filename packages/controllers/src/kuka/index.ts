@@ -8,4 +8,4 @@ export { axisConfig, readRsiConfig, rsiConfigText, type RsiConfig } from "./code
 export type { RsiOptions } from "./virtual/rsi-run.ts";
 export type { KukaFaults } from "./virtual/faults.ts";
 export type { KukaMode } from "./virtual/machine.ts";
-export { kuka } from "./brand.ts";
+export { kuka, kukaOverRsi } from "./brand.ts";

@@ -175,4 +175,15 @@ describe("the driver over RSI", () => {
     expect(codeOf(await real.moveToZero())).toBe("safety.guard-stop");
     expect(farthest(real.jointAngles(), kuka.arm.jointAngles())).toBeLessThanOrEqual(ACCURACY_RAD);
   });
+
+  test("X-41 KUKA over RSI: a stop reaches a text that the controller runs", async () => {
+    const bench = await driven(), { real, kuka, scheduler } = bench;
+    const running = real.runText!([{ name: "JOB.src", text: "DEF JOB( )\nPTP 60 -90 90 0 0 0\nPTP -60 -90 90 0 0 0\nEND\n", lines: [] }]);
+    await scheduler.elapse(0.6);
+    expect(kuka.arm.isMoving()).toBe(true);
+    real.stop();
+    await scheduler.elapse(kuka.arm.brakingTime_s + 0.06);
+    expect(kuka.arm.isMoving()).toBe(false);
+    expect((await ended(bench, running)).kind).toBe("stopped");
+  });
 });

@@ -17,6 +17,8 @@ export interface FaceOptions {
   readonly host: string;
   readonly ports?: PortNumbers;
   readonly data?: ControllerData;
+  /** Whether the robot is only watched now: nothing that takes anything from whoever commands it is sent then. */
+  readonly isWatched?: () => boolean;
 }
 export interface BrandVirtualOptions extends FaceOptions {
   /** Executes a text of the brand's own language; see `Brand.dialect`. */

@@ -73,6 +73,67 @@ describe("a driver", () => {
     expect(real.jointAngles()).toEqual(rest);
   });
 
+  test("X-41 before a silent link is given up the robot is told to stop once more: the line may be good in that direction", async () => {
+    const { scheduler, face, real } = await bench(), moving = real.moveJoints(shifted(1));
+    await scheduler.elapse(0.2);
+    face.silent = true;
+    await scheduler.elapse(0.1);
+    expect((await moving).kind).toBe("stopped");
+    await scheduler.elapse(1);
+    expect(face.virtual.isMoving()).toBe(false);
+    expect(face.virtual.jointAngle(1)).toBeLessThan(shifted(1)[0]! - 0.1);
+    // Nobody moved it, and nothing is said to it.
+    face.silent = false;
+    await scheduler.elapse(2);
+    void face.virtual.moveJoints(shifted(0));
+    await scheduler.elapse(0.1);
+    face.silent = true;
+    await scheduler.elapse(0.2);
+    expect(real.isConnected).toBe(false);
+    expect(face.virtual.isMoving()).toBe(true);
+  });
+
+  test("T-47 a controller that counts from its beginning at every connection is heard from the first state of the next one", async () => {
+    const { scheduler, face, real } = await bench();
+    await scheduler.elapse(5);
+    face.silent = true;
+    face.breakLine();
+    await scheduler.elapse(0.27);
+    expect(real.isConnected).toBe(true);
+    let heard = 0;
+    real.onSample(() => { heard++; });
+    for (let sequence = 1; sequence <= 5; sequence++) face.say({ sequence, time_s: 5.3 + sequence / 100 });
+    expect(heard).toBe(5);
+  });
+
+  test("T-47 states that hold no pose, or none that is newer, are as good as silence", async () => {
+    const nonsense = shifted(0).map((q, i) => i === 2 ? 1e12 : q), old = { sequence: 3, time_s: 5 };
+    for (const said of [{ q_rad: Float64Array.from(nonsense) }, { q_rad: new Float64Array(6).fill(NaN) }, old]) {
+      const { scheduler, face, real } = await bench();
+      await scheduler.elapse(5);
+      const rest = real.jointAngles();
+      face.silent = true;
+      for (let i = 1; i < 30; i++) { face.say({ sequence: 10_000 + i, time_s: 6 + i / 100, ...said }); await scheduler.elapse(0.005); }
+      expect(real.isConnected).toBe(false);
+      expect(real.jointAngles()).toEqual(rest);
+    }
+  });
+
+  test("T-47 a robot that was there is asked twice before it is taken for another one", async () => {
+    const { scheduler, face, real } = await bench();
+    face.failing = { kind: "failed", again: false, why: { code: "link.other-robot", sentence: "An RX90L was expected; an RX9OL answers.", hint: "Choose the robot that is there." } };
+    face.breakLine();
+    await scheduler.elapse(0.3);
+    expect(real.link.state).toBe("lost");
+    face.failing = null;
+    await scheduler.elapse(1);
+    expect(real.link.state).toBe("open");
+    face.failing = { kind: "failed", again: false, why: { code: "link.other-robot", sentence: "An RX90L was expected; an RX60L answers.", hint: "Choose the robot that is there." } };
+    face.breakLine();
+    await scheduler.elapse(2);
+    expect([real.link.state, real.link.sentence]).toEqual(["closed", "An RX90L was expected; an RX60L answers."]);
+  });
+
   test("who slept himself does not take the silence for the robot's", async () => {
     const clock = manualScheduler(), face = nearFace(robot, clock), links: string[] = [];
     let asleep = false;

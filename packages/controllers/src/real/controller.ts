@@ -1,5 +1,5 @@
 import {
-  explainReach, solveAll, type CommandOutcome, type EmittedFile, type JointSample, type Pose, type RealController, type Refusal, type Scheduler,
+  explainReach, solveAll, type CommandOutcome, type EmittedFile, type HandedText, type JointSample, type Pose, type RealController, type Refusal, type Scheduler,
   type Signals, type Step,
 } from "@twincell/core";
 import { listeners } from "../listeners.ts";
@@ -38,6 +38,7 @@ export function createRealController(options: RealOptions): RealController {
   let command: Command | null = null, isClosed = false, said = "", moving = false, standing = 0, override = 1;
 
   const link = keepLink(face, scheduler, name, {
+    losing() { if (command) face.stop(false); },
     lost(why) { end({ kind: "stopped", why }); },
     sample(sample) {
       q_rad.set(sample.q_rad);
@@ -123,7 +124,7 @@ export function createRealController(options: RealOptions): RealController {
   };
 
   options.initialize?.();
-  const { runText } = face;
+  const { runText, handText } = face;
   return {
     kind: "real", name, robot, signals, watchdog: face.watchdog, link: link.report,
     get isConnected() { return link.isOpen; },
@@ -182,6 +183,22 @@ export function createRealController(options: RealOptions): RealController {
       async runText(files: readonly EmittedFile[]): Promise<CommandOutcome> {
         const why = unfit();
         return why ? refuse(why) : carryOut(mine => { mine.moves = true; return runText.call(face, files); });
+      },
+    } : {}),
+    ...(handText ? {
+      async handText(files: readonly EmittedFile[]): Promise<HandedText> {
+        const why = unfit();
+        if (why) { said = why.sentence; return { kind: "refused", why }; }
+        const handed = await handText.call(face, files);
+        if (handed.kind === "refused") { said = handed.why.sentence; return handed; }
+        return {
+          kind: "handed", drop: () => { handed.drop(); },
+          start() {
+            const unready = unfit();
+            if (unready) { handed.drop(); return Promise.resolve(refuse(unready)); }
+            return carryOut(mine => { mine.moves = true; return handed.start(); });
+          },
+        };
       },
     } : {}),
   };

@@ -1,4 +1,4 @@
-import type { CommandOutcome, EmittedFile, JointSample, Pose, Refusal, Robot, Watchdog } from "@twincell/core";
+import type { CommandOutcome, EmittedFile, HandedText, JointSample, Pose, Refusal, Robot, Watchdog } from "@twincell/core";
 
 interface MotionBase {
   /** Where it ends [rad]: for a line or an arc the posture that it leads to. */
@@ -56,4 +56,6 @@ export interface Face {
   setPayload?(mass_kg: number, center_m: readonly [number, number, number]): Refusal | null;
   /** Hands over a program text and runs it to its end. */
   runText?(files: readonly EmittedFile[]): Promise<CommandOutcome>;
+  /** The same in two: the controller has it, and nothing moves before it is started. A stop in between ends it. */
+  handText?(files: readonly EmittedFile[]): Promise<HandedText>;
 }

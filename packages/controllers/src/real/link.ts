@@ -1,4 +1,4 @@
-import type { CommandOutcome, JointSample, LinkReport, LinkState, Refusal, Scheduler } from "@twincell/core";
+import type { CommandOutcome, JointSample, LinkReport, LinkState, Refusal, Robot, Scheduler } from "@twincell/core";
 import { listeners } from "../listeners.ts";
 import type { Face } from "./face.ts";
 import { Meter } from "./meter.ts";
@@ -8,6 +8,11 @@ import { cameLate, noAnswer, notOpen } from "./words.ts";
 const FIRST_PAUSE_S = 0.25, LONGEST_PAUSE_S = 8;
 /** An attempt that says nothing for this long has failed [s]. */
 const ATTEMPT_S = 10;
+/** A robot may stand beyond a limit; a joint that says so of more than a turn, or a metre, says no angle [rad, m]. */
+const BEYOND = 2 * Math.PI;
+const isPose = (q_rad: ArrayLike<number>, { arm }: Robot): boolean => arm.joints.every(({ limits }, i) => q_rad[i]! >= limits.lower_rad - BEYOND && q_rad[i]! <= limits.upper_rad + BEYOND);
+/** A robot that was there does not become another one by itself: what says so was spoilt on its way, unless it says so again. */
+const HEARD_TWICE = 1;
 /** How often the watch looks, as a part of the time after which samples are stale. */
 const LOOKS = 4;
 
@@ -21,6 +26,8 @@ export interface Link {
 export interface LinkListener {
   /** A sample that is whole and newer than the one before. */
   sample(lent: Omit<JointSample, "step">): void;
+  /** Nothing was heard for too long, and the link is given up next: the last word, should the line still be good in that direction. */
+  losing(): void;
   /** The link was open and is not any more. */
   lost(why: Refusal): void;
 }
@@ -31,7 +38,7 @@ export interface LinkListener {
  */
 export function keepLink(face: Face, scheduler: Scheduler, name: string, listener: LinkListener): Link {
   const meter = new Meter(), changes = listeners<LinkReport>();
-  let state: LinkState = "closed", sentence = notOpen(name).sentence, attempts = 0, roundTrip_s = NaN, heard_s = 0, life = 0;
+  let state: LinkState = "closed", sentence = notOpen(name).sentence, attempts = 0, roundTrip_s = NaN, heard_s = 0, life = 0, wasThere = false;
   let stopWaiting: () => void = () => { /* Nothing waits yet. */ }, giveUp: () => void = stopWaiting;
 
   const report: LinkReport = {
@@ -68,7 +75,7 @@ export function keepLink(face: Face, scheduler: Scheduler, name: string, listene
       looked_s = now_s;
       // After a stall of our own what came meanwhile is still to be read: it is looked again before anybody is blamed.
       if (wasAway) return;
-      if (silent_s > face.stale_s) lose(cameLate(name, silent_s));
+      if (silent_s > face.stale_s) { listener.losing(); lose(cameLate(name, silent_s)); }
     });
   }
 
@@ -76,13 +83,16 @@ export function keepLink(face: Face, scheduler: Scheduler, name: string, listene
     const mine = ++life;
     attempts++;
     become("connecting", `${name} is being connected, attempt ${attempts}.`);
+    meter.begin();
     const isMine = (): boolean => mine === life;
     const opening = face.open({
       sample(lent) {
         if (!isMine()) return;
-        heard_s = scheduler.now_s();
-        for (const angle of lent.q_rad) if (!Number.isFinite(angle)) return;
-        if (meter.take(lent.sequence, lent.time_s, heard_s)) listener.sample(lent);
+        // What is no pose, or is older than what is known, is not heard: a controller that says nothing else is as good as silent.
+        const now_s = scheduler.now_s();
+        if (!isPose(lent.q_rad, face.robot) || !meter.take(lent.sequence, lent.time_s, now_s)) return;
+        heard_s = now_s;
+        listener.sample(lent);
       },
       roundTrip(seconds) { if (isMine()) roundTrip_s = seconds; },
       lost(says) { if (isMine() && state === "open") lose({ code: "link.lost", sentence: says, hint: "It is tried again by itself; motion is not." }); },
@@ -92,6 +102,7 @@ export function keepLink(face: Face, scheduler: Scheduler, name: string, listene
     if (!isMine()) return { kind: "refused", why: notOpen(name) };
     if (opened?.kind === "open") {
       attempts = 0;
+      wasThere = true;
       heard_s = scheduler.now_s();
       become("open", "");
       watch();
@@ -100,7 +111,7 @@ export function keepLink(face: Face, scheduler: Scheduler, name: string, listene
     life++;
     face.close();
     const why = opened?.why ?? noAnswer(name, ATTEMPT_S);
-    if (opened?.again === false) { stopWaiting(); become("closed", why.sentence); } else { become("lost", why.sentence); again(); }
+    if (opened?.again === false && (!wasThere || attempts > HEARD_TWICE)) { stopWaiting(); become("closed", why.sentence); } else { become("lost", why.sentence); again(); }
     return { kind: "refused", why };
   }
 
@@ -110,6 +121,7 @@ export function keepLink(face: Face, scheduler: Scheduler, name: string, listene
     async open() {
       if (state === "open") return { kind: "done" };
       attempts = 0;
+      wasThere = false;
       meter.reset();
       return attempt();
     },

@@ -49,12 +49,17 @@ export class Meter {
     return true;
   }
 
+  /** A connection begins: who counts what it sent may count from its beginning, on another clock. */
+  begin(): void {
+    this.least_s = this.leastBefore_s = Infinity;
+    this.sequence = this.time_s = NaN;
+    this.windowFrom_s = -Infinity;
+  }
   /** For a link that was opened anew. */
   reset(): void {
     Object.assign(this.now, { rate_Hz: 0, late_s: 0, missing: 0 });
-    this.least_s = this.leastBefore_s = Infinity;
-    this.sequence = this.time_s = this.second = NaN;
-    this.windowFrom_s = -Infinity;
+    this.begin();
+    this.second = NaN;
     this.count = 0;
   }
 }

@@ -1,2 +1,3 @@
 export * from "./station.ts";
 export * from "./open.ts";
+export { START_WINDOW_S, START_WITHIN_S, startTogether, type GroupEnd, type GroupMember, type Startable, type StartedWords } from "./together.ts";

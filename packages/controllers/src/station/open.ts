@@ -1,9 +1,11 @@
-import { planProgram, unrolled, type CommandOutcome, type Dialect, type OperatingMode, type Pose, type Program, type Refusal, type Robot, type Scheduler, type Signals, type Step } from "@twincell/core";
+import { planProgram, unrolled, type CommandOutcome, type Dialect, type OperatingMode, type PlanAnswer, type Pose, type Program, type Refusal, type Robot, type Scheduler, type Signals, type Step } from "@twincell/core";
 import { createRealController, type Brand, type BrandVirtual, type ControllerData, type PortNumbers } from "../real/index.ts";
 import { memoryNetwork, type Network } from "../transport/index.ts";
 import { withLines } from "../runner/index.ts";
+import type { SharedCell } from "../cell/index.ts";
 import type { Seat } from "../guard/index.ts";
-import { createStation, type Station } from "./station.ts";
+import { DONE, refused } from "../outcomes.ts";
+import { createStation, type Armed, type Station, type StationJob } from "./station.ts";
 
 export interface OpenOptions {
   readonly id: string;
@@ -16,8 +18,12 @@ export interface OpenOptions {
   readonly worldFromBase?: Pose<"world", "base">;
   /** Where the controller is. Left out, a virtual one is started beside its driver, in memory. */
   readonly at?: { readonly network: Network; readonly host: string; readonly ports?: PortNumbers; readonly data?: ControllerData };
+  /** The cell it shares with other robots, and where it stands there; `worldFromBase` is where its programs take it to stand. */
+  readonly shared?: { readonly cell: SharedCell; readonly stand: Pose<"world", "base"> };
   readonly deadMan?: boolean;
   readonly heartbeat_s?: number;
+  /** Opened to watch: whoever moves the robot is left alone, and from here it is not commanded. */
+  readonly watching?: boolean;
 }
 
 /** What a person does before a virtual cabinet. */
@@ -40,7 +46,11 @@ export interface BrandStation extends Station {
   readonly plug: ((pulled: boolean) => void) | null;
   /** Runs a program from that seat, compared with its plan all the way; as text where wanted and taken. */
   run(seat: Seat, program: Program, asText: boolean): Promise<CommandOutcome>;
+  /** The same in two, for a start together with others: what may be refused is told before anything moves. */
+  prepare(seat: Seat, program: Program, asText: boolean): Promise<Armed>;
   stop(emergency: boolean): void;
+  /** Only to watch it from now on, or to command it again. */
+  watch(seat: Seat, on: boolean): Promise<CommandOutcome>;
 }
 export type OpenedBrand = { readonly kind: "opened"; readonly station: BrandStation } | { readonly kind: "refused"; readonly why: Refusal };
 
@@ -50,6 +60,8 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
   if (robot.vendor !== brand.vendor) {
     return { kind: "refused", why: { code: "station.other-brand", sentence: `${robot.name} is a robot of ${robot.vendor}; controllers of ${brand.name} drive those of ${brand.vendor}.`, hint: "Choose a robot of that brand." } };
   }
+  const deaf = brand.cannot.find(({ row }) => row === "watch");
+  if (deaf && options.watching === true) return cannotWatch(brand.name, deaf.because);
   const near = options.at === undefined ? memoryNetwork(scheduler) : null, network = options.at?.network ?? near!, host = options.at?.host ?? "127.0.0.1";
   let virtual: BrandVirtual | null = null;
   if (near) {
@@ -58,13 +70,19 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
     virtual = started.virtual;
   }
   const ports = options.at?.ports ?? virtual?.ports, name = options.name ?? `${near ? "Virtual " : ""}${robot.name}`;
-  const face = brand.face({ robot, scheduler, network, host, ...(ports ? { ports } : {}), ...(options.at?.data ? { data: options.at.data } : {}) });
+  let isWatched = options.watching === true;
+  const face = brand.face({ robot, scheduler, network, host, ...(ports ? { ports } : {}), ...(options.at?.data ? { data: options.at.data } : {}), isWatched: () => isWatched });
   const controller = createRealController({ face, scheduler, name, ...(worldFromBase ? { worldFromBase } : {}) });
+  const place = options.shared?.cell.join({ id: options.id, name, robot, worldFromBase: options.shared.stand, ...(virtual ? { brakingTime_s: virtual.brakingTime_s } : {}) });
   const station = createStation({
-    controller, scheduler, name, silence_s: face.stale_s,
+    controller, scheduler, name, silence_s: face.stale_s, ...(place ? { place } : {}), ...(options.watching === undefined ? {} : { watching: options.watching }),
     ...(worldFromBase ? { worldFromBase } : {}), ...(virtual ? { brakingTime_s: virtual.brakingTime_s } : {}),
     ...(options.heartbeat_s === undefined ? {} : { heartbeat_s: options.heartbeat_s }),
     deadMan: options.deadMan ?? near === null,
+  });
+  const layOut = (program: Program): PlanAnswer => planProgram(program, robot, { start_rad: controller.jointAngles(), ...(worldFromBase ? { worldFromBase } : {}) });
+  const jobOf = (program: Program, asText: boolean, answer: PlanAnswer): StationJob => ({
+    program, steps: () => atTerminals(program, brand, controller.signals), ...(asText ? { dialect } : {}), ...(answer.kind === "planned" ? { plan: answer.plan } : {}),
   });
   return {
     kind: "opened",
@@ -77,12 +95,23 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
       pendant: virtual && (act => atCabinet(virtual, act)),
       plug: near && (pulled => { near.weather.frozen = pulled; }),
       stop(emergency) { station.guard.stop(emergency); },
-      run(seat, program, asText) {
-        const answer = planProgram(program, robot, { start_rad: controller.jointAngles(), ...(worldFromBase ? { worldFromBase } : {}) });
-        return station.carryOut(seat, {
-          program, steps: () => atTerminals(program, brand, controller.signals),
-          ...(asText ? { dialect } : {}), ...(answer.kind === "planned" ? { plan: answer.plan } : {}),
-        });
+      async watch(seat, on) {
+        const { state } = station.guard;
+        if (on === state.watching) return DONE;
+        if (deaf && on) return cannotWatch(brand.name, deaf.because);
+        if (on) {
+          const turned = seat.watch(true);
+          if (turned.kind !== "done") return turned;
+        }
+        isWatched = on;
+        const rejoined = await rejoin(station);
+        return on ? rejoined : rejoined.kind === "done" ? seat.watch(false) : rejoined;
+      },
+      run: (seat, program, asText) => station.carryOut(seat, jobOf(program, asText, layOut(program))),
+      async prepare(seat, program, asText) {
+        const answer = layOut(program);
+        if (answer.kind === "stuck") return { kind: "refused", why: { code: answer.stuck.code, sentence: answer.stuck.sentence, hint: answer.stuck.hint } };
+        return station.arm(seat, jobOf(program, asText, answer));
       },
       close() {
         station.close();
@@ -101,6 +130,23 @@ function* atTerminals(program: Program, brand: Brand, signals?: Signals): Genera
   };
   const read = signals && { read: (name: string) => signals.read(terminal(name)), write: (name: string, value: boolean | number) => { signals.write(terminal(name), value); } };
   for (const step of unrolled(program, read)) yield withLines(step, terminal);
+}
+
+const cannotWatch = (brand: string, because: string): { readonly kind: "refused"; readonly why: Refusal } => ({ kind: "refused", why: { code: "station.no-watching", sentence: `Controllers of ${brand} cannot only be watched: ${because}`, hint: "Open it to command; it moves only when it is told to." } });
+
+/** Closes an open link and opens it again; resolves with the first state that comes over it. */
+async function rejoin(station: Station): Promise<CommandOutcome> {
+  if (station.link?.state !== "open") return DONE;
+  station.disconnect();
+  const connected = await station.connect();
+  if (connected.kind !== "done") return connected;
+  return new Promise(resolve => {
+    const offs = [
+      station.onSample(() => { end(DONE); }),
+      station.onLink(({ state, sentence }) => { if (state !== "open") end(refused({ code: "link.lost", sentence, hint: "Connect it, then try again." })); }),
+    ];
+    const end = (outcome: CommandOutcome): void => { for (const off of offs) off(); resolve(outcome); };
+  });
 }
 
 async function atCabinet({ pendant, reboot }: BrandVirtual, act: CabinetAct): Promise<CommandOutcome> {

@@ -1,4 +1,5 @@
-import { withBranches, type CommandOutcome, type Dialect, type EmittedFile, type JointSample, type LinkReport, type Plan, type Pose, type Program, type RealController, type Refusal, type RobotController, type Scheduler, type Step } from "@twincell/core";
+import { samplePlan, withBranches, type CommandOutcome, type Dialect, type EmittedFile, type JointSample, type LinkReport, type Plan, type Pose, type Program, type RealController, type Refusal, type RobotController, type Scheduler, type Step } from "@twincell/core";
+import type { Place } from "../cell/index.ts";
 import { createGuard, type Guard, type GuardState, type Seat } from "../guard/index.ts";
 import { listeners } from "../listeners.ts";
 import { createTwin, PlanFollower, type Deviation, type Twin } from "../twin/index.ts";
@@ -14,6 +15,10 @@ export interface StationOptions {
   readonly isSafe?: (q_rad: Float64Array) => boolean;
   /** Motion only while the commander keeps a switch pressed; see the guard. */
   readonly deadMan?: boolean;
+  /** Its place among the other robots of the cell. */
+  readonly place?: Place;
+  /** Begins as one that is only watched; see the guard. */
+  readonly watching?: boolean;
   /** Without a sample for this long the link counts as lost; see the guard. */
   readonly silence_s?: number;
   readonly heartbeat_s?: number;
@@ -30,6 +35,11 @@ export interface StationJob {
   readonly plan?: Plan;
 }
 
+/** A program that a controller has and is ready for. */
+export type Armed =
+  | { readonly kind: "armed"; /** Its program begins with a motion: whether it begins can be seen. */ readonly movesAtOnce: boolean; /** Why it would be turned down now. */ readiness(): Refusal | null; start(): Promise<CommandOutcome>; /** It is not started after all. */ drop(): void }
+  | { readonly kind: "refused"; readonly why: Refusal };
+
 /** One controller of the cell as the studio has it: behind its guard, with its twin, its link and how far it is from what it should do. */
 export interface Station {
   readonly name: string;
@@ -44,6 +54,8 @@ export interface Station {
   disconnect(): void;
   /** Runs a program from that seat: as the controller's own text where it takes one. */
   carryOut(seat: Seat, job: StationJob): Promise<CommandOutcome>;
+  /** The same in two: everything that may be refused is asked and handed over first, where nothing moves. */
+  arm(seat: Seat, job: StationJob): Promise<Armed>;
   onSample(listen: (lent: JointSample) => void): () => void;
   onLink(listen: (report: LinkReport) => void): () => void;
   onGuard(listen: (state: GuardState) => void): () => void;
@@ -52,13 +64,15 @@ export interface Station {
 }
 
 /** A program as text on its way through the guard: no step of it is taken here. */
-class HandedText implements Iterable<Step> {
-  readonly files: readonly EmittedFile[];
-  constructor(files: readonly EmittedFile[]) { this.files = files; }
+class TextOnItsWay implements Iterable<Step> {
+  readonly start: () => Promise<CommandOutcome>;
+  constructor(start: () => Promise<CommandOutcome>) { this.start = start; }
   [Symbol.iterator](): Iterator<Step> { return [][Symbol.iterator](); }
 }
 
 const ALARM_RAD = Math.PI / 180;
+/** A motion that begins sooner than this and lasts longer is one to be seen [s]. */
+const SOON_S = 0.1;
 
 /**
  * Makes a controller a station. Programs of controllers that take texts are handed over as text and watched; the guard's
@@ -68,16 +82,17 @@ export function createStation(options: StationOptions): Station {
   const { controller, scheduler } = options, { robot } = controller, n = robot.arm.joints.length, alarm_rad = options.alarm_rad ?? ALARM_RAD;
   const name = options.name ?? controller.name, notices = listeners<Refusal>();
   const real: RealController | null = "link" in controller ? controller : null;
-  let follower: PlanFollower | null = null, alarmed = false;
+  let follower: PlanFollower | null = null, alarmed = false, override = 1;
   /** The same controller, which takes a text where steps are asked for. */
   const handing: RobotController = real?.runText === undefined ? controller : {
     ...controller,
     isMoving: () => controller.isMoving(),
-    run: (steps, context) => steps instanceof HandedText ? real.runText!(steps.files) : controller.run(steps, context),
+    run: (steps, context) => steps instanceof TextOnItsWay ? steps.start() : controller.run(steps, context),
   };
   const guard = createGuard({
     controller: handing, scheduler,
     ...(options.flangeFromTcp ? { flangeFromTcp: options.flangeFromTcp } : {}), ...(options.isSafe ? { isSafe: options.isSafe } : {}),
+    ...(options.place ? { place: options.place } : {}), ...(options.watching === undefined ? {} : { watching: options.watching }),
     ...(options.deadMan === undefined ? {} : { deadMan: options.deadMan }), ...(options.silence_s === undefined ? {} : { silence_s: options.silence_s }),
     ...(options.heartbeat_s === undefined ? {} : { heartbeat_s: options.heartbeat_s }), ...(options.brakingTime_s === undefined ? {} : { brakingTime_s: options.brakingTime_s }),
   });
@@ -85,6 +100,7 @@ export function createStation(options: StationOptions): Station {
   const deviation: Deviation = { plan_rad: NaN, command_rad: NaN };
 
   const unwatch = controller.onSample(sample => {
+    ({ override } = sample);
     deviation.plan_rad = follower ? follower.take(sample.q_rad) : NaN;
     deviation.command_rad = sample.target_rad ? largest(sample.q_rad, sample.target_rad, n) : NaN;
     const worst_rad = Math.max(orZero(deviation.plan_rad), orZero(deviation.command_rad));
@@ -94,6 +110,31 @@ export function createStation(options: StationOptions): Station {
   const unlink = real?.onLink(({ state }) => { if (state === "lost") guard.linkLost(); });
   const unnotice = guard.onNotice(why => { notices.call(why); });
 
+  type Said = { readonly kind: "said"; readonly program: Program; readonly files: readonly EmittedFile[] | null } | { readonly kind: "refused"; readonly why: Refusal };
+  /** The program with its postures, and its text where the controller takes texts. */
+  function say(job: StationJob): Said {
+    const program = withBranches(job.program, robot, { where: "needed", ...(options.worldFromBase ? { worldFromBase: options.worldFromBase } : {}) });
+    const written = real?.runText && job.dialect ? job.dialect.emit(program, robot, options.worldFromBase) : null;
+    return written?.kind === "cannot" ? { kind: "refused", why: notEmitted(job.dialect!.name, written.sentence, written.hint) } : { kind: "said", program, files: written?.files ?? null };
+  }
+  /** Lets the robot do it, compared with its plan all the way. */
+  async function follow(seat: Seat, steps: Iterable<Step>, program: Program, plan: Plan | undefined): Promise<CommandOutcome> {
+    const following = plan ? new PlanFollower(plan, n) : null;
+    follower = following;
+    if (options.place && plan && following) {
+      options.place.path = (in_s, out) => {
+        samplePlan(plan, Math.min(plan.duration_s, following.at_s + in_s * override), out);
+        return true;
+      };
+    }
+    try {
+      return await seat.robot.run(steps, program);
+    } finally {
+      follower = null;
+      if (options.place) options.place.path = null;
+    }
+  }
+
   return {
     name, controller, guard, twin, deviation,
     link: real?.link ?? null,
@@ -101,15 +142,27 @@ export function createStation(options: StationOptions): Station {
     connect: () => real?.connect() ?? Promise.resolve(DONE),
     disconnect() { real?.disconnect(); },
     async carryOut(seat, job) {
-      const program = withBranches(job.program, robot, { where: "needed", ...(options.worldFromBase ? { worldFromBase: options.worldFromBase } : {}) });
-      const written = real?.runText && job.dialect ? job.dialect.emit(program, robot, options.worldFromBase) : null;
-      if (written?.kind === "cannot") return { kind: "refused", why: notEmitted(job.dialect!.name, written.sentence, written.hint) };
-      follower = job.plan ? new PlanFollower(job.plan, n) : null;
-      try {
-        return await seat.robot.run(written ? new HandedText(written.files) : job.steps(), program);
-      } finally {
-        follower = null;
+      const said = say(job);
+      if (said.kind === "refused") return said;
+      const { program, files } = said;
+      return follow(seat, files ? new TextOnItsWay(() => real!.runText!(files)) : job.steps(), program, job.plan);
+    },
+    async arm(seat, job) {
+      const why = seat.readiness(), said = say(job);
+      if (why) return { kind: "refused", why };
+      if (said.kind === "refused") return said;
+      const { program, files } = said, handed = files ? await real?.handText?.(files) : undefined;
+      if (handed?.kind === "refused") return handed;
+      if (!handed) {
+        // No step of it is carried out: it only says whether one would be.
+        const unfit = await controller.run([], program);
+        if (unfit.kind !== "done") return { kind: "refused", why: unfit.why };
       }
+      const start = handed ? handed.start : files ? () => real!.runText!(files) : null;
+      return {
+        kind: "armed", movesAtOnce: job.plan?.segments.some(({ kind, start_s, duration_s }) => kind === "motion" && start_s < SOON_S && duration_s > SOON_S) ?? false, readiness: () => seat.readiness(), drop() { handed?.drop(); },
+        start: () => follow(seat, start ? new TextOnItsWay(start) : job.steps(), program, job.plan),
+      };
     },
     onSample: listen => twin.onSample(listen),
     onLink: listen => real?.onLink(listen) ?? (() => undefined),

@@ -1,6 +1,7 @@
 import { seededRandom, type Scheduler } from "@twincell/core";
 import { addressText, type Address, type ByteStream, type DatagramSocket, type Ending, type Network } from "./port.ts";
-import { calm, type Weather } from "./weather.ts";
+import { spoiled } from "./spoil.ts";
+import { calm, type Side, type Weather } from "./weather.ts";
 
 /** How often the memory network looks for what is due [s]. */
 const TICK_S = 0.0005;
@@ -8,6 +9,8 @@ const TICK_S = 0.0005;
 const FREE_PORT = 49_152;
 /** Bytes kept for a listener that is not there yet; more ends the stream. */
 const MOST_UNHEARD = 1 << 20;
+/** A system waits so long for a stream's packet to be confirmed before it sends it again, and so many times as long at most [s]. */
+const RESEND_S = 0.2, MOST_RESENDS = 5;
 
 export interface MemoryNetwork extends Network {
   /** Of everything, both ways. */
@@ -19,7 +22,7 @@ export interface MemoryNetwork extends Network {
   close(): void;
 }
 
-interface Parcel { readonly due_s: number; readonly order: number; readonly line: object; readonly deliver: () => void; readonly bytes: number; readonly datagram: boolean }
+interface Parcel { readonly due_s: number; readonly order: number; readonly line: object; readonly deliver: () => void; readonly bytes: number; readonly datagram: boolean; readonly towards: Side | "both" }
 
 /**
  * A network in memory on a given clock, with weather: for the page, where a virtual controller sits at the other end, and
@@ -29,7 +32,7 @@ interface Parcel { readonly due_s: number; readonly order: number; readonly line
  */
 export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
   const weather = calm(), random = seededRandom(seed);
-  const servers = new Map<string, (stream: ByteStream) => void>(), sockets = new Map<string, (bytes: Uint8Array, from: Address) => void>();
+  const servers = new Map<string, (stream: ByteStream) => void>(), sockets = new Map<string, { readonly receive: (bytes: Uint8Array, from: Address) => void; readonly side: Side }>();
   const cutters = new Set<(halfOpen: boolean) => void>();
   let parcels: Parcel[] = [], order = 0, underWay = 0, nextPort = FREE_PORT;
   /** When the last parcel of a line arrives: none goes past it. */
@@ -42,38 +45,35 @@ export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
   };
 
   /** Puts something on its way. `line` keeps its order; without one it may be overtaken. */
-  const post = (bytes: number, deliver: () => void, line: object | null): void => {
+  const post = (bytes: number, deliver: () => void, line: object | null, towards: Side | "both"): void => {
     let due_s = scheduler.now_s() + weather.delay_s + weather.jitter_s * random();
     if (line) {
+      for (let again = 0; weather.loss > 0 && again < MOST_RESENDS && random() < weather.loss; again++) due_s += RESEND_S;
       due_s = Math.max(due_s, latest.get(line) ?? 0);
       latest.set(line, due_s);
     }
-    parcels.push({ due_s, order: order++, line: line ?? weather, deliver, bytes, datagram: line === null });
+    parcels.push({ due_s, order: order++, line: line ?? weather, deliver, bytes, datagram: line === null, towards });
     underWay += bytes;
   };
 
   const stop = scheduler.every(TICK_S, () => {
     if (parcels.length === 0) return;
-    if (weather.frozen) {
-      for (const parcel of parcels) if (parcel.datagram) underWay -= parcel.bytes;
-      parcels = parcels.filter(parcel => !parcel.datagram);
-      return;
+    if (weather.frozen || weather.deaf !== null) {
+      for (const parcel of parcels) if (parcel.datagram && isHeld(parcel)) underWay -= parcel.bytes;
+      parcels = parcels.filter(parcel => !(parcel.datagram && isHeld(parcel)));
     }
-    const now_s = scheduler.now_s() + 1e-12;
-    const due = parcels.filter(parcel => parcel.due_s <= now_s).sort((a, b) => a.due_s - b.due_s || a.order - b.order);
+    const now_s = scheduler.now_s() + 1e-12, isDue = (parcel: Parcel): boolean => parcel.due_s <= now_s && !isHeld(parcel);
+    const due = parcels.filter(isDue).sort((a, b) => a.due_s - b.due_s || a.order - b.order);
     if (due.length === 0) return;
-    parcels = parcels.filter(parcel => parcel.due_s > now_s);
+    parcels = parcels.filter(parcel => !isDue(parcel));
     for (const parcel of due) { underWay -= parcel.bytes; parcel.deliver(); }
   });
 
-  const spoiled = (bytes: Uint8Array): Uint8Array => {
-    const copy = bytes.slice();
-    if (copy.length > 0 && random() < weather.garbage) copy[Math.floor(random() * copy.length)] = Math.floor(random() * 256);
-    return copy;
-  };
+  /** Whoever calls needs an answer: a connection that is half open is not made. */
+  const isHeld = ({ towards }: Parcel): boolean => weather.frozen || (weather.deaf !== null && (towards === "both" || towards === weather.deaf));
 
   function pair(client: Address, server: Address): readonly [ByteStream, ByteStream] {
-    const one = half(server), two = half(client);
+    const one = half(server, "listener"), two = half(client, "caller");
     one.join(two);
     two.join(one);
     const cut = (halfOpen: boolean): void => {
@@ -87,7 +87,7 @@ export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
     return [one.stream, two.stream];
   }
 
-  function half(peer: Address) {
+  function half(peer: Address, towards: Side) {
     const line = {};
     let hear: ((lent: Uint8Array) => void) | null = null, endHeard: ((ending: Ending) => void) | null = null, ending: Ending | null = null;
     let unheard: Uint8Array[] = [], unheardBytes = 0, waiting = 0, broken = false, over: () => void = () => { /* Nobody asked yet. */ };
@@ -112,11 +112,11 @@ export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
         if (ending || bytes.length === 0) return;
         // Nobody takes them any more, and nobody says so.
         if (broken) { waiting += bytes.length; return; }
-        const whole = spoiled(bytes), step = weather.pieces > 0 ? weather.pieces : whole.length;
+        const whole = spoiled(bytes, weather, random), step = weather.pieces > 0 ? weather.pieces : whole.length;
         for (let at = 0; at < whole.length; at += step) {
           const piece = whole.subarray(at, at + step);
           waiting += piece.length;
-          post(piece.length, () => { waiting -= piece.length; other?.arrive(piece); }, line);
+          post(piece.length, () => { waiting -= piece.length; other?.arrive(piece); }, line, towards);
         }
       },
       onBytes(listen) {
@@ -131,7 +131,7 @@ export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
         if (ending) return;
         ending = { sentence: "The connection was closed here.", byPeer: false };
         over();
-        if (!broken) post(0, () => { other?.end({ sentence: "The other side closed the connection.", byPeer: true }); }, line);
+        if (!broken) post(0, () => { other?.end({ sentence: "The other side closed the connection.", byPeer: true }); }, line, towards);
       },
     };
     return {
@@ -154,7 +154,7 @@ export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
           const [client, server] = pair({ host: "127.0.0.1", port: nextPort++ }, to);
           accept(server);
           resolve({ kind: "connected", stream: client });
-        }, {});
+        }, {}, "both");
       });
     },
     listen(wanted, accept) {
@@ -168,18 +168,19 @@ export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
       if (sockets.has(key)) return Promise.resolve({ kind: "taken", sentence: `${key} is taken.` });
       let hear: ((lent: Uint8Array, from: Address) => void) | null = null;
       const receive = (bytes: Uint8Array, from: Address): void => { hear?.(bytes, from); };
-      sockets.set(key, receive);
+      const own = { receive, side: wanted.port === 0 ? "caller" : "listener" } as const;
+      sockets.set(key, own);
       const socket: DatagramSocket = {
         address: at,
         send(bytes, to) {
-          if (sockets.get(key) !== receive || random() < weather.loss) return;
+          if (sockets.get(key) !== own || random() < weather.loss) return;
           for (let copies = random() < weather.duplicates ? 2 : 1; copies > 0; copies--) {
-            const parcel = spoiled(bytes);
-            post(parcel.length, () => { sockets.get(addressText(to))?.(parcel, at); }, null);
+            const parcel = spoiled(bytes, weather, random);
+            post(parcel.length, () => { sockets.get(addressText(to))?.receive(parcel, at); }, null, sockets.get(addressText(to))?.side ?? "listener");
           }
         },
         onDatagram(listen) { hear = listen; },
-        close() { if (sockets.get(key) === receive) sockets.delete(key); hear = null; },
+        close() { if (sockets.get(key) === own) sockets.delete(key); hear = null; },
       };
       return Promise.resolve({ kind: "bound", socket });
     },

@@ -38,6 +38,25 @@ function watched<T>(promise: Promise<T>): { value: T | undefined } {
 }
 
 describe("UR driver", () => {
+  test("T-26 another driver's robot is watched without taking anything from it: its motion ends, and a stop from here stops it", async () => {
+    const { scheduler, network, driver } = await urBench(), controller = await driver();
+    const watching = createRealController({ face: createUrFace({ robot, scheduler, network, host: HOST, isWatched: () => true }), scheduler }), seen: number[] = [];
+    watching.onSample(({ q_rad }) => { seen.push(q_rad[0]!); });
+    void watching.connect();
+    await scheduler.elapse(0.3);
+    expect(watching.isConnected).toBe(true);
+    const first = watched(controller.moveJoints(REACH));
+    await scheduler.elapse(8);
+    expect(first.value).toEqual({ kind: "done" });
+    expect(seen.at(-1)).toBeCloseTo(REACH[0]!, 9);
+    const second = watched(controller.moveToZero());
+    await scheduler.elapse(0.5);
+    watching.stop();
+    await scheduler.elapse(1);
+    expect(second.value).toMatchObject({ kind: "stopped" });
+    expect(controller.isMoving()).toBe(false);
+  });
+
   test("T-19 is connected while the link is open, and neither before nor after", async () => {
     const { scheduler, network } = await urBench(), controller = createRealController({ face: createUrFace({ robot, scheduler, network, host: HOST }), scheduler });
     expect(controller.isConnected).toBe(false);

@@ -281,11 +281,46 @@ describe("programs on the virtual controller", () => {
   });
 });
 
+describe("the real-time interface", () => {
+  test("T-20 tells every cycle where the robot is, each number at its place in 1220 bytes", async () => {
+    const bench = await urBench(), { got } = await bench.connect("realTime");
+    bench.ur.pendant.setInput("digital_in_3", true);
+    await bench.scheduler.elapse(0.02);
+    const bytes = Uint8Array.from(got), view = new DataView(bytes.buffer), last = bytes.length - 1220, double = (at: number): number => view.getFloat64(last + at);
+    expect([...bytes.subarray(0, 4)]).toEqual([0x00, 0x00, 0x04, 0xc4]);
+    expect(bytes.length % 1220).toBe(0);
+    expect(bytes.length / 1220).toBeGreaterThanOrEqual(9);
+    expect(double(4) - view.getFloat64(last - 1220 + 4)).toBeCloseTo(0.002, 6);
+    const at = (place: number, count: number): number[] => Array.from({ length: count }, (_, i) => double(place + 8 * i));
+    expect(at(252, 6)).toEqual([...bench.ur.state.q_rad]);
+    expect(at(444, 3)).toEqual([...bench.ur.memory.slots.subarray(bench.ur.memory.slotOf("actual_TCP_pose"), bench.ur.memory.slotOf("actual_TCP_pose") + 3)]);
+    // Inputs, robot mode, modes of the joints, safety mode, outputs, state of the program.
+    expect([at(684, 1), at(756, 1), at(764, 6), at(812, 1), at(1044, 1), at(1052, 1)]).toEqual([[8], [ROBOT_MODE.RUNNING], Array(6).fill(253), [SAFETY_MODE.NORMAL], [0], [RUNTIME.STOPPED]]);
+  });
+
+  test("the read-only ports tell the same and take nothing", async () => {
+    const bench = await urBench(), copies = { primaryCopy: "primary", secondaryCopy: "secondary", realTimeCopy: "realTime" } as const;
+    for (const [copy, port] of Object.entries(copies) as [keyof typeof copies, (typeof copies)[keyof typeof copies]][]) {
+      const a = await bench.connect(copy), b = await bench.connect(port);
+      a.got.length = b.got.length = 0;
+      a.stream.send(lineBytes("power off"));
+      a.stream.send(new Uint8Array(1 << 18).fill(97));
+      await bench.scheduler.elapse(0.2);
+      expect(a.got.length, copy).toBeGreaterThan(100);
+      expect(a.got).toEqual(b.got);
+      expect(a.ended()).toBe(false);
+      expect(bench.ur.state.robotMode).toBe(ROBOT_MODE.RUNNING);
+      a.stream.close();
+      b.stream.close();
+    }
+  });
+});
+
 describe("bad input at the virtual controller", () => {
   test("any bytes on any port: logged once, that connection reset or answered, the others and the controller untouched", async () => {
     const bench = await urBench();
     const { times_s } = await receiving(bench);
-    for (const port of ["dashboard", "primary", "secondary", "realTime", "rtde"] as const) {
+    for (const port of Object.keys(UR_PORTS) as (keyof typeof UR_PORTS)[]) {
       for (let seed = 1; seed <= 12; seed++) {
         const random = seededRandom(seed), { stream } = await bench.connect(port), before = bench.log.length;
         for (let i = 0; i < 20; i++) { stream.send(Uint8Array.from({ length: Math.floor(random() * 400) }, () => Math.floor(random() * 256))); await bench.scheduler.elapse(0.002); }

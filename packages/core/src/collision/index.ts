@@ -17,3 +17,4 @@ export * from "./certificate.ts";
 export * from "./matrix.ts";
 export * from "./tip.ts";
 export * from "./watch.ts";
+export * from "./other-arm.ts";

@@ -1,5 +1,6 @@
 import type { GeneralSixGeometry } from "../robots/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
+import { wantedWrist, WRIST_NUMBERS } from "./wrist.ts";
 
 /** Numbers that pass between the steps of the search: kept in an array, since those handed to a function would be allocated. */
 export const THETA6 = 0, CONDITION = 1, THETA1 = 2, THETA2 = 3, THETA3 = 4, MARGIN = 5;
@@ -16,27 +17,12 @@ export interface GeneralSixScratch {
   readonly samples: Float64Array;
 }
 export const generalSixScratch = (): GeneralSixScratch =>
-  ({ wanted: new Float64Array(12), at: new Float64Array(6), turned: new Float64Array(10), stretches: new Float64Array(64), samples: new Float64Array(256) });
+  ({ wanted: new Float64Array(WRIST_NUMBERS), at: new Float64Array(6), turned: new Float64Array(10), stretches: new Float64Array(64), samples: new Float64Array(256) });
 
 /** Puts the wanted wrist into the scratch: baseFromFormula⁻¹ · baseFromFlange · wristFromFlange⁻¹. */
 export function wantWrist(geometry: GeneralSixGeometry, baseFromFlange: Pose, { wanted, turned }: GeneralSixScratch): void {
-  const { baseFromFormula, wristFromFlange, turn, axis4, axis5 } = geometry;
-  const q = baseFromFlange.quaternion, f = wristFromFlange.quaternion, g = baseFromFormula.quaternion;
-  const fx = -f[0], fy = -f[1], fz = -f[2], fw = f[3];
-  const hx = q[3] * fx + q[0] * fw + q[1] * fz - q[2] * fy, hy = q[3] * fy - q[0] * fz + q[1] * fw + q[2] * fx;
-  const hz = q[3] * fz + q[0] * fy - q[1] * fx + q[2] * fw, hw = q[3] * fw - q[0] * fx - q[1] * fy - q[2] * fz;
-  const gx = -g[0], gy = -g[1], gz = -g[2], gw = g[3];
-  const x = gw * hx + gx * hw + gy * hz - gz * hy, y = gw * hy - gx * hz + gy * hw + gz * hx;
-  const z = gw * hz + gx * hy - gy * hx + gz * hw, w = gw * hw - gx * hx - gy * hy - gz * hz;
-  wanted[3] = 1 - 2 * (y * y + z * z); wanted[6] = 2 * (x * y - z * w); wanted[9] = 2 * (x * z + y * w);
-  wanted[4] = 2 * (x * y + z * w); wanted[7] = 1 - 2 * (x * x + z * z); wanted[10] = 2 * (y * z - x * w);
-  wanted[5] = 2 * (x * z - y * w); wanted[8] = 2 * (y * z + x * w); wanted[11] = 1 - 2 * (x * x + y * y);
-  const o = baseFromFormula.position, p = baseFromFlange.position, s = wristFromFlange.position;
-  const ax = p[0] - o[0], ay = p[1] - o[1], az = p[2] - o[2];
-  const bx = 2 * (gy * az - gz * ay), by = 2 * (gz * ax - gx * az), bz = 2 * (gx * ay - gy * ax);
-  wanted[0] = ax + gw * bx + gy * bz - gz * by - wanted[3] * s[0] - wanted[6] * s[1] - wanted[9] * s[2];
-  wanted[1] = ay + gw * by + gz * bx - gx * bz - wanted[4] * s[0] - wanted[7] * s[1] - wanted[10] * s[2];
-  wanted[2] = az + gw * bz + gx * by - gy * bx - wanted[5] * s[0] - wanted[8] * s[1] - wanted[11] * s[2];
+  const { turn, axis4, axis5 } = geometry;
+  wantedWrist(geometry, baseFromFlange, wanted);
   // turn⁻¹ · axis: 4 → at 4 … 6, 5 → at 7 … 9.
   for (let k = 0; k < 2; k++) {
     const axis = k === 0 ? axis4 : axis5, tx = -turn[0], ty = -turn[1], tz = -turn[2], tw = turn[3];

@@ -1,5 +1,6 @@
 import type { OrthoParallelGeometry } from "../robots/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
+import { formulaToJoints } from "./wrist.ts";
 
 /** Slots of the answer: solution s occupies out[6 s] … out[6 s + 5]. */
 export const MAX_BRANCHES = 8;
@@ -13,7 +14,6 @@ const NEAR_SINGULAR_SINE = 1e-3;
 /** A wrist centre this far outside the reach is a rounding of its edge [m]; what is left over stays below 1e-9. */
 const EDGE_M = 4e-10;
 
-const TURN = 2 * Math.PI;
 
 /**
  * Closed-form inverse of an ortho-parallel basis with spherical wrist, all branches.
@@ -111,16 +111,6 @@ export function solveOrthoParallel(geometry: OrthoParallelGeometry, baseFromFlan
       at += 6;
     }
   }
-  for (let joint = 0; joint < 6; joint++) {
-    const sign = signs[joint]!, offset = offsets[joint]!;
-    for (let i = joint; i < at; i += 6) {
-      let angle = sign * (out[i]! + offset);
-      if (angle > Math.PI || angle <= -Math.PI) {
-        angle -= TURN * Math.floor((angle + Math.PI) / TURN);
-        if (angle <= -Math.PI) angle += TURN; else if (angle > Math.PI) angle -= TURN;
-      }
-      out[i] = angle;
-    }
-  }
+  formulaToJoints(out, at, signs, offsets);
   return at / 6;
 }

@@ -1,5 +1,6 @@
 import type { SphericalSevenGeometry } from "../robots/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
+import { formulaToJoints, wantedWrist, WRIST_NUMBERS } from "./wrist.ts";
 
 /** Below this sine of θ2 or θ6 the axes on both sides are one line, and one of the two angles is free to choose. */
 const SINGULAR_SINE = 2e-10;
@@ -9,7 +10,8 @@ const EDGE_M = 4e-10;
 const UPRIGHT_SINE = 1e-9;
 /** An arm that misses the formula is given no straighter start than this [sine]: a stretched one could be refined to neither side. */
 const LEAST_BEND = 0.02;
-const TURN = 2 * Math.PI;
+/** Kept between the steps of one call. */
+const WANTED = new Float64Array(WRIST_NUMBERS);
 
 /**
  * Closed-form inverse of a seven-joint arm with spherical shoulder and wrist, all eight branches of one elbow angle.
@@ -33,25 +35,11 @@ const TURN = 2 * Math.PI;
  *      With Joint Limits, IEEE Transactions on Robotics 24 (2008).
  */
 export function solveSphericalSeven(geometry: SphericalSevenGeometry, baseFromFlange: Pose, elbow_rad: number, out: Float64Array, near?: ArrayLike<number>): number {
-  const { c3_m: c3, c5_m: c5, signs, offsets_rad: offsets, baseFromFormula, wristFromFlange } = geometry;
+  const { c3_m: c3, c5_m: c5, signs, offsets_rad: offsets } = geometry;
 
-  // Wanted wrist in the formula frame: baseFromFormula⁻¹ · baseFromFlange · wristFromFlange⁻¹.
-  const q = baseFromFlange.quaternion, f = wristFromFlange.quaternion, g = baseFromFormula.quaternion;
-  const fx = -f[0], fy = -f[1], fz = -f[2], fw = f[3];
-  const hx = q[3] * fx + q[0] * fw + q[1] * fz - q[2] * fy, hy = q[3] * fy - q[0] * fz + q[1] * fw + q[2] * fx;
-  const hz = q[3] * fz + q[0] * fy - q[1] * fx + q[2] * fw, hw = q[3] * fw - q[0] * fx - q[1] * fy - q[2] * fz;
-  const gx = -g[0], gy = -g[1], gz = -g[2], gw = g[3];
-  const x = gw * hx + gx * hw + gy * hz - gz * hy, y = gw * hy - gx * hz + gy * hw + gz * hx;
-  const z = gw * hz + gx * hy - gy * hx + gz * hw, w = gw * hw - gx * hx - gy * hy - gz * hz;
-  const r11 = 1 - 2 * (y * y + z * z), r12 = 2 * (x * y - z * w), r13 = 2 * (x * z + y * w);
-  const r21 = 2 * (x * y + z * w), r22 = 1 - 2 * (x * x + z * z), r23 = 2 * (y * z - x * w);
-  const r31 = 2 * (x * z - y * w), r32 = 2 * (y * z + x * w), r33 = 1 - 2 * (x * x + y * y);
-  const o = baseFromFormula.position, p = baseFromFlange.position, s = wristFromFlange.position;
-  const ax = p[0] - o[0], ay = p[1] - o[1], az = p[2] - o[2];
-  const bx = 2 * (gy * az - gz * ay), by = 2 * (gz * ax - gx * az), bz = 2 * (gx * ay - gy * ax);
-  const px = ax + gw * bx + gy * bz - gz * by - r11 * s[0] - r12 * s[1] - r13 * s[2];
-  const py = ay + gw * by + gz * bx - gx * bz - r21 * s[0] - r22 * s[1] - r23 * s[2];
-  const pz = az + gw * bz + gx * by - gy * bx - r31 * s[0] - r32 * s[1] - r33 * s[2];
+  wantedWrist(geometry, baseFromFlange, WANTED);
+  const px = WANTED[0]!, py = WANTED[1]!, pz = WANTED[2]!;
+  const r11 = WANTED[3]!, r21 = WANTED[4]!, r31 = WANTED[5]!, r12 = WANTED[6]!, r22 = WANTED[7]!, r32 = WANTED[8]!, r13 = WANTED[9]!, r23 = WANTED[10]!, r33 = WANTED[11]!;
 
   const r2 = px * px + py * py + pz * pz, r = Math.sqrt(r2);
   // An arm that misses the formula may reach where the formula does not: a start is given for it to be refined.
@@ -107,17 +95,7 @@ export function solveSphericalSeven(geometry: SphericalSevenGeometry, baseFromFl
       }
     }
   }
-  for (let joint = 0; joint < 7; joint++) {
-    const sign = signs[joint]!, offset = offsets[joint]!;
-    for (let i = joint; i < at; i += 7) {
-      let angle = sign * (out[i]! + offset);
-      if (angle > Math.PI || angle <= -Math.PI) {
-        angle -= TURN * Math.floor((angle + Math.PI) / TURN);
-        if (angle <= -Math.PI) angle += TURN; else if (angle > Math.PI) angle -= TURN;
-      }
-      out[i] = angle;
-    }
-  }
+  formulaToJoints(out, at, signs, offsets);
   return at / 7;
 }
 

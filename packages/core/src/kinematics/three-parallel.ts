@@ -1,5 +1,6 @@
 import type { ThreeParallelGeometry } from "../robots/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
+import { formulaToJoints, wantedWrist, WRIST_NUMBERS } from "./wrist.ts";
 
 /** Below this sine of θ5 axes 4 and 6 are parallel, and θ6 is free to choose; room for right angles rounded to ten digits, and still verified to 1e-9. */
 const SINGULAR_SINE = 6e-10;
@@ -9,7 +10,8 @@ const SINGULAR_RADIUS_M = 4e-10;
 const NEAR_SINGULAR_SINE = 1e-3;
 /** Outside the reach by no more than this is a rounding of its edge [m]. */
 const EDGE_M = 4e-10;
-const TURN = 2 * Math.PI;
+/** Kept between the steps of one call. */
+const WANTED = new Float64Array(WRIST_NUMBERS);
 
 /**
  * Closed-form inverse of an arm whose axes 2, 3 and 4 are parallel, all branches.
@@ -32,25 +34,11 @@ const TURN = 2 * Math.PI;
  * @see Hawkins, Analytic Inverse Kinematics for the Universal Robots UR-5/UR-10 Arms, Georgia Tech 2013, for the order of steps.
  */
 export function solveThreeParallel(geometry: ThreeParallelGeometry, baseFromFlange: Pose, out: Float64Array, near?: ArrayLike<number>): number {
-  const { a1_m: a1, b_m: b, c2_m: c2, c3_m: c3, c5_m: c5, signs, offsets_rad: offsets, baseFromFormula, wristFromFlange } = geometry;
+  const { a1_m: a1, b_m: b, c2_m: c2, c3_m: c3, c5_m: c5, signs, offsets_rad: offsets } = geometry;
 
-  // Wanted wrist in the formula frame: baseFromFormula⁻¹ · baseFromFlange · wristFromFlange⁻¹.
-  const q = baseFromFlange.quaternion, f = wristFromFlange.quaternion, g = baseFromFormula.quaternion;
-  const fx = -f[0], fy = -f[1], fz = -f[2], fw = f[3];
-  const hx = q[3] * fx + q[0] * fw + q[1] * fz - q[2] * fy, hy = q[3] * fy - q[0] * fz + q[1] * fw + q[2] * fx;
-  const hz = q[3] * fz + q[0] * fy - q[1] * fx + q[2] * fw, hw = q[3] * fw - q[0] * fx - q[1] * fy - q[2] * fz;
-  const gx = -g[0], gy = -g[1], gz = -g[2], gw = g[3];
-  const x = gw * hx + gx * hw + gy * hz - gz * hy, y = gw * hy - gx * hz + gy * hw + gz * hx;
-  const z = gw * hz + gx * hy - gy * hx + gz * hw, w = gw * hw - gx * hx - gy * hy - gz * hz;
-  const r11 = 1 - 2 * (y * y + z * z), r12 = 2 * (x * y - z * w), r13 = 2 * (x * z + y * w);
-  const r21 = 2 * (x * y + z * w), r22 = 1 - 2 * (x * x + z * z), r23 = 2 * (y * z - x * w);
-  const r31 = 2 * (x * z - y * w), r32 = 2 * (y * z + x * w), r33 = 1 - 2 * (x * x + y * y);
-  const o = baseFromFormula.position, p = baseFromFlange.position, t = wristFromFlange.position;
-  const dx = p[0] - o[0], dy = p[1] - o[1], dz = p[2] - o[2];
-  const ex = 2 * (gy * dz - gz * dy), ey = 2 * (gz * dx - gx * dz), ez = 2 * (gx * dy - gy * dx);
-  const px = dx + gw * ex + gy * ez - gz * ey - r11 * t[0] - r12 * t[1] - r13 * t[2];
-  const py = dy + gw * ey + gz * ex - gx * ez - r21 * t[0] - r22 * t[1] - r23 * t[2];
-  const pz = dz + gw * ez + gx * ey - gy * ex - r31 * t[0] - r32 * t[1] - r33 * t[2];
+  wantedWrist(geometry, baseFromFlange, WANTED);
+  const px = WANTED[0]!, py = WANTED[1]!, pz = WANTED[2]!;
+  const r11 = WANTED[3]!, r21 = WANTED[4]!, r31 = WANTED[5]!, r12 = WANTED[6]!, r22 = WANTED[7]!, r32 = WANTED[8]!, r13 = WANTED[9]!, r23 = WANTED[10]!, r33 = WANTED[11]!;
 
   const radius2 = px * px + py * py, radius = Math.sqrt(radius2);
   if (radius < Math.abs(b) - EDGE_M) return 0;
@@ -113,16 +101,6 @@ export function solveThreeParallel(geometry: ThreeParallelGeometry, baseFromFlan
       }
     }
   }
-  for (let joint = 0; joint < 6; joint++) {
-    const sign = signs[joint]!, offset = offsets[joint]!;
-    for (let i = joint; i < at; i += 6) {
-      let angle = sign * (out[i]! + offset);
-      if (angle > Math.PI || angle <= -Math.PI) {
-        angle -= TURN * Math.floor((angle + Math.PI) / TURN);
-        if (angle <= -Math.PI) angle += TURN; else if (angle > Math.PI) angle -= TURN;
-      }
-      out[i] = angle;
-    }
-  }
+  formulaToJoints(out, at, signs, offsets);
   return at / 6;
 }

@@ -1,8 +1,7 @@
 import { identity, type Dialect, type EmittedFile } from "@twincell/core";
 import { skippingDialect } from "../text/index.ts";
 import { CANNOT, FASTEST_MMPS, emitFanucLs } from "./emit.ts";
-import { interpretFanucLs } from "./interpret.ts";
-import { parseFanucLs } from "./parse.ts";
+import { interpretFanucLs, parseFanucLs } from "./interpret.ts";
 import { LINES } from "./lines.ts";
 
 /** The main program and those that it calls, one behind the other: what the controller holds together. */
@@ -21,7 +20,7 @@ export const fanucLs: Dialect = skippingDialect({
   resolution: { ratio: 0.005, leastRatio: 0.01, mps: 0.0005, mostMps: FASTEST_MMPS / 1000, wait_s: 0.005, position_m: 4e-5, angle_rad: 5.3e-5, posesAsAngles: true },
   runnable: asOne,
   emit: (program, robot, worldFromBase = identity()) => emitFanucLs(program, robot, worldFromBase),
-  parse: (text, robot, worldFromBase = identity()) => parseFanucLs(text, robot, worldFromBase),
-  interpret: (text, robot, worldFromBase = identity()) => interpretFanucLs(text, robot, worldFromBase),
+  parse: parseFanucLs,
+  interpret: interpretFanucLs,
   lines: LINES,
 });

@@ -1,29 +1,39 @@
-import type { Executed, Interpreted, Pose, Robot, Signals, TextFault } from "@twincell/core";
-import { rehearse, textFault } from "../text/index.ts";
-import { readSource, type Source } from "./read/source.ts";
+import type { Dialect, Step } from "@twincell/core";
+import { TextError, textFault } from "../text/index.ts";
+import { blockDoors } from "../text/structured/index.ts";
+import { readSource } from "./read/source.ts";
 import { hasPendant } from "./run/arm.ts";
-import { Machine, type Surroundings } from "./run/machine.ts";
+import { Machine } from "./run/machine.ts";
 
-export interface Loaded { readonly source: Source; readonly machine: (surroundings: Surroundings, signals?: Signals, writesDown?: boolean) => Machine }
+/** A program with more steps than this is taken to repeat itself for ever. */
+const MOST_STEPS = 200_000;
 
-export function load(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): { readonly kind: "loaded"; readonly loaded: Loaded } | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] } {
-  if (!hasPendant(robot)) {
-    return { kind: "not-understood", faults: [textFault({ line: 1, column: 1 }, "a robot whose controller speaks FANUC TP", `The controller of the ${robot.name} does not speak FANUC TP.`)] };
+/**
+ * Executes and reads one listing, or several one behind the other of which the first is started. Pallets are read from shifted
+ * points. A program with jumps other than those of loops and decisions is executed with every input off and comes out as what it does.
+ */
+export const { interpret: interpretFanucLs, parse: parseFanucLs }: Pick<Dialect, "parse" | "interpret"> = blockDoors({
+  name: "FANUC TP", speaks: hasPendant, read: readSource,
+  script: (source, robot, worldFromBase) => ({
+    title: source.title,
+    machine: (surroundings, signals) => new Machine(source, robot, worldFromBase, surroundings, signals, false),
+    writer: surroundings => new Machine(source, robot, worldFromBase, surroundings, undefined, true),
+    run: machine => machine.main(),
+    block: machine => machine.open(),
+    unrolled: source.hasJumps ? executed : undefined,
+    warnings: ({ assumed }) => [
+      ...[...assumed].map(([name, at]) => textFault(at, `${name.replace(" ", "[")}=PR[n]`, `${name} is set up nowhere in the text: it is taken to be no different from the ${name.startsWith("UF") ? "world" : "flange"}.`)),
+      ...(source.hasJumps ? [textFault(source.main, "loops and decisions", "The program jumps: it was executed with every input off and written out.")] : []),
+    ],
+  }),
+});
+
+function executed(machine: Machine): Step[] {
+  const steps: Step[] = [];
+  for (const { step, line } of machine.main()) {
+    if (step === undefined) continue;
+    if (steps.length >= MOST_STEPS) throw new TextError({ line, column: 1 }, "a program that ends", `The program has more than ${MOST_STEPS} steps: it repeats itself for ever.`);
+    steps.push(step);
   }
-  const read = readSource(text);
-  if (read.kind === "not-understood") return read;
-  return { kind: "loaded", loaded: { source: read.source, machine: (surroundings, signals, writesDown = false) => new Machine(read.source, robot, worldFromBase, surroundings, signals, writesDown) } };
-}
-
-export const newSurroundings = (): Surroundings => ({ tools: {}, frames: {}, signals: {} });
-
-/** Executes one listing, or several one behind the other of which the first is started. */
-export function interpretFanucLs(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Interpreted {
-  const answer = load(text, robot, worldFromBase);
-  if (answer.kind === "not-understood") return answer;
-  const { machine } = answer.loaded, surroundings = newSurroundings();
-  const run = function* (signals?: Signals): Generator<Executed, void> { yield* machine(surroundings, signals).main(); };
-  const fault = rehearse(run());
-  if (fault !== undefined) return { kind: "not-understood", faults: [fault] };
-  return { kind: "ready", run, context: surroundings };
+  return steps;
 }

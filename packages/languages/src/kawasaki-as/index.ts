@@ -1,8 +1,7 @@
 import { identity, type Dialect } from "@twincell/core";
 import { skippingDialect } from "../text/index.ts";
 import { CANNOT, emitAs } from "./emit.ts";
-import { interpretAs } from "./interpret.ts";
-import { parseAs } from "./parse.ts";
+import { interpretAs, parseAs } from "./interpret.ts";
 import { LINES } from "./lines.ts";
 
 /** AS of Kawasaki's D, E and F controllers. Half of what is known of it is recalled: docs/languages/kawasaki-as.md says which. */
@@ -14,7 +13,7 @@ export const kawasakiAs: Dialect = skippingDialect({
   maturity: "experimental",
   cannot: CANNOT,
   emit: (program, robot, worldFromBase = identity()) => emitAs(program, robot, worldFromBase),
-  parse: (text, robot, worldFromBase = identity()) => parseAs(text, robot, worldFromBase),
-  interpret: (text, robot, worldFromBase = identity()) => interpretAs(text, robot, worldFromBase),
+  parse: parseAs,
+  interpret: interpretAs,
   lines: LINES,
 });

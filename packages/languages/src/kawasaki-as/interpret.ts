@@ -1,31 +1,18 @@
-import type { Executed, Interpreted, Pose, Robot, Signals } from "@twincell/core";
-import { rehearse, textFault } from "../text/index.ts";
-import { constantsOf } from "../text/structured/index.ts";
-import { readSource, type Source } from "./read/grammar.ts";
-import { Machine, speaksAs, type Surroundings } from "./run/machine.ts";
+import type { Dialect } from "@twincell/core";
+import { blockDoors, constantsOf } from "../text/structured/index.ts";
+import { readSource } from "./read/grammar.ts";
+import { Machine, speaksAs } from "./run/machine.ts";
 
-/** A program that was read, with what its runs have in common. */
-export interface Loaded { readonly source: Source; readonly machine: (surroundings: Surroundings, signals?: Signals) => Machine }
-
-export function load(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): { readonly kind: "loaded"; readonly loaded: Loaded } | Extract<Interpreted, { kind: "not-understood" }> {
-  if (!speaksAs(robot)) {
-    return { kind: "not-understood", faults: [textFault({ line: 1, column: 1 }, "a robot whose controller speaks AS", `The controller of the ${robot.name} does not speak AS.`)] };
-  }
-  const read = readSource(text);
-  if (read.kind === "not-understood") return read;
-  const { source } = read, constants = constantsOf(source.main, source.routines.values());
-  return { kind: "loaded", loaded: { source, machine: (surroundings, signals) => new Machine(source, constants, robot, worldFromBase, surroundings, signals) } };
-}
-
-export const newSurroundings = (): Surroundings => ({ tools: {}, frames: {}, signals: {} });
-
-/** Executes AS: the first program of the text that no other one calls, with the locations that stand in the text's own lists. */
-export function interpretAs(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Interpreted {
-  const answer = load(text, robot, worldFromBase);
-  if (answer.kind === "not-understood") return answer;
-  const { source, machine } = answer.loaded, surroundings = newSurroundings();
-  const run = function* (signals?: Signals): Generator<Executed, void> { yield* machine(surroundings, signals).block(source.main); };
-  const fault = rehearse(run());
-  if (fault !== undefined) return { kind: "not-understood", faults: [fault] };
-  return { kind: "ready", run, context: { tools: surroundings.tools, frames: surroundings.frames, signals: surroundings.signals } };
-}
+/** Executes and reads AS: the first program of the text that no other one calls, with the locations that stand in the text's own lists. */
+export const { interpret: interpretAs, parse: parseAs }: Pick<Dialect, "parse" | "interpret"> = blockDoors({
+  name: "AS", speaks: speaksAs, read: readSource,
+  script(source, robot, worldFromBase) {
+    const constants = constantsOf(source.main, source.routines.values());
+    return {
+      title: source.title,
+      machine: (surroundings, signals) => new Machine(source, constants, robot, worldFromBase, surroundings, signals),
+      run: machine => machine.block(source.main),
+      block: () => source.main,
+    };
+  },
+});

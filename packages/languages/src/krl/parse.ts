@@ -1,9 +1,6 @@
-import { emptyProgram, type Group, type Parsed, type Pose, type Program, type Robot, type Step, type TextFault } from "@twincell/core";
-import { TextError, WaitsOutside, plainText, textFault, textLines } from "../text/index.ts";
+import { emptyProgram, type Parsed, type Pose, type Robot } from "@twincell/core";
+import { plainText, textFault, textLines, unrolled, withComments, type Comment } from "../text/index.ts";
 import { openKrl } from "./interpret.ts";
-
-/** A program with more steps than this is taken to repeat itself for ever. */
-const MOST_STEPS = 200_000;
 
 /**
  * The neutral program that a KRL text amounts to: a .src, with its .dat behind it. It is executed with every input off and
@@ -12,32 +9,13 @@ const MOST_STEPS = 200_000;
 export function parseKrl(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Parsed {
   const opened = openKrl(text, robot, worldFromBase);
   if (opened.kind === "not-understood") return opened;
-  const lines = textLines(text).map(plainText), run = opened.start();
-  const steps: Step[] = [], from: number[] = [], met = new Set<number>(), repeated = new Set<number>(), warnings: TextFault[] = [];
-  try {
-    for (const { line, step } of run.steps) {
-      if (step === undefined) continue;
-      if (steps.length >= MOST_STEPS) return endless(line, steps.length);
-      if (met.has(line)) repeated.add(line);
-      met.add(line);
-      from.push(line);
-      steps.push({ ...step, id: `s${steps.length + 1}` });
-    }
-  } catch (cause) {
-    if (cause instanceof WaitsOutside) warnings.push(textFault({ line: 1, column: 1 }, "a program that goes on by itself", `${cause.message} ${cause.hint}`));
-    else if (cause instanceof TextError) return { kind: "not-understood", faults: [cause.fault] };
-    else throw cause;
-  }
-
-  for (const [name, at] of run.assumed) warnings.push(textFault(at, "a value in the text", `${name} is kept on the controller: it is taken as it is on delivery.`));
-  for (const { at, sentence } of run.warned) warnings.push(textFault(at, "an axis from 1 to 6", sentence));
-  for (const line of repeated) warnings.push(textFault({ line, column: 1 }, "a statement that is executed once", `Line ${line} is executed more than once: every time became a step of its own.`));
-  const { tools, frames, signals } = opened.context;
-  return { kind: "parsed", warnings, program: { ...emptyProgram(robot.id, nameOf(lines)), ...withComments(lines, steps, from), tools, frames, signals } };
+  const run = opened.start(), done = unrolled(run.steps, { program: "program", statement: "a statement" });
+  if (done.kind === "not-understood") return done;
+  const lines = textLines(text).map(plainText), { tools, frames, signals } = opened.context;
+  const assumed = [...run.assumed].map(([name, at]) => textFault(at, "a value in the text", `${name} is kept on the controller: it is taken as it is on delivery.`));
+  const warned = run.warned.map(({ at, sentence }) => textFault(at, "an axis from 1 to 6", sentence));
+  return { kind: "parsed", warnings: [...done.waits, ...assumed, ...warned, ...done.repeated], program: { ...emptyProgram(robot.id, nameOf(lines)), ...withComments(lines, done, comment), tools, frames, signals } };
 }
-
-const endless = (line: number, count: number): Parsed =>
-  ({ kind: "not-understood", faults: [textFault({ line, column: 1 }, "a program that ends", `The program has more than ${count} steps: it repeats itself for ever.`)] });
 
 /** What a person called the program: its &COMMENT, or the name of its first routine. */
 function nameOf(lines: readonly string[]): string {
@@ -48,40 +26,12 @@ function nameOf(lines: readonly string[]): string {
 /** Folds that the editor of the controller makes by itself. */
 const OWN_FOLD = /^(?:INI|BASISTECH|USER|EXTERNAL|MODULE)\b|;%\{/i;
 
-/** Names and groups from the comments: `;name` before a step, `;FOLD name` around a group of steps, `;* text` for a comment of its own. */
-function withComments(lines: readonly string[], steps: readonly Step[], from: readonly number[]): Pick<Program, "steps" | "groups"> {
-  const stepLines = new Set(from);
-  const names = new Map<number, string>(), groupOf = new Map<number, string>(), before = new Map<number, string[]>();
-  const groups: Record<string, Group> = {};
-  let name: string | undefined, count = 0, said: string[] = [];
-  const open: (string | undefined)[] = [];
-  for (const [i, line] of lines.entries()) {
-    const comment = /^\s*;(.*)/.exec(line)?.[1]?.trim();
-    if (comment !== undefined) {
-      const fold = /^FOLD\b\s*(.*)/i.exec(comment)?.[1];
-      if (fold !== undefined) {
-        const isGroup = fold !== "" && !OWN_FOLD.test(fold);
-        open.push(isGroup ? `g${++count}` : undefined);
-        if (isGroup) groups[`g${count}`] = { name: fold };
-      } else if (/^ENDFOLD\b/i.test(comment)) open.pop();
-      else if (comment.startsWith("*")) said.push(comment.slice(1).trim());
-      else if (comment !== "") name = comment;
-    }
-    if (!stepLines.has(i + 1)) continue;
-    const group = open.findLast(each => each !== undefined);
-    if (name !== undefined) names.set(i + 1, name);
-    if (group !== undefined) groupOf.set(i + 1, group);
-    if (said.length > 0) before.set(i + 1, said);
-    name = undefined;
-    said = [];
-  }
-  const list: Step[] = [];
-  for (const [i, step] of steps.entries()) {
-    const line = from[i]!, called = names.get(line), member = groupOf.get(line), texts = before.get(line) ?? [];
-    before.delete(line);
-    for (const [k, text] of texts.entries()) list.push({ id: `${step.id}.${k + 1}`, type: "comment", text, ...(member === undefined ? {} : { group: member }) });
-    list.push({ ...step, ...(called === undefined ? {} : { name: called }), ...(member === undefined ? {} : { group: member }) });
-  }
-  const used = new Set(groupOf.values());
-  return { groups: Object.fromEntries(Object.entries(groups).filter(([id]) => used.has(id))), steps: list };
+/** `;name` before a step, `;FOLD name` around a group of steps, `;* text` for a comment of its own. */
+function comment(line: string): Comment | undefined {
+  const said = /^\s*;(.*)/.exec(line)?.[1]?.trim() ?? "";
+  if (said === "") return undefined;
+  const fold = /^FOLD\b\s*(.*)/i.exec(said)?.[1];
+  if (fold !== undefined) return { kind: "fold", text: OWN_FOLD.test(fold) ? "" : fold };
+  if (/^ENDFOLD\b/i.test(said)) return { kind: "end-of-fold" };
+  return said.startsWith("*") ? { kind: "remark", text: said.slice(1).trim() } : { kind: "name", text: said };
 }

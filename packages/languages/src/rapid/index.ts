@@ -1,8 +1,7 @@
 import { identity, type Dialect } from "@twincell/core";
 import { skippingDialect } from "../text/index.ts";
 import { CANNOT, emitRapid } from "./emit.ts";
-import { interpretRapid } from "./interpret.ts";
-import { parseRapid } from "./parse.ts";
+import { interpretRapid, parseRapid } from "./interpret.ts";
 import { LINES } from "./lines.ts";
 
 /** RAPID of ABB's IRC5 and OmniCore controllers. */
@@ -14,7 +13,7 @@ export const rapid: Dialect = skippingDialect({
   maturity: "experimental",
   cannot: CANNOT,
   emit: (program, robot, worldFromBase = identity()) => emitRapid(program, robot, worldFromBase),
-  parse: (text, robot, worldFromBase = identity()) => parseRapid(text, robot, worldFromBase),
-  interpret: (text, robot, worldFromBase = identity()) => interpretRapid(text, robot, worldFromBase),
+  parse: parseRapid,
+  interpret: interpretRapid,
   lines: LINES,
 });

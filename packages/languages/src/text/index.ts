@@ -8,3 +8,5 @@ export * from "./line-cursor.ts";
 export * from "./jumps.ts";
 export * from "./skip.ts";
 export * from "./naming.ts";
+export * from "./surroundings.ts";
+export * from "./unrolled.ts";

@@ -1,8 +1,7 @@
 import { identity, type Dialect } from "@twincell/core";
 import { skippingDialect } from "../text/index.ts";
 import { CANNOT, emitUrScript } from "./emit.ts";
-import { interpretUrScript } from "./interpret.ts";
-import { parseUrScript } from "./parse.ts";
+import { interpretUrScript, parseUrScript } from "./interpret.ts";
 import { LINES } from "./lines.ts";
 
 /** URScript of Universal Robots' CB3 and e-Series controllers. */
@@ -14,7 +13,7 @@ export const urScript: Dialect = skippingDialect({
   maturity: "experimental",
   cannot: CANNOT,
   emit: (program, robot, worldFromBase = identity()) => emitUrScript(program, robot, worldFromBase),
-  parse: (text, robot, worldFromBase = identity()) => parseUrScript(text, robot, worldFromBase),
-  interpret: (text, robot, worldFromBase = identity()) => interpretUrScript(text, robot, worldFromBase),
+  parse: parseUrScript,
+  interpret: interpretUrScript,
   lines: LINES,
 });

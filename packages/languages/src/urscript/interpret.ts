@@ -1,31 +1,18 @@
-import type { Executed, Interpreted, Pose, Robot, Signals } from "@twincell/core";
-import { rehearse, textFault } from "../text/index.ts";
-import { constantsOf } from "../text/structured/index.ts";
-import { readSource, type Source } from "./read/grammar.ts";
-import { Machine, speaksUrScript, type Surroundings } from "./run/machine.ts";
+import type { Dialect } from "@twincell/core";
+import { blockDoors, constantsOf } from "../text/structured/index.ts";
+import { readSource } from "./read/grammar.ts";
+import { Machine, speaksUrScript } from "./run/machine.ts";
 
-/** A program that was read, with what its runs have in common. */
-export interface Loaded { readonly source: Source; readonly machine: (surroundings: Surroundings, signals?: Signals) => Machine }
-
-export function load(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): { readonly kind: "loaded"; readonly loaded: Loaded } | Extract<Interpreted, { kind: "not-understood" }> {
-  if (!speaksUrScript(robot)) {
-    return { kind: "not-understood", faults: [textFault({ line: 1, column: 1 }, "a robot whose controller speaks URScript", `The controller of the ${robot.name} does not speak URScript.`)] };
-  }
-  const read = readSource(text);
-  if (read.kind === "not-understood") return read;
-  const { source } = read, constants = constantsOf(source.main, source.routines.values());
-  return { kind: "loaded", loaded: { source, machine: (surroundings, signals) => new Machine(source, constants, robot, worldFromBase, surroundings, signals) } };
-}
-
-export const newSurroundings = (): Surroundings => ({ tools: {}, frames: {}, signals: {} });
-
-/** Executes URScript: one program `def … end` with the routines inside it, or the statements of a bare script. */
-export function interpretUrScript(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Interpreted {
-  const answer = load(text, robot, worldFromBase);
-  if (answer.kind === "not-understood") return answer;
-  const { source, machine } = answer.loaded, surroundings = newSurroundings();
-  const run = function* (signals?: Signals): Generator<Executed, void> { yield* machine(surroundings, signals).block(source.main); };
-  const fault = rehearse(run());
-  if (fault !== undefined) return { kind: "not-understood", faults: [fault] };
-  return { kind: "ready", run, context: surroundings };
-}
+/** Executes and reads URScript: one program `def … end` with the routines inside it, or the statements of a bare script. */
+export const { interpret: interpretUrScript, parse: parseUrScript }: Pick<Dialect, "parse" | "interpret"> = blockDoors({
+  name: "URScript", speaks: speaksUrScript, read: readSource,
+  script(source, robot, worldFromBase) {
+    const constants = constantsOf(source.main, source.routines.values());
+    return {
+      title: source.title,
+      machine: (surroundings, signals) => new Machine(source, constants, robot, worldFromBase, surroundings, signals),
+      run: machine => machine.block(source.main),
+      block: () => source.main,
+    };
+  },
+});

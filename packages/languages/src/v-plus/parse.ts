@@ -1,10 +1,8 @@
-import { emptyProgram, type Group, type Parsed, type Pose, type Program, type Robot, type Step, type TextFault } from "@twincell/core";
-import { TextError, plainText, textFault, textLines } from "../text/index.ts";
+import { emptyProgram, type Parsed, type Pose, type Robot } from "@twincell/core";
+import { headingOr, plainText, textFault, textLines, unrolled, withComments, type Comment, type Unrolled } from "../text/index.ts";
 import { interpretVPlus } from "./interpret.ts";
 import { structuredProgram } from "./read/structure.ts";
 
-/** A program with more steps than this is taken to repeat itself for ever. */
-const MOST_STEPS = 20_000;
 /** Share of the full speed at which the points of a point list are passed; the list says nothing about it. */
 const POINT_LIST_RATIO = 0.2;
 
@@ -24,29 +22,12 @@ export function parseVPlus(text: string, robot: Robot, worldFromBase: Pose<"worl
   const interpreted = interpretVPlus(source, robot, worldFromBase);
   if (interpreted.kind === "not-understood") return interpreted;
 
-  const steps: Step[] = [], from: number[] = [], met = new Set<number>(), repeated = new Set<number>();
-  try {
-    const run = interpreted.run();
-    for (let next = run.next(); next.done !== true; next = run.next()) {
-      const { line, step } = next.value;
-      if (step === undefined) continue;
-      if (steps.length >= MOST_STEPS) return { kind: "not-understood", faults: [textFault({ line, column: 1 }, "a program that ends", `The program has more than ${MOST_STEPS} steps: it repeats itself for ever.`)] };
-      if (met.has(line)) repeated.add(line);
-      met.add(line);
-      from.push(line);
-      const id = `s${steps.length + 1}`;
-      steps.push(isList && step.type === "move" ? { ...step, id, speed: { ratio: POINT_LIST_RATIO } } : { ...step, id });
-    }
-  } catch (cause) {
-    if (!(cause instanceof TextError)) throw cause;
-    return { kind: "not-understood", faults: [cause.fault] };
-  }
-
-  const named = withComments(lines, steps, from);
-  const warnings: TextFault[] = [];
-  if (isList) warnings.push(textFault({ line: 1, column: 1 }, "a program with MOVE", "A point list fills an array and moves nothing: each of its points became a joint move."));
-  for (const line of repeated) warnings.push(textFault({ line, column: 1 }, "a statement that is executed once", `Line ${line} is executed more than once: every time became a step of its own.`));
-  return { kind: "parsed", warnings, program: { ...emptyProgram(robot.id, nameOf(lines)), ...named, tools: interpreted.context.tools, signals: interpreted.context.signals ?? {} } };
+  const done = unrolled(interpreted.run(), { program: "program", statement: "a statement" });
+  if (done.kind === "not-understood") return done;
+  const moved: Unrolled = isList ? { ...done, steps: done.steps.map(step => step.type === "move" ? { ...step, speed: { ratio: POINT_LIST_RATIO } } : step) } : done;
+  const list = isList ? [textFault({ line: 1, column: 1 }, "a program with MOVE", "A point list fills an array and moves nothing: each of its points became a joint move.")] : [];
+  const { tools, signals = {} } = interpreted.context;
+  return { kind: "parsed", warnings: [...done.waits, ...list, ...done.repeated], program: { ...emptyProgram(robot.id, nameOf(lines)), ...withComments(lines, moved, comment), tools, signals } };
 }
 
 /** The line of a point list as the move to its point, every character of the point in its column. Other lines stay as they are. */
@@ -60,29 +41,8 @@ function nameOf(lines: readonly string[]): string {
   return comment !== "" ? comment : /\.PROGRAM\s+([^\s(;]+)/i.exec(header)?.[1] ?? "Program";
 }
 
-/** Names and groups from the comments: `;name` before a step, `;== name` before a group of steps, `;*` for neither. */
-function withComments(lines: readonly string[], steps: readonly Step[], from: readonly number[]): Pick<Program, "steps" | "groups"> {
-  const stepLines = new Set(from);
-  const names = new Map<number, string>(), groupOf = new Map<number, string>();
-  const groups: Record<string, Group> = {};
-  let name: string | undefined, group: string | undefined, count = 0;
-  for (const [i, line] of lines.entries()) {
-    const comment = /^\s*;(.*)/.exec(line)?.[1]?.trim();
-    if (comment?.startsWith("==") === true) {
-      const title = comment.replace(/^=+\s*/, "");
-      group = title === "" ? undefined : `g${++count}`;
-      if (group !== undefined) groups[group] = { name: title };
-    } else if (comment !== undefined && comment !== "" && !comment.startsWith("*")) name = comment;
-    if (!stepLines.has(i + 1)) continue;
-    if (name !== undefined) names.set(i + 1, name);
-    if (group !== undefined) groupOf.set(i + 1, group);
-    name = undefined;
-  }
-  return {
-    groups,
-    steps: steps.map((step, i): Step => {
-      const called = names.get(from[i]!), member = groupOf.get(from[i]!);
-      return { ...step, ...(called === undefined ? {} : { name: called }), ...(member === undefined ? {} : { group: member }) };
-    }),
-  };
+/** `;name` before a step, `;== name` before a group of steps; `;*` is neither. */
+function comment(line: string): Comment | undefined {
+  const said = headingOr(/^\s*;(.*)/.exec(line)?.[1]);
+  return said?.kind === "remark" ? undefined : said;
 }

@@ -1,8 +1,7 @@
 import { identity, type Dialect, type EmittedFile } from "@twincell/core";
 import { skippingDialect } from "../text/index.ts";
 import { CANNOT, emitVal3 } from "./emit.ts";
-import { interpretVal3 } from "./interpret.ts";
-import { parseVal3 } from "./parse.ts";
+import { interpretVal3, parseVal3 } from "./interpret.ts";
 import { LINES } from "./lines.ts";
 
 /** Programs and data one behind the other: what the controller loads of an application. */
@@ -21,7 +20,7 @@ export const val3: Dialect = skippingDialect({
   cannot: CANNOT,
   runnable: asOne,
   emit: (program, robot, worldFromBase = identity()) => emitVal3(program, robot, worldFromBase),
-  parse: (text, robot, worldFromBase = identity()) => parseVal3(text, robot, worldFromBase),
-  interpret: (text, robot, worldFromBase = identity()) => interpretVal3(text, robot, worldFromBase),
+  parse: parseVal3,
+  interpret: interpretVal3,
   lines: LINES,
 });

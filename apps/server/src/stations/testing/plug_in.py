@@ -42,7 +42,7 @@ class Arm:
 class Session:
     def __init__(self, line, arm):
         self.line, self.arm, self.rest, self.sequence, self.open, self.alive_s = line, arm, b"", 0, False, time.monotonic()
-        self.tell({"type": "hello", "protocol": 1, "version": "1.0", "brands": [], "stations": []})
+        self.tell({"type": "hello", "protocol": 2, "version": "1.0", "brands": [], "stations": []})
 
     def tell(self, message):
         text = json.dumps(message, separators=(",", ":"))

@@ -3,6 +3,7 @@ import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { programOf, robotOf } from "../../stores/document.ts";
 import { playStore } from "../../stores/play.ts";
+import { stationStore } from "../../stores/stations.ts";
 import { words } from "../../words/index.ts";
 import { JointColumn } from "./JointColumn.tsx";
 import { figures } from "./figures.ts";
@@ -11,7 +12,7 @@ import "./check.css";
 
 /** Check mode: the joints at this moment, why something cannot be, and the figures of the whole program. */
 export function Check() {
-  const { verdict, checking, trouble, plan } = useStore(playStore), robot = useStore(cellStore, state => robotOf(state.document));
+  const { verdict, checking, trouble, plan, withOthers } = useStore(playStore), others = useStore(stationStore, state => state.stations.length), robot = useStore(cellStore, state => robotOf(state.document));
   const steps = useStore(cellStore, state => programOf(state.document)?.steps.length ?? 0);
   return (
     <>
@@ -22,6 +23,7 @@ export function Check() {
             : steps > 0 && <button className="btn quiet tight" onClick={() => runCommand("check.now")}>{words.check.again}</button>}
         </h2>
         <div className="section stack">
+          {others > 0 && <label className="row-flex small"><input type="checkbox" checked={withOthers} onChange={event => { playStore.setState({ withOthers: event.currentTarget.checked }); runCommand("check.now"); }} />{words.check.others(others)}</label>}
           {trouble && <p className="why" data-tone="bad" role="alert"><b>{words.check.trouble}</b> {trouble}</p>}
           {steps === 0 ? <p className="muted small">{words.check.none}</p> : verdict ? <WhyCards verdict={verdict} /> : checking === null && !trouble && <p className="muted small">{words.check.notYet}</p>}
         </div>

@@ -1,8 +1,11 @@
 import type { Dashboard, Hint, JointTravel } from "@twincell/recording";
+import { isSlide, robotById, type Robot } from "@twincell/core";
 import { useEffect, type ReactNode } from "react";
 import { useStore } from "zustand";
 import { theHistory } from "../../live/cell-control.ts";
 import { historyStore } from "../../stores/history.ts";
+import { serviceStore, setServiceTravel } from "../../stores/service.ts";
+import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../words/index.ts";
 import { clockOf } from "./times.ts";
 import { Trend } from "./Trend.tsx";
@@ -12,7 +15,8 @@ const percent = (share: number): string => (100 * share).toFixed(share < 0.1 && 
 /** What the recording says of production: cycle times, use, alarms, loads, wear (row T-56). What the source does not give is “not reported”. */
 export default function Figures() {
   const figures = useStore(historyStore, state => state.figures), name = useStore(historyStore, state => `${state.open}${state.name}${state.startedAt_ms}`);
-  useEffect(() => { theHistory.figures(); }, [name]);
+  const service = useStore(serviceStore, state => state.travel), robot = robotById(theHistory.robot);
+  useEffect(() => { theHistory.figures(); }, [name, service]);
   if (!figures) return <p className="muted" role="status">{words.history.loading}</p>;
   const { cycles, use, alarms, load, temperature, travel, hints } = figures, joints = travel.map(({ joint }) => words.history.joint(joint));
   return (
@@ -28,7 +32,7 @@ export default function Figures() {
       </Figure>
       <Joints title={words.history.load} reported={load.kind === "reported" ? load.value : null} unit={load.kind === "reported" ? ` ${load.value.unit}` : ""} labels={joints} />
       <Joints title={words.history.temperature} reported={temperature.kind === "reported" ? temperature.value : null} unit=" °C" labels={joints} />
-      <Figure title={words.history.travel} says={travel.every(({ service }) => service.kind === "not-reported") ? words.history.noService : ""}><Travel travel={travel} /></Figure>
+      <Figure title={words.history.travel} says={travel.every(({ service }) => service.kind === "not-reported") ? words.history.noService : ""}><Travel travel={travel} robot={robot} />{robot && <Service robot={robot} travel={service[robot.id] ?? []} />}</Figure>
       <Figure title={words.history.hints} says={hints.length === 0 ? words.history.noHints : ""}><ul className="history-hints">{hints.map((hint, i) => <li key={i}>{hintWords(hint)}</li>)}</ul></Figure>
     </div>
   );
@@ -47,16 +51,39 @@ function Joints({ title, reported, unit, labels }: { readonly title: string; rea
   );
 }
 
-const DEGREES = 180 / Math.PI;
-/** Bars of how far each joint went, the busiest full. */
-function Travel({ travel }: { readonly travel: readonly JointTravel[] }) {
+const DEGREES = 180 / Math.PI, MILLIMETRES = 1000;
+const slides = (robot: Robot | undefined, joint: number): boolean => robot?.arm.joints[joint] !== undefined && isSlide(robot.arm.joints[joint]);
+
+/** Bars of how far each joint went, the busiest full; how much of its service interval that is, where one is known. */
+function Travel({ travel, robot }: { readonly travel: readonly JointTravel[]; readonly robot: Robot | undefined }) {
   const most = Math.max(...travel.map(joint => joint.travel), 1e-9);
+  const far = (joint: number, way: number): string => (slides(robot, joint - 1) ? `${Math.round(way * MILLIMETRES).toLocaleString("en")} mm` : `${Math.round(way * DEGREES).toLocaleString("en")}°`);
   return (
     <table className="history-travel"><tbody>
-      {travel.map(({ joint, travel: all, perHour }) => (
-        <tr key={joint}><th scope="row">{words.history.joint(joint)}</th><td className="bar"><i style={{ width: `${100 * all / most}%` }} /></td><td>{Math.round(all * DEGREES).toLocaleString("en")}°</td><td className="muted">{Math.round(perHour * DEGREES).toLocaleString("en")}° {words.history.perHour}</td></tr>
+      {travel.map(({ joint, travel: all, perHour, service }) => (
+        <tr key={joint}>
+          <th scope="row">{words.history.joint(joint)}</th><td className="bar"><i style={{ width: `${100 * all / most}%` }} /></td><td>{far(joint, all)}</td>
+          <td className="muted">{service.kind === "reported" ? words.history.served(percent(service.value.share), words.history.hoursOf(service.value.hoursLeft)) : `${far(joint, perHour)} ${words.history.perHour}`}</td>
+        </tr>
       ))}
     </tbody></table>
+  );
+}
+
+/** What each joint may travel between two services: only the robot's papers say. */
+function Service({ robot, travel }: { readonly robot: Robot; readonly travel: readonly number[] }) {
+  const { joints } = robot.arm;
+  return (
+    <details className="history-service">
+      <summary>{words.history.serviceTitle}</summary>
+      <p className="small muted">{words.history.serviceSays}</p>
+      <div className="history-service-fields">
+        {joints.map((_, i) => {
+          const name = words.history.joint(i + 1);
+          return <NumberField key={name} label={words.history.serviceOf(name)} mark={name} quantity={slides(robot, i) ? "length" : "angle"} value={travel[i] ?? 0} min={0} decimals={0} onChange={(to, done) => { if (done) setServiceTravel(robot.id, i, to, joints.length); }} />;
+        })}
+      </div>
+    </details>
   );
 }
 

@@ -27,7 +27,7 @@ const APART_M = 1.6;
 function Open() {
   const document = useStore(cellStore, state => state.document), count = useStore(stationStore, state => state.stations.length), server = useStore(stationStore, state => state.server);
   const [brand, setBrand] = useState(BRAND_LIST[0]?.id ?? ""), [robot, setRobot] = useState(""), [place, setPlace] = useState<HostPlace>("page"), [host, setHost] = useState("");
-  const [x_m, setX] = useState(0), [y_m, setY] = useState((count + 1) * APART_M), [turned_rad, setTurned] = useState(0), [busy, setBusy] = useState(false), [typed, setTyped] = useState<Readonly<Record<string, string>>>({});
+  const [x_m, setX] = useState(0), [y_m, setY] = useState((count + 1) * APART_M), [turned_rad, setTurned] = useState(0), [busy, setBusy] = useState(false), [purpose, setPurpose] = useState<"command" | "watch">("command"), [typed, setTyped] = useState<Readonly<Record<string, string>>>({});
   useEffect(() => { lookForServer(); }, []);
   const chosen = BRAND_LIST.find(({ id }) => id === brand), robots = LIBRARY.filter(({ vendor }) => vendor === chosen?.vendor), robotId = robots.find(({ id }) => id === robot)?.id ?? robots[0]?.id ?? "";
   const asked = place === "server" ? chosen?.data ?? [] : [], data = Object.fromEntries(asked.map(({ id }) => [id, numbersOf(typed[id] ?? "")]));
@@ -38,7 +38,7 @@ function Open() {
     const beside: Pose<"base", "base"> = { ...identity(), position: [x_m, y_m, 0], quaternion: [0, 0, Math.sin(turned_rad / 2), Math.cos(turned_rad / 2)] };
     const outcome = await addStation({
       brand, robot: robotId, place, stand: compose(document.robot.worldFromBase, beside),
-      ...(place === "server" ? { address: { host: host.trim(), ...(asked.length > 0 ? { data } : {}) } } : {}),
+      watch: purpose === "watch", ...(place === "server" ? { address: { host: host.trim(), ...(asked.length > 0 ? { data } : {}) } } : {}),
     });
     setBusy(false);
     if (outcome.kind === "done") closeDialog();
@@ -56,6 +56,9 @@ function Open() {
         {server === false && <p className="small muted">{words.stations.noServer} {words.stations.noServerHint}</p>}
         {place === "server" && <div className="pair"><label className="label" htmlFor="station-address">{words.stations.address}</label>
           <span className="field text"><input id="station-address" value={host} placeholder={words.stations.addressHint} spellCheck={false} autoComplete="off" onChange={event => setHost(event.currentTarget.value)} /></span></div>}
+        <div className="pair"><span className="label">{words.stations.purpose}</span>
+          <Segments label={words.stations.purpose} value={purpose} onChange={setPurpose} options={(["command", "watch"] as const).map(value => ({ value, words: words.stations.purposes[value] }))} /></div>
+        {purpose === "watch" && <p className="small muted">{words.stations.purposeHint}</p>}
         {asked.map(({ id, name, where }) => (
           <div className="pair" key={id}><label className="label" htmlFor={`station-${id}`}>{name}<span className="small dim block">{where}</span></label>
             <span className="field text"><input id={`station-${id}`} value={typed[id] ?? ""} placeholder={words.stations.numbers} spellCheck={false} autoComplete="off" onChange={event => setTyped({ ...typed, [id]: event.currentTarget.value })} /></span></div>

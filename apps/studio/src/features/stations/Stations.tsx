@@ -1,8 +1,8 @@
-import { Cable, ChevronDown, ChevronRight, Play, Plug, PlugZap, Plus, RotateCcw, Square, Trash2 } from "lucide-react";
+import { Cable, ChevronDown, ChevronRight, Eye, Hand, Play, Plug, PlugZap, Plus, RotateCcw, Square, Trash2 } from "lucide-react";
 import { useState } from "react";
 import { useStore } from "zustand";
 import type { CommandOutcome } from "@twincell/core";
-import { askStation, holdStation, pullPlug, removeStation, runAll, runStation, stopStation } from "../../live/stations.ts";
+import { askStation, holdStation, pullPlug, removeStation, runAll, runStation, stopStation, watchStation } from "../../live/stations.ts";
 import { openDialog } from "../../stores/dialogs.ts";
 import { notify } from "../../stores/notices.ts";
 import { stationStore, type StationState } from "../../stores/stations.ts";
@@ -10,11 +10,12 @@ import { HoldButton } from "../../ui/HoldButton.tsx";
 import { Tip } from "../../ui/Tip.tsx";
 import { words } from "../../words/index.ts";
 import { Cabinet } from "./Cabinet.tsx";
+import { Together } from "./Together.tsx";
 import "./stations.css";
 
 /** The other controllers of the cell: each with its link, its guard, and what can be done with it now. */
 export function Stations() {
-  const stations = useStore(stationStore, state => state.stations), ready = stations.filter(({ link, running }) => link.state === "open" && !running);
+  const stations = useStore(stationStore, state => state.stations), ready = stations.filter(({ link, running, guard }) => link.state === "open" && !running && !guard.watching);
   return (
     <section aria-label={words.stations.title}>
       <h2 className="heading"><span className="grow">{words.stations.title}</span>
@@ -23,7 +24,8 @@ export function Stations() {
       <div className="section stations">
         {stations.length === 0 && <p className="small muted">{words.stations.none}</p>}
         {stations.map(station => <Card key={station.id} station={station} />)}
-        {stations.length > 1 && <button className="btn primary" disabled={ready.length === 0} onClick={() => { void runAll(); }}><Play />{words.stations.runAll}</button>}
+        {stations.length > 1 && <Together stations={stations} />}
+        {stations.length > 1 && <button className="btn" disabled={ready.length === 0} onClick={() => { void runAll(); }}><Play />{words.stations.runAll}</button>}
         {stations.length === 0 && <button className="btn" onClick={() => openDialog("station")}><Plus />{words.stations.add}</button>}
       </div>
     </section>
@@ -37,23 +39,27 @@ function tell(name: string, outcome: CommandOutcome): void {
 function Card({ station }: { readonly station: StationState }) {
   const { id, name, link, guard, safety, running, virtual, unplugged } = station, [wide, setWide] = useState(false);
   const open = link.state === "open", ask = (what: Parameters<typeof askStation>[1]) => { void askStation(id, what).then(outcome => { tell(name, outcome); }); };
-  const says = open && safety !== "normal" ? words.control.safetyStates[safety] : [virtual ? words.stations.virtual : null, words.stations.links[link.state], open ? words.control.modes[station.mode] : null].filter(Boolean).join(" · ");
+  const says = open && safety !== "normal" ? words.control.safetyStates[safety] : [guard.watching ? words.stations.watchingShort : virtual ? words.stations.virtual : null, words.stations.links[link.state], open ? words.control.modes[station.mode] : null].filter(Boolean).join(" · ");
   return (
-    <article className="station" aria-label={words.stations.card(name)} data-link={link.state} data-safety={open ? safety : "normal"}>
+    <article className="station" aria-label={words.stations.card(name)} data-link={link.state} data-safety={open ? safety : "normal"} data-watching={guard.watching || undefined}>
       <header className="row-flex">
         <button className="btn quiet icon" aria-expanded={wide} aria-label={`${words.common.more}: ${name}`} onClick={() => setWide(!wide)}>{wide ? <ChevronDown /> : <ChevronRight />}</button>
         <span className="station-lamp" aria-hidden />
         <span className="grow station-name"><b>{name}</b><span className="small muted" role="status">{says}</span></span>
         <button className="btn quiet icon" aria-label={`${words.stations.remove}: ${name}`} onClick={() => { void removeStation(id); }}><Trash2 /></button>
       </header>
+      {guard.watching && <p className="small station-watching"><Eye />{words.stations.watching}</p>}
       <div className="station-buttons">
-        {running
+        {guard.watching
+          ? <><button className="btn" disabled={!open} onClick={() => { void watchStation(id, false).then(outcome => { tell(name, outcome); }); }}><Hand />{words.stations.take}</button>
+              <button className="btn" disabled={!open} onClick={() => { stopStation(id); }}><Square />{words.stations.stop}</button></>
+          : running
           ? <button className="btn" onClick={() => { stopStation(id); }}><Square />{words.stations.stop}</button>
           : <button className="btn" disabled={!open || safety !== "normal" || guard.link !== "up"} onClick={() => { void runStation(id).then(outcome => { if (outcome.kind === "done") notify("done", words.stations.done(name)); else tell(name, outcome); }); }}><Play />{words.stations.run}</button>}
-        {guard.link === "unconfirmed" && open && <Tip words={words.stations.confirmTip}><button className="btn primary" onClick={() => { ask("confirm"); }}>{words.stations.confirm}</button></Tip>}
-        {open && (safety !== "normal" || guard.emergency) && <button className="btn" onClick={() => { ask("reset"); }}><RotateCcw />{words.stations.reset}</button>}
+        {guard.link === "unconfirmed" && open && !guard.watching && <Tip words={words.stations.confirmTip}><button className="btn primary" onClick={() => { ask("confirm"); }}>{words.stations.confirm}</button></Tip>}
+        {open && !guard.watching && (safety !== "normal" || guard.emergency) && <button className="btn" onClick={() => { ask("reset"); }}><RotateCcw />{words.stations.reset}</button>}
         {link.state === "closed" && <button className="btn" onClick={() => { ask("connect"); }}><Cable />{words.stations.connect}</button>}
-        {!virtual && open && <Tip words={words.stations.holdTip}><HoldButton className="btn" label={words.stations.hold} onHold={() => { holdStation(id, true); }} onRelease={() => { holdStation(id, false); }}>{words.stations.hold}</HoldButton></Tip>}
+        {!virtual && open && !guard.watching && <Tip words={words.stations.holdTip}><HoldButton className="btn" label={words.stations.hold} onHold={() => { holdStation(id, true); }} onRelease={() => { holdStation(id, false); }}>{words.stations.hold}</HoldButton></Tip>}
         {virtual && <button className="btn" aria-pressed={unplugged} onClick={() => { void pullPlug(id, !unplugged); }}>{unplugged ? <PlugZap /> : <Plug />}{unplugged ? words.stations.plugIn : words.stations.pull}</button>}
       </div>
       {(station.notice || (!open && link.sentence)) && <p className="small station-says">{station.notice || link.sentence}</p>}
@@ -77,6 +83,7 @@ function Details({ station }: { readonly station: StationState }) {
         {station.message && <div><dt>{words.jog.message}</dt><dd>{station.message}</dd></div>}
         <div><dt>{words.stations.watchdog}</dt><dd>{station.watchdog}</dd></div>
       </dl>
+      {!station.guard.watching && <Tip words={words.stations.watchTip}><button className="btn tight" disabled={station.running || link.state !== "open"} onClick={() => { void watchStation(station.id, true).then(outcome => { tell(station.name, outcome); }); }}><Eye />{words.stations.watch}</button></Tip>}
       {station.virtual && <Cabinet station={station} />}
     </>
   );

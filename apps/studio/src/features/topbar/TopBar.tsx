@@ -16,7 +16,7 @@ import { StopButton } from "./StopButton.tsx";
 import "./topbar.css";
 
 const MODES: readonly StudioMode[] = ["teach", "check", "run", "history"];
-const MENU: readonly (readonly string[])[] = [["file.save", "file.load", "file.example", "file.new"], ["export.open", "export.import"], ["view.collision", "help.controls", "help.shortcuts", "help.coach"]];
+const MENU: readonly (readonly string[])[] = [["file.save", "file.load", "file.example", "file.new"], ["export.open", "export.import"], ["view.cameras", "view.collision", "help.controls", "help.shortcuts", "help.coach"]];
 
 /** A phone has no room for these beside the menu. */
 const PHONE_MENU: readonly (readonly string[])[] = [["edit.undo", "edit.redo"], ...MENU, ["view.theme", "view.mute", "help.palette"]];

@@ -1,5 +1,6 @@
 import { useEffect } from "react";
 import { useStore } from "zustand";
+import { shownInstead } from "../../live/shown.ts";
 import { stationLive } from "../../live/stations.ts";
 import type { Pose } from "@twincell/core";
 import { runCommand } from "../../stores/commands.ts";
@@ -17,7 +18,7 @@ export function StationViews() {
     // Where the past of a robot is looked at, its presence would stand in the same place.
     if (lookingBack && past && samePlace(past, stand)) return null;
     const live = stationLive(id);
-    return live ? <ArmView key={id} robot={live.robot} worldFromBase={stand} live={() => live} prefix={`${id}/`} /> : null;
+    return live ? <ArmView key={id} robot={live.robot} worldFromBase={stand} live={() => shownInstead(id) ?? live} prefix={`${id}/`} /> : null;
   });
 }
 

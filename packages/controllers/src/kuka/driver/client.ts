@@ -42,6 +42,7 @@ export class C3Client {
     });
   }
 
+  get isClosed(): boolean { return !this.isOpen; }
   /** Whether what is sent now waits behind what was sent before. */
   get isCrowded(): boolean { return this.stream.waiting > MOST_WAITING; }
 

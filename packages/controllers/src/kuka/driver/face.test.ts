@@ -321,6 +321,21 @@ describe("programs of the controller's own language", () => {
     expect(kuka.arm.isMoving()).toBe(false);
     expect(await ended(bench, real.moveJoints(far))).toEqual({ kind: "done" });
   });
+  test("T-47 KUKA: a text that a lost line left behind makes room at a person's reset, and nothing goes on watching it", async () => {
+    const bench = await kukaBench(), { kuka, real, scheduler, network } = bench, running = real.runText!([MOVES]);
+    await scheduler.elapse(0.5);
+    network.weather.frozen = true;
+    await scheduler.elapse(0.2);
+    expect((await running).kind).toBe("stopped");
+    network.weather.frozen = false;
+    kuka.pendant.stop();
+    await scheduler.elapse(2);
+    expect([real.isConnected, kuka.program.name, kuka.program.state]).toEqual([true, "JOB", "STOP"]);
+    expect(codeOf(await real.moveJoints(far))).toBe("kuka.loop-rests");
+    real.reset();
+    await scheduler.elapse(1);
+    expect(await ended(bench, real.moveJoints(far))).toEqual({ kind: "done" });
+  });
 });
 
 test("T-21 a driver is a face handed in: two robots of one network, each its own", async () => {

@@ -1,4 +1,4 @@
-import type { CommandOutcome, EmittedFile, Refusal, Robot, Scheduler } from "@twincell/core";
+import type { CommandOutcome, EmittedFile, HandedText, Refusal, Robot, Scheduler } from "@twincell/core";
 import type { Face, FaceEvents, FaceMotion, Opened } from "../../real/index.ts";
 import type { Network } from "../../transport/index.ts";
 import { AXES, axesOf, e6axis, e6pos, kukaAxes, type KukaAxes } from "../axes.ts";
@@ -8,7 +8,7 @@ import { LOOP_NAME, LOOP_VERSION, TWC, TWC_KIND, TWC_RESULT, WATCH_TIMER } from 
 import { isKukaModel } from "../models.ts";
 import { C3Client } from "./client.ts";
 import { KukaState, POLLED } from "./state.ts";
-import { runKrl } from "./text.ts";
+import { handKrl, programOf, runKrl } from "./text.ts";
 import * as say from "./words.ts";
 import { DONE, refused, stopped } from "../../outcomes.ts";
 
@@ -29,7 +29,7 @@ export interface KukaFaceOptions {
   readonly signals?: readonly string[];
   /** The robot brakes by itself when it hears nothing for so long during a motion [s]. */
   readonly watch_s?: number;
-  /** Without a new state for so long the link counts as lost [s]; 0.1, or four periods, when left out. */
+  /** Without a new state for so long the link counts as lost [s]; 80 ms, or four periods, when left out. */
   readonly stale_s?: number;
   /** The program that moves the robot for us; TWINCELL when left out. */
   readonly program?: string;
@@ -39,6 +39,8 @@ interface Waiting { readonly number: number; readonly resolve: (outcome: Command
 const OUTPUT = /^\$(OUT|ANOUT)\[([0-9]{1,4})\]$/;
 /** Numbers are sent with more digits than a REAL keeps: rounding is left to the controller. */
 const DIGITS = 12;
+/** With the watches behind it a stop is commanded within 100 ms of the last state (row X-41) [s]. */
+const STALE_S = 0.08;
 /** So often is the robot's own watchdog set back in its time. */
 const FEEDS = 5;
 /** Asked for once, in front of the state. */
@@ -59,8 +61,10 @@ export function createKukaFace(options: KukaFaceOptions): Face {
   const program = options.program ?? LOOP_NAME, period_s = options.period_s ?? 0.012, watch_s = options.watch_s ?? 0.5, gripper = options.gripperOutput === undefined ? "" : `$OUT[${options.gripperOutput}]`;
   const lines = [...new Set([...options.signals ?? [], ...gripper === "" ? [] : [gripper]])], names = [...POLLED, ...lines];
   let client: C3Client | null = null, state: KukaState | null = null, stopPolling: (() => void) | null = null, waiting: Waiting | null = null;
-  let types: readonly number[] = [], loop: Refusal | null = say.noLoop, polling = false, fed_s = 0, life = 0, drives = { on: 0, off: 0 };
+  let types: readonly number[] = [], loop: Refusal | null = say.noLoop, polling = false, fed_s = 0, life = 0, stops = 0, drives = { on: 0, off: 0 };
   let text: { stop: () => void } | null = null;
+  /** The last text that was handed over from here: where the link broke it may still be selected, and makes room. */
+  let handed = "";
 
   function settle(outcome: CommandOutcome): void {
     const ended = waiting;
@@ -214,8 +218,10 @@ export function createKukaFace(options: KukaFaceOptions): Face {
   async function startLoop(own: C3Client, now: KukaState): Promise<CommandOutcome> {
     if (!types.includes(C3_TYPE.control)) return refused(say.noProgramControl);
     if (now.sample.mode === "manual") return refused(say.notAtPendant);
-    const ours = now.program === program, free = now.programState === "P_FREE" || now.programState === "P_END";
+    const ours = now.program === program, left = now.programState === "P_STOP" && handed !== "" && now.program === handed;
+    const free = left || now.programState === "P_FREE" || now.programState === "P_END";
     if (!ours && !free) return refused(say.loopRests(now.programState, now.program));
+    if (left) await own.order({ kind: "control", command: C3_COMMAND.cancel, interpreter: 1 });
     if (!ours && !await own.order({ kind: "select", run: false, name: program, parameters: "", force: false })) return refused(say.startRefused(now.programState));
     // From its first line: what it was stopped in is forgotten, and its first motion is none.
     else if (ours) await own.order({ kind: "control", command: C3_COMMAND.reset, interpreter: 1 });
@@ -227,14 +233,44 @@ export function createKukaFace(options: KukaFaceOptions): Face {
     return now.loopRuns || await start() ? DONE : refused(say.startRefused(now.programState));
   }
 
+  /** Our own program has its place again; it moves nothing by itself. */
+  const back = async (own: C3Client): Promise<void> => {
+    if (client === own && loop === null) await own.order({ kind: "select", run: true, name: program, parameters: "", force: true });
+  };
+  async function handText(files: readonly EmittedFile[]): Promise<HandedText> {
+    const own = client, now = state, before = stops;
+    if (!own || !now) return { kind: "refused", why: say.closedHere };
+    if (!types.includes(C3_TYPE.fileWrite)) return { kind: "refused", why: say.noFiles };
+    if (!types.includes(C3_TYPE.control)) return { kind: "refused", why: say.noProgramControl };
+    handed = programOf(files);
+    const selected = await handKrl(files, own);
+    if (selected.kind === "refused") { await back(own); return selected; }
+    return {
+      kind: "handed",
+      drop() { void back(own); },
+      async start() {
+        if (client !== own || stops !== before) { await back(own); return stopped(client === own ? say.stoppedHere(robot) : say.closedHere); }
+        const run = runKrl(selected.name, own, now, scheduler, robot);
+        text = run;
+        const outcome = await run.outcome;
+        text = null;
+        await back(own);
+        return outcome;
+      },
+    };
+  }
+
   return {
-    brand: "KUKA", robot, stale_s: options.stale_s ?? Math.max(0.1, 4 * period_s),
+    brand: "KUKA", robot, stale_s: options.stale_s ?? Math.max(STALE_S, 4 * period_s),
     watchdog: { kind: "robot", within_s: watch_s },
     open, close, move, reset,
     stop(emergency) {
+      stops++;
       if (waiting && !waiting.taken) waiting.cancelled = true;
       brake(emergency);
       text?.stop();
+      // A program of somebody else's does not listen to our variables.
+      if (!text && state?.programState === "P_ACTIVE" && !state.loopRuns && types.includes(C3_TYPE.control)) void client?.order({ kind: "control", command: C3_COMMAND.stop, interpreter: 1 });
     },
     setOverride(ratio) {
       void client?.ask({ kind: "write", wide: true, name: "$OV_PRO", value: String(Math.round(100 * ratio)) });
@@ -251,18 +287,10 @@ export function createKukaFace(options: KukaFaceOptions): Face {
       void client?.ask({ kind: "write", wide: true, name: gripper, value: closed ? "TRUE" : "FALSE" });
       return null;
     },
+    handText,
     async runText(files: readonly EmittedFile[]) {
-      const own = client, now = state;
-      if (!own || !now) return refused(say.closedHere);
-      if (!types.includes(C3_TYPE.fileWrite)) return refused(say.noFiles);
-      if (!types.includes(C3_TYPE.control)) return refused(say.noProgramControl);
-      const run = runKrl(files, own, now, scheduler, robot);
-      text = run;
-      const outcome = await run.outcome;
-      text = null;
-      // Our own program has its place again; it moves nothing by itself.
-      if (client === own && loop === null) await own.order({ kind: "select", run: true, name: program, parameters: "", force: true });
-      return outcome;
+      const ready = await handText(files);
+      return ready.kind === "refused" ? ready : ready.start();
     },
   };
 }

@@ -1,4 +1,4 @@
-import { Stepper, type CommandOutcome, type JointSample, type Pose, type Step } from "@twincell/core";
+import { Stepper, type CommandOutcome, type EmittedFile, type JointSample, type Pose, type Step } from "@twincell/core";
 import type { Face, FaceEvents, FaceMotion, Opened } from "../../real/index.ts";
 import type { DatagramSocket } from "../../transport/index.ts";
 import { AXES, axesOf, jointsOf, kukaAxes } from "../axes.ts";
@@ -20,7 +20,7 @@ type Lent = { -readonly [K in keyof Omit<JointSample, "step">]: Omit<JointSample
 interface Streaming { stepper: Stepper; readonly target_rad: Float64Array; readonly resolve: (outcome: CommandOutcome) => void; stopping: boolean; resting: number; again: number }
 
 /** Nothing over RSI for so long: it does not run [s]. */
-const SILENT_S = 0.1;
+const SILENT_S = 0.05;
 /** At the end of a motion the robot stands so near to its target [°], or is brought there, so often at most, at this share of its speed. */
 const NEAR_DEG = 5e-4, MOST_AGAIN = 10, REST_RATIO = 0.2;
 /** Telegrams until the last increment shows in what the robot says. */
@@ -40,7 +40,7 @@ export function createKukaRsiFace(options: KukaRsiFaceOptions): Face {
   const a_deg = new Float64Array(AXES), before_deg = new Float64Array(AXES), now_deg = new Float64Array(AXES), next_deg = new Float64Array(AXES);
   const commanded_rad = new Float64Array(AXES), next_rad = new Float64Array(AXES), values = new Map<string, number>();
   const KEYS = Array.from({ length: AXES }, (_, i) => `AKorr.A${i + 1}`);
-  let socket: DatagramSocket | null = null, listener: FaceEvents | null = null, streaming: Streaming | null = null, override = 1, ipoc = NaN, heard_s = -Infinity;
+  let socket: DatagramSocket | null = null, listener: FaceEvents | null = null, streaming: Streaming | null = null, override = 1, ipoc = NaN, heard_s = -Infinity, texts = 0;
   const lent: Lent = { sequence: 0, time_s: 0, q_rad: new Float64Array(AXES), moving: false, mode: "automatic", safety: "normal", override: 1, gripperClosed: false, message: "" };
 
   const runs = (): boolean => scheduler.now_s() - heard_s <= SILENT_S;
@@ -136,7 +136,14 @@ export function createKukaRsiFace(options: KukaRsiFaceOptions): Face {
     settle({ kind: "stopped", why: say.closedHere });
   }
 
-  const { runText } = base;
+  const { runText, handText } = base;
+  async function counted(running: Promise<CommandOutcome>): Promise<CommandOutcome> {
+    texts++;
+    const outcome = await running;
+    texts--;
+    return outcome;
+  }
+
   return {
     brand: "KUKA", robot, stale_s: base.stale_s, open, close,
     watchdog: config.onlySend ? { kind: "none", because: "RSI only sends; nothing from here moves the robot." } : { kind: "robot", within_s: (options.timeout ?? 100) * cycle_s },
@@ -150,13 +157,20 @@ export function createKukaRsiFace(options: KukaRsiFaceOptions): Face {
     },
     stop(emergency) {
       if (streaming && !streaming.stopping) { streaming.stopping = true; streaming.stepper.stop(true); }
-      if (emergency) base.stop(true);
+      // A text is run by the controller: what is stopped here would not reach it.
+      if (emergency || texts > 0) base.stop(emergency);
     },
     // RSI knows no override: the path made here follows ours.
     setOverride(ratio) { override = ratio; return null; },
     reset: () => base.reset(),
     setSignal: (signal, value) => base.setSignal(signal, value), setGripper: closed => base.setGripper(closed),
-    ...(runText ? { runText: files => runText.call(base, files) } : {}),
+    ...(runText ? { runText: files => counted(runText.call(base, files)) } : {}),
+    ...(handText ? {
+      async handText(files: readonly EmittedFile[]) {
+        const handed = await handText.call(base, files);
+        return handed.kind === "handed" ? { ...handed, start: () => counted(handed.start()) } : handed;
+      },
+    } : {}),
   };
 }
 

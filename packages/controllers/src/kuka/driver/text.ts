@@ -1,33 +1,36 @@
-import type { CommandOutcome, EmittedFile, Robot, Scheduler } from "@twincell/core";
+import type { CommandOutcome, EmittedFile, Refusal, Robot, Scheduler } from "@twincell/core";
 import { C3_COMMAND } from "../codec-c3.ts";
 import { OVERWRITE } from "../codec-c3-requests.ts";
 import type { C3Client } from "./client.ts";
 import type { KukaState } from "./state.ts";
 import * as say from "./words.ts";
-import { refused } from "../../outcomes.ts";
+import { refused, stopped } from "../../outcomes.ts";
 
 const CHUNK = 32_000, LOOK_S = 0.012, FOLDER = "KRC:\\R1\\PROGRAM\\";
 
 export interface RunningText { readonly outcome: Promise<CommandOutcome>; stop(): void }
 
+/** Writes a module to the controller and selects it in the place of the running program; the name under which it then stands there. */
+export async function handKrl(files: readonly EmittedFile[], client: C3Client): Promise<{ readonly kind: "selected"; readonly name: string } | { readonly kind: "refused"; readonly why: Refusal }> {
+  const main = mainOf(files);
+  if (!main) return { kind: "refused", why: say.fileRefused("without .src") };
+  for (const file of files) if (!await put(client, file)) return { kind: "refused", why: say.fileRefused(file.name) };
+  const name = nameOf(main);
+  await client.order({ kind: "control", command: C3_COMMAND.cancel, interpreter: 1 });
+  if (!await client.order({ kind: "select", run: false, name: `${FOLDER}${main.name}`, parameters: "", force: false })) return { kind: "refused", why: say.programRefused(name) };
+  return { kind: "selected", name };
+}
+
 /**
- * Writes a module to the controller, selects it in the place of the running program, starts it and waits for its end. The
- * first motion runs to the path at reduced speed; where the controller then asks for a second start it gets it, as part of the same
- * command.
+ * Starts the selected module and waits for its end. The first motion runs to the path at reduced speed; where the controller then asks
+ * for a second start it gets it, as part of the same command.
  */
-export function runKrl(files: readonly EmittedFile[], client: C3Client, state: KukaState, scheduler: Scheduler, robot: Robot): RunningText {
+export function runKrl(name: string, client: C3Client, state: KukaState, scheduler: Scheduler, robot: Robot): RunningText {
   let wanted = true;
   const control = (command: number): Promise<boolean> => client.order({ kind: "control", command, interpreter: 1 });
 
   async function outcome(): Promise<CommandOutcome> {
-    const main = files.find(({ name }) => /\.src$/i.test(name));
-    if (!main) return refused(say.fileRefused("without .src"));
-    for (const file of files) if (!await put(client, file)) return refused(say.fileRefused(file.name));
-    const name = main.name.replace(/\.src$/i, "").toUpperCase();
-    await control(C3_COMMAND.cancel);
-    if (!await client.order({ kind: "select", run: false, name: `${FOLDER}${main.name}`, parameters: "", force: false })) return refused(say.programRefused(name));
-    if (!wanted || !await control(C3_COMMAND.start)) return refused(wanted ? say.programRefused(name) : say.stoppedHere(robot));
-    return watched(name);
+    return await control(C3_COMMAND.start) ? watched(name) : refused(wanted ? say.programRefused(name) : say.stoppedHere(robot));
   }
 
   /** Follows the states of the controller to the end of the program. */
@@ -35,6 +38,7 @@ export function runKrl(files: readonly EmittedFile[], client: C3Client, state: K
     let seen = state.sample.sequence, second = false;
     return new Promise(resolve => {
       const stopLooking = scheduler.every(LOOK_S, () => {
+        if (client.isClosed) { stopLooking(); resolve(stopped(say.closedHere)); return; }
         if (state.sample.sequence === seen) return;
         seen = state.sample.sequence;
         const end = (with_: CommandOutcome): void => {
@@ -59,6 +63,11 @@ export function runKrl(files: readonly EmittedFile[], client: C3Client, state: K
     },
   };
 }
+
+const mainOf = (files: readonly EmittedFile[]): EmittedFile | undefined => files.find(({ name }) => /\.src$/i.test(name));
+const nameOf = ({ name }: EmittedFile): string => name.replace(/\.src$/i, "").toUpperCase();
+/** What the controller will call the program of those files; "" when there is none. */
+export const programOf = (files: readonly EmittedFile[]): string => { const main = mainOf(files); return main ? nameOf(main) : ""; };
 
 async function put(client: C3Client, { name, text }: EmittedFile): Promise<boolean> {
   const bytes = Uint8Array.from(text, sign => sign.charCodeAt(0) & 255);

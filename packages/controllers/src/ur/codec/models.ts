@@ -11,9 +11,12 @@ export const typeOf = (model: string): number => TYPES[model] ?? 0;
 /** Robots of this brand have six joints, on every interface. */
 export const JOINTS = 6;
 
-/** Where a controller listens. */
-export interface UrPorts { readonly dashboard: number; readonly primary: number; readonly secondary: number; readonly realTime: number; readonly rtde: number }
-export const UR_PORTS: UrPorts = { dashboard: 29_999, primary: 30_001, secondary: 30_002, realTime: 30_003, rtde: 30_004 };
+/** Where a controller listens. The copies tell the same and take nothing. */
+export interface UrPorts {
+  readonly dashboard: number; readonly primary: number; readonly secondary: number; readonly realTime: number; readonly rtde: number;
+  readonly primaryCopy: number; readonly secondaryCopy: number; readonly realTimeCopy: number;
+}
+export const UR_PORTS: UrPorts = { dashboard: 29_999, primary: 30_001, secondary: 30_002, realTime: 30_003, rtde: 30_004, primaryCopy: 30_011, secondaryCopy: 30_012, realTimeCopy: 30_013 };
 
 /** From a program's own words to blocks: a script that came over a stream is whole when as many blocks end as began. */
 const OPENS = /^(?:def|sec|thread|while|if)\b/, CLOSES = /^end\b/;

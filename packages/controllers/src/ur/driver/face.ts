@@ -1,4 +1,4 @@
-import type { CommandOutcome, EmittedFile, Refusal } from "@twincell/core";
+import type { CommandOutcome, EmittedFile, HandedText, Refusal } from "@twincell/core";
 import type { Face, FaceEvents, FaceMotion, FaceOptions, Opened } from "../../real/index.ts";
 import type { ByteStream } from "../../transport/index.ts";
 import { REPLIES } from "../codec/dashboard.ts";
@@ -32,6 +32,8 @@ interface Open {
   readonly orders: Orders;
   /** Timers that end with the connection. */
   readonly stops: (() => void)[];
+  /** Opened to watch: no inputs are taken and no program is uploaded. */
+  readonly watched: boolean;
   remote: boolean;
   said: string;
   /** Heartbeats since the controller last told that it heard one, and the one that it told. */
@@ -45,7 +47,7 @@ interface Open {
  */
 export function createUrFace(options: FaceOptions): Face {
   const { robot, scheduler, network, host } = options, ports = { ...UR_PORTS, ...options.ports };
-  let open: Open | null = null, life = 0, textRunning = false;
+  let open: Open | null = null, life = 0, textRunning = false, stops = 0;
   let settle: ((outcome: CommandOutcome) => void) | null = null, awaited = 0, goal: CommandOutcome = DONE;
 
   const end = (outcome: CommandOutcome): void => { const is = settle; settle = null; is?.(outcome); };
@@ -100,6 +102,7 @@ export function createUrFace(options: FaceOptions): Face {
     return answer.kind === "connected" ? answer.stream : answer.sentence;
   }
   async function attempt(events: FaceEvents): Promise<Opened> {
+    const watched = options.isWatched?.() ?? false;
     const mine = ++life, isMine = (): boolean => mine === life, streams: ByteStream[] = [];
     const failed = (why: Refusal, again = true): Opened => {
       for (const stream of streams) stream.close();
@@ -120,7 +123,7 @@ export function createUrFace(options: FaceOptions): Face {
     if (model.trim() !== wanted) return failed(words.otherModel(robot, wanted, model.trim()), false);
     const isRemote = await dashboard.ask("is in remote control");
     let at: Open | null = null;
-    const rtde = await openRtde(third!, scheduler, OUTPUTS, INPUTS, RATE_HZ, {
+    const rtde = await openRtde(third!, scheduler, OUTPUTS, watched ? [] : INPUTS, RATE_HZ, {
       state() {
         if (!at || !isMine()) return;
         events.sample(at.reading.read(at.remote, message(at)));
@@ -135,14 +138,14 @@ export function createUrFace(options: FaceOptions): Face {
       rtde: client, dashboard, reading, orders: new Orders(client.inputs, robot, Math.floor(scheduler.now_s() * 1000) % 1_000_000), stops: [],
       primary: primaryClient(second!, said => { if (isMine()) onMessage(() => at, said); }, lost),
       // Controllers before 5.6 know no local control, and do not understand the question.
-      remote: isRemote !== "false", said: "", unheard: 0, echo: NaN,
+      watched, remote: isRemote !== "false", said: "", unheard: 0, echo: NaN,
     };
     open = at;
     at.stops.push(scheduler.every(BEAT_S, () => {
       if (!at) return;
       at.orders.beat();
       at.rtde.send(GROUPS.heartbeat);
-      if (++at.unheard > DEAF) lost("The controller sends states and does not hear what is sent to it.");
+      if (!watched && ++at.unheard > DEAF) lost("The controller sends states and does not hear what is sent to it.");
     }));
     let asking = false;
     at.stops.push(scheduler.every(ASK_REMOTE_S, () => {
@@ -152,7 +155,7 @@ export function createUrFace(options: FaceOptions): Face {
     }));
     if (!await until(() => reading.robotMode !== 0 || reading.runtime !== 0, STALE_S * 10)) { closeAll(); return { kind: "failed", why: words.noAnswer("RTDE sends no states."), again: true }; }
     // A program of somebody else's is left alone; it is told when a motion is asked for.
-    if (reading.mayMove && at.remote && reading.isIdle) await program();
+    if (!watched && reading.mayMove && at.remote && reading.isIdle) await program();
     return open === at ? { kind: "open" } : { kind: "failed", why: words.noAnswer("The connection broke while it was being opened."), again: true };
   }
 
@@ -222,20 +225,26 @@ export function createUrFace(options: FaceOptions): Face {
     return why ? refused(why) : DONE;
   }
 
-  async function runText(files: readonly EmittedFile[]): Promise<CommandOutcome> {
-    const at = open, text = files[0]?.text;
-    if (!at) return refused(words.noAnswer("There is no connection."));
-    if (text === undefined || text.trim() === "") return refused(words.noText());
-    const { reading } = at;
-    if (!at.remote) return refused(words.inLocal(robot));
-    if (!reading.mayMove) return refused(words.notReady(robot, robotModeName(reading.robotMode), safetyModeName(reading.safetyMode)));
-    // Our own program makes room; its end is the sign that the next one to play is this text.
+  /** Our own program makes room for it; it is sent when it is to start, because a UR begins with a text as soon as it has it. */
+  async function handText(files: readonly EmittedFile[]): Promise<HandedText> {
+    const at = open, text = files[0]?.text, no = (why: Refusal): HandedText => { textRunning = false; return { kind: "refused", why }; };
+    if (!at) return no(words.noAnswer("There is no connection."));
+    if (text === undefined || text.trim() === "") return no(words.noText());
+    const { reading } = at, before = stops;
+    if (!at.remote) return no(words.inLocal(robot));
+    if (!reading.mayMove) return no(words.notReady(robot, robotModeName(reading.robotMode), safetyModeName(reading.safetyMode)));
     textRunning = true;
+    if (reading.listens) {
+      const why = await tell(at, "stop", REPLIES.stopped);
+      if (why || !await until(() => reading.isIdle, PROGRAM_S)) return no(why ?? words.otherProgram(robot));
+    }
+    if (!reading.isIdle) return no(words.otherProgram(robot));
+    return { kind: "handed", drop() { textRunning = false; }, start: () => startText(at, text, before) };
+  }
+  async function startText(at: Open, text: string, before: number): Promise<CommandOutcome> {
+    const { reading } = at;
     try {
-      if (reading.listens) {
-        const why = await tell(at, "stop", REPLIES.stopped);
-        if (why || !await until(() => reading.isIdle, PROGRAM_S)) return refused(why ?? words.otherProgram(robot));
-      }
+      if (open !== at || stops !== before) return stopped(words.ended(robot, open === at ? "it was stopped." : "the connection was closed."));
       if (!reading.isIdle) return refused(words.otherProgram(robot));
       at.said = "";
       at.primary.script(text);
@@ -248,11 +257,17 @@ export function createUrFace(options: FaceOptions): Face {
       return open === at && reading.mayMove ? DONE : stopped(words.ended(robot, message(at)));
     } finally { textRunning = false; }
   }
+  async function runText(files: readonly EmittedFile[]): Promise<CommandOutcome> {
+    const handed = await handText(files);
+    return handed.kind === "refused" ? handed : handed.start();
+  }
 
   function stop(emergency: boolean): void {
     const at = open;
+    stops++;
     if (!at) return;
-    if (textRunning || at.rtde.waiting > 0) void at.dashboard.ask("stop");
+    // Whatever program runs there: of one that is only watched nothing else is known.
+    if (textRunning || at.watched || at.rtde.waiting > 0) void at.dashboard.ask("stop");
     const number = at.orders.stop();
     at.rtde.send(GROUPS.order);
     awaited = number;
@@ -291,6 +306,6 @@ export function createUrFace(options: FaceOptions): Face {
       open.rtde.send(GROUPS.order);
       return null;
     },
-    runText,
+    runText, handText,
   };
 }

@@ -5,6 +5,7 @@ import type { BrandStarted, BrandVirtual, BrandVirtualOptions, Pendant } from ".
 import { jointRefusal } from "../../refusals.ts";
 import { JOINTS, lineNumber, modelOf, typeOf, UR_PORTS, type UrPorts } from "../codec/models.ts";
 import { EMERGENCY_STOPS, JOINT_MODE, ROBOT_MODE, RUNTIME, SAFETY_MODE } from "../codec/modes.ts";
+import { realTimeWriter } from "../codec/real-time.ts";
 import { errorMessage, exceptionMessage, keyMessage, safetyModeMessage, statePackage, textMessage, versionMessage, type PrimaryArm } from "../codec/primary.ts";
 import type { Version } from "../codec/rtde.ts";
 import type { Field } from "../codec/rtde-fields.ts";
@@ -94,7 +95,7 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStar
   // Delays are the wire's, not the controller's: they go on while it hangs.
   const outbox = new Outbox(faults, () => scheduler.now_s());
 
-  const tell = (bytes: Uint8Array): void => { primary.tell(bytes); };
+  const tell = (bytes: Uint8Array): void => { primary.tell(bytes); primaryCopy.tell(bytes); };
   const states = new States({
     powerOn_s: options.powerOn_s ?? DEFAULTS.powerOn_s, brakes_s: options.brakes_s ?? DEFAULTS.brakes_s,
     onStop(how, because) {
@@ -176,6 +177,9 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStar
   const primary = new ScriptServer({ ...common, name: "Primary interface", greeting, onScript });
   const secondary = new ScriptServer({ ...common, name: "Secondary interface", greeting, onScript });
   const realTime = new ScriptServer({ ...common, name: "Real-time interface", greeting: () => [], onScript });
+  const primaryCopy = new ScriptServer({ ...common, name: "Primary interface, read-only", greeting }), secondaryCopy = new ScriptServer({ ...common, name: "Secondary interface, read-only", greeting });
+  const realTimeCopy = new ScriptServer({ ...common, name: "Real-time interface, read-only", greeting: () => [] });
+  const packageTellers = [primary, secondary, primaryCopy, secondaryCopy], streams = [realTime, realTimeCopy], realTimePackage = realTimeWriter();
 
   const fill = stateFiller(robot, memory, mover, states, programs);
   states.begin(options.begins === "powered-off" ? ROBOT_MODE.POWER_OFF : ROBOT_MODE.RUNNING);
@@ -192,18 +196,21 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStar
     const ended = programs.cycle();
     if (ended !== "") { log(ended); tell(errorMessage(time_us(), 0, 1, ended)); }
     rtde.cycle(cycles);
-    if (cycles % PRIMARY_CYCLES === 0 && primary.clients + secondary.clients > 0) {
+    if (realTime.clients + realTimeCopy.clients > 0) {
+      const bytes = realTimePackage(memory.slots);
+      for (const server of streams) server.tell(bytes, true);
+    }
+    if (cycles % PRIMARY_CYCLES === 0 && packageTellers.some(({ clients }) => clients > 0)) {
       const bytes = packaged();
-      primary.tell(bytes, true);
-      secondary.tell(bytes, true);
+      for (const server of packageTellers) server.tell(bytes, true);
     }
   });
 
   const wanted = { ...UR_PORTS, ...options.ports }, doors: Extract<Listening, { kind: "listening" }>[] = [];
-  const servers: Readonly<Record<keyof UrPorts, { accept(stream: ByteStream): void; closeAll(): void }>> = { dashboard, primary, secondary, realTime, rtde };
+  const servers: Readonly<Record<keyof UrPorts, { accept(stream: ByteStream): void; closeAll(): void }>> = { dashboard, primary, secondary, realTime, rtde, primaryCopy, secondaryCopy, realTimeCopy };
   const ports: Record<keyof UrPorts, number> = { ...wanted };
   const closeAll = (): void => { for (const server of Object.values(servers)) server.closeAll(); };
-  for (const name of ["dashboard", "primary", "secondary", "realTime", "rtde"] as const) {
+  for (const name of Object.keys(servers) as (keyof UrPorts)[]) {
     const door = await network.listen({ host, port: wanted[name] }, stream => { if (faults.refusing || isClosed) stream.close(); else servers[name].accept(stream); });
     if (door.kind === "taken") {
       for (const open of doors) open.close();

@@ -47,13 +47,13 @@ export class Outbox {
     if (faults.silent || faults.frozen) return;
     if (isState && (stream.waiting > MOST_WAITING || (faults.loss > 0 && this.random() < faults.loss))) return;
     if (stream.waiting > FAR_TOO_MUCH) { stream.close(); return; }
-    const copy = faults.delay_s > 0 || faults.garbage > 0 ? bytes.slice() : bytes;
+    const isLate = faults.delay_s > 0 || this.late.length > 0, copy = isLate || faults.garbage > 0 ? bytes.slice() : bytes;
     if (faults.garbage > 0 && this.random() < faults.garbage) copy[Math.floor(this.random() * copy.length)] = Math.floor(this.random() * 256);
     const send = (): void => {
       if (!faults.split) { stream.send(copy); return; }
       for (let i = 0; i < copy.length; i++) stream.send(copy.subarray(i, i + 1));
     };
-    if (faults.delay_s > 0 || this.late.length > 0) this.late.push({ due_s: this.now_s() + faults.delay_s, send }); else send();
+    if (isLate) this.late.push({ due_s: this.now_s() + faults.delay_s, send }); else send();
   }
 
   /** What is due goes out, in order. */

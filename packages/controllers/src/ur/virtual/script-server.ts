@@ -9,10 +9,8 @@ export interface ScriptServerOptions {
   readonly outbox: Outbox;
   /** What a new client is told first: the version on the primary interface. */
   readonly greeting: () => readonly Uint8Array[];
-  /** A script that is whole: one program, or one line. */
-  readonly onScript: (text: string, answer: (bytes: Uint8Array) => void) => void;
-  /** Read-only: what comes is not listened to. */
-  readonly isReadOnly?: boolean;
+  /** A script that is whole: one program, or one line. Without it what comes is not listened to. */
+  readonly onScript?: (text: string, answer: (bytes: Uint8Array) => void) => void;
   log(sentence: string): void;
 }
 const LONGEST_LINE = 1 << 16;
@@ -26,11 +24,12 @@ export class ScriptServer {
   get clients(): number { return this.streams.size; }
 
   accept(stream: ByteStream): void {
-    const lines = lineReader(LONGEST_LINE), { options } = this;
+    const lines = lineReader(LONGEST_LINE), { options } = this, { onScript } = options;
     let text = "", open = 0;
     this.streams.add(stream);
     stream.onEnd(() => { this.streams.delete(stream); });
     for (const bytes of options.greeting()) options.outbox.send(stream, bytes);
+    if (!onScript) { stream.onBytes(() => { /* Read-only. */ }); return; }
     const reset = (why: string): void => { options.log(`${options.name}: ${why}`); this.end(stream); };
     stream.onBytes(lent => {
       const why = lines.push(lent, line => {
@@ -42,7 +41,7 @@ export class ScriptServer {
         if (open > 0) return;
         const whole = text;
         text = "";
-        options.onScript(whole, bytes => { options.outbox.send(stream, bytes); });
+        onScript(whole, bytes => { options.outbox.send(stream, bytes); });
       });
       if (why !== null && this.streams.has(stream)) reset(why);
     });

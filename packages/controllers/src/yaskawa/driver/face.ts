@@ -1,11 +1,11 @@
-import type { CommandOutcome, EmittedFile, Refusal, Robot, Scheduler } from "@twincell/core";
+import type { CommandOutcome, EmittedFile, HandedText, Refusal, Robot, Scheduler } from "@twincell/core";
 import type { Face, FaceEvents, FaceMotion, Opened } from "../../real/index.ts";
 import type { Network } from "../../transport/index.ts";
 import { COMMAND, DIVISION, FILE_PORT, ROBOT_PORT, SERVICE, EXAMPLE_OUTPUTS, EXAMPLE_SCALE, readAlarm, readJob, textAt, type PulseScale } from "../codec/index.ts";
 import { hsesClient, type Answer, type Client } from "./client.ts";
 import { fileClient, type FileClient } from "./files.ts";
 import { Hand } from "./hand.ts";
-import { sendJob } from "./job.ts";
+import { handJob } from "./job.ts";
 import { lineTable, watchedLines, type LineTable } from "./lines.ts";
 import { robotState } from "./state.ts";
 import { badAnswer, noGripper, noPulses, noWay, otherAxes, otherModel, unknownPulses } from "./words.ts";
@@ -137,6 +137,9 @@ export function yaskawaFace(options: YaskawaFaceOptions): YaskawaFace {
     return first ? { why: first, again: true } : null;
   }
 
+  const handText = (files: readonly EmittedFile[]): Promise<HandedText> => line
+    ? handJob(files, line.orders, line.files, hand) : Promise.resolve({ kind: "refused", why: noWay(to, { kind: "silent", after_s: 0 }) });
+
   function close(): void {
     life++;
     const was = line;
@@ -187,8 +190,11 @@ export function yaskawaFace(options: YaskawaFaceOptions): YaskawaFace {
       if (!hasGripper) return noGripper(robot);
       return line ? lines.write(line.orders, GRIPPER, closed, why => { hand.complaint = why.sentence; }) : noWay(to, { kind: "silent", after_s: 0 });
     },
-    runText: async (files: readonly EmittedFile[]): Promise<CommandOutcome> => line
-      ? sendJob(files, line.orders, line.files, hand) : { kind: "refused", why: noWay(to, { kind: "silent", after_s: 0 }) },
+    handText,
+    async runText(files: readonly EmittedFile[]): Promise<CommandOutcome> {
+      const handed = await handText(files);
+      return handed.kind === "refused" ? handed : handed.start();
+    },
   };
 }
 

@@ -1,4 +1,4 @@
-import type { CommandOutcome, EmittedFile } from "@twincell/core";
+import type { EmittedFile, HandedText } from "@twincell/core";
 import { ADDED, COMMAND, CYCLE, SERVICE, word, writeSelection } from "../codec/index.ts";
 import type { Client } from "./client.ts";
 import type { FileClient } from "./files.ts";
@@ -7,8 +7,8 @@ import { badName, noJob, notTaken } from "./words.ts";
 
 const PATIENCE_S = [0.3, 0.5, 1];
 
-/** Saves jobs, and what they mean by numbers, on the controller; selects the first job, and runs it once to its end. */
-export async function sendJob(files: readonly EmittedFile[], client: Client, store: FileClient, hand: Hand): Promise<CommandOutcome> {
+/** Saves jobs, and what they mean by numbers, on the controller, and selects the first job; started it runs once to its end. */
+export async function handJob(files: readonly EmittedFile[], client: Client, store: FileClient, hand: Hand): Promise<HandedText> {
   const { stops } = hand, first = files.find(({ name }) => /\.jbi$/i.test(name));
   if (!first) return { kind: "refused", why: noJob() };
   for (const { name, text } of files) {
@@ -25,5 +25,5 @@ export async function sendJob(files: readonly EmittedFile[], client: Client, sto
   if (select.kind === "silent" || select.reply.status !== 0) return { kind: "refused", why: notTaken(`Selecting ${first.name}`, select) };
   const cycle = await client.ask({ command: COMMAND.cycle, instance: 2, attribute: 1, service: SERVICE.setOne, data: word(CYCLE.once), patience_s: PATIENCE_S });
   if (cycle.kind === "silent" || cycle.reply.status !== 0) return { kind: "refused", why: notTaken("Choosing one cycle", cycle) };
-  return hand.runJob(stops);
+  return { kind: "handed", start: () => hand.runJob(stops), drop() { /* A job that is selected moves nothing. */ } };
 }

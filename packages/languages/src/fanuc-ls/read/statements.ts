@@ -1,6 +1,6 @@
 import type { TextFault, TextPlace } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
-import { TokenCursor, readExpression, type Argument, type Block, type Expression, type ExpressionRules, type Lexicon, type Statement } from "../../text/structured/index.ts";
+import { ForgivingReader, readExpression, type Argument, type Block, type Expression, type ExpressionRules, type Lexicon, type Statement } from "../../text/structured/index.ts";
 import type { Action, Motion, Point } from "./actions.ts";
 import { MESSAGE, REMARK } from "./listing.ts";
 
@@ -19,22 +19,20 @@ const RULES: ExpressionRules = {
 const LINES = new Set(["do", "ro", "ao", "uo", "so", "go", "di", "ri", "ai", "gi"]);
 /** Statements of which nothing shows in the motion. */
 const SILENT = new Set(["timer", "payload", "override", "ualm", "rsr", "tc_online", "col", "lock", "unlock", "monitor", "pause_monitor", "collision_guard", "motn", "stop_tracking", "error_prog", "resume_prog", "joint_max_speed", "linear_max_speed"]);
-const DEPTH = 50, MOST_FAULTS = 50;
 
 /** Statements of one program as a tree, jumps still as they stand. */
 export interface Reading { readonly block: Block; readonly actions: Map<Statement, Action>; readonly faults: readonly TextFault[] }
 
 export const readStatements = (code: string): Reading => new StatementReader(code).read();
 
-class StatementReader {
-  private readonly cursor: TokenCursor;
+class StatementReader extends ForgivingReader {
   private readonly actions = new Map<Statement, Action>();
-  private readonly faults: TextFault[] = [];
-  private depth = 0;
   /** The line of the statement has been left already. */
   private isOver = false;
 
-  constructor(code: string) { this.cursor = new TokenCursor(code, LEXICON, word => word.toLowerCase()); }
+  constructor(code: string) { super(code, LEXICON); }
+
+  protected override folded(word: string): string { return word.toLowerCase(); }
 
   read(): Reading {
     const { cursor } = this;
@@ -43,41 +41,29 @@ class StatementReader {
     return { block, actions: this.actions, faults: this.faults };
   }
 
-  private guard<T>(read: () => T): T | undefined {
-    const { depth } = this;
-    try {
-      return read();
-    } catch (cause) {
-      if (!(cause instanceof TextError)) throw cause;
-      this.faults.push(cause.fault);
-      this.depth = depth;
-      this.cursor.skip(cursor => cursor.isAt("line-end"));
-      return undefined;
-    }
-  }
-
   private block(ends: readonly string[], opened: TextPlace): Block {
-    const { cursor } = this, statements: Statement[] = [];
-    if (++this.depth > DEPTH) throw new TextError(opened, "a simpler program", `Blocks are nested more than ${DEPTH} deep.`);
-    for (;;) {
-      while (cursor.isAt("line-end")) if (this.guard(() => { cursor.advance(); return true; }) === undefined) break;
-      for (let comment = cursor.comment(); comment !== undefined; comment = cursor.comment()) statements.push({ kind: "comment", ...comment });
-      if (this.faults.length >= MOST_FAULTS || cursor.done) {
-        if (cursor.done && ends.length > 0) throw new TextError(cursor.here, ends[0]!.toUpperCase(), `The block of line ${opened.line} is not closed.`);
-        break;
+    const { cursor } = this;
+    return this.nested(opened, () => {
+      const statements: Statement[] = [];
+      for (;;) {
+        while (cursor.isAt("line-end")) if (this.guard(() => { cursor.advance(); return true; }) === undefined) break;
+        this.takeComments(statements);
+        if (this.hasEnough || cursor.done) {
+          if (cursor.done && ends.length > 0) throw new TextError(cursor.here, ends[0]!.toUpperCase(), `The block of line ${opened.line} is not closed.`);
+          break;
+        }
+        if (cursor.isAt("word") && ends.includes(cursor.next)) break;
+        if (cursor.isAt("line-end")) continue;
+        const statement = this.guard(() => {
+          const read = this.statement();
+          if (!cursor.isAt("line-end") && !cursor.done && !this.isOver) throw cursor.unexpected("the end of the line");
+          this.isOver = false;
+          return read;
+        });
+        if (statement !== undefined) statements.push(statement);
       }
-      if (cursor.isAt("word") && ends.includes(cursor.next)) break;
-      if (cursor.isAt("line-end")) continue;
-      const statement = this.guard(() => {
-        const read = this.statement();
-        if (!cursor.isAt("line-end") && !cursor.done && !this.isOver) throw cursor.unexpected("the end of the line");
-        this.isOver = false;
-        return read;
-      });
-      if (statement !== undefined) statements.push(statement);
-    }
-    this.depth--;
-    return statements;
+      return statements;
+    });
   }
 
   private act(action: Action, at: TextPlace): Statement {

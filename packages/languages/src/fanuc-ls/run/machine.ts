@@ -1,5 +1,5 @@
 import type { Condition, Executed, MoveStep, Pose, Robot, SignalLine, Signals, Step, Target, TextPlace } from "@twincell/core";
-import { TextError, nameIn } from "../../text/index.ts";
+import { TextError, nameIn, type Surroundings } from "../../text/index.ts";
 import { BlockMachine, type Block, type Do, type Expression, type Flow, type Statement, type WaitUntil } from "../../text/structured/index.ts";
 import type { Action, Motion, Point } from "../read/actions.ts";
 import type { PositionRecord } from "../read/listing.ts";
@@ -9,12 +9,6 @@ import { NOTHING, fromSix, inverted, times, toPose, toSix, type Matrix } from ".
 import { keep, speedOf } from "./pace.ts";
 import { asNumber, binary, isSix, type Value } from "./values.ts";
 
-/** What the steps of a run refer to; filled while it goes on. */
-export interface Surroundings {
-  readonly tools: Record<string, Pose<"flange", "tcp">>;
-  readonly frames: Record<string, Pose<"world", "frame">>;
-  readonly signals: Record<string, SignalLine>;
-}
 const KINDS: Readonly<Record<string, SignalLine["kind"]>> = {
   di: "digital-in", ri: "digital-in", ui: "digital-in", si: "digital-in", do: "digital-out", ro: "digital-out", uo: "digital-out", so: "digital-out",
   ai: "analogue-in", gi: "analogue-in", ao: "analogue-out", go: "analogue-out",

@@ -1,6 +1,6 @@
 import type { TextFault, TextPlace } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
-import { TokenCursor, readExpression, type Argument, type Block, type Expression, type ExpressionRules, type Lexicon, type Parameter, type Routine, type Statement } from "../../text/structured/index.ts";
+import { ForgivingReader, readExpression, type Argument, type Block, type Expression, type ExpressionRules, type Lexicon, type Parameter, type Routine, type Statement, type TokenCursor } from "../../text/structured/index.ts";
 import { INSTRUCTIONS, MOTIONS, SHORT, SPEED_UNITS, UNSAYABLE } from "./words.ts";
 
 const LEXICON: Lexicon = {
@@ -19,8 +19,6 @@ const RULES: ExpressionRules = {
   tags: [], index: "[", components: false, reserved: RESERVED, args: readArguments,
 };
 /** Deepest nesting of blocks: more than anybody writes, less than the stack holds. */
-const DEPTH = 50;
-const MOST_FAULTS = 50;
 
 /**
  * A text that was read: what a person called it, the program that is started, and those that it calls, under the name `call x`. The
@@ -32,19 +30,16 @@ export type SourceAnswer = { readonly kind: "source"; readonly source: Source } 
 /** Reads AS. Names are lower case. Goes on after a fault, so that all of them are told at once. */
 export const readSource = (text: string): SourceAnswer => new Reader(text).source();
 
-class Reader {
-  private readonly cursor: TokenCursor;
-  private readonly faults: TextFault[] = [];
+class Reader extends ForgivingReader {
   private readonly routines = new Map<string, Routine>();
   private readonly called = new Set<string>();
   private readonly lists: Statement[] = [];
   private readonly words = new Map<string, string>();
-  private depth = 0;
 
-  constructor(text: string) { this.cursor = new TokenCursor(text.replace(/^\uFEFF/, ""), LEXICON, word => this.folded(word)); }
+  constructor(text: string) { super(text, LEXICON); }
 
   /** Capitals count for nothing. The words of a long text are few. */
-  private folded(word: string): string {
+  protected override folded(word: string): string {
     const known = this.words.get(word);
     if (known !== undefined) return known;
     const small = word.toLowerCase();
@@ -55,7 +50,7 @@ class Reader {
   source(): SourceAnswer {
     const { cursor, routines } = this;
     this.guard(() => { cursor.advance(); });
-    while (!cursor.done && this.faults.length < MOST_FAULTS) {
+    while (!cursor.done && !this.hasEnough) {
       if (cursor.isAt("line-end")) { this.guard(() => { cursor.advance(); }); continue; }
       this.guard(() => { this.part(); });
     }
@@ -66,20 +61,7 @@ class Reader {
     return { kind: "source", source: { title: titleOf(first.body) ?? first.name, routines, main: [...this.lists, ...first.body] } };
   }
 
-  private guard<T>(read: () => T): T | undefined {
-    const { depth } = this;
-    try {
-      return read();
-    } catch (cause) {
-      if (!(cause instanceof TextError)) throw cause;
-      this.faults.push(cause.fault);
-      this.depth = depth;
-      this.restOfLine();
-      return undefined;
-    }
-  }
-
-  private restOfLine(): void { this.cursor.skip(cursor => cursor.isAt("line-end") || cursor.next === ".end"); }
+  protected override closes(word: string): boolean { return word === ".end"; }
 
   /** `.PROGRAM … .END`, `.TRANS … .END` and their like. What else a file of a controller holds means nothing here. */
   private part(): void {
@@ -148,29 +130,29 @@ class Reader {
         while (!cursor.isAt("line-end") && !cursor.done) { numbers.push(readExpression(cursor, RULES, 0, 6)); cursor.accept(","); }
         add(to, place, numbers);
       });
-      if (this.faults.length >= MOST_FAULTS) return;
+      if (this.hasEnough) return;
     }
   }
 
   private body(opened: string, at: TextPlace, ends: readonly string[]): Block {
-    const { cursor } = this, statements: Statement[] = [];
-    if (++this.depth > DEPTH) throw new TextError(at, "a simpler program", `Blocks are nested more than ${DEPTH} deep.`);
-    const comments = (): void => { for (let comment = cursor.comment(); comment !== undefined; comment = cursor.comment()) statements.push({ kind: "comment", ...comment }); };
-    for (;;) {
-      if (cursor.isAt("line-end")) { this.guard(() => { cursor.advance(); }); continue; }
-      comments();
-      if (cursor.kind === "word" && ends.includes(cursor.next)) break;
-      if (cursor.done || cursor.next === ".program" || cursor.next === ".end") throw new TextError(cursor.here, ends[0]!.toUpperCase(), `The ${opened} of line ${at.line} is not closed.`);
-      if (this.faults.length >= MOST_FAULTS) break;
-      const statement = this.guard(() => {
-        const read = this.statement();
-        if (!cursor.isAt("line-end") && !cursor.done) throw cursor.unexpected("the end of the line");
-        return read;
-      });
-      if (statement !== undefined) statements.push(statement);
-    }
-    this.depth--;
-    return withBreaks(statements);
+    const { cursor } = this;
+    return this.nested(at, () => {
+      const statements: Statement[] = [];
+      for (;;) {
+        if (cursor.isAt("line-end")) { this.guard(() => { cursor.advance(); }); continue; }
+        this.takeComments(statements);
+        if (cursor.kind === "word" && ends.includes(cursor.next)) break;
+        if (cursor.done || cursor.next === ".program" || cursor.next === ".end") throw new TextError(cursor.here, ends[0]!.toUpperCase(), `The ${opened} of line ${at.line} is not closed.`);
+        if (this.hasEnough) break;
+        const statement = this.guard(() => {
+          const read = this.statement();
+          if (!cursor.isAt("line-end") && !cursor.done) throw cursor.unexpected("the end of the line");
+          return read;
+        });
+        if (statement !== undefined) statements.push(statement);
+      }
+      return withBreaks(statements);
+    });
   }
 
   private statement(): Statement | undefined {

@@ -1,22 +1,16 @@
 import type { Condition, Executed, MoveStep, Pose, Robot, Signals, Speed, Step, Target, TextPlace } from "@twincell/core";
-import { TextError, nameIn } from "../../text/index.ts";
+import { TextError, nameIn, type Surroundings } from "../../text/index.ts";
 import { BlockMachine, type Do, type Expression, type Flow, type WaitUntil } from "../../text/structured/index.ts";
 import type { Source } from "../read/grammar.ts";
 import { MOTIONS, SPEED_UNITS } from "../read/words.ts";
 import { ControllerArm, radians, type Posture } from "./arm.ts";
 import { NULL, inverted, shifted, times, toPose, trans, type Matrix } from "./frame.ts";
 import { FUNCTIONS, numbersOf } from "./functions.ts";
-import { holds, lineAt, type Lines } from "./lines.ts";
+import { holds, lineAt } from "./lines.ts";
 import { asNumber, asPlace, binary, kindOf, truth, type PlaceValue, type Value } from "./values.ts";
 
 export { speaksAs } from "./arm.ts";
 
-/** What the steps of a run refer to; filled while it goes on. */
-export interface Surroundings {
-  readonly tools: Record<string, Pose<"flange", "tcp">>;
-  readonly frames: Record<string, Pose<"world", "frame">>;
-  readonly signals: Lines;
-}
 /** A setting that holds until it is said anew, and one that holds for the next motion alone. */
 interface Setting<T> { always: T; once: T | undefined }
 const JOINTS = 6;

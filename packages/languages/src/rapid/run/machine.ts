@@ -1,5 +1,5 @@
-import { type Condition, type Executed, type MoveStep, type Pose, type Robot, type SignalLine, type Signals, type Speed, type Step, type Target, type TextPlace } from "@twincell/core";
-import { TextError, nameIn } from "../../text/index.ts";
+import type { Condition, Executed, MoveStep, Pose, Robot, Signals, Speed, Step, Target, TextPlace } from "@twincell/core";
+import { TextError, nameIn, type Surroundings } from "../../text/index.ts";
 import { BlockMachine, type Block, type Do, type Expression, type Flow, type Routine, type WaitUntil } from "../../text/structured/index.ts";
 import type { Datum, Source } from "../read/grammar.ts";
 import { ControllerArm } from "./arm.ts";
@@ -12,12 +12,6 @@ import { jointsOf, loadOf, toolFrameOf, zoneOf } from "./records.ts";
 import { predefined } from "./predefined.ts";
 import { asFrame, asNumber, asNumbers, asRecord, asTruth, binary, fromFrame, placeOf, type Value } from "./values.ts";
 
-/** What the steps of a run refer to; filled while it goes on. */
-export interface Surroundings {
-  readonly tools: Record<string, Pose<"flange", "tcp">>;
-  readonly frames: Record<string, Pose<"world", "frame">>;
-  readonly signals: Record<string, SignalLine>;
-}
 /** The output that closes the gripper. */
 const GRIPPER = "dogripper";
 /** Instructions that change nothing of where the robot goes. */

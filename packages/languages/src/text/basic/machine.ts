@@ -1,17 +1,12 @@
-import type { Condition, Executed, MoveStep, Pose, Robot, SignalLine, Signals, Step, Target, TextPlace } from "@twincell/core";
+import type { Condition, Executed, MoveStep, Pose, Robot, Signals, Step, Target, TextPlace } from "@twincell/core";
 import { TextError } from "../faults.ts";
+import type { Surroundings } from "../surroundings.ts";
 import { BlockMachine, constantsOf, type Argument, type Do, type Expression, type Flow, type WaitUntil } from "../structured/index.ts";
 import type { BasicSource } from "./reader.ts";
 import { NOWHERE, asPose, on, type Rigid } from "./rigid.ts";
 import { UprightArm, inRadians, type Upright } from "./upright.ts";
 import { arithmetic, numberIn, placeIn, sortOf, type PlaceValue, type Value } from "./values.ts";
 
-/** What the steps of a run refer to; filled while it goes on. */
-export interface Surroundings {
-  readonly tools: Record<string, Pose<"flange", "tcp">>;
-  readonly frames: Record<string, Pose<"world", "frame">>;
-  readonly signals: Record<string, SignalLine>;
-}
 /** Where a text runs. */
 export interface Stage { readonly source: BasicSource; readonly robot: Robot; readonly worldFromBase: Pose<"world", "base">; readonly surroundings: Surroundings; readonly signals?: Signals }
 type Binary = Extract<Expression, { kind: "binary" }>;

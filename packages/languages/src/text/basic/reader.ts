@@ -1,10 +1,7 @@
 import type { TextFault, TextPlace } from "@twincell/core";
 import { TextError } from "../faults.ts";
-import { TokenCursor, readExpression, type Argument, type Block, type Expression, type ExpressionRules, type Lexicon, type Parameter, type Routine, type Statement } from "../structured/index.ts";
+import { ForgivingReader, readExpression, type Argument, type Block, type Expression, type ExpressionRules, type Lexicon, type Parameter, type Routine, type Statement, type TokenCursor } from "../structured/index.ts";
 
-/** Deepest nesting of blocks: more than anybody writes, less than the stack holds. */
-const DEPTH = 50;
-const MOST_FAULTS = 50;
 
 /** A text that was read: what a person called it, the routine that is started, and those that it calls. */
 export interface BasicSource { readonly title: string; readonly main: Block; readonly routines: ReadonlyMap<string, Routine> }
@@ -21,28 +18,25 @@ export interface BasicGrammar {
 }
 
 /** Reads blocks, decisions and loops of a BASIC; its routines and instructions are the language's own affair. Goes on after a fault, so that all of them are told at once. */
-export abstract class BasicReader {
-  protected readonly cursor: TokenCursor;
+export abstract class BasicReader extends ForgivingReader {
   protected readonly grammar: BasicGrammar;
-  protected readonly faults: TextFault[] = [];
   protected readonly routines = new Map<string, Routine>();
   /** What is done before the first statement: constants get their values. */
   protected readonly before: Statement[] = [];
   /** Routines that are called, with where. */
   private readonly calls = new Map<string, TextPlace>();
   private readonly words = new Map<string, string>();
-  private depth = 0;
 
   constructor(text: string, grammar: BasicGrammar) {
+    super(text, grammar.lexicon);
     this.grammar = grammar;
-    this.cursor = new TokenCursor(text.replace(/^\uFEFF/, ""), grammar.lexicon, word => this.folded(word));
   }
 
   /** Another name of the same thing. */
   protected alias(word: string, stands: string): void { this.words.set(word, stands); }
 
   /** Capitals count for nothing. The words of a long text are few. */
-  private folded(word: string): string {
+  protected override folded(word: string): string {
     const known = this.words.get(word);
     if (known !== undefined) return known;
     const small = word.toLowerCase().replace(/\s+/g, " "), folded = this.words.get(small) ?? (Object.hasOwn(this.grammar.alike, small) ? this.grammar.alike[small]! : small);
@@ -60,7 +54,7 @@ export abstract class BasicReader {
   source(): BasicAnswer {
     const { cursor, faults } = this;
     this.guard(() => { cursor.advance(); });
-    while (!cursor.done && faults.length < MOST_FAULTS) {
+    while (!cursor.done && !this.hasEnough) {
       if (cursor.isAt("line-end")) { this.guard(() => { cursor.advance(); }); continue; }
       const { length } = faults;
       this.guard(() => { this.part(); });
@@ -73,22 +67,8 @@ export abstract class BasicReader {
     return { kind: "source", source: { title: titleOf(main.body) ?? main.name, main: [...this.before, ...main.body], routines: this.routines } };
   }
 
-  protected guard<T>(read: () => T): T | undefined {
-    const { depth } = this;
-    try {
-      return read();
-    } catch (cause) {
-      if (!(cause instanceof TextError)) throw cause;
-      this.faults.push(cause.fault);
-      this.depth = depth;
-      this.restOfLine();
-      return undefined;
-    }
-  }
-
   /** Remarks outside of routines say nothing. */
   protected dropRemarks(): void { while (this.cursor.comment() !== undefined); }
-  protected restOfLine(): void { this.cursor.skip(cursor => cursor.isAt("line-end") || this.closes(cursor.next)); }
   protected value(least = 0): Expression { return readExpression(this.cursor, this.grammar.expression, 0, least); }
   protected get atEnd(): boolean { return this.cursor.isAt("line-end") || this.cursor.done || this.cursor.next === ";"; }
 
@@ -142,30 +122,31 @@ export abstract class BasicReader {
   protected isCalled(name: string, at: TextPlace): void { if (!this.calls.has(name)) this.calls.set(name, at); }
 
   protected body(opened: string, at: TextPlace, ends: readonly string[]): Block {
-    const { cursor } = this, statements: Statement[] = [];
-    if (++this.depth > DEPTH) throw new TextError(at, "a simpler program", `Blocks are nested more than ${DEPTH} deep.`);
-    for (;;) {
-      if (cursor.isAt("line-end") || cursor.next === ";") { this.guard(() => { cursor.advance(); }); continue; }
-      for (let comment = cursor.comment(); comment !== undefined; comment = cursor.comment()) statements.push({ kind: "comment", ...comment });
-      // The number of a step.
-      if (cursor.isAt("number")) { this.guard(() => { cursor.advance(); }); continue; }
-      if (cursor.kind === "word" && ends.includes(cursor.next)) break;
-      if (cursor.done && ends.includes("")) break;
-      if (cursor.done || this.closes(cursor.next)) throw new TextError(cursor.here, ends[0]!, `The ${opened} of line ${at.line} is not closed.`);
-      if (this.faults.length >= MOST_FAULTS) break;
-      const statement = this.guard(() => {
-        const read = this.statement();
-        if (!this.atEnd) throw cursor.unexpected("the end of the line");
-        return read;
-      });
-      if (statement !== undefined) statements.push(statement);
-    }
-    this.depth--;
-    return statements;
+    const { cursor } = this;
+    return this.nested(at, () => {
+      const statements: Statement[] = [];
+      for (;;) {
+        if (cursor.isAt("line-end") || cursor.next === ";") { this.guard(() => { cursor.advance(); }); continue; }
+        this.takeComments(statements);
+        // The number of a step.
+        if (cursor.isAt("number")) { this.guard(() => { cursor.advance(); }); continue; }
+        if (cursor.kind === "word" && ends.includes(cursor.next)) break;
+        if (cursor.done && ends.includes("")) break;
+        if (cursor.done || this.closes(cursor.next)) throw new TextError(cursor.here, ends[0]!, `The ${opened} of line ${at.line} is not closed.`);
+        if (this.hasEnough) break;
+        const statement = this.guard(() => {
+          const read = this.statement();
+          if (!this.atEnd) throw cursor.unexpected("the end of the line");
+          return read;
+        });
+        if (statement !== undefined) statements.push(statement);
+      }
+      return statements;
+    });
   }
 
   /** Whether a word ends a routine, so that a block inside it cannot go on. */
-  protected closes(word: string): boolean { return word === "end sub" || word === "fend"; }
+  protected override closes(word: string): boolean { return word === "end sub" || word === "fend"; }
 
   private statement(): Statement | undefined {
     const { cursor, grammar } = this, at = cursor.here, word = cursor.next;
@@ -213,9 +194,7 @@ export abstract class BasicReader {
 
   private inOneLine(when: Expression, at: TextPlace): Statement {
     const { cursor } = this, one = (): Block => { const read = this.statement(); return read === undefined ? [] : [read]; };
-    if (++this.depth > DEPTH) throw new TextError(at, "a simpler program", `Blocks are nested more than ${DEPTH} deep.`);
-    const branches = [{ when, body: one() }], otherwise = cursor.accept("else") ? one() : undefined;
-    this.depth--;
+    const { branches, otherwise } = this.nested(at, () => ({ branches: [{ when, body: one() }], otherwise: cursor.accept("else") ? one() : undefined }));
     cursor.accept("end if");
     return otherwise === undefined ? { kind: "if", branches, ...at } : { kind: "if", branches, otherwise, ...at };
   }

@@ -6,3 +6,5 @@ export * from "./machine.ts";
 export * from "./constants.ts";
 export * from "./changes.ts";
 export * from "./outline.ts";
+export * from "./doors.ts";
+export * from "./forgiving.ts";

@@ -1,6 +1,6 @@
 import type { TextFault, TextPlace } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
-import { TokenCursor, readExpression, type Argument, type Block, type Expression, type ExpressionRules, type Lexicon, type Parameter, type Routine, type Statement } from "../../text/structured/index.ts";
+import { ForgivingReader, readExpression, type Argument, type Block, type Expression, type ExpressionRules, type Lexicon, type Parameter, type Routine, type Statement, type TokenCursor } from "../../text/structured/index.ts";
 
 const LEXICON: Lexicon = {
   comment: "#", quotes: "\"'", doubled: false, lineEnds: true,
@@ -16,9 +16,6 @@ const RULES: ExpressionRules = {
   constants: { True: true, False: false },
   tags: ["p"], index: "[", components: false, reserved: RESERVED, args: readArguments,
 };
-/** Deepest nesting of blocks: more than anybody writes, less than the stack holds. */
-const DEPTH = 50;
-const MOST_FAULTS = 50;
 
 /** A text that was read: what a person called it, routines by name, and what stands in the program itself or, for a bare script, outside all of them. */
 export interface Source { readonly title: string; readonly routines: ReadonlyMap<string, Routine>; readonly main: Block }
@@ -27,19 +24,18 @@ export type SourceAnswer = { readonly kind: "source"; readonly source: Source } 
 /** Reads URScript. Goes on after a fault, so that all of them are told at once. */
 export const readSource = (text: string): SourceAnswer => new Reader(text).source();
 
-class Reader {
-  private readonly cursor: TokenCursor;
-  private readonly faults: TextFault[] = [];
+class Reader extends ForgivingReader {
   private readonly routines = new Map<string, Routine>();
-  private depth = 0;
 
-  constructor(text: string) { this.cursor = new TokenCursor(text, LEXICON, word => word); }
+  constructor(text: string) { super(text, LEXICON); }
+
+  protected override folded(word: string): string { return word; }
 
   source(): SourceAnswer {
     const loose: Statement[] = [], defined: Routine[] = [];
     this.guard(() => { this.cursor.advance(); });
-    while (!this.cursor.done && this.faults.length < MOST_FAULTS) {
-      this.comments(loose);
+    while (!this.cursor.done && !this.hasEnough) {
+      this.takeComments(loose);
       const first = this.routines.size, statement = this.line();
       if (statement !== undefined) loose.push(statement);
       if (this.routines.size > first) defined.push([...this.routines.values()].at(-1)!);
@@ -50,17 +46,6 @@ class Reader {
     if (loose.some(({ kind }) => kind !== "comment") || entry === undefined) return { kind: "source", source: { title: titleOf(loose) ?? entry?.name ?? "Program", routines: this.routines, main: loose } };
     this.routines.delete(entry.name);
     return { kind: "source", source: { title: titleOf(entry.body) ?? entry.name, routines: this.routines, main: entry.body } };
-  }
-
-  private guard<T>(read: () => T): T | undefined {
-    try {
-      return read();
-    } catch (cause) {
-      if (!(cause instanceof TextError)) throw cause;
-      this.faults.push(cause.fault);
-      this.cursor.skip(cursor => cursor.kind === "line-end");
-      return undefined;
-    }
   }
 
   /** One statement with the end of its line; undefined for an empty line, a label, a definition and a fault. */
@@ -76,23 +61,20 @@ class Reader {
     });
   }
 
-  private comments(block: Statement[]): void {
-    for (let comment = this.cursor.comment(); comment !== undefined; comment = this.cursor.comment()) block.push({ kind: "comment", ...comment });
-  }
-
   private body(opened: string, at: TextPlace, ends: readonly string[]): Block {
-    const { cursor } = this, statements: Statement[] = [];
-    if (++this.depth > DEPTH) throw new TextError(at, "a simpler program", `Blocks are nested more than ${DEPTH} deep.`);
-    while (!ends.includes(cursor.next)) {
-      if (cursor.done || this.faults.length >= MOST_FAULTS) { this.depth--; throw new TextError(cursor.here, "end", `The ${opened} of line ${at.line} is not closed.`); }
-      this.comments(statements);
-      if (ends.includes(cursor.next)) break;
-      const statement = this.line();
-      if (statement !== undefined) statements.push(statement);
-    }
-    this.comments(statements);
-    this.depth--;
-    return statements;
+    const { cursor } = this;
+    return this.nested(at, () => {
+      const statements: Statement[] = [];
+      while (!ends.includes(cursor.next)) {
+        if (cursor.done || this.hasEnough) throw new TextError(cursor.here, "end", `The ${opened} of line ${at.line} is not closed.`);
+        this.takeComments(statements);
+        if (ends.includes(cursor.next)) break;
+        const statement = this.line();
+        if (statement !== undefined) statements.push(statement);
+      }
+      this.takeComments(statements);
+      return statements;
+    });
   }
 
   private statement(): Statement | undefined {

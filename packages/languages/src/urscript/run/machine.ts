@@ -1,20 +1,14 @@
 import { type Executed, type MoveStep, type Pose, type Robot, type Signals, type Speed, type Step, type Target, type TextPlace } from "@twincell/core";
-import { TextError, nameIn } from "../../text/index.ts";
+import { TextError, nameIn, type Surroundings } from "../../text/index.ts";
 import { BlockMachine, type Do, type Expression, type Flow, type WaitUntil } from "../../text/structured/index.ts";
 import type { Source } from "../read/grammar.ts";
 import { ControllerArm } from "./arm.ts";
 import { matrixOf, toPose, times } from "./frame.ts";
 import { FUNCTIONS, itemOf, withItem } from "./functions.ts";
 import { Arguments } from "./arguments.ts";
-import { conditionOf, doorOf, holds, lineAt, type Lines } from "./lines.ts";
+import { conditionOf, doorOf, holds, lineAt } from "./lines.ts";
 import { asNumber, asNumbers, asPose, asTruth, binary, kindOf, poseOf, type PoseValue, type Value } from "./values.ts";
 
-/** What the steps of a run refer to; filled while it goes on. */
-export interface Surroundings {
-  readonly tools: Record<string, Pose<"flange", "tcp">>;
-  readonly frames: Record<string, Pose<"world", "frame">>;
-  readonly signals: Lines;
-}
 /** Speed at which all joints can turn, and what the controller takes where a move says nothing [rad/s, m/s]. */
 const FULL_RAD_S: Readonly<Record<string, number>> = { ur10e: 120 / 180 * Math.PI };
 export const speaksUrScript = (robot: Robot): boolean => Object.hasOwn(FULL_RAD_S, robot.id);

@@ -15,7 +15,7 @@ export interface Application {
   /** Variables of a program, by its name: each with the value that its type begins with. */
   readonly locals: ReadonlyMap<string, ReadonlyMap<string, string>>;
 }
-export type ApplicationAnswer = { readonly kind: "application"; readonly application: Application } | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
+export type ApplicationAnswer = { readonly kind: "source"; readonly source: Application } | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 interface OpenProgram extends TextPlace { readonly name: string; readonly parameters: Parameter[]; readonly locals: Map<string, string>; code?: { readonly text: string; readonly at: TextPlace } }
 
@@ -68,7 +68,7 @@ export function readApplication(text: string): ApplicationAnswer {
   }
   if (faults.length > 0) return { kind: "not-understood", faults };
   const main = routines.get(`call ${entry.name}`)!;
-  return { kind: "application", application: { title: titleOf(main.body) ?? entry.name, main, routines, data, locals: new Map(programs.map(({ name, locals }) => [`call ${name}`, locals])) } };
+  return { kind: "source", source: { title: titleOf(main.body) ?? entry.name, main, routines, data, locals: new Map(programs.map(({ name, locals }) => [`call ${name}`, locals])) } };
 }
 
 function titleOf(block: Block): string | undefined {

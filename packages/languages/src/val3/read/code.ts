@@ -1,6 +1,6 @@
 import type { TextFault, TextPlace } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
-import { TokenCursor, readExpression, type Argument, type Block, type Expression, type ExpressionRules, type Lexicon, type Statement } from "../../text/structured/index.ts";
+import { ForgivingReader, readExpression, type Argument, type Block, type Expression, type ExpressionRules, type Lexicon, type Statement, type TokenCursor } from "../../text/structured/index.ts";
 
 /** Stands for the two slashes of a remark, which are no single sign. */
 export const REMARK = "\u0002";
@@ -16,7 +16,6 @@ const RULES: ExpressionRules = {
   tags: [], index: "[", components: true, reserved: RESERVED, args: cursor => readArguments(cursor),
 };
 const CLOSES: ReadonlySet<string> = new Set(["end", "endif", "endwhile", "endfor", "endswitch", "until", "else", "elseif"]);
-const DEPTH = 50, MOST_FAULTS = 50;
 
 /** `{…}` is a list as `[…]` is elsewhere: `trsf` literals are told by their braces. */
 function readArguments(cursor: TokenCursor): readonly Argument[] {
@@ -39,16 +38,18 @@ function readValue(cursor: TokenCursor): Expression {
 /** @param isMain  `return` ends the whole program. */
 export function readCode(code: string, isMain: boolean): { readonly block: Block; readonly faults: readonly TextFault[] } { return new CodeReader(code, isMain).read(); }
 
-class CodeReader {
-  private readonly cursor: TokenCursor;
+class CodeReader extends ForgivingReader {
   private readonly isMain: boolean;
-  private readonly faults: TextFault[] = [];
-  private depth = 0;
 
   constructor(code: string, isMain: boolean) {
     // Remarks begin with two slashes, except in a text.
-    this.cursor = new TokenCursor(code.replace(/^((?:[^"\n/]|"[^"\n]*"|\/(?!\/))*)\/\//gm, `$1 ${REMARK}`), LEXICON, word => word.toLowerCase() in KEYWORDS ? word.toLowerCase() : word);
+    super(code.replace(/^((?:[^"\n/]|"[^"\n]*"|\/(?!\/))*)\/\//gm, `$1 ${REMARK}`), LEXICON);
     this.isMain = isMain;
+  }
+
+  protected override folded(word: string): string {
+    const small = word.toLowerCase();
+    return small in KEYWORDS ? small : word;
   }
 
   read(): { readonly block: Block; readonly faults: readonly TextFault[] } {
@@ -65,38 +66,26 @@ class CodeReader {
     return { block: block ?? [], faults: this.faults };
   }
 
-  private guard<T>(read: () => T): T | undefined {
-    const { depth } = this;
-    try {
-      return read();
-    } catch (cause) {
-      if (!(cause instanceof TextError)) throw cause;
-      this.faults.push(cause.fault);
-      this.depth = depth;
-      this.cursor.skip(cursor => cursor.isAt("line-end"));
-      return undefined;
-    }
-  }
-
   private block(ends: readonly string[], opened: TextPlace): Block {
-    const { cursor } = this, statements: Statement[] = [];
-    if (++this.depth > DEPTH) throw new TextError(opened, "a simpler program", `Blocks are nested more than ${DEPTH} deep.`);
-    for (;;) {
-      while (cursor.isAt("line-end")) if (this.guard(() => { cursor.advance(); return true; }) === undefined) break;
-      for (let comment = cursor.comment(); comment !== undefined; comment = cursor.comment()) statements.push({ kind: "comment", ...comment });
-      if (cursor.done || this.faults.length >= MOST_FAULTS) throw new TextError(cursor.here, ends[0]!, `The block of line ${opened.line} is not closed.`);
-      if (cursor.isAt("word") && ends.includes(cursor.next)) break;
-      if (cursor.isAt("line-end")) continue;
-      if (cursor.isAt("word") && CLOSES.has(cursor.next)) throw new TextError(cursor.here, ends[0]!, `The block of line ${opened.line} is not closed.`);
-      const statement = this.guard(() => {
-        const read = this.statement();
-        if (!cursor.isAt("line-end") && !cursor.done) throw cursor.unexpected("the end of the line");
-        return read;
-      });
-      if (statement !== undefined) statements.push(statement);
-    }
-    this.depth--;
-    return statements;
+    const { cursor } = this;
+    return this.nested(opened, () => {
+      const statements: Statement[] = [];
+      for (;;) {
+        while (cursor.isAt("line-end")) if (this.guard(() => { cursor.advance(); return true; }) === undefined) break;
+        this.takeComments(statements);
+        if (cursor.done || this.hasEnough) throw new TextError(cursor.here, ends[0]!, `The block of line ${opened.line} is not closed.`);
+        if (cursor.isAt("word") && ends.includes(cursor.next)) break;
+        if (cursor.isAt("line-end")) continue;
+        if (cursor.isAt("word") && CLOSES.has(cursor.next)) throw new TextError(cursor.here, ends[0]!, `The block of line ${opened.line} is not closed.`);
+        const statement = this.guard(() => {
+          const read = this.statement();
+          if (!cursor.isAt("line-end") && !cursor.done) throw cursor.unexpected("the end of the line");
+          return read;
+        });
+        if (statement !== undefined) statements.push(statement);
+      }
+      return statements;
+    });
   }
 
   private value(): Expression { return readValue(this.cursor); }

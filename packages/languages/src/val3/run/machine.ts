@@ -1,17 +1,11 @@
 import type { Condition, Executed, MoveStep, Pose, Robot, SignalLine, Signals, Speed, Step, Target, TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError, type Surroundings } from "../../text/index.ts";
 import { BlockMachine, type Argument, type Block, type Do, type Expression, type Flow, type Routine, type WaitUntil } from "../../text/structured/index.ts";
 import type { Application } from "../read/application.ts";
 import { ControllerArm } from "./arm.ts";
 import { NOTHING, fromSix, inverted, times, toPose, type Trsf } from "./trsf.ts";
 import { asNumber, beginning, binary, finite, isList, kindOf, valuesOf, type Description, type Frame, type Kind, type Point, type Value } from "./values.ts";
 
-/** What the steps of a run refer to; filled while it goes on. */
-export interface Surroundings {
-  readonly tools: Record<string, Pose<"flange", "tcp">>;
-  readonly frames: Record<string, Pose<"world", "frame">>;
-  readonly signals: Record<string, SignalLine>;
-}
 /** Instructions that change nothing of where the robot goes. */
 const SILENT = new Set(["autoconnectmove", "userpage", "cls", "enablepower", "gotoxy", "title", "restartmove", "put", "setmonitorspeed"]);
 const SAYS = new Set(["putln", "popupmsg", "logmsg"]);

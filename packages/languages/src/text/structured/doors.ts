@@ -1,0 +1,68 @@
+import { emptyProgram, identity, type Dialect, type Executed, type Interpreted, type Parsed, type Pose, type Robot, type Signals, type Step, type TextFault } from "@twincell/core";
+import { TextError, textFault } from "../faults.ts";
+import { rehearse } from "../rehearse.ts";
+import { newSurroundings, type Surroundings } from "../surroundings.ts";
+import { Outline, type OutlineMachine } from "./outline.ts";
+import type { Block } from "./tree.ts";
+
+/** A text that was read, for one robot: its title, and how it is executed and written down. */
+export interface Script<M> {
+  readonly title: string;
+  /** A machine before its first statement. It adds the tools, frames and lines that it meets to `surroundings`. */
+  readonly machine: (surroundings: Surroundings, signals?: Signals) => M;
+  /** The one that writes the program down, where that takes another. */
+  readonly writer?: (surroundings: Surroundings) => M;
+  readonly run: (machine: M) => Generator<Executed, unknown>;
+  /** The statements of the program that is started, with `machine` ready to evaluate them. */
+  readonly block: (machine: M) => Block;
+  /** Steps that loops and calls cannot be kept of; by default they are outlined. May throw a TextError. */
+  readonly unrolled?: ((machine: M) => Step[]) | undefined;
+  /** What a person should know of what was written down. */
+  readonly warnings?: (machine: M) => readonly TextFault[];
+}
+/** A language of blocks: who speaks it, and how a text of it is read. */
+export interface BlockLanguage<S, M> {
+  readonly name: string;
+  readonly speaks: (robot: Robot) => boolean;
+  readonly read: (text: string) => { readonly kind: "source"; readonly source: S } | NotUnderstood;
+  readonly script: (source: S, robot: Robot, worldFromBase: Pose<"world", "base">) => Script<M>;
+}
+interface NotUnderstood { readonly kind: "not-understood"; readonly faults: readonly TextFault[] }
+
+/**
+ * The two doors through which text of a language of blocks comes in. Read as a program, loops that do the same each time stay
+ * loops, nests of loops over a pattern of places become pallets, decisions by one line and calls stay what they are, and
+ * everything else comes out as what it does.
+ */
+export function blockDoors<S, V, M extends OutlineMachine<V> & { spelt?(name: string): string }>({ name, speaks, read, script }: BlockLanguage<S, M>): Pick<Dialect, "parse" | "interpret"> {
+  function open(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): { readonly kind: "open"; readonly script: Script<M> } | NotUnderstood {
+    if (!speaks(robot)) return refusal(textFault({ line: 1, column: 1 }, `a robot whose controller speaks ${name}`, `The controller of the ${robot.name} does not speak ${name}.`));
+    const answer = read(text);
+    return answer.kind === "not-understood" ? answer : { kind: "open", script: script(answer.source, robot, worldFromBase) };
+  }
+  return {
+    interpret(text, robot, worldFromBase = identity()): Interpreted {
+      const opened = open(text, robot, worldFromBase);
+      if (opened.kind === "not-understood") return opened;
+      const surroundings = newSurroundings();
+      const run = function* (signals?: Signals): Generator<Executed, void> { yield* opened.script.run(opened.script.machine(surroundings, signals)); };
+      const fault = rehearse(run());
+      return fault === undefined ? { kind: "ready", run, context: surroundings } : refusal(fault);
+    },
+    parse(text, robot, worldFromBase = identity()): Parsed {
+      const opened = open(text, robot, worldFromBase);
+      if (opened.kind === "not-understood") return opened;
+      const { title, machine: start, writer = start, block, unrolled, warnings } = opened.script, surroundings = newSurroundings();
+      try {
+        const machine = writer(surroundings), outline = new Outline(machine, called => machine.spelt?.(called) ?? called);
+        const steps = unrolled === undefined ? outline.steps(block(machine)) : unrolled(machine), { groups, routines, pallets } = outline;
+        return { kind: "parsed", warnings: [...outline.warnings, ...warnings?.(machine) ?? []], program: { ...emptyProgram(robot.id, title), ...surroundings, groups, pallets, routines, steps } };
+      } catch (cause) {
+        if (!(cause instanceof TextError)) throw cause;
+        return refusal(cause.fault);
+      }
+    },
+  };
+}
+
+const refusal = (fault: TextFault): NotUnderstood => ({ kind: "not-understood", faults: [fault] });
