@@ -1,4 +1,5 @@
 export { serve, type Served, type ServeOptions } from "./serve.ts";
+export { servePendant, type ServedPendant } from "./pendant.ts";
 export { lanAddresses } from "./lan.ts";
 export { nodeNetwork } from "./sockets/node-network.ts";
 export { nodeScheduler } from "./clock.ts";

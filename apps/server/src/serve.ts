@@ -1,11 +1,12 @@
-import { createServer as createHttp, type IncomingMessage, type RequestListener, type ServerResponse } from "node:http";
+import { createServer as createHttp } from "node:http";
 import { createServer as createHttps } from "node:https";
 import type { AddressInfo } from "node:net";
 import { join } from "node:path";
 import { createVideoRelay } from "@twincell/messages";
-import { accessCode, askForCode, type AccessCode } from "./access.ts";
+import { accessCode } from "./access.ts";
 import { certificate, lanAddresses } from "./lan.ts";
 import { nodeScheduler } from "./clock.ts";
+import { isServed, LOOPBACK, studioListener } from "./pages.ts";
 import { stationHost } from "./stations/host.ts";
 import { recordHost } from "./stations/record-host.ts";
 import { openDoors } from "./sockets/doors.ts";
@@ -35,27 +36,11 @@ export interface Served {
   close(): Promise<void>;
 }
 
-/** Cross-origin isolation gives the studio precise clocks and shared memory; nothing is ever loaded from elsewhere. */
-const HEADERS: Readonly<Record<string, string>> = {
-  "content-security-policy": "default-src 'self'; script-src 'self' 'wasm-unsafe-eval' blob:; worker-src 'self' blob:; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' data: blob:; frame-ancestors 'none'; base-uri 'self'; form-action 'self'",
-  "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp",
-  "x-content-type-options": "nosniff", "referrer-policy": "no-referrer",
-  // The camera of a phone or of this computer may be asked for; nothing here listens.
-  "permissions-policy": "camera=(self), microphone=()",
-};
-
-/**
- * MuJoCo's bindings write their own invokers when they start. Only the worker that holds them may do so, which has no page to
- * change and nobody but this origin to talk to; everything else stays without.
- */
-const WRITES_CODE = /^\/assets\/physics\.worker-[\w-]+\.js$/;
-const WRITER_HEADERS: Readonly<Record<string, string>> = { ...HEADERS, "content-security-policy": "default-src 'none'; script-src 'self' 'wasm-unsafe-eval' 'unsafe-eval'; connect-src 'self'" };
-
 /** Serves the built studio on loopback, or on the local network when asked. Rejects when the port is taken. */
 export async function serve(options: ServeOptions): Promise<Served> {
   const addresses = options.lan ? lanAddresses() : [];
   const access = options.lan ? accessCode() : null;
-  const hosts = new Set(["localhost", "127.0.0.1", "[::1]", ...addresses]);
+  const hosts = new Set([...LOOPBACK, ...addresses]);
   const listener = studioListener(staticFiles(options.studio), hosts, access);
   const server = options.lan ? createHttps({ ...await certificate(options.data, addresses) }, listener) : createHttp(listener);
   await new Promise<void>((resolve, reject) => {
@@ -73,50 +58,4 @@ export async function serve(options: ServeOptions): Promise<Served> {
     code: access?.code ?? null,
     close: () => new Promise(resolve => { recorder?.close(); stations.close(); socket.close(); server.closeAllConnections(); server.close(() => { resolve(); }); }),
   };
-}
-
-/** The same page, without the code in its address. Two slashes in front would name another machine. */
-function withoutCode(url: URL): string {
-  const kept = new URLSearchParams(url.searchParams);
-  kept.delete("code");
-  return `/${url.pathname.replace(/^\/+/, "")}${kept.size > 0 ? `?${kept.toString()}` : ""}`;
-}
-
-const isServed = (hosts: ReadonlySet<string>, request: IncomingMessage): boolean => hosts.has((request.headers.host ?? "").replace(/:\d+$/, ""));
-
-function studioListener(files: ReturnType<typeof staticFiles>, hosts: ReadonlySet<string>, access: AccessCode | null): RequestListener {
-  return (request, response) => {
-    answer(request, response).catch((problem: unknown) => {
-      if (!response.headersSent) response.writeHead(500, { "content-type": "text/plain; charset=utf-8" });
-      response.end("The server could not answer this request.\n");
-      console.error(problem instanceof Error ? problem.message : String(problem));
-    });
-  };
-
-  async function answer(request: IncomingMessage, response: ServerResponse): Promise<void> {
-    const say = (status: number, text: string, headers: Record<string, string> = {}) => {
-      response.writeHead(status, { ...HEADERS, "content-type": "text/plain; charset=utf-8", ...headers });
-      response.end(request.method === "HEAD" ? undefined : text);
-    };
-    // A page elsewhere that points its own name at this machine must not be served.
-    if (!isServed(hosts, request)) { say(421, "This address is not served here.\n"); return; }
-    if (request.method !== "GET" && request.method !== "HEAD") { say(405, "Only reading is possible here.\n", { allow: "GET, HEAD" }); return; }
-    let url: URL, path: string;
-    try {
-      url = new URL(request.url ?? "/", "http://here");
-      path = decodeURIComponent(url.pathname);
-    } catch (problem) {
-      say(400, `This address cannot be read: ${(problem as Error).message}.\n`);
-      return;
-    }
-    if (access) {
-      const entry = access.enter(request.headers.cookie, url.searchParams.get("code"));
-      if (entry.kind === "too-many-tries") { say(429, "Too many wrong codes. Start Twincell again for a new one.\n"); return; }
-      if (entry.kind === "ask") { say(401, askForCode, { "content-type": "text/html; charset=utf-8" }); return; }
-      if (entry.kind === "welcome-with-cookie") { say(303, "", { "set-cookie": entry.cookie, location: withoutCode(url) }); return; }
-    }
-    const found = await files(path, String(request.headers["accept-encoding"] ?? ""), request.headers["if-none-match"]);
-    response.writeHead(found.status, { ...(WRITES_CODE.test(path) ? WRITER_HEADERS : HEADERS), ...found.headers, ...(found.status === 200 ? { "content-length": String(found.body.length) } : {}) });
-    response.end(request.method === "HEAD" ? undefined : found.body);
-  }
 }

@@ -61,7 +61,7 @@ describe("a camera that films the studio", () => {
     await expect.poll(async () => Number(await figure("n")), { timeout: 60_000 }).toBeGreaterThanOrEqual(20);
     await page.screenshot({ path: picture("video-measure") });
     const [median, p95, spread, n, estimate] = await Promise.all(["median", "p95", "spread", "n", "estimate"].map(figure));
-    await page.getByRole("button", { name: "Close", exact: true }).click();
+    await dialog.getByRole("button", { name: "Close", exact: true }).click();
     const stages = await panel(page, "Phone").locator(".video-age").getAttribute("title");
     console.log(`glass to glass, everything in one machine and drawn by the processor: median ${median}, p95 ${p95}, ${spread}, n ${n}; estimated ${estimate}; ${stages?.split("\n")[1]}`);
     const ms = (text: string | undefined): number => Number(/^(\d+) ms$/.exec(text ?? "")?.[1]);
@@ -139,6 +139,12 @@ describe("without a camera", () => {
     await page.screenshot({ path: picture("video-two") });
     await page.evaluate(() => window.twincell.run("view.cameras"));
     await page.screenshot({ path: picture("video-cameras") });
+    await page.getByRole("dialog", { name: "Cameras" }).getByRole("button", { name: "Close", exact: true }).click();
+    // The last of this file: no page is served after it.
+    studio.stopServer();
+    await panel(page, "Second").getByText("The Twincell server does not answer. It is tried again.").waitFor({ timeout: 15_000 });
+    await phone.getByRole("status").getByText("The Twincell server does not answer. It is tried again.").waitFor({ timeout: 15_000 });
+    expect(await here.locator(".video-picture").getAttribute("data-state"), "a camera of this computer needs no server").toMatch(/fresh|late/);
     await context.close();
   });
 });

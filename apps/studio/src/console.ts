@@ -21,6 +21,7 @@ import { playStore } from "./stores/play.ts";
 import { foreignStore } from "./stores/foreign.ts";
 import { languageStore } from "./stores/languages.ts";
 import { postStore } from "./stores/post.ts";
+import { roomStore } from "./stores/room.ts";
 import { seek } from "./stores/seek.ts";
 import { selectionStore } from "./stores/selection.ts";
 import { soundStore } from "./stores/sound.ts";
@@ -32,7 +33,7 @@ import { watchStore } from "./stores/watch.ts";
 
 /** What the browser's console and tests can reach: every store, the live state, and the commands by name. */
 const twincell = {
-  stores: { aidStore, bindingStore, cellStore, commandStore, controlStore, dialogStore, foreignStore, gamepadStore, historyStore, jogStore, languageStore, noticeStore, physicsStore, playStore, postStore, selectionStore, soundStore, stationStore, traceStore, videoStore, viewStore, watchStore },
+  stores: { aidStore, bindingStore, cellStore, commandStore, controlStore, dialogStore, foreignStore, gamepadStore, historyStore, jogStore, languageStore, noticeStore, physicsStore, playStore, postStore, roomStore, selectionStore, soundStore, stationStore, traceStore, videoStore, viewStore, watchStore },
   live: { now: theLive, shown: shownRobot, touching: touchingNow, showJoints, hold, release, releaseAll, playhead: playheadNow, physics: physicsNow, link: linkMeter },
   document: { commit, undo, redo, show: showDocument, open: openCellText },
   run: runCommand, seek,

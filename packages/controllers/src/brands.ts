@@ -1,12 +1,16 @@
+import { LIBRARY, type Robot } from "@twincell/core";
 import { abb } from "./abb/index.ts";
 import { fanuc } from "./fanuc/index.ts";
 import { kuka } from "./kuka/index.ts";
 import type { Brand } from "./real/index.ts";
+import { staubli } from "./staubli/index.ts";
 import { universalRobots } from "./ur/index.ts";
 import { yaskawa } from "./yaskawa/index.ts";
 
 /** Every brand there is a driver and a virtual controller for. */
-export const BRANDS: readonly Brand[] = [universalRobots, kuka, yaskawa, fanuc, abb];
+export const BRANDS: readonly Brand[] = [universalRobots, kuka, yaskawa, fanuc, abb, staubli];
 export const brandById = (id: string): Brand | undefined => BRANDS.find(brand => brand.id === id);
 /** Brands whose robots that one is. */
 export const brandsFor = (vendor: string): readonly Brand[] => BRANDS.filter(brand => brand.vendor === vendor);
+/** Robots of the library that a brand drives. */
+export const robotsOf = ({ vendor, drives }: Pick<Brand, "vendor" | "drives">): readonly Robot[] => LIBRARY.filter(robot => robot.vendor === vendor && (drives?.(robot) ?? true));

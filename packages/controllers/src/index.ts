@@ -13,4 +13,5 @@ export * from "./kuka/index.ts";
 export * from "./yaskawa/index.ts";
 export * from "./fanuc/index.ts";
 export * from "./abb/index.ts";
+export * from "./staubli/index.ts";
 export * from "./table.ts";

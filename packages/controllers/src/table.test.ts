@@ -1,9 +1,9 @@
-import { manualScheduler, LIBRARY } from "@twincell/core";
+import { manualScheduler } from "@twincell/core";
 import { readdirSync, readFileSync } from "node:fs";
 import { expect, test } from "vitest";
-import { BRANDS, createRealController, driverTables, DRIVERS, memoryNetwork, ROWS, unconnected } from "./index.ts";
+import { BRANDS, createRealController, driverTables, DRIVERS, memoryNetwork, robotsOf, ROWS, unconnected } from "./index.ts";
 
-const LINE: Readonly<Record<string, string>> = { ur: "digital_out_1", kuka: "$OUT[1]", yaskawa: "OT#(1)", fanuc: "DO[1]", abb: "DO1" };
+const LINE: Readonly<Record<string, string>> = { ur: "digital_out_1", kuka: "$OUT[1]", yaskawa: "OT#(1)", fanuc: "DO[1]", abb: "DO1", staubli: "valve1" };
 const here = (path: string): URL => new URL(path, import.meta.url);
 
 test("docs/controllers/README.md says what the drivers declare; after a change run scripts/write-controllers.mjs", () => {
@@ -30,7 +30,7 @@ test("T-21 every driver is a face that is handed in, and has what its row of the
 });
 
 test.each(BRANDS.map(brand => [brand.id, brand] as const))("signals and override of %s are taken, or refused where its row says so", async (id, brand) => {
-  const scheduler = manualScheduler(), network = memoryNetwork(scheduler), host = "127.0.0.9", robot = LIBRARY.find(({ vendor, arm }) => vendor === brand.vendor && arm.joints.length === 6)!;
+  const scheduler = manualScheduler(), network = memoryNetwork(scheduler), host = "127.0.0.9", robot = robotsOf(brand).find(({ arm }) => arm.joints.length === 6)!;
   const started = await brand.virtual({ robot, scheduler, network, host, interpret: () => ({ kind: "not-understood", faults: [] }) });
   if (started.kind === "taken") throw new Error(started.sentence);
   const face = brand.face({ robot, scheduler, network, host }), real = createRealController({ face, scheduler }), lacks = (row: string): boolean => brand.cannot.some(each => each.row === row);

@@ -1,9 +1,5 @@
-import { LIBRARY, manualScheduler, type Robot } from "@twincell/core";
-import { abbEgmFace } from "./abb/index.ts";
-import { ABB_EGM_CANNOT } from "./abb/cannot.ts";
-import { BRANDS } from "./brands.ts";
-import { axisConfig, createKukaRsiFace, kukaAxes } from "./kuka/index.ts";
-import { KUKA_RSI_CANNOT } from "./kuka/cannot.ts";
+import { manualScheduler, type Robot } from "@twincell/core";
+import { BRANDS, robotsOf } from "./brands.ts";
 import type { Ability, Cannot, Face, FaceOptions } from "./real/index.ts";
 import { memoryNetwork } from "./transport/index.ts";
 
@@ -13,6 +9,7 @@ export interface Driver {
   /** Folder of its code and of its tests. */
   readonly folder: string;
   readonly vendor: string;
+  readonly drives?: (robot: Robot) => boolean;
   readonly cannot: readonly Cannot[];
   /** Where it stands on another driver: the rows from T-19 on that tests of its own show; the others are shown through that one. */
   readonly own?: readonly string[];
@@ -22,13 +19,10 @@ export interface Driver {
 }
 
 export const DRIVERS: readonly Driver[] = BRANDS.flatMap((brand): Driver[] => {
-  const { name, vendor, cannot } = brand, driver: Driver = { name, folder: brand.id, vendor, cannot, face: options => brand.face(options) };
-  if (brand.id === "kuka") return [driver, { ...driver, name: "KUKA (RSI)", cannot: KUKA_RSI_CANNOT, own: ["T-21", "T-23", "T-27"], tests: "rsi.test.ts", face: overRsi }];
-  return brand.id === "abb" ? [driver, { ...driver, name: "ABB (EGM alone)", cannot: ABB_EGM_CANNOT, own: ["T-19", "T-20", "T-21", "T-23", "T-24", "T-25", "T-26", "T-27"], tests: "egm-face.test.ts", face: abbEgmFace }] : [driver];
+  const { name, vendor, drives, cannot, otherWays = [] } = brand;
+  const driver: Driver = { name, folder: brand.id, vendor, ...(drives ? { drives } : {}), cannot, face: options => brand.face(options) };
+  return [driver, ...otherWays.map(way => ({ ...driver, name: way.name, cannot: way.cannot, own: way.shows, tests: way.tests, face: way.face }))];
 });
-function overRsi(options: FaceOptions): Face {
-  return createKukaRsiFace({ ...options, axes: kukaAxes(options.robot)!, model: "", config: axisConfig("127.0.0.1", 49_152) });
-}
 
 /** T-01 … T-18 are the contract suite's, T-19 … T-27 the tests' of each driver. */
 export const ROWS: readonly `T-${number}`[] = Array.from({ length: 27 }, (_, i) => `T-${String(i + 1).padStart(2, "0")}` as `T-${number}`);
@@ -38,7 +32,7 @@ const ABILITIES: readonly { readonly row: Ability; readonly title: string }[] = 
 
 /** The face of a driver for a robot of its vendor, without a line: what it has and has not. */
 export function unconnected(driver: Driver): Face {
-  const scheduler = manualScheduler(), robot: Robot = LIBRARY.find(({ vendor, arm }) => vendor === driver.vendor && arm.joints.length === 6)!;
+  const scheduler = manualScheduler(), robot: Robot = robotsOf(driver).find(({ arm }) => arm.joints.length === 6)!;
   return driver.face({ robot, scheduler, network: memoryNetwork(scheduler), host: "127.0.0.1" });
 }
 

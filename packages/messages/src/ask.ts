@@ -10,14 +10,28 @@ const station = { station: text } as const;
 /** Answered by the `answer` of the same number. */
 const asked = { id: z.int().nonnegative() } as const;
 
-/** What a pendant at a virtual controller does. */
+/** What a person does at the pendant and at the cabinet of a virtual controller. Joints count from 1. */
 export const pendantSchema = z.discriminatedUnion("do", [
   z.strictObject({ do: z.literal("mode"), mode: z.enum(["manual", "automatic", "remote"]) }),
-  z.strictObject({ do: z.literal("jog"), q_rad: angles }),
+  /** The mode key, by the id of one of the brand's own positions. */
+  z.strictObject({ do: z.literal("key"), position: text }),
+  /** The enabling switch: counts as let go when whoever holds it is not heard of (`alive`). */
+  z.strictObject({ do: z.literal("enable"), pressed: z.boolean() }),
+  /** A jog key goes down, or with 0 up. Answered when the jog has ended. */
+  z.strictObject({ do: z.literal("jog"), joint: z.int().min(1).max(16), direction: z.union([z.literal(-1), z.literal(0), z.literal(1)]) }),
+  z.strictObject({ do: z.literal("servo"), on: z.boolean() }),
+  z.strictObject({ do: z.literal("override"), percent: z.number() }),
+  z.strictObject({ do: z.literal("reset") }),
   z.strictObject({ do: z.literal("emergency-stop"), pressed: z.boolean() }),
   z.strictObject({ do: z.literal("guard"), open: z.boolean() }),
+  /** What the proximity sensor sees (row T-27). */
+  z.strictObject({ do: z.literal("near"), somebody: z.boolean() }),
   z.strictObject({ do: z.literal("protective-stop"), because: text }),
   z.strictObject({ do: z.literal("input"), signal: text, value: z.union([z.boolean(), z.number()]) }),
+  z.strictObject({
+    do: z.literal("trouble"), delay_s: z.exactOptional(z.number().min(0).max(10)), loss: z.exactOptional(z.number().min(0).max(1)),
+    hangs: z.exactOptional(z.boolean()), unplugged: z.exactOptional(z.boolean()),
+  }),
   z.strictObject({ do: z.literal("reboot") }),
 ]);
 
@@ -45,6 +59,8 @@ export const askSchema = z.discriminatedUnion("type", [
   /** Anyone may. Without a station it is all of them. */
   z.strictObject({ type: z.literal("stop"), station: z.exactOptional(text), emergency: z.boolean() }),
   z.strictObject({ type: z.literal("pendant"), ...asked, ...station, act: pendantSchema }),
+  /** To be told, or no longer told, what the pendant of a virtual controller shows. */
+  z.strictObject({ type: z.literal("visit"), ...asked, ...station, on: z.boolean() }),
   /** Pulls the plug of a virtual controller, or puts it back. */
   z.strictObject({ type: z.literal("plug"), ...asked, ...station, pulled: z.boolean() }),
   z.strictObject({ type: z.literal("alive"), ...station }),

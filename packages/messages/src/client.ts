@@ -1,7 +1,7 @@
 import type { CommandOutcome } from "@twincell/core";
 import type { Ask, AskOf } from "./ask.ts";
-import { PROTOCOL, readTell, write } from "./read.ts";
-import type { Channel } from "./host.ts";
+import { OLDEST_HOST, PROTOCOL, readTell, write } from "./read.ts";
+import type { Channel } from "./channel.ts";
 import type { Tell, TellOf } from "./tell.ts";
 
 type Numbered = Extract<Ask, { readonly id: number }>;
@@ -54,7 +54,7 @@ export function createClient(channel: Channel, now_s: () => number, onTell: (mes
       const { message } = heard;
       if (message.type === "answer") { asked.get(message.id)?.(message.outcome); asked.delete(message.id); return; }
       if (message.type === "pong") { pings.get(message.sent_s)?.(now_s() - message.sent_s); pings.delete(message.sent_s); return; }
-      if (message.type === "hello" && message.protocol !== PROTOCOL) {
+      if (message.type === "hello" && (message.protocol > PROTOCOL || message.protocol < OLDEST_HOST)) {
         onTell({ type: "fault", sentence: `The host speaks version ${message.protocol} of the protocol, this studio version ${PROTOCOL}: use the same release of both.` });
         end();
         channel.close();

@@ -1,13 +1,11 @@
 import { parseProgram, type CommandOutcome, type JointSample, type LinkReport, type Program, type Refusal, type RobotController, type Scheduler } from "@twincell/core";
-import type { Ask, AskOf, PendantAct } from "./ask.ts";
+import { actWords, type Act } from "./acts.ts";
+import type { Ask, AskOf } from "./ask.ts";
+import { visitPendant, type HostedPendant, type PendantVisit } from "./pendant.ts";
+import type { Channel } from "./channel.ts";
 import { PROTOCOL, readAsk, write } from "./read.ts";
 import type { StationWords, Tell, TellOf } from "./tell.ts";
 
-/** A line of texts between a host and one who commands: a socket, or a worker's port. */
-export interface Channel {
-  send(text: string): void;
-  close(): void;
-}
 /** The place of one who commands at one station. */
 export interface HostedSeat {
   take(): CommandOutcome;
@@ -33,7 +31,7 @@ export interface HostedStation<Seat extends HostedSeat = HostedSeat> {
   prepare(seat: Seat, program: Program, asText: boolean): Promise<HostedArmed>;
   stop(emergency: boolean): void;
   /** The pendant of a virtual controller; null where a person stands before a real one. */
-  readonly pendant: ((act: PendantAct) => Promise<CommandOutcome>) | null;
+  readonly pendant: HostedPendant | null;
   readonly plug: ((pulled: boolean) => void) | null;
   onSample(listen: (lent: JointSample) => void): () => void;
   onLink(listen: (report: LinkReport) => void): () => void;
@@ -72,9 +70,14 @@ const FIGURES_S = 0.5;
 const refuse = (code: string, sentence: string, hint: string): CommandOutcome => ({ kind: "refused", why: { code, sentence, hint } });
 const known = (value: number): number | null => Number.isFinite(value) ? value : null;
 
+const noStation = (id: string): CommandOutcome => refuse("station.none", `There is no station “${id}”.`, "Open it first.");
+const noPendant = ({ words }: HostedStation): CommandOutcome => refuse("station.no-pendant", `${words.name} is a real controller: its pendant is at the robot.`, "Go there.");
+
 /** Stations that any number of people look at, and each of which one commands. The same in a worker of the page and on a server. */
 export function createHost(options: HostOptions): Host {
-  const stations = new Map<string, { readonly station: HostedStation; readonly forget: () => void }>(), channels = new Set<Channel>();
+  const stations = new Map<string, { readonly station: HostedStation; readonly forget: () => void }>(), channels = new Set<Channel>(), closing = new Set<(station: HostedStation) => void>();
+  let people = 0;
+  let acts = 0;
   const all = (message: Tell): void => {
     const text = write(message);
     for (const channel of channels) channel.send(text);
@@ -88,6 +91,13 @@ export function createHost(options: HostOptions): Host {
   };
   const guardWords = (station: HostedStation): TellOf<"guard"> => ({ type: "guard", station: station.words.id, ...station.guard.state });
   const tellLink = (station: HostedStation): void => { const says = linkWords(station); if (says) all(says); };
+
+  /** Everything that people do at a station is told to all who look at it, the recorders among them: who, what, and what became of it. */
+  function tellAct(who: string, act: Act, station: string): (outcome: CommandOutcome) => void {
+    const { target, ...words } = actWords(act), said = { type: "act" as const, station, number: acts++, who, ...words, target: [...target] };
+    all({ ...said, outcome: null });
+    return outcome => { all({ ...said, outcome }); };
+  }
 
   function watch(station: HostedStation): () => void {
     const { id } = station.words;
@@ -129,6 +139,7 @@ export function createHost(options: HostOptions): Host {
     if (!entry) return;
     stations.delete(id);
     entry.forget();
+    for (const forget of closing) forget(entry.station);
     entry.station.close();
     all({ type: "closed", station: id });
   }
@@ -136,7 +147,7 @@ export function createHost(options: HostOptions): Host {
   return {
     get stations() { return [...stations.values()].map(({ station }) => station); },
     join(who, channel) {
-      const seats = new Map<HostedStation, HostedSeat>();
+      const seats = new Map<HostedStation, HostedSeat>(), visits = new Map<HostedStation, PendantVisit>(), me = `${who} ${++people}`;
       let gone = false;
       const tell = (message: Tell): void => { if (!gone) channel.send(write(message)); };
       const seatAt = (station: HostedStation): HostedSeat => {
@@ -144,12 +155,30 @@ export function createHost(options: HostOptions): Host {
         if (!seat) seats.set(station, seat = station.seat(who));
         return seat;
       };
+      const visitTo = (station: HostedStation): PendantVisit | null => {
+        let visit = visits.get(station);
+        if (!visit && station.pendant) visits.set(station, visit = visitPendant(me, station.words.id, station.pendant, options.scheduler, tell));
+        return visit ?? null;
+      };
 
       async function carryOut(ask: Exclude<Ask, AskOf<"stop" | "alive" | "ping">>): Promise<CommandOutcome> {
         if (ask.type === "open") return open(ask);
         if (ask.type === "together") return together(ask);
+        if (ask.type === "visit") return visited(ask);
         const station = stations.get(ask.station)?.station;
-        if (!station) return refuse("station.none", `There is no station “${ask.station}”.`, "Open it first.");
+        if (!station) return noStation(ask.station);
+        const told = tellAct(who, ask, ask.station);
+        // Whoever records it is told before it is gone.
+        if (ask.type === "close") told(DONE);
+        const outcome = await command(station, ask);
+        if (stations.get(ask.station)?.station === station) told(outcome);
+        return outcome;
+      }
+      async function visited(ask: AskOf<"visit">): Promise<CommandOutcome> {
+        const station = stations.get(ask.station)?.station;
+        return station ? visitTo(station)?.watch(ask.on) ?? noPendant(station) : noStation(ask.station);
+      }
+      async function command(station: HostedStation, ask: Exclude<Act, { readonly type: "stop" | "together" }>): Promise<CommandOutcome> {
         const seat = seatAt(station);
         switch (ask.type) {
           case "close": close(ask.station); return DONE;
@@ -169,7 +198,7 @@ export function createHost(options: HostOptions): Host {
             if (parsed.kind !== "program") return refuse("station.program", `The program cannot be read: ${parsed.faults[0]?.sentence ?? "it is empty"}`, "Export it again.");
             return station.run(seat, parsed.program, ask.asText);
           }
-          case "pendant": return station.pendant?.(ask.act) ?? refuse("station.no-pendant", `${station.words.name} is a real controller: its pendant is at the robot.`, "Go there.");
+          case "pendant": return visitTo(station)?.act(ask.act) ?? noPendant(station);
           case "plug":
             if (!station.plug) return refuse("station.no-plug", `${station.words.name} is a real controller: its plug is in the wall.`, "Disconnect it instead.");
             station.plug(ask.pulled);
@@ -182,17 +211,22 @@ export function createHost(options: HostOptions): Host {
         if (new Set(ids).size < ids.length) return refuse("group.twice", "A station is named twice in the group.", "Name each once.");
         for (const { station: id, program, asText } of members) {
           const station = stations.get(id)?.station, parsed = parseProgram(program);
-          if (!station) return refuse("station.none", `There is no station “${id}”.`, "Open it first.");
+          if (!station) return noStation(id);
           if (parsed.kind !== "program") return refuse("station.program", `The program of ${station.words.name} cannot be read: ${parsed.faults[0]?.sentence ?? "it is empty"}`, "Export it again.");
           const seat = seatAt(station);
           ready.push({ station, prepare: () => station.prepare(seat, parsed.program, asText) });
         }
+        const told = members.map(({ station, program, asText }) => tellAct(who, { type: "together", program, asText, members: members.length }, station));
         const { outcome, each } = await options.together(ready, ({ spread_s }) => { all({ type: "began", stations: ids, spread_s }); });
+        for (const tellEnd of told) tellEnd(outcome);
         if (each.size > 0) all({ type: "ended", stations: [...each].map(([station, ended]) => ({ station, outcome: ended })) });
         return outcome;
       }
 
+      /** A station that is closed has no pendant any more that could be told of. */
+      const forget = (station: HostedStation): void => { visits.get(station)?.leave(); visits.delete(station); seats.delete(station); };
       channels.add(channel);
+      closing.add(forget);
       tell({ type: "hello", protocol: PROTOCOL, version: options.version, brands: options.brands, stations: [...stations.values()].map(({ station }) => station.words) });
       for (const { station } of stations.values()) {
         tell(guardWords(station));
@@ -203,7 +237,9 @@ export function createHost(options: HostOptions): Host {
         if (gone) return;
         gone = true;
         channels.delete(channel);
+        closing.delete(forget);
         for (const seat of seats.values()) seat.release();
+        for (const visit of visits.values()) visit.leave();
       };
       return {
         leave,
@@ -219,8 +255,14 @@ export function createHost(options: HostOptions): Host {
           const ask = heard.message;
           switch (ask.type) {
             case "ping": tell({ type: "pong", sent_s: ask.sent_s, host_s: options.scheduler.now_s() }); break;
-            case "alive": { const entry = stations.get(ask.station); if (entry) seatAt(entry.station).alive(); break; }
-            case "stop": for (const [id, { station }] of stations) if (ask.station === undefined || ask.station === id) station.stop(ask.emergency); break;
+            case "alive": { const entry = stations.get(ask.station); if (entry) { seatAt(entry.station).alive(); visits.get(entry.station)?.alive(); } break; }
+            // The stops go out first; what is told of them comes after.
+            case "stop": {
+              const meant = [...stations].filter(([id]) => ask.station === undefined || ask.station === id);
+              for (const [, { station }] of meant) station.stop(ask.emergency);
+              for (const [id] of meant) tellAct(who, ask, id)(DONE);
+              break;
+            }
             default: {
               const { id } = ask;
               void carryOut(ask).then(outcome => { tell({ type: "answer", id, outcome }); });

@@ -4,6 +4,8 @@ import { tellSchema, type Tell } from "./tell.ts";
 
 /** Counts up with every change that the other side would misunderstand. */
 export const PROTOCOL = 2;
+/** Hosts since this one say nothing that is misunderstood: plug-ins among them. */
+export const OLDEST_HOST = 1;
 /** A message longer than this is not looked at: a program of a hundred thousand steps is shorter. */
 export const LONGEST_MESSAGE = 32 * 1024 * 1024;
 

@@ -16,6 +16,22 @@ export const outcomeSchema = z.discriminatedUnion("kind", [
 const station = { station: text } as const;
 const stationWords = z.strictObject({ id: text, name: text, brand: text, robot: text, virtual: z.boolean(), watchdog: text });
 
+const names = z.array(text).max(64), place = z.tuple([z.number(), z.number(), z.number()]), mode = z.enum(["manual", "automatic", "remote"]);
+/** What does not change about the pendant of a virtual controller while it is on. */
+export const pendantWordsSchema = z.strictObject({
+  brand: text, brandName: text, robotName: text, host: text, ports: z.record(text, z.number()),
+  keys: z.array(z.strictObject({ id: text, name: text, mode })).max(8), labels: z.strictObject({ servo: text, reset: text }),
+  joints: z.array(z.strictObject({ lower_rad: z.number(), upper_rad: z.number(), slides: z.boolean() })).max(16), inputs: names, outputs: names,
+});
+/** What lamps, screen and read-out of the pendant say now; the truth of the controller itself, not what a driver knows of it. */
+export const pendantShownSchema = z.strictObject({
+  key: text, servo: z.enum(["on", "coming", "off"]), safety: z.enum(["normal", "guard-stop", "protective-stop", "emergency-stop"]), override: z.number(), program: text, running: z.boolean(), alarms: z.array(text).max(200),
+  q_rad: angles, flange: z.strictObject({ position: place, quaternion: z.tuple([z.number(), z.number(), z.number(), z.number()]) }), points: z.array(place).max(20),
+  moving: z.boolean(), enabled: z.boolean(), jog: z.strictObject({ joint: z.int(), direction: z.union([z.literal(-1), z.literal(1)]) }).nullable(),
+  pressed: z.boolean(), gateOpen: z.boolean(), near: z.boolean(), on: z.array(text).max(128),
+  trouble: z.strictObject({ delay_s: z.number(), loss: z.number(), hangs: z.boolean(), unplugged: z.boolean() }), peers: z.array(text).max(256), says: text,
+});
+
 /** What a host of stations says. */
 export const tellSchema = z.discriminatedUnion("type", [
   z.strictObject({
@@ -30,7 +46,7 @@ export const tellSchema = z.discriminatedUnion("type", [
     type: z.literal("sample"), ...station, sequence: z.number(), time_s: z.number(),
     /** When the host handed it on, on its own clock. */
     sent_s: z.number(),
-    q_rad: angles, moving: z.boolean(), mode: z.enum(["manual", "automatic", "remote"]), safety: z.enum(["normal", "guard-stop", "protective-stop", "emergency-stop"]),
+    q_rad: angles, moving: z.boolean(), mode, safety: z.enum(["normal", "guard-stop", "protective-stop", "emergency-stop"]),
     override: z.number(), gripperClosed: z.boolean(), step: text, message: text, signals: z.exactOptional(z.record(text, value)),
     /** From the plan and from the controller's own command [rad]. */
     plan_rad: maybe, command_rad: maybe,
@@ -46,7 +62,11 @@ export const tellSchema = z.discriminatedUnion("type", [
   /** A group began: from the first to the last that was seen moving, on the host's clock [s]. Or it ended, each in its way. */
   z.strictObject({ type: z.literal("began"), stations: z.array(text), spread_s: z.number() }),
   z.strictObject({ type: z.literal("ended"), stations: z.array(z.strictObject({ station: text, outcome: outcomeSchema })) }),
+  /** Somebody did something there; told when it was asked for, and once more with what became of it. Acts with the same number are one. */
+  z.strictObject({ type: z.literal("act"), ...station, number: z.int(), who: text, action: text, detail: text, command: z.boolean(), target: angles, outcome: outcomeSchema.nullable() }),
   z.strictObject({ type: z.literal("notice"), ...station, why: refusal }),
+  /** To those who watch: `words` once, then only what is shown. */
+  z.strictObject({ type: z.literal("pendant"), ...station, words: z.exactOptional(pendantWordsSchema), shown: pendantShownSchema }),
   z.strictObject({ type: z.literal("pong"), sent_s: z.number(), host_s: z.number() }),
   /** Something came that could not be read; the connection ends after it. */
   z.strictObject({ type: z.literal("fault"), sentence: text }),
@@ -55,3 +75,7 @@ export const tellSchema = z.discriminatedUnion("type", [
 export type Tell = z.infer<typeof tellSchema>;
 export type TellOf<Type extends Tell["type"]> = Extract<Tell, { readonly type: Type }>;
 export type StationWords = z.infer<typeof stationWords>;
+/** Read only, so that whoever makes them may keep them as they are. */
+type Frozen<T> = T extends object ? { readonly [Name in keyof T]: Frozen<T[Name]> } : T;
+export type PendantWords = Frozen<z.infer<typeof pendantWordsSchema>>;
+export type PendantShown = Frozen<z.infer<typeof pendantShownSchema>>;

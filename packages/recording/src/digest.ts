@@ -124,6 +124,7 @@ export function createDigester(joints: number, carried: OpenCycle | null = null)
     note(note) {
       if (note.kind === "alarm" && note.active) mark({ at_s: note.at_s, kind: "alarm", level: "error", code: note.code, sentence: note.sentence });
       else if (note.kind === "operator") mark({ at_s: note.at_s, kind: "operator", level: "info", code: note.action, sentence: note.detail });
+      else if (note.kind === "command" && note.outcome !== "sent") mark({ at_s: note.at_s, kind: "operator", level: note.outcome === "done" ? "info" : "warning", code: note.name, sentence: [note.by, note.outcome, note.sentence].filter(part => part !== "").join(", ") });
       else if (note.kind === "load") { turnTo(note.at_s); torque.add(note.torque_Nm); current.add(note.current_A); temperature.add(note.temperature_C); }
     },
     result() {

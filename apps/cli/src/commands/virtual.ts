@@ -1,8 +1,9 @@
+import { existsSync } from "node:fs";
 import { createInterface } from "node:readline";
-import { BRANDS, brandById, type Brand, type Pendant } from "@twincell/controllers";
-import { LIBRARY } from "@twincell/core";
+import { fileURLToPath } from "node:url";
+import { BRANDS, brandById, openCabinet, robotsOf, type Brand, type CabinetAct } from "@twincell/controllers";
 import { dialectById } from "@twincell/languages";
-import { nodeNetwork, nodeScheduler } from "@twincell/server";
+import { nodeNetwork, nodeScheduler, servePendant } from "@twincell/server";
 import { given, type Given } from "../io/arguments.ts";
 import { robotOf, ROBOT_OPTIONS } from "../io/robot.ts";
 import { UseFault, type Command } from "../io/usage.ts";
@@ -11,19 +12,29 @@ import { UseFault, type Command } from "../io/usage.ts";
 const portOption = (name: string): string => `port-${name.replace(/[A-Z]/g, letter => `-${letter.toLowerCase()}`)}`;
 const portsOf = (brand: Brand): string => Object.entries(brand.ports).map(([name, port]) => `--${portOption(name)} ${port}`).join(", ");
 
+const studio = fileURLToPath(new URL("../../../studio/dist", import.meta.url));
+
+/** What a word on standard input does. */
+const WORDS: ReadonlyMap<string, CabinetAct> = new Map<string, CabinetAct>([
+  ["manual", { do: "mode", mode: "manual" }], ["remote", { do: "mode", mode: "remote" }], ["stop", { do: "emergency-stop", pressed: true }], ["release", { do: "emergency-stop", pressed: false }],
+  ["open", { do: "guard", open: true }], ["close", { do: "guard", open: false }], ["near", { do: "near", somebody: true }], ["away", { do: "near", somebody: false }],
+  ["protective", { do: "protective-stop", because: "Somebody asked for it at the pendant." }], ["reset", { do: "reset" }], ["reboot", { do: "reboot" }],
+]);
+
 export const virtualCommand: Command = {
   name: "virtual",
   summary: "a virtual controller that speaks the vendor's wire protocol",
-  usage: `twincell virtual BRAND [--robot R] [--host 127.0.0.1] [--port-NAME N]… [--json]
+  usage: `twincell virtual BRAND [--robot R] [--host 127.0.0.1] [--port-NAME N]… [--port-pendant N] [--json]
 
 Ports are the vendor's own unless they are given; 0 takes a free one. Several controllers on one machine stand at 127.0.0.2, 127.0.0.3, …
 ${BRANDS.map(brand => `  ${brand.id.padEnd(10)} ${brand.name}: ${portsOf(brand)}`).join("\n")}
 
-Lines on standard input are hands on the pendant: manual, remote, stop, release, open, close, protective, reboot.
+Its pendant is a page in the browser, at the address that is printed: mode key, enabling switch, jog keys, red button, signals, faults.
+Lines on standard input are hands on it too: ${[...WORDS.keys()].join(", ")}.
 Ctrl-C ends it.`,
   async run(args) {
     const options = given(args, {
-      ...ROBOT_OPTIONS, host: { type: "string" }, json: { type: "boolean" },
+      ...ROBOT_OPTIONS, host: { type: "string" }, [portOption("pendant")]: { type: "string" }, json: { type: "boolean" },
       ...Object.fromEntries(BRANDS.flatMap(brand => Object.keys(brand.ports).map(name => [portOption(name), { type: "string" as const }]))),
     });
     const [id] = options.positionals, brand = brandById(id ?? "");
@@ -31,49 +42,44 @@ Ctrl-C ends it.`,
       throw new UseFault(id === undefined ? "BRAND is missing." : options.positionals.length > 1 ? `virtual takes one brand, not "${options.positionals[1]}" as well.` : `There is no virtual controller of "${id}".`,
         `Brands: ${BRANDS.map(each => each.id).join(", ")}.`);
     }
-    const wanted = options.text("robot") ?? LIBRARY.find(robot => robot.vendor === brand.vendor)?.id, { robot } = await robotOf(options, wanted);
+    const wanted = options.text("robot") ?? robotsOf(brand)[0]?.id, { robot } = await robotOf(options, wanted);
     const dialect = dialectById(brand.dialect), host = options.text("host") ?? "127.0.0.1";
-    const started = await brand.virtual({
-      robot, scheduler: nodeScheduler, network: nodeNetwork(), host, ports: askedPorts(options, brand),
+    const opened = await openCabinet({
+      brand, robot, scheduler: nodeScheduler, network: nodeNetwork(), host, ports: askedPorts(options, Object.keys(brand.ports)),
       interpret: text => dialect ? dialect.interpret(text, robot) : { kind: "not-understood", faults: [] },
     });
-    if (started.kind === "taken") throw new UseFault(started.sentence, "Choose another address with --host, or other ports.");
-    const { virtual } = started;
-    process.stdout.write(options.flag("json") ? `${JSON.stringify({ brand: brand.id, robot: robot.id, host, ports: virtual.ports })}\n`
-      : `${virtual.name} listens at ${host}: ${Object.entries(virtual.ports).map(([name, port]) => `${name} ${port}`).join(", ")}\nNot a certified safety device. Ctrl-C ends.\n`);
-    const pendant = createInterface({ input: process.stdin });
-    pendant.on("line", line => { process.stdout.write(act(line.trim(), virtual.pendant, () => { virtual.reboot(); })); });
+    if (opened.kind === "taken") throw new UseFault(opened.sentence, "Choose another address with --host, or other ports.");
+    const { virtual, cabinet } = opened, page = existsSync(`${studio}/pendant/index.html`) ? await servePendant({
+      // A page that moves the robot is for who sits at this machine, wherever the controller itself can be reached from.
+      studio, host: host.startsWith("127.") ? host : "127.0.0.1", port: askedPorts(options, ["pendant"])["pendant"] ?? 0, version: "", scheduler: nodeScheduler, pendant: cabinet,
+      words: { id: "pendant", name: virtual.name, brand: brand.id, robot: robot.id, virtual: true, watchdog: "" },
+    }) : null;
+    if (page?.kind === "taken") { opened.close(); throw new UseFault(page.sentence, "Choose another with --port-pendant."); }
+    process.stdout.write(options.flag("json") ? `${JSON.stringify({ brand: brand.id, robot: robot.id, host, ports: virtual.ports, pendant: page?.url ?? null })}\n`
+      : `${virtual.name} listens at ${host}: ${Object.entries(virtual.ports).map(([name, port]) => `${name} ${port}`).join(", ")}\n${page ? `Its pendant is at ${page.url}` : "Its pendant is not built yet: run npm run build."}\nNot a certified safety device. Ctrl-C ends.\n`);
+    const hands = createInterface({ input: process.stdin });
+    const carryOut = async (word: string): Promise<void> => {
+      const act = WORDS.get(word), outcome = act && await cabinet.act("console", act);
+      if (word === "") return;
+      process.stdout.write(`${!outcome ? `There is no "${word}" at the pendant: ${[...WORDS.keys()].join(", ")}.` : outcome.kind === "done" ? word : outcome.why.sentence}\n`);
+    };
+    let before = Promise.resolve();
+    hands.on("line", line => { before = before.then(() => carryOut(line.trim())); });
     await new Promise<void>(resolve => { for (const signal of ["SIGINT", "SIGTERM"] as const) process.once(signal, () => { resolve(); }); });
-    pendant.close();
-    virtual.close();
+    hands.close();
+    page?.close();
+    opened.close();
     return 0;
   },
 };
 
-function askedPorts(options: Given, brand: Brand): Readonly<Record<string, number>> {
+function askedPorts(options: Given, names: readonly string[]): Readonly<Record<string, number>> {
   const ports: Record<string, number> = {};
-  for (const name of Object.keys(brand.ports)) {
+  for (const name of names) {
     const option = portOption(name), port = options.number(option);
     if (port === undefined) continue;
     if (!Number.isInteger(port) || port < 0 || port > 65_535) throw new UseFault(`--${option} wants a whole number from 0 to 65535, not ${port}.`);
     ports[name] = port;
   }
   return ports;
-}
-
-/** What a word on standard input does; returns what is said about it. */
-function act(word: string, pendant: Pendant, reboot: () => void): string {
-  switch (word) {
-    case "": return "";
-    case "manual": pendant.setMode("manual"); break;
-    case "remote": pendant.setMode("remote"); break;
-    case "stop": pendant.emergencyStop(true); break;
-    case "release": pendant.emergencyStop(false); break;
-    case "open": pendant.setGuardOpen(true); break;
-    case "close": pendant.setGuardOpen(false); break;
-    case "protective": pendant.protectiveStop("Somebody asked for it at the pendant."); break;
-    case "reboot": reboot(); break;
-    default: return `There is no "${word}" at the pendant: manual, remote, stop, release, open, close, protective, reboot.\n`;
-  }
-  return `${word}\n`;
 }

@@ -1,5 +1,5 @@
-import { BRANDS, openStation, startTogether } from "@twincell/controllers";
-import { manualScheduler, robotById, LIBRARY } from "@twincell/core";
+import { BRANDS, openStation, robotsOf, startTogether } from "@twincell/controllers";
+import { manualScheduler, robotById } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
 import { createClient, createHost, type Tell } from "@twincell/messages";
 import { createArchive, memoryFiles, openHistory, type Note } from "@twincell/recording";
@@ -38,11 +38,12 @@ function bench() {
   return { scheduler, host, recorder, client, port, troubles, told, stop };
 }
 
-test.each(BRANDS.map(brand => [brand.id, brand] as const))("T-61 X-48 two-way telemetry of a virtual %s: every sample with its times, every command with who gave it, and how late both are", async (_, brand) => {
-  const robot = LIBRARY.find(({ vendor }) => vendor === brand.vendor)!, { scheduler, host, recorder, client, port, troubles, told, stop } = bench();
+test.each(BRANDS.map(brand => [brand.id, brand] as const))("T-54 T-61 X-43 X-48 two-way telemetry of a virtual %s: every sample with its times, every command with who gave it, and how late both are", async (_, brand) => {
+  const robot = robotsOf(brand)[0]!, { scheduler, host, recorder, client, port, troubles, told, stop } = bench();
   const ask = async (request: Parameters<typeof client.ask>[0]) => {
     const asked = client.ask(request);
-    await scheduler.elapse(1);
+    // ros_server of a Stäubli says nothing for its first second.
+    await scheduler.elapse(1.5);
     return asked;
   };
   const beat = scheduler.every(0.02, () => { client.alive("cell"); });
@@ -50,11 +51,17 @@ test.each(BRANDS.map(brand => [brand.id, brand] as const))("T-61 X-48 two-way te
   expect(await ask({ type: "connect", station: "cell" })).toEqual({ kind: "done" });
   await ask({ type: "pendant", station: "cell", act: { do: "mode", mode: "remote" } });
   expect(await ask({ type: "take", station: "cell" })).toEqual({ kind: "done" });
+  const boris = createClient({ send: text => { seat.hear(text); }, close: () => undefined }, scheduler.now_s, () => undefined), seat = host.join("Boris", { send: () => undefined, close: () => undefined });
   const there = Array.from(robot.home_rad, (q, j) => q + (j === 0 ? 0.2 : 0)), before = told.length, asked_s = scheduler.now_s();
   const moving = client.ask({ type: "move", station: "cell", q_rad: there });
   await scheduler.elapse(6);
   const outcome = await Promise.race([moving, Promise.resolve({ kind: "still moving" as const })]);
   const first = told.slice(before).find(message => message.type === "sample" && message.moving);
+  // Everything that operators do belongs to the history: also what another one is refused, does at the cabinet, and stops.
+  void boris.ask({ type: "zero", station: "cell" });
+  void boris.ask({ type: "pendant", station: "cell", act: { do: "guard", open: true } });
+  boris.stop("cell", true);
+  await scheduler.elapse(0.2);
   await ask({ type: "close", station: "cell" });
   beat();
   stop();
@@ -68,6 +75,13 @@ test.each(BRANDS.map(brand => [brand.id, brand] as const))("T-61 X-48 two-way te
   for await (const part of history.samples(0, Infinity)) notes.push(...part.notes);
   expect(history.robot).toBe(robot.id);
   expect(notes.filter(note => note.kind === "operator")).toContainEqual(expect.objectContaining({ who: "Anna", action: "takes the lease" }));
+  const commands = notes.filter(note => note.kind === "command").map(({ name, by, outcome: became }) => `${by} ${name}: ${became}`);
+  expect(commands).toEqual(expect.arrayContaining(["Anna moves the joints: sent", "Anna moves the joints: done", "Boris moves all joints to zero: sent", "Boris moves all joints to zero: refused", "Boris presses the emergency stop: done"]));
+  expect(notes.find(note => note.kind === "command" && note.by === "Anna" && note.outcome === "sent")).toMatchObject({ target: there });
+  expect(notes.find(note => note.kind === "command" && note.outcome === "refused")).toMatchObject({ sentence: expect.stringContaining("commanded by Anna") });
+  expect(notes.filter(note => note.kind === "operator")).toEqual(expect.arrayContaining([
+    expect.objectContaining({ who: "Boris", action: "at the pendant", detail: "guard opened" }), expect.objectContaining({ who: "Anna", action: "at the pendant", detail: "mode remote" }),
+  ]));
   const latencies = notes.filter(note => note.kind === "latency");
   expect(latencies.map(({ stage }) => stage)).toContain("host and back");
   expect(latencies.some(({ stage, direction }) => stage === "controller to host" && direction === "from-robot")).toBe(true);

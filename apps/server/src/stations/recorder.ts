@@ -1,5 +1,5 @@
 import { robotById, type JointSample, type Robot } from "@twincell/core";
-import { createClient, type Channel, type Client, type StationWords, type TellOf } from "@twincell/messages";
+import { actNote, createClient, type Channel, type Client, type StationWords, type TellOf } from "@twincell/messages";
 import { latencyMeter, type Archive, type LatencyMeter } from "@twincell/recording";
 
 export interface StationRecorderOptions {
@@ -16,6 +16,8 @@ export interface StationRecorder {
   readonly recording: readonly string[];
   close(): void;
 }
+
+const GUARD_TELLS: ReadonlySet<string> = new Set(["takes the lease", "gives the lease back", "presses the enabling switch", "lets the enabling switch go"]);
 
 interface Recorded { readonly archive: Archive; signals: ReadonlyMap<string, boolean | number>; holder: string | null; pressed: boolean; trip: TellOf<"guard">["trip"]; link: TellOf<"link">["state"] | ""; told: string; readonly late: LatencyMeter; readonly back: LatencyMeter }
 
@@ -66,6 +68,14 @@ export function recordStations(channel: Channel, options: StationRecorderOptions
     else for (const { station, outcome } of message.stations) stations.get(station)?.archive.event("group.ended", outcome.kind === "done" ? "The common run is done." : outcome.why.sentence, outcome.kind === "done" ? "info" : "warning");
   }
 
+  /** What somebody asked for, and what became of it (rows T-54, X-43). */
+  function act(to: Recorded, message: TellOf<"act">): void {
+    const said = actNote(message);
+    if (said?.kind === "command") to.archive.note("command", said.note);
+    // Lease and switch are told by the guard, however that came about.
+    else if (said && !GUARD_TELLS.has(said.note.action)) to.archive.note("operator", said.note);
+  }
+
   const client: Client = createClient(channel, options.now_s, message => {
     if (message.type === "hello") { for (const words of message.stations) open(words); return; }
     if (message.type === "opened") { const { id, name, brand, robot, virtual, watchdog } = message; open({ id, name, brand, robot, virtual, watchdog }); return; }
@@ -78,6 +88,7 @@ export function recordStations(channel: Channel, options: StationRecorderOptions
       case "sample": sample(to, message); break;
       case "guard": guard(to, message); break;
       case "link": link(to, message); break;
+      case "act": act(to, message); break;
       case "notice": to.archive.event(message.why.code, message.why.sentence, "warning"); break;
     }
     const { problem } = to.archive;

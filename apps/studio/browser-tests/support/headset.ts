@@ -125,15 +125,31 @@ export class Person {
     }, id).then(({ at, normal, ...size }) => ({ at: [...at] as Vector3, normal: [...normal] as Vector3, ...size }));
   }
 
-  /** Points the ray of a hand at a key from a hand's breadth before it and pulls the trigger. */
-  async press(side: Side, id: string): Promise<void> {
-    const { at, normal } = await this.key(id), from = at.map((value, k) => value + 0.25 * normal[k]!) as Vector3;
+  /** Place of a thing of the scene by its name, with the way along its width. Room coordinates. */
+  async place(name: string): Promise<{ readonly at: Vector3; readonly normal: Vector3; readonly along: Vector3 }> {
+    return this.page.evaluate(wanted => {
+      const { scene } = window.twincellScene!, thing = scene.getObjectByName(wanted), origin = scene.getObjectByName("standing-place")!;
+      if (!thing) throw new Error(`There is no "${wanted}" in the scene.`);
+      thing.updateWorldMatrix(true, false);
+      const { elements: e } = origin.matrixWorld.clone().invert().multiply(thing.matrixWorld), z = Math.hypot(e[8]!, e[9]!, e[10]!);
+      return { at: [e[12]!, e[13]!, e[14]!], normal: [e[8]! / z, e[9]! / z, e[10]! / z], along: [e[0]!, e[1]!, e[2]!] } as const;
+    }, name).then(({ at, normal, along }) => ({ at: [...at] as Vector3, normal: [...normal] as Vector3, along: [...along] as Vector3 }));
+  }
+
+  /** Points the ray of a hand at a place from a hand's breadth before it. */
+  async pointAt(side: Side, { at, normal }: { readonly at: Vector3; readonly normal: Vector3 }): Promise<void> {
+    const from = at.map((value, k) => value + 0.25 * normal[k]!) as Vector3;
     await this.page.evaluate(([which, place, turn]) => {
       const { position, quaternion } = window.xrDevice.controllers[which]!;
       position.set(...place);
       quaternion.set(turn[0], turn[1], turn[2], turn[3]);
     }, [side, from, ahead(normal.map(value => -value) as Vector3)] as const);
     await this.frames(3);
+  }
+
+  /** Points the ray of a hand at a key and pulls the trigger. */
+  async press(side: Side, id: string): Promise<void> {
+    await this.pointAt(side, await this.key(id));
     await this.trigger(side, 1);
     await this.trigger(side, 0);
     await this.page.evaluate(which => { window.xrDevice.controllers[which]!.quaternion.set(0, 0, 0, 1); }, side);

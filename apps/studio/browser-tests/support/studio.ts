@@ -84,6 +84,9 @@ export class Studio {
     return { page, context, problems };
   }
 
+  /** The server goes, the browser stays. */
+  stopServer(): void { this.server.kill("SIGTERM"); }
+
   async stop(): Promise<void> {
     await this.browser.close();
     this.server.kill("SIGTERM");

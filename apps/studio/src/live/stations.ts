@@ -1,6 +1,7 @@
 import { retargetProgram, robotById, type CommandOutcome, type JointSample, type Pose, type Program, type Robot } from "@twincell/core";
-import type { PendantAct, TellOf } from "@twincell/messages";
+import { actNote, type TellOf } from "@twincell/messages";
 import { createRunRecorder, type RunRecorder } from "@twincell/recording";
+import { createCabinetLink, type CabinetLink } from "../cabinet/link.ts";
 import { cellStore } from "../stores/cell.ts";
 import { programOf, robotOf } from "../stores/document.ts";
 import { historyStore, type RunEnding } from "../stores/history.ts";
@@ -24,7 +25,7 @@ export interface StationLive {
 interface Recording { readonly recorder: RunRecorder; readonly file: RunFile; readonly note: (ending: RunEnding) => void }
 
 const shelf = browserShelf();
-const lives = new Map<string, StationLive>(), recordings = new Map<string, Recording>(), told_ms = new Map<string, number>(), alive = new Map<string, number>();
+const cabinets = new Map<string, CabinetLink>(), lives = new Map<string, StationLive>(), recordings = new Map<string, Recording>(), told_ms = new Map<string, number>(), alive = new Map<string, number>();
 const TELL_EVERY_MS = 100, ALIVE_EVERY_MS = 25;
 const NO_LINK: StationState["link"] = { state: "closed", sentence: "", attempts: 0, rate_Hz: 0, late_s: 0, roundTrip_s: null, missing: 0 };
 const AT_REST: StationState["guard"] = { holder: null, pressed: false, link: "up", motion: "at-rest", trip: "none", emergency: false, watching: false };
@@ -66,8 +67,14 @@ const stands = new Map<string, Pose<"world", "base">>();
 export async function removeStation(id: string): Promise<void> { await hostOf(id)?.ask({ type: "close", station: id }); }
 export const askStation = (id: string, type: "connect" | "disconnect" | "confirm" | "reset" | "take" | "release" | "zero"): Promise<CommandOutcome> =>
   hostOf(id)?.ask({ type, station: id }) ?? Promise.resolve(refusedAs(words.stations.gone, ""));
-export const atPendant = (id: string, act: PendantAct): Promise<CommandOutcome> =>
-  hostOf(id)?.ask({ type: "pendant", station: id, act }) ?? Promise.resolve(refusedAs(words.stations.gone, ""));
+/** The pendant of a virtual controller, kept as long as the controller is there. */
+export function cabinetOf(id: string): CabinetLink | null {
+  const host = hostOf(id), known = cabinets.get(id);
+  if (known || !host) return known ?? null;
+  const link = createCabinetLink(id, host);
+  cabinets.set(id, link);
+  return link;
+}
 /** Only to watch it from now on; or to command it, with its lease. */
 export async function watchStation(id: string, on: boolean): Promise<CommandOutcome> {
   const host = hostOf(id);
@@ -168,6 +175,13 @@ async function endRecording(id: string, { recorder, file, note }: Recording, out
   historyStore.setState({ runs: await listRuns(shelf) });
 }
 
+/** Everything that anybody does at that station while its run is recorded. */
+function recordAct(message: TellOf<"act">): void {
+  const recorder = recordings.get(message.station)?.recorder, said = actNote(message);
+  if (said?.kind === "command") recorder?.note("command", said.note);
+  else if (said) recorder?.note("operator", said.note);
+}
+
 /** Commands wait on nothing, but who holds the lease of a real robot says so many times a second. */
 function keepAlive(id: string): void {
   if (alive.has(id)) return;
@@ -190,7 +204,12 @@ function take(place: HostPlace, message: Told): void {
       for (const id of message.stations) recordings.get(id)?.recorder.event("group.began", words.stations.began(message.stations.length, Math.round(1000 * message.spread_s)));
       break;
     case "ended": for (const { station, outcome } of message.stations) groupEnds.set(station, outcome); break;
+    case "act": recordAct(message); break;
     case "sample": show(message); break;
+    case "pendant":
+      cabinets.get(message.station)?.take(message);
+      if (message.shown.trouble.unplugged !== stationOf(message.station)?.unplugged) changeStation(message.station, { unplugged: message.shown.trouble.unplugged });
+      break;
     case "fault":
       notify("bad", message.sentence, words.stations.faultHint);
       for (const { id, place: at } of stationStore.getState().stations) if (at === place) vanish(id);
@@ -215,6 +234,8 @@ function vanish(id: string): void {
   alive.delete(id);
   lives.delete(id);
   stands.delete(id);
+  cabinets.get(id)?.gone();
+  cabinets.delete(id);
   stationStore.setState(({ stations }) => ({ stations: stations.filter(station => station.id !== id) }));
 }
 

@@ -24,6 +24,8 @@ export const WORDS = {
   inContact: "In contact",
   touch: (one: string, other: string): string => `${one.charAt(0).toUpperCase()}${one.slice(1)} touches ${other}.`,
   handJumped: (jump_m: number): string => `The hand was lost and found ${jump_m.toFixed(1)} m away, so the tool was let go. Take it again.`,
-  record: "Record", deletePoint: "Delete last", play: "Play", pause: "Pause", stop: "STOP", leave: "Leave", tilt: "tilt",
+  record: "Record", deletePoint: "Delete last", play: "Play", pause: "Pause", stop: "STOP", leave: "Leave", camera: "Camera", history: "History", tilt: "tilt",
   points: (count: number): string => `${count} ${count === 1 ? "point" : "points"}`,
+  move: "Move", hide: "Hide", holdTwin: "Hold twin back", twinHeld: "Twin is held", noCamera: "No camera is shown.", offered: "Show one of these, or open Cameras in the studio.", noCameraHere: "Open Cameras in the studio to add one.",
+  noRecording: "Nothing recorded is open.", chooseRun: "Choose a run:", noRuns: "No run was recorded yet.", lastAlarm: "Last alarm", backToNow: "Back to now", past: (at: string, all: string): string => `${at} of ${all}`, stick: "Ray on the line, or the right stick, moves through time.", gap: "Nothing was recorded then.",
 } as const;

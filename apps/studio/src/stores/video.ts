@@ -23,10 +23,8 @@ export interface VideoState {
   readonly heldBy: string | null;
   /** The panel whose latency is being measured, or null. */
   readonly measured: string | null;
-  /** Whether panels are to be seen in the headset. */
-  readonly inRoom: boolean;
 }
-export const videoStore = createStore<VideoState>(() => ({ panels: [], cameras: [], devices: [], links: [], server: "off", sentence: "", heldBy: null, measured: null, inRoom: true }));
+export const videoStore = createStore<VideoState>(() => ({ panels: [], cameras: [], devices: [], links: [], server: "off", sentence: "", heldBy: null, measured: null }));
 
 export const panelOf = (id: string): VideoPanel | undefined => videoStore.getState().panels.find(panel => panel.id === id);
 export function changePanel(id: string, change: Partial<VideoPanel>): void {

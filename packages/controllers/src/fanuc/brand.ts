@@ -3,7 +3,8 @@ import { FANUC_CANNOT } from "./cannot.ts";
 import { FTP_PORT } from "./codec-ftp.ts";
 import { RMI_PORT, RMI_SESSION_PORT } from "./codec-rmi.ts";
 import { createFanucFace } from "./driver.ts";
-import { createVirtualFanuc, fanucInput } from "./virtual/controller.ts";
+import { fanucPendant } from "./pendant.ts";
+import { createVirtualFanuc } from "./virtual/controller.ts";
 
 const PORTS = { connect: RMI_PORT, session: RMI_SESSION_PORT, files: FTP_PORT };
 
@@ -18,23 +19,13 @@ export const fanuc: Brand = {
       ...(start_rad ? { start_rad } : {}), ...(maxSpeed === undefined ? {} : { maxSpeed }),
     });
     if (started.kind === "taken") return started;
-    const { virtual } = started, { pendant, arm } = virtual;
+    const { virtual } = started, { arm } = virtual;
     return {
       kind: "started",
       virtual: {
         name: `Virtual ${robot.name}`, robot, ports: virtual.ports, brakingTime_s: arm.brakingTime_s,
         jointAngles: out => arm.jointAngles(out), reboot() { virtual.reboot(); }, close() { virtual.close(); },
-        pendant: {
-          setMode(mode) { pendant.setKey(mode === "manual" ? "T1" : "AUTO"); },
-          jog: q_rad => pendant.jog(q_rad),
-          emergencyStop(pressed) { pendant.setEmergencyStop(pressed); },
-          setGuardOpen(open) { pendant.setGuardOpen(open); },
-          protectiveStop(because) { pendant.fault(because); },
-          setInput(signal, value) {
-            const n = fanucInput(signal);
-            if (n > 0) pendant.setInput(n, value === true || (typeof value === "number" && value !== 0));
-          },
-        },
+        pendant: fanucPendant(virtual),
       },
     };
   },

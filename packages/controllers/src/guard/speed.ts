@@ -1,4 +1,4 @@
-import { armScratch, compose, distance, flangePose, identity, norm, type Pose, type Robot, type SerialArm } from "@twincell/core";
+import { armScratch, compose, distance, flangePose, identity, norm, type MoveStep, type Pose, type Robot, type SerialArm } from "@twincell/core";
 
 /** Points of a joint move at which the speed of the TCP is looked at. */
 const LOOKS = 64;
@@ -34,6 +34,15 @@ export function speedBound(robot: Robot, flangeFromTcp: Pose<"flange", "tcp">): 
   }
   return bound;
 }
+
+/** A motion so slow that the flange stays within that speed: what modes by hand ask for. */
+export function slowed(robot: Robot, step: MoveStep, from_rad: ArrayLike<number>, most_mps: number): MoveStep {
+  if (step.path !== "ptp") return { ...step, speed: { mps: "mps" in step.speed ? Math.min(most_mps, step.speed.mps) : most_mps } };
+  const to = "q" in step.target ? step.target.q : null, ratio = "ratio" in step.speed ? step.speed.ratio : 1;
+  const full_mps = to ? jointMoveSpeed(robot, from_rad, to, FLANGE) : speedBound(robot, FLANGE);
+  return { ...step, speed: { ratio: full_mps * ratio > most_mps ? most_mps / full_mps : ratio } };
+}
+const FLANGE: Pose<"flange", "tcp"> = { position: [0, 0, 0], quaternion: [0, 0, 0, 1] };
 
 /** Forward kinematics to the tip of the tool, without allocation. */
 export function tcpOf(arm: SerialArm, flangeFromTcp: Pose<"flange", "tcp">): (q_rad: ArrayLike<number>, out: Pose<"base", "tcp">) => Pose<"base", "tcp"> {

@@ -1,5 +1,5 @@
-import type { OperatingMode, SignalLine } from "@twincell/core";
-import type { Brand, BrandStarted, BrandVirtualOptions } from "../real/index.ts";
+import type { SignalLine } from "@twincell/core";
+import type { Brand, BrandStarted, BrandVirtualOptions, Face, FaceOptions } from "../real/index.ts";
 import { kukaAxes } from "./axes.ts";
 import { KUKA_CANNOT, KUKA_RSI_CANNOT } from "./cannot.ts";
 import { C3_PORT } from "./codec-c3.ts";
@@ -7,19 +7,18 @@ import { axisConfig } from "./codec-rsi.ts";
 import { createKukaFace } from "./driver/face.ts";
 import { createKukaRsiFace } from "./driver/rsi-face.ts";
 import { RSI_NAME } from "./loop.ts";
+import { kukaPendant } from "./pendant.ts";
 import { createVirtualKuka, startLoop } from "./virtual/controller.ts";
-import type { KukaMode } from "./virtual/machine.ts";
 
-const KEY: Readonly<Record<OperatingMode, KukaMode>> = { manual: "T1", automatic: "AUT", remote: "EX" };
 const TERMINALS: Readonly<Record<SignalLine["kind"], string>> = { "digital-in": "$IN", "digital-out": "$OUT", "analogue-in": "$ANIN", "analogue-out": "$ANOUT" };
-const PRESSES_S = 2, LOOK_S = 0.05;
-const INPUT = /^\$IN\[([0-9]{1,4})\]$/;
 
 const RSI = axisConfig("127.0.0.2", 49_152);
+const overRsi = ({ robot, scheduler, network, host, ports }: FaceOptions): Face => createKukaRsiFace({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT, config: RSI });
 
 /** KUKA as apps meet it. The virtual controller begins in EXT with its drives on and the program TWINCELL running. */
 export const kuka: Brand = {
-  id: "kuka", name: "KUKA", dialect: "krl", ports: { variables: C3_PORT }, vendor: "KUKA", cannot: KUKA_CANNOT,
+  id: "kuka", name: "KUKA", dialect: "krl", ports: { variables: C3_PORT }, vendor: "KUKA", cannot: KUKA_CANNOT, drives: robot => kukaAxes(robot) !== undefined,
+  otherWays: [{ name: "KUKA (RSI)", cannot: KUKA_RSI_CANNOT, shows: ["T-21", "T-23", "T-27"], tests: "rsi.test.ts", face: overRsi }],
   terminal: ({ kind, address }) => `${TERMINALS[kind]}[${address}]`,
   face: ({ robot, scheduler, network, host, ports }) => createKukaFace({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT }),
   virtual: options => start(options, false),
@@ -27,7 +26,7 @@ export const kuka: Brand = {
 /** The same controllers, moved by increments of RSI where its sensor file names this computer; a virtual one sends to 127.0.0.2. */
 export const kukaOverRsi: Brand = {
   ...kuka, id: "kuka-rsi", name: "KUKA over RSI", cannot: KUKA_RSI_CANNOT,
-  face: ({ robot, scheduler, network, host, ports }) => createKukaRsiFace({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT, config: RSI }),
+  face: overRsi,
   virtual: options => start(options, true),
 };
 
@@ -36,7 +35,7 @@ async function start({ robot, scheduler, network, host, ports, interpret, start_
   const virtual = await createVirtualKuka({
     robot, scheduler, network, host, interpret, port: ports?.["variables"] ?? C3_PORT, ...(start_rad ? { start_rad } : {}), ...(maxSpeed === undefined ? {} : { maxSpeed }), ...(overRsi ? { rsi: { config: RSI } } : {}),
   });
-  const { listening, pendant, arm } = virtual;
+  const { listening, arm } = virtual;
   if (listening.kind === "taken") { virtual.close(); return { kind: "taken", sentence: listening.sentence }; }
   startLoop(virtual, overRsi ? RSI_NAME : undefined);
   return {
@@ -44,29 +43,7 @@ async function start({ robot, scheduler, network, host, ports, interpret, start_
     virtual: {
       name: `Virtual ${robot.name}`, robot, ports: { variables: listening.address.port }, brakingTime_s: arm.brakingTime_s,
       jointAngles: out => arm.jointAngles(out), reboot() { virtual.reboot(); }, close() { virtual.close(); },
-      pendant: {
-        setMode(mode) {
-          pendant.setMode(KEY[mode]);
-          // Whoever turns the key to AUT presses the button of the drives as soon as the robot stands; in EXT that is the remote control's.
-          const until_s = scheduler.now_s() + PRESSES_S, stop = scheduler.every(LOOK_S, () => {
-            if (virtual.mode !== "AUT" || scheduler.now_s() > until_s || pendant.setDrives(true) === null) stop();
-          });
-        },
-        // The enabling switch is pressed for as long as the jog lasts.
-        async jog(q_rad) {
-          pendant.setEnabling(true);
-          const outcome = await pendant.jog(q_rad);
-          pendant.setEnabling(false);
-          return outcome;
-        },
-        emergencyStop(pressed) { pendant.setEmergencyStop(pressed); },
-        setGuardOpen(open) { pendant.setGuardOpen(open); },
-        protectiveStop(because) { pendant.fail(because); },
-        setInput(signal, value) {
-          const n = INPUT.exec(signal);
-          if (n) pendant.setInput(Number(n[1]), value === true || (typeof value === "number" && value !== 0));
-        },
-      },
+      pendant: kukaPendant(virtual, scheduler),
     },
   };
 }

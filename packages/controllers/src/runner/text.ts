@@ -8,8 +8,8 @@ export interface TextSteps {
 }
 
 /** So many lines without motion take one cycle of a controller: a text that only counts does not stop the clock. */
-const LINES_PER_CYCLE = 200;
-const CYCLE_S = 0.004;
+export const LINES_PER_CYCLE = 200;
+export const CYCLE_S = 0.004;
 
 /** The steps that a program text amounts to while it is being executed, statement by statement. */
 export function textSteps(run: () => Iterator<Executed, void>): TextSteps {

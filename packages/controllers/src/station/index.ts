@@ -1,3 +1,4 @@
 export * from "./station.ts";
 export * from "./open.ts";
+export * from "./cabinet.ts";
 export { START_WINDOW_S, START_WITHIN_S, startTogether, type GroupEnd, type GroupMember, type Startable, type StartedWords } from "./together.ts";

@@ -1,10 +1,11 @@
-import { planProgram, unrolled, type CommandOutcome, type Dialect, type OperatingMode, type PlanAnswer, type Pose, type Program, type Refusal, type Robot, type Scheduler, type Signals, type Step } from "@twincell/core";
-import { createRealController, type Brand, type BrandVirtual, type ControllerData, type PortNumbers } from "../real/index.ts";
+import { planProgram, unrolled, type CommandOutcome, type Dialect, type PlanAnswer, type Pose, type Program, type Refusal, type Robot, type Scheduler, type Signals, type Step } from "@twincell/core";
+import { createRealController, type Brand, type ControllerData, type PortNumbers } from "../real/index.ts";
 import { memoryNetwork, type Network } from "../transport/index.ts";
 import { withLines } from "../runner/index.ts";
 import type { SharedCell } from "../cell/index.ts";
 import type { Seat } from "../guard/index.ts";
 import { DONE, refused } from "../outcomes.ts";
+import { openCabinet, type Cabinet, type CabinetOpened } from "./cabinet.ts";
 import { createStation, type Armed, type Station, type StationJob } from "./station.ts";
 
 export interface OpenOptions {
@@ -26,22 +27,12 @@ export interface OpenOptions {
   readonly watching?: boolean;
 }
 
-/** What a person does before a virtual cabinet. */
-export type CabinetAct =
-  | { readonly do: "mode"; readonly mode: OperatingMode }
-  | { readonly do: "jog"; readonly q_rad: readonly number[] }
-  | { readonly do: "emergency-stop"; readonly pressed: boolean }
-  | { readonly do: "guard"; readonly open: boolean }
-  | { readonly do: "protective-stop"; readonly because: string }
-  | { readonly do: "input"; readonly signal: string; readonly value: boolean | number }
-  | { readonly do: "reboot" };
-
 /** A station of a brand, and what a person can do at its cabinet where that is virtual. */
 export interface BrandStation extends Station {
   /** What is said of it. */
   readonly words: { readonly id: string; readonly name: string; readonly brand: string; readonly robot: string; readonly virtual: boolean; readonly watchdog: string };
   /** null where a person stands before a real one. */
-  readonly pendant: ((act: CabinetAct) => Promise<CommandOutcome>) | null;
+  readonly pendant: Cabinet | null;
   /** Pulls the plug of the wire to a virtual controller, or puts it back. */
   readonly plug: ((pulled: boolean) => void) | null;
   /** Runs a program from that seat, compared with its plan all the way; as text where wanted and taken. */
@@ -60,15 +51,19 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
   if (robot.vendor !== brand.vendor) {
     return { kind: "refused", why: { code: "station.other-brand", sentence: `${robot.name} is a robot of ${robot.vendor}; controllers of ${brand.name} drive those of ${brand.vendor}.`, hint: "Choose a robot of that brand." } };
   }
+  if (brand.drives?.(robot) === false) {
+    return { kind: "refused", why: { code: "station.other-brand", sentence: `${robot.name} does not stand on a controller of ${brand.name}.`, hint: `Choose another controller of ${brand.vendor}, or another robot.` } };
+  }
   const deaf = brand.cannot.find(({ row }) => row === "watch");
   if (deaf && options.watching === true) return cannotWatch(brand.name, deaf.because);
   const near = options.at === undefined ? memoryNetwork(scheduler) : null, network = options.at?.network ?? near!, host = options.at?.host ?? "127.0.0.1";
-  let virtual: BrandVirtual | null = null;
+  let opened: Extract<CabinetOpened, { kind: "opened" }> | null = null;
   if (near) {
-    const started = await brand.virtual({ robot, scheduler, network, host, interpret: text => dialect.interpret(text, robot, worldFromBase) });
+    const started = await openCabinet({ brand, robot, scheduler, network, host, interpret: text => dialect.interpret(text, robot, worldFromBase) });
     if (started.kind === "taken") { near.close(); return { kind: "refused", why: { code: "station.taken", sentence: started.sentence, hint: "Try it again." } }; }
-    virtual = started.virtual;
+    opened = started;
   }
+  const virtual = opened?.virtual, cabinet = opened?.cabinet ?? null;
   const ports = options.at?.ports ?? virtual?.ports, name = options.name ?? `${near ? "Virtual " : ""}${robot.name}`;
   let isWatched = options.watching === true;
   const face = brand.face({ robot, scheduler, network, host, ...(ports ? { ports } : {}), ...(options.at?.data ? { data: options.at.data } : {}), isWatched: () => isWatched });
@@ -89,11 +84,11 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
     station: {
       ...station,
       words: {
-        id: options.id, name, brand: brand.id, robot: robot.id, virtual: virtual !== null,
+        id: options.id, name, brand: brand.id, robot: robot.id, virtual: cabinet !== null,
         watchdog: face.watchdog.kind === "robot" ? `The robot stops by itself within ${Math.round(face.watchdog.within_s * 1000)} ms.` : `The robot does not stop by itself: ${face.watchdog.because}`,
       },
-      pendant: virtual && (act => atCabinet(virtual, act)),
-      plug: near && (pulled => { near.weather.frozen = pulled; }),
+      pendant: cabinet,
+      plug: cabinet && (pulled => { void cabinet.act("", { do: "trouble", unplugged: pulled }); }),
       stop(emergency) { station.guard.stop(emergency); },
       async watch(seat, on) {
         const { state } = station.guard;
@@ -115,7 +110,7 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
       },
       close() {
         station.close();
-        virtual?.close();
+        opened?.close();
         near?.close();
       },
     },
@@ -147,17 +142,4 @@ async function rejoin(station: Station): Promise<CommandOutcome> {
     ];
     const end = (outcome: CommandOutcome): void => { for (const off of offs) off(); resolve(outcome); };
   });
-}
-
-async function atCabinet({ pendant, reboot }: BrandVirtual, act: CabinetAct): Promise<CommandOutcome> {
-  switch (act.do) {
-    case "mode": pendant.setMode(act.mode); break;
-    case "jog": return pendant.jog(act.q_rad);
-    case "emergency-stop": pendant.emergencyStop(act.pressed); break;
-    case "guard": pendant.setGuardOpen(act.open); break;
-    case "protective-stop": pendant.protectiveStop(act.because); break;
-    case "input": pendant.setInput(act.signal, act.value); break;
-    case "reboot": reboot(); break;
-  }
-  return { kind: "done" };
 }

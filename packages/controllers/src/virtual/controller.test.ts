@@ -35,6 +35,19 @@ describe("virtual controller", () => {
     expect(times.at(-1)).toBeCloseTo(60, 9);
   });
 
+  test("stopped while it is held it has nothing left to brake when the override comes back", async () => {
+    const { scheduler, robot: controller } = bench(), command = controller.moveJoints(near(0.8));
+    await scheduler.elapse(0.3);
+    controller.setSpeed(0);
+    await scheduler.elapse(1);
+    const held = controller.jointAngles();
+    controller.stop();
+    expect((await command).kind).toBe("stopped");
+    controller.setSpeed(100);
+    await scheduler.elapse(1);
+    expect(controller.jointAngles()).toEqual(held);
+  });
+
   test("a stop brakes within the stated time, within every joint's acceleration, and stays on the path", async () => {
     const { scheduler, robot: controller } = bench();
     const from = controller.jointAngles(), to = near(0.8);

@@ -31,8 +31,8 @@ export type Solve = (baseFromFlange: Pose<"base", "flange">, near_rad: Float64Ar
 /** What a person does at the robot itself: mode switch, teach pendant, guard, and what the drives do on their own. */
 export interface AtTheRobot {
   setMode(mode: OperatingMode): void;
-  /** A joint move commanded at the pendant; works in manual mode only. */
-  jog(q_rad: ArrayLike<number>): Promise<CommandOutcome>;
+  /** A joint move commanded at the pendant, at that share of the joint speeds; works in manual mode only. */
+  jog(q_rad: ArrayLike<number>, ratio?: number): Promise<CommandOutcome>;
   setOverride(percent: number): CommandOutcome;
   /** A proximity sensor or a gate: true stops, false allows motion again but starts none (row T-27). */
   setGuardOpen(open: boolean): void;
@@ -141,11 +141,11 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
   }
 
   /** The one motion primitive (rows T-12, T-13): joint targets, checked, then carried out over many cycles. */
-  async function moveRobotJoints(target_rad: ArrayLike<number>, fit: () => Refusal | null = notNow): Promise<CommandOutcome> {
+  async function moveRobotJoints(target_rad: ArrayLike<number>, fit: () => Refusal | null = notNow, ratio = 1): Promise<CommandOutcome> {
     const reason = fit() ?? jointRefusal(robot, target_rad);
     if (reason) return refuse(reason);
     options.onMotion?.(target_rad);
-    const step: Step = { id: "", type: "move", path: "ptp", target: { q: Array.from(target_rad) }, speed: { ratio: 1 }, blend_m: 0 };
+    const step: Step = { id: "", type: "move", path: "ptp", target: { q: Array.from(target_rad) }, speed: { ratio }, blend_m: 0 };
     return start([step][Symbol.iterator](), { tools: {}, frames: {} });
   }
 
@@ -153,6 +153,8 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
     if (state !== "normal") { safety = state; why = reason; }
     message = reason.sentence;
     if (command && !command.stopping) { command.stopping = reason; command.stepper.stop(true); }
+    // Held where it stands there is nothing to brake, now or when the override comes back.
+    if (command && command.begun && !command.moving && override === 0) finish({ kind: "stopped", why: reason });
   }
 
   return {
@@ -218,9 +220,9 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
         mode = to;
         brake("normal", stopped("controller.mode-changed", `${robot.name} was switched to ${to} mode.`));
       },
-      jog: target_rad => moveRobotJoints(target_rad, () => mode === "manual" ? unfit() : {
+      jog: (target_rad, ratio = 1) => moveRobotJoints(target_rad, () => mode === "manual" ? unfit() : {
         code: "controller.not-manual", sentence: `${robot.name} is in ${mode} mode; its pendant jogs in manual mode only.`, hint: "Turn the mode switch to manual.",
-      }),
+      }, ratio),
       setOverride(percent) {
         const reason = percentRefusal(percent);
         if (reason) return refuse(reason);

@@ -1,1 +1,2 @@
 export * from "./controller.ts";
+export { neutralPendant, type NeutralPendantOptions } from "./pendant.ts";

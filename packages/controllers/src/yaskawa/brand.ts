@@ -1,13 +1,13 @@
-import type { Brand, Pendant } from "../real/index.ts";
+import type { Brand } from "../real/index.ts";
 import { YASKAWA_CANNOT } from "./cannot.ts";
 import { FILE_PORT, ROBOT_PORT } from "./codec/index.ts";
 import { yaskawaFace } from "./driver/index.ts";
-import { createVirtualYaskawa, type VirtualYaskawa } from "./virtual/index.ts";
+import { yaskawaPendant } from "./pendant.ts";
+import { createVirtualYaskawa } from "./virtual/index.ts";
 
 const PORTS = { robot: ROBOT_PORT, files: FILE_PORT };
 /** How long a virtual controller is away when it is switched off and on [s]. */
 const REBOOT_S = 2;
-const ALARM_BY_HAND = 4499;
 
 /** Controllers with the high-speed Ethernet server: FS100, DX200, YRC1000. */
 export const yaskawa: Brand = {
@@ -26,7 +26,7 @@ export const yaskawa: Brand = {
       kind: "started",
       virtual: {
         name: `Virtual Yaskawa ${robot.name.replace(/^Yaskawa /, "")}`, robot, ports: controller.ports, brakingTime_s: controller.brakingTime_s,
-        pendant: pendantOf(controller),
+        pendant: yaskawaPendant(controller),
         jointAngles: out => neutral.jointAngles(out),
         reboot() { controller.reboot(REBOOT_S); },
         close() { controller.close(); },
@@ -34,15 +34,3 @@ export const yaskawa: Brand = {
     };
   },
 };
-
-const pendantOf = ({ pendant }: VirtualYaskawa): Pendant => ({
-  setMode(mode) { pendant.setMode(mode === "manual" ? "teach" : mode === "automatic" ? "play" : "remote"); },
-  jog: q_rad => pendant.jog(q_rad),
-  emergencyStop(pressed) { pendant.emergencyStop(pressed); },
-  setGuardOpen(open) { pendant.setGuardOpen(open); },
-  protectiveStop(because) { pendant.raiseAlarm(ALARM_BY_HAND, because); },
-  setInput(signal, value) {
-    const number = Number(/^in(?:_|#\()(\d+)\)?$/i.exec(signal)?.[1]);
-    if (Number.isInteger(number) && number > 0) pendant.setInput(number, value === true || (typeof value === "number" && value !== 0));
-  },
-});

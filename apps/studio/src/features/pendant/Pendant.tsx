@@ -15,6 +15,7 @@ import { nearness } from "./nearness.ts";
 import { JointGauges } from "./JointGauges.tsx";
 import { Manner } from "./Manner.tsx";
 import { PointButtons } from "./PointButtons.tsx";
+import "../../ui/axis.css";
 import "./pendant.css";
 
 const FRAMES: readonly JogFrame[] = ["joint", "base", "tool", "user", "world"];

@@ -1,4 +1,4 @@
-import { compose, identity, LIBRARY, robotById, type Pose } from "@twincell/core";
+import { compose, identity, robotById, type Pose } from "@twincell/core";
 import { useEffect, useState } from "react";
 import { useStore } from "zustand";
 import { lookForServer } from "../../live/station-hosts.ts";
@@ -29,7 +29,7 @@ function Open() {
   const [brand, setBrand] = useState(BRAND_LIST[0]?.id ?? ""), [robot, setRobot] = useState(""), [place, setPlace] = useState<HostPlace>("page"), [host, setHost] = useState("");
   const [x_m, setX] = useState(0), [y_m, setY] = useState((count + 1) * APART_M), [turned_rad, setTurned] = useState(0), [busy, setBusy] = useState(false), [purpose, setPurpose] = useState<"command" | "watch">("command"), [typed, setTyped] = useState<Readonly<Record<string, string>>>({});
   useEffect(() => { lookForServer(); }, []);
-  const chosen = BRAND_LIST.find(({ id }) => id === brand), robots = LIBRARY.filter(({ vendor }) => vendor === chosen?.vendor), robotId = robots.find(({ id }) => id === robot)?.id ?? robots[0]?.id ?? "";
+  const chosen = BRAND_LIST.find(({ id }) => id === brand), robots = chosen?.robots ?? [], robotId = robots.find(({ id }) => id === robot)?.id ?? robots[0]?.id ?? "";
   const asked = place === "server" ? chosen?.data ?? [] : [], data = Object.fromEntries(asked.map(({ id }) => [id, numbersOf(typed[id] ?? "")]));
   const whole = asked.every(({ id }) => data[id]!.length === (robotById(robotId)?.arm.joints.length ?? 0) && data[id]!.every(value => Number.isFinite(value) && value !== 0));
   if (!document) return null;

@@ -2,14 +2,14 @@ import { Cable, ChevronDown, ChevronRight, Eye, Hand, Play, Plug, PlugZap, Plus,
 import { useState } from "react";
 import { useStore } from "zustand";
 import type { CommandOutcome } from "@twincell/core";
-import { askStation, holdStation, pullPlug, removeStation, runAll, runStation, stopStation, watchStation } from "../../live/stations.ts";
+import { askStation, cabinetOf, holdStation, pullPlug, removeStation, runAll, runStation, stopStation, watchStation } from "../../live/stations.ts";
+import { Desk } from "../../cabinet/Desk.tsx";
 import { openDialog } from "../../stores/dialogs.ts";
 import { notify } from "../../stores/notices.ts";
 import { stationStore, type StationState } from "../../stores/stations.ts";
 import { HoldButton } from "../../ui/HoldButton.tsx";
 import { Tip } from "../../ui/Tip.tsx";
 import { words } from "../../words/index.ts";
-import { Cabinet } from "./Cabinet.tsx";
 import { Together } from "./Together.tsx";
 import "./stations.css";
 
@@ -84,7 +84,20 @@ function Details({ station }: { readonly station: StationState }) {
         <div><dt>{words.stations.watchdog}</dt><dd>{station.watchdog}</dd></div>
       </dl>
       {!station.guard.watching && <Tip words={words.stations.watchTip}><button className="btn tight" disabled={station.running || link.state !== "open"} onClick={() => { void watchStation(station.id, true).then(outcome => { tell(station.name, outcome); }); }}><Eye />{words.stations.watch}</button></Tip>}
-      {station.virtual && <Cabinet station={station} />}
+      {station.virtual && <PendantPart station={station} />}
     </>
+  );
+}
+
+/** Its pendant, as the page of its own has it. */
+function PendantPart({ station: { id, place } }: { readonly station: StationState }) {
+  const link = cabinetOf(id);
+  if (!link) return null;
+  return (
+    <section className="station-pendant" aria-label={words.stations.pendant}>
+      <h3 className="small dim row-flex"><span className="grow">{words.stations.pendant}</span>
+        {place === "server" && <a className="small" href={`pendant/?station=${encodeURIComponent(id)}`} target="_blank" rel="noreferrer">{words.stations.pendantAlone}</a>}</h3>
+      <Desk link={link} alone={false} />
+    </section>
   );
 }

@@ -12,8 +12,9 @@ const BUZZ_EVERY_MS = 90;
 /** No hand goes this far between two frames: the tracking lost it and found it elsewhere. */
 const LONGEST_JUMP_M = 0.5;
 
-/** Whether a key of the menu is being pointed at: then the trigger belongs to the key, not to the tool behind it. */
-export interface KeyAim { aimed: boolean }
+/** Which panels are being pointed at: then the trigger belongs to them, not to the tool behind. */
+export type KeyAim = Set<string>;
+export function aimAt(keys: KeyAim, panel: string, aimed: boolean): void { if (aimed) keys.add(panel); else keys.delete(panel); }
 
 interface Hand { readonly state: HandState; readonly last: Pose<"world", "hand">["position"]; seen: boolean; squeezed: boolean; pointed: boolean }
 interface Taken { readonly source: XRInputSource; readonly ray: boolean; readonly handFromTcp: Pose<"hand", "tcp">; readonly end: () => void }
@@ -75,7 +76,7 @@ export class Grabber {
     const { state } = hand, tip = theLive().worldFromTcp.position, { position } = state.worldFromHand;
     if (!this.#taken && state.tracked && !playStore.getState().playing) {
       if (state.squeezing && !hand.squeezed && distance(position, tip) < GRAB_NEAR_M) this.#take(source, false, state.worldFromHand);
-      else if (state.pointing && !hand.pointed && !this.#keys.aimed && rayMisses(state.worldFromRay, tip) < RAY_NEAR_M) this.#take(source, true, state.worldFromRay);
+      else if (state.pointing && !hand.pointed && this.#keys.size === 0 && rayMisses(state.worldFromRay, tip) < RAY_NEAR_M) this.#take(source, true, state.worldFromRay);
     }
     const jump_m = hand.seen && state.tracked ? distance(position, hand.last) : 0;
     if (state.tracked) { hand.seen = true; for (let k = 0; k < 3; k++) hand.last[k] = position[k]!; }

@@ -2,12 +2,17 @@ import type { CellDocument } from "@twincell/project";
 import { createXRStore, useXR, useXRInputSourceState, XR, XROrigin, XRSpace } from "@react-three/xr";
 import { type RefObject, Suspense, useEffect, useMemo, useRef } from "react";
 import type { Group } from "three";
+import { useStore } from "zustand";
 import { leaveHeadsetBy } from "../../stores/headset.ts";
 import { notify } from "../../stores/notices.ts";
+import { roomStore } from "../../stores/room.ts";
+import { videoStore } from "../../stores/video.ts";
 import { viewStore } from "../../stores/view.ts";
 import type { Interaction } from "../interaction.ts";
+import { CameraPanel, NoCamera } from "./camera-panel.tsx";
 import { Grab } from "./grab.tsx";
 import type { KeyAim } from "./grabber.ts";
+import { PastPanel } from "./past-panel.tsx";
 import { standingPlace } from "./standing-place.ts";
 import { WhyCard } from "./why-card.tsx";
 import { WristPanel } from "./wrist-panel.tsx";
@@ -28,7 +33,7 @@ export function Headset({ wish, document, interaction, world }: {
   readonly wish: number; readonly document: CellDocument; readonly interaction: Interaction; readonly world: RefObject<Group | null>;
 }) {
   const origin = useRef<Group>(null), place = useMemo(() => standingPlace(document), [document]);
-  const keys = useMemo<KeyAim>(() => ({ aimed: false }), []);
+  const keys = useMemo<KeyAim>(() => new Set(), []);
   useEffect(() => {
     if (wish === 0 || store.getState().session) return;
     store.enterVR().catch((trouble: unknown) => { notify("warn", trouble instanceof Error ? trouble.message : String(trouble)); });
@@ -44,6 +49,7 @@ export function Headset({ wish, document, interaction, world }: {
     <XR store={store}>
       <XROrigin name="standing-place" ref={origin} position={[place.x, 0, -place.y]} rotation-y={place.turn_rad}>
         <Suspense fallback={null}><Menu keys={keys} /></Suspense>
+        <Suspense fallback={null}><Room keys={keys} /></Suspense>
       </XROrigin>
       <Suspense fallback={null}><Why /></Suspense>
       <Grab interaction={interaction} keys={keys} origin={origin} world={world} />
@@ -54,6 +60,19 @@ export function Headset({ wish, document, interaction, world }: {
 /** What is said in the room is only there while somebody is. */
 function Why() {
   return useXR(state => state.session) ? <WhyCard /> : null;
+}
+
+/** Panels that stand about the person: pictures of cameras, and the time line of what was recorded. */
+function Room({ keys }: { readonly keys: KeyAim }) {
+  const inside = useXR(state => state.session !== undefined), { cameras, history } = useStore(roomStore), panels = useStore(videoStore, state => state.panels);
+  if (!inside) return null;
+  return (
+    <>
+      {cameras && panels.map((panel, i) => <CameraPanel key={panel.id} panel={panel} place={i} keys={keys} />)}
+      {cameras && panels.length === 0 && <NoCamera keys={keys} />}
+      {history && <PastPanel keys={keys} />}
+    </>
+  );
 }
 
 /** The panel rides on the left hand: above a controller, or on the inside of a bare wrist. Who has no left hand finds it standing beside. */

@@ -10,23 +10,24 @@ import { leaveHeadset } from "../../stores/headset.ts";
 import { jogStore } from "../../stores/jog.ts";
 import { playStore } from "../../stores/play.ts";
 import { deleteSteps } from "../../stores/program.ts";
+import { toggleRoom } from "../../stores/room.ts";
 import { sound } from "../../stores/sound.ts";
 import { stopEverything } from "../../stores/stop.ts";
 import { watchStore } from "../../stores/watch.ts";
 import { WORDS } from "../words.ts";
-import type { KeyAim } from "./grabber.ts";
+import { aimAt, type KeyAim } from "./grabber.ts";
+import { Key, Row, WORDS_PX } from "./keys.tsx";
 
 const READ_EVERY_S = 0.3;
 /** Capitals of 32 px are 12 mm high: at half an arm's length as large as 29 mm at 1.2 m. */
 const METRES_PER_PIXEL = 0.0005;
-const WORDS_PX = 32;
 
 /** The menu that rides on a wrist. `wearer`: the hand it rides on, whose own ray passes through it. */
 export function WristPanel({ keys, wearer }: { readonly keys: KeyAim; readonly wearer: XRHandedness }) {
-  useEffect(() => () => { keys.aimed = false; }, [keys]);
+  useEffect(() => () => { aimAt(keys, "wrist", false); }, [keys]);
   return (
     <Container id="wrist-panel" flexDirection="column" gap={12} padding={18} width={480} pixelSize={METRES_PER_PIXEL} backgroundColor="#161a1d" borderRadius={22} borderWidth={2} borderColor="#3a444a"
-      pointerEventsType={(_id: number, _type: string, state: unknown) => handOf(state) !== wearer} onHoverChange={(aimed: boolean) => { keys.aimed = aimed; }}>
+      pointerEventsType={(_id: number, _type: string, state: unknown) => handOf(state) !== wearer} onHoverChange={(aimed: boolean) => { aimAt(keys, "wrist", aimed); }}>
       <ReadOut />
       <State />
       <Row>
@@ -36,6 +37,10 @@ export function WristPanel({ keys, wearer }: { readonly keys: KeyAim; readonly w
       <Row>
         <PlayKey />
         <Key id="stop" words={WORDS.stop} color="#ff6157" ink="#2a0705" atOnce onPress={() => { if (!runCommand("stop")) stopEverything(); }} />
+      </Row>
+      <Row>
+        <Key id="camera" words={WORDS.camera} onPress={() => { toggleRoom("cameras"); }} />
+        <Key id="history" words={WORDS.history} onPress={() => { toggleRoom("history"); }} />
       </Row>
       <Key id="leave" words={WORDS.leave} onPress={leaveHeadset} />
     </Container>
@@ -53,24 +58,9 @@ function deleteLast(): void {
   if (last) deleteSteps([last.id]);
 }
 
-function Row({ children }: { readonly children: React.ReactNode }) {
-  return <Container flexDirection="row" gap={12}>{children}</Container>;
-}
-
 function PlayKey() {
   const playing = useStore(playStore, state => state.playing);
   return <Key id="play" words={playing ? WORDS.pause : WORDS.play} onPress={() => { runCommand("play.toggle"); }} />;
-}
-
-/** `atOnce`: acts when pressed; others act when let go, so that a finger can slide off. */
-function Key({ id, words, onPress, color = "#2b343a", ink = "#f2f6f8", atOnce = false }: {
-  readonly id: string; readonly words: string; readonly onPress: () => void; readonly color?: string; readonly ink?: string; readonly atOnce?: boolean;
-}) {
-  return (
-    <Container id={id} flexGrow={1} flexBasis={0} height={84} borderRadius={14} alignItems="center" justifyContent="center" backgroundColor={color} borderWidth={4} borderColor={color} hover={{ borderColor: "#f2f6f8" }} active={{ transformTranslateZ: -6 }} {...(atOnce ? { onPointerDown: onPress } : { onClick: onPress })}>
-      <Text fontSize={WORDS_PX} fontWeight="medium" color={ink}>{words}</Text>
-    </Container>
-  );
 }
 
 /** How many points there are, or what is wrong now. */

@@ -66,6 +66,9 @@ export interface VirtualAbb {
   readonly programs: Programs;
   readonly cabinet: Cabinet;
   readonly files: Files;
+  readonly lines: Lines;
+  /** EGM has ended by a fault that waits for a person. */
+  readonly hasFailed: boolean;
   reboot(off_s: number): void;
   close(): void;
 }
@@ -144,9 +147,9 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
   }
 
   const controller: VirtualAbb = {
-    robot, neutral, programs, cabinet, files, address: socket.address, rws: server?.listening.kind === "listening" ? server.listening.address : null, brakingTime_s: Math.max(brakingTime_s(robot) + 2 * cycle_s, neutral.brakingTime_s),
+    robot, neutral, programs, cabinet, files, lines, address: socket.address, rws: server?.listening.kind === "listening" ? server.listening.address : null, brakingTime_s: Math.max(brakingTime_s(robot) + 2 * cycle_s, neutral.brakingTime_s),
     get frozen() { return egm.frozen; }, set frozen(is) { egm.frozen = is; },
-    get message() { return egm.message; },
+    get message() { return egm.message; }, get hasFailed() { return egm.hasFailed; },
     pendant: {
       setMode(to) {
         neutral.atTheRobot.setMode(to);

@@ -50,6 +50,7 @@ export class EgmMotion {
   }
 
   get isRunning(): boolean { return this.state === EGM_STATE.running; }
+  get hasFailed(): boolean { return this.state === EGM_STATE.error; }
   /** The robot stays where it is until the first target comes. */
   start(commTimeout_s?: number): void {
     this.state = EGM_STATE.running;

@@ -29,7 +29,7 @@ export interface VirtualFanucOptions {
 }
 export interface FanucPendant {
   setKey(key: FanucKey): void;
-  jog(q_rad: ArrayLike<number>): Promise<CommandOutcome>;
+  jog(q_rad: ArrayLike<number>, ratio?: number): Promise<CommandOutcome>;
   setEmergencyStop(pressed: boolean): void;
   setGuardOpen(open: boolean): void;
   fault(text: string): void;
@@ -42,6 +42,9 @@ export interface VirtualFanuc {
   readonly ports: { readonly connect: number; readonly session: number; /** 0 without FTP. */ readonly files: number };
   readonly programs: Programs;
   readonly servosOn: boolean;
+  readonly machine: Pick<FanucMachine, "key" | "pendant" | "emergency" | "fenceOpen" | "faults" | "ready" | "override" | "setOverride">;
+  /** Whether RMI_MOVE runs. */
+  isRunning(): boolean;
   reboot(): void;
   close(): void;
 }
@@ -228,13 +231,14 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
     virtual: {
       robot, arm, faults, programs, ports: { connect: first.address.port, session: second.address.port, files: ftp?.listening.kind === "listening" ? ftp.listening.address.port : 0 },
       get servosOn() { return machine.ready; },
+      machine, isRunning: () => running,
       pendant: {
         setKey(key) { machine.setKey(key); }, setEmergencyStop(pressed) { machine.setEmergency(pressed); }, setGuardOpen(open) { machine.setFence(open); },
         fault(text) { machine.fault(text); }, reset: () => machine.reset(), setInput(n, value) { arm.signals.write(`DI[${n}]`, value); },
-        async jog(q_rad) {
+        async jog(q_rad, most = 1) {
           if (!machine.pendant || !machine.ready) return { kind: "refused", why: { code: "controller.not-manual", sentence: machine.pendant ? "The servos are off." : "The pendant is not enabled.", hint: "Turn the key to T1 and reset the faults." } };
           const full_mps = jointMoveSpeed(robot, arm.jointAngles(), q_rad, FLANGE);
-          const step: MoveStep = { id: "jog", type: "move", path: "ptp", target: { q: Array.from(q_rad) }, speed: { ratio: machine.key === "T1" && full_mps > T1_MPS ? T1_MPS / full_mps : 1 }, blend_m: 0 };
+          const step: MoveStep = { id: "jog", type: "move", path: "ptp", target: { q: Array.from(q_rad) }, speed: { ratio: machine.key === "T1" && full_mps > T1_MPS ? Math.min(most, T1_MPS / full_mps) : most }, blend_m: 0 };
           return arm.run([step], { tools: {}, frames: {} });
         },
       },

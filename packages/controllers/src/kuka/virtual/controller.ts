@@ -1,4 +1,5 @@
 import type { CommandOutcome, Interpreted, MoveStep, Robot, Scheduler } from "@twincell/core";
+import { slowed } from "../../guard/index.ts";
 import type { DatagramSocket, Listening, Network } from "../../transport/index.ts";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
 import { kukaAxes, type KukaAxes } from "../axes.ts";
@@ -10,9 +11,8 @@ import { C3_TYPES, serveC3, type C3Server } from "./c3-server.ts";
 import { noFaults, type KukaFaults } from "./faults.ts";
 import type { Builtin } from "./builtin.ts";
 import { Globals, Timers, type GlobalType } from "./globals.ts";
-import { slowed } from "./job.ts";
 import { LoopRun } from "./loop-run.ts";
-import { Machine, type KukaMode, type Message } from "./machine.ts";
+import { Machine, T1_MPS, type KukaMode, type Message } from "./machine.ts";
 import { Programs, type ProgramState } from "./programs.ts";
 import { RsiRun, type RsiOptions } from "./rsi-run.ts";
 import { kukaVariables, type Now, type Variables } from "./variables.ts";
@@ -62,7 +62,7 @@ export interface KukaPendant {
   confirm(): void;
   setOverride(percent: number): boolean;
   /** A joint move by the jog keys, in T1 or T2 with the enabling switch pressed. */
-  jog(q_rad: ArrayLike<number>): Promise<CommandOutcome>;
+  jog(q_rad: ArrayLike<number>, ratio?: number): Promise<CommandOutcome>;
   setEmergencyStop(pressed: boolean): void;
   /** The gate, or a proximity sensor wired to the operator safety (row T-27). */
   setGuardOpen(open: boolean): void;
@@ -81,6 +81,7 @@ export interface VirtualKuka {
   readonly variables: Variables;
   readonly listening: Listening;
   readonly mode: KukaMode;
+  readonly machine: Pick<Machine, "mode" | "isManual" | "emergency" | "safetyClosed" | "stopMessage" | "messages" | "ready" | "override">;
   readonly program: { readonly state: ProgramState; readonly name: string };
   readonly messages: readonly Message[];
   readonly drivesOn: boolean;
@@ -107,7 +108,7 @@ export async function createVirtualKuka(options: VirtualKukaOptions): Promise<Vi
   let booted_s = 0, last_s = 0;
   const timers = new Timers(() => 1000 * now.time_s), globals = new Globals([...LOOP_GLOBALS, ...options.globals ?? []], options.digits);
   const machine = new Machine(arm, options.mode ?? "EX", () => { programs.interrupted(); });
-  const slow = (step: MoveStep): MoveStep => machine.mode === "T1" ? slowed(robot, step, arm.jointAngles()) : step;
+  const slow = (step: MoveStep): MoveStep => machine.mode === "T1" ? slowed(robot, step, arm.jointAngles(), T1_MPS) : step;
   const builtins = new Map<string, Builtin>([[LOOP_NAME, new LoopRun(globals, timers, arm, machine, axes, slow)]]);
   const rsi = options.rsi ? new RsiRun({ robot, axes, arm, machine, scheduler, network, host, faults, globals, log }, options.rsi) : null;
   if (rsi) {
@@ -153,7 +154,7 @@ export async function createVirtualKuka(options: VirtualKukaOptions): Promise<Vi
   return {
     robot, arm, faults, variables, listening: server.listening,
     get mode() { return machine.mode; },
-    program: programs,
+    program: programs, machine,
     get messages() { return machine.messages; },
     get drivesOn() { return machine.drivesOn; },
     get rsiDelay() { return rsi ? rsi.delay : null; },
@@ -161,10 +162,10 @@ export async function createVirtualKuka(options: VirtualKukaOptions): Promise<Vi
       setMode(mode) { machine.setMode(mode); }, setEnabling(pressed) { machine.setEnabling(pressed); }, setDrives: on => machine.setDrives(on),
       select: name => programs.select(name), start: () => programs.start(), stop() { programs.hold(); }, reset: () => programs.reset(), cancel: () => programs.cancel(),
       confirm() { machine.confirm(); }, setOverride: percent => machine.setOverride(percent),
-      async jog(q_rad) {
+      async jog(q_rad, ratio = 1) {
         const why = machine.isManual ? machine.hindrance : `The mode is ${machine.mode}; axes are jogged in T1 and T2.`;
         if (why) return { kind: "refused", why: { code: "controller.not-manual", sentence: why, hint: "Turn the key to T1 and press the enabling switch." } };
-        const step: MoveStep = { id: "jog", type: "move", path: "ptp", target: { q: Array.from(q_rad) }, speed: { ratio: 1 }, blend_m: 0 };
+        const step: MoveStep = { id: "jog", type: "move", path: "ptp", target: { q: Array.from(q_rad) }, speed: { ratio }, blend_m: 0 };
         return arm.run([slow(step)], { tools: {}, frames: {} });
       },
       setEmergencyStop(pressed) { machine.setEmergency(pressed); }, setGuardOpen(open) { machine.setSafety(!open); },

@@ -1,10 +1,9 @@
-import { type Executed, type Interpreted, type MoveStep, type Pose, type Robot, type Signals, type Step } from "@twincell/core";
-import { jointMoveSpeed, speedBound } from "../../guard/index.ts";
+import type { Executed, Interpreted, Robot, Signals, Step } from "@twincell/core";
+import { slowed } from "../../guard/index.ts";
 import { withLines } from "../../runner/index.ts";
 import { T1_MPS } from "./machine.ts";
 
 type Ready = Extract<Interpreted, { kind: "ready" }>;
-const FLANGE: Pose<"flange", "tcp"> = { position: [0, 0, 0], quaternion: [0, 0, 0, 1] };
 /** So many statements without a motion take one cycle: a text that only counts does not stop the clock. */
 const LINES_PER_CYCLE = 200;
 /** Steps behind the one being executed that are kept to take the program up again. */
@@ -60,7 +59,7 @@ export class Job {
     if (!slow || step.type !== "move") return step;
     const from = this.from ?? this.where();
     this.from = "q" in step.target ? step.target.q : null;
-    return slowed(this.robot, step, from);
+    return slowed(this.robot, step, from, T1_MPS);
   }
 
   private read(): Step | undefined {
@@ -80,14 +79,6 @@ export class Job {
     const line = this.context.signals?.[name];
     return line?.address === undefined ? name : `${WIRES[line.kind]}[${line.address}]`;
   }
-}
-
-/** A motion at a speed at which the flange stays within that of T1. */
-export function slowed(robot: Robot, step: MoveStep, from_rad: ArrayLike<number>): MoveStep {
-  if (step.path !== "ptp") return { ...step, speed: { mps: "mps" in step.speed ? Math.min(T1_MPS, step.speed.mps) : T1_MPS } };
-  const to = "q" in step.target ? step.target.q : null, ratio = "ratio" in step.speed ? step.speed.ratio : 1;
-  const full_mps = to ? jointMoveSpeed(robot, from_rad, to, FLANGE) : speedBound(robot, FLANGE);
-  return { ...step, speed: { ratio: full_mps * ratio > T1_MPS ? T1_MPS / full_mps : ratio } };
 }
 
 const WIRES = { "digital-in": "$IN", "digital-out": "$OUT", "analogue-in": "$ANIN", "analogue-out": "$ANOUT" } as const;

@@ -1,9 +1,8 @@
 import type { Pose } from "@twincell/core";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
 import type { ByteStream, Listening } from "../../transport/index.ts";
-import type { BrandStarted, BrandVirtual, BrandVirtualOptions, Pendant } from "../../real/index.ts";
-import { jointRefusal } from "../../refusals.ts";
-import { JOINTS, lineNumber, modelOf, typeOf, UR_PORTS, type UrPorts } from "../codec/models.ts";
+import type { BrandStarted, BrandVirtual, BrandVirtualOptions } from "../../real/index.ts";
+import { JOINTS, modelOf, typeOf, UR_PORTS, type UrPorts } from "../codec/models.ts";
 import { EMERGENCY_STOPS, JOINT_MODE, ROBOT_MODE, RUNTIME, SAFETY_MODE } from "../codec/modes.ts";
 import { realTimeWriter } from "../codec/real-time.ts";
 import { errorMessage, exceptionMessage, keyMessage, safetyModeMessage, statePackage, textMessage, versionMessage, type PrimaryArm } from "../codec/primary.ts";
@@ -15,6 +14,7 @@ import { noFaults, Outbox, type UrFaults } from "./faults.ts";
 import { GRIPPER_BIT, NamedLines } from "./lines.ts";
 import { Memory } from "./memory.ts";
 import { Mover } from "./mover.ts";
+import { urPendant, type Panel, type UrPendant } from "./pendant.ts";
 import { Programs } from "./programs.ts";
 import { RtdeServer } from "./rtde-server.ts";
 import { ScriptServer } from "./script-server.ts";
@@ -39,18 +39,6 @@ export interface VirtualUrOptions extends Omit<BrandVirtualOptions, "host"> {
   readonly files?: ReadonlyMap<string, string>;
   readonly onMotion?: (q_rad: ArrayLike<number>) => void;
   readonly log?: (sentence: string) => void;
-}
-
-/** What a person does at the teach pendant and at the robot, beside what every brand has. Manual mode is local control. */
-export interface UrPendant extends Pendant {
-  setOperationalMode(mode: "NONE" | "MANUAL" | "AUTOMATIC"): void;
-  setSpeed(fraction: number): void;
-  fault(because: string): void;
-  /** Powers on and releases the brakes. */
-  switchOn(): void;
-  switchOff(): void;
-  unlock(): "unlocked" | "too-soon" | "nothing";
-  stopProgram(): void;
 }
 
 export interface UrState {
@@ -90,7 +78,8 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStar
     ...(options.worldFromBase ? { worldFromBase: options.worldFromBase } : {}), ...(options.onMotion ? { onMotion: options.onMotion } : {}),
   });
   const memory = new Memory(), mover = new Mover(neutral, robot, CYCLE_S), lines = new NamedLines(memory, neutral.signals), faults = noFaults();
-  let cycles = 0, booted_s = options.booted_s ?? DEFAULTS.booted_s, remote = options.remote ?? true, operational = "NONE", fraction = 1, frozen = false, gripper = false, isClosed = false;
+  let cycles = 0, booted_s = options.booted_s ?? DEFAULTS.booted_s, frozen = false, gripper = false, isClosed = false;
+  const panel: Panel = { remote: options.remote ?? true, operational: "NONE", fraction: 1 };
   const now_s = (): number => cycles * CYCLE_S, time_us = (): number => Math.round((booted_s + now_s()) * 1e6);
   // Delays are the wire's, not the controller's: they go on while it hangs.
   const outbox = new Outbox(faults, () => scheduler.now_s());
@@ -119,7 +108,7 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStar
   });
 
   function onScript(text: string, answer: (bytes: Uint8Array) => void): void {
-    if (!remote) { answer(errorMessage(time_us(), READ_ONLY, 1, "The controller is not in remote control.")); return; }
+    if (!panel.remote) { answer(errorMessage(time_us(), READ_ONLY, 1, "The controller is not in remote control.")); return; }
     switch (text.trim().toLowerCase()) {
       case "power on": states.powerOn(now_s()); return;
       case "power off": states.powerOff(); return;
@@ -132,10 +121,10 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStar
     programs.start(text);
   }
 
-  const setSpeed = (to: number): void => { fraction = Math.max(0, Math.min(1, to)); mover.setRate(fraction); };
+  const setSpeed = (to: number): void => { panel.fraction = Math.max(0, Math.min(1, to)); mover.setRate(panel.fraction); };
   const GROUPS = [["standard", 0, 8], ["configurable", 8, 8], ["tool", 16, 2]] as const;
   function onInputs(fields: readonly Field[]): void {
-    if (!remote) return;
+    if (!panel.remote) return;
     for (const { name } of fields) {
       if (name === "speed_slider_mask" && memory.get("speed_slider_mask") !== 0) setSpeed(memory.get("speed_slider_fraction"));
       if (name === "standard_analog_output_mask") {
@@ -153,8 +142,8 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStar
   const model = options.model ?? modelOf(robot), common = { outbox, log };
   const rtde = new RtdeServer({ ...common, memory, version, cycle_s: CYCLE_S, now_s, onInputs });
   const dashboard = new DashboardServer({
-    ...common, states, programs, version, model, now_s, serial: options.serial ?? DEFAULTS.serial, isRemote: () => remote, operationalMode: () => operational,
-    setOperationalMode: mode => { operational = mode; }, file: name => options.files?.get(name),
+    ...common, states, programs, version, model, now_s, serial: options.serial ?? DEFAULTS.serial, isRemote: () => panel.remote, operationalMode: () => panel.operational,
+    setOperationalMode: mode => { panel.operational = mode; }, file: name => options.files?.get(name),
   });
   const joints = robot.arm.joints.map(({ limits }) => limits);
   const arm: PrimaryArm = {
@@ -167,7 +156,7 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStar
     const { robotMode, safetyMode } = states;
     return statePackage({
       time_us: time_us(), powerOn: robotMode >= ROBOT_MODE.IDLE, emergencyStopped: EMERGENCY_STOPS.has(safetyMode), protectiveStopped: safetyMode === SAFETY_MODE.PROTECTIVE_STOP,
-      running: programs.runtime === RUNTIME.PLAYING, paused: programs.runtime === RUNTIME.PAUSED, robotMode, safetyMode, remote, speedFraction: fraction, q_rad: neutral.jointAngles(), qd_rad_s: mover.qd,
+      running: programs.runtime === RUNTIME.PLAYING, paused: programs.runtime === RUNTIME.PAUSED, robotMode, safetyMode, remote: panel.remote, speedFraction: panel.fraction, q_rad: neutral.jointAngles(), qd_rad_s: mover.qd,
       jointMode: robotMode === ROBOT_MODE.RUNNING ? JOINT_MODE.running : JOINT_MODE.idle, tcp, tcpOffset: offset,
       digitalIn: memory.get("actual_digital_input_bits"), digitalOut: memory.get("actual_digital_output_bits"),
     }, arm);
@@ -191,7 +180,7 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStar
     cycles++;
     if (sample.gripperClosed !== gripper) { gripper = sample.gripperClosed; memory.setDigital("output", GRIPPER_BIT, gripper); }
     const q = mover.cycle(sample);
-    fill(booted_s + now_s(), q, fraction);
+    fill(booted_s + now_s(), q, panel.fraction);
     states.cycle(now_s());
     const ended = programs.cycle();
     if (ended !== "") { log(ended); tell(errorMessage(time_us(), 0, 1, ended)); }
@@ -226,44 +215,10 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStar
     jointAngles: out => neutral.jointAngles(out),
     state: {
       get q_rad() { return neutral.jointAngles(); }, get robotMode() { return states.robotMode; }, get safetyMode() { return states.safetyMode; }, get runtime() { return programs.runtime; },
-      get moving() { return mover.isMoving; }, get remote() { return remote; }, get speedFraction() { return fraction; }, get cycles() { return cycles; },
+      get moving() { return mover.isMoving; }, get remote() { return panel.remote; }, get speedFraction() { return panel.fraction; }, get cycles() { return cycles; },
     },
     digitalOut: bit => memory.digital("output", bit),
-    pendant: {
-      setMode(mode) {
-        const to = mode !== "manual";
-        if (to !== remote) { remote = to; programs.end(); }
-      },
-      setOperationalMode(mode) { operational = mode; },
-      async jog(q_rad) {
-        const why = jointRefusal(robot, q_rad) ?? (remote ? { code: "controller.not-manual", sentence: `${robot.name} is in remote control; its pendant jogs in local control only.`, hint: "Switch it to local control." } : null)
-          ?? (states.mayMove ? null : { code: "controller.not-ready", sentence: `${robot.name} is not ready to move.`, hint: "Power it on and release its brakes." }) ?? (mover.isAtRest ? null
-            : { code: "controller.busy", sentence: `${robot.name} is still moving.`, hint: "Wait until it stands." });
-        if (why) return { kind: "refused", why };
-        const moving = mover.run([{ id: "", type: "move", path: "ptp", target: { q: Array.from(q_rad) }, speed: { ratio: 0.25 }, blend_m: 0 }], { tools: {}, frames: {} });
-        return new Promise(resolve => {
-          const done = neutral.onSample(() => {
-            if (!moving.over) return;
-            done();
-            resolve(moving.sentence === "" ? { kind: "done" } : { kind: "stopped", why: { code: "controller.stopped", sentence: moving.sentence, hint: "Jog it again." } });
-          });
-        });
-      },
-      setSpeed,
-      emergencyStop(pressed) { states.emergencyStop(pressed); },
-      setGuardOpen(open) { states.safeguard(open); },
-      protectiveStop,
-      fault(because) { states.fault(because); },
-      switchOn() { states.powerOn(now_s(), ROBOT_MODE.RUNNING); },
-      switchOff() { states.powerOff(); },
-      unlock: () => states.unlock(now_s()),
-      stopProgram() { programs.end(); },
-      setInput(signal, value) {
-        const line = lineNumber(signal);
-        if (line?.kind === "digital-in") memory.setDigital("input", line.number, value === true || (typeof value === "number" && value !== 0));
-        if (line?.kind === "analogue-in" && line.number < 2) memory.set(`standard_analog_input${line.number}`, Number(value));
-      },
-    },
+    pendant: urPendant({ robot, neutral, mover, states, programs, memory, panel, now_s, setSpeed, protectiveStop }),
     reboot() {
       programs.end();
       programs.endBeside();

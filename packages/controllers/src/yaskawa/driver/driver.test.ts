@@ -225,7 +225,7 @@ describe("the driver of Yaskawa's Ethernet server", () => {
     await scheduler.elapse(0.05);
     expect(await real.moveToZero()).toMatchObject({ kind: "refused", why: { code: "controller.manual-mode" } });
     void virtual.pendant.jog(turned(0.02));
-    await scheduler.elapse(0.3);
+    await scheduler.elapse(0.1);
     expect(heard.at(-1)).toMatchObject({ mode: "manual", moving: true });
     await scheduler.elapse(10);
     expect(Math.abs(real.jointAngle(1) - 0.02)).toBeLessThanOrEqual(half_rad[0]!);

@@ -51,7 +51,7 @@ export interface YaskawaPendant {
   start(): number;
   select(job: string): number;
   setOverride(percent: number): void;
-  jog(q_rad: ArrayLike<number>): Promise<CommandOutcome>;
+  jog(q_rad: ArrayLike<number>, ratio?: number): Promise<CommandOutcome>;
   raiseAlarm(code: number, name: string, data?: number, major?: boolean): void;
   reset(): void;
   /** Somebody is near the robot, or its gate is open. */
@@ -70,6 +70,8 @@ export interface VirtualYaskawa {
   readonly pendant: YaskawaPendant;
   readonly faults: Faults;
   readonly files: Files;
+  readonly lines: Lines;
+  readonly machine: Pick<Machine, "status" | "alarms" | "keySwitch" | "speedOverride" | "place" | "message" | "servoIsComing">;
   readonly scale: PulseScale;
   /** Longest time from a hold until standstill [s]. */
   readonly brakingTime_s: number;
@@ -167,7 +169,7 @@ export async function createVirtualYaskawa(options: VirtualYaskawaOptions): Prom
   }
 
   const controller: VirtualYaskawa = {
-    robot, neutral, faults, files, scale, brakingTime_s: brakingTime_s(robot) + 2 * (options.cycle_s ?? CYCLE_S), ports: { robot: robotSocket.address.port, files: fileSocket.address.port },
+    robot, neutral, machine, lines, faults, files, scale, brakingTime_s: brakingTime_s(robot) + 2 * (options.cycle_s ?? CYCLE_S), ports: { robot: robotSocket.address.port, files: fileSocket.address.port },
     pendant: {
       get text() { return text; },
       get message() { return machine.message; },
@@ -179,7 +181,7 @@ export async function createVirtualYaskawa(options: VirtualYaskawaOptions): Prom
       start: () => machine.start(),
       select: job => machine.select(job, 0),
       setOverride(percent) { machine.setOverride(percent / 100); },
-      jog: q_rad => machine.jog(q_rad),
+      jog: (q_rad, ratio) => machine.jog(q_rad, ratio),
       raiseAlarm(code, name, data, major) { machine.raise(code, name, data, major); },
       reset() { machine.resetAlarm(); },
       setGuardOpen(open) { machine.openGuard(open); },

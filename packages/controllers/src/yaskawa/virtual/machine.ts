@@ -1,4 +1,5 @@
-import type { CommandOutcome, Interpreted, Program, Refusal, Robot, Step } from "@twincell/core";
+import { identity, type CommandOutcome, type Interpreted, type Program, type Refusal, type Robot, type Step } from "@twincell/core";
+import { jointMoveSpeed } from "../../guard/index.ts";
 import type { VirtualController } from "../../virtual/index.ts";
 import { ADDED, CYCLE, noStatus, type Alarm, type Status } from "../codec/index.ts";
 import { stamp } from "./clock.ts";
@@ -24,7 +25,7 @@ type Running = { readonly kind: "move" } | { readonly kind: "job"; readonly run:
 /** Codes of this virtual controller's own: a person sees the name beside it. */
 const ALARM = { motion: 4400, job: 4401 } as const;
 const MOST_ALARMS = 100;
-const TEACH_MPS = 0.25;
+const TEACH_MPS = 0.25, FLANGE = identity<"flange", "tcp">();
 
 /**
  * The states of a controller in front of the neutral virtual robot: key switch and command remote, servo power, three
@@ -50,7 +51,6 @@ export class Machine {
   private selected: { readonly job: string; readonly line: number } | null = null;
   private interrupted: JobRun | null = null;
   private now_s = 0;
-  private jogRatio = 1;
   /** A hold came while something ran: a job waits for its start, a move for its end. */
   private paused = false;
   /** The neutral robot carries something out; what is to come after it. */
@@ -76,6 +76,7 @@ export class Machine {
 
   get isBusy(): boolean { return this.status.running; }
   get speedOverride(): number { return this.override; }
+  get servoIsComing(): boolean { return this.servoAt_s !== Infinity; }
   get keySwitch(): KeySwitch { return this.mode; }
   get place(): Place {
     const run = this.running?.kind === "job" ? this.running.run : this.interrupted;
@@ -116,21 +117,9 @@ export class Machine {
     if (major) this.powerOff(); else this.refresh();
   }
   /** A joint move with the pendant: TEACH only, the flange no faster than 250 mm/s. */
-  async jog(q_rad: ArrayLike<number>): Promise<CommandOutcome> {
-    const { neutral } = this.options, { joints } = this.options.robot.arm, from = neutral.jointAngles();
-    // From rest to rest no joint gets faster than its acceleration lets it half-way; no point is further from a joint than the links behind it are long.
-    let behind_m = Math.hypot(...this.options.robot.arm.lastJointFromFlange.position), fastest_mps = 0;
-    for (let i = joints.length - 1; i >= 0; i--) {
-      const { limits, parentFromJoint } = joints[i]!;
-      fastest_mps += behind_m * Math.min(limits.speed_rad_s, Math.sqrt(limits.acceleration_rad_s2 * Math.abs((q_rad[i] ?? 0) - from[i]!)));
-      behind_m += Math.hypot(...parentFromJoint.position);
-    }
-    this.jogRatio = Math.min(1, TEACH_MPS / (fastest_mps + 1e-12));
-    this.refresh();
-    const outcome = await neutral.atTheRobot.jog(q_rad);
-    this.jogRatio = 1;
-    this.refresh();
-    return outcome;
+  jog(q_rad: ArrayLike<number>, most = 1): Promise<CommandOutcome> {
+    const { neutral, robot } = this.options, full_mps = jointMoveSpeed(robot, neutral.jointAngles(), q_rad, FLANGE);
+    return neutral.atTheRobot.jog(q_rad, Math.min(most, full_mps > 0 ? TEACH_MPS / full_mps : 1));
   }
   reboot(): void {
     this.give("The controller was switched off.");
@@ -312,7 +301,7 @@ export class Machine {
     status.step = this.cycle === CYCLE.step; status.once = this.cycle === CYCLE.once; status.continuous = this.cycle === CYCLE.continuous;
     status.teach = mode === "teach"; status.play = mode !== "teach"; status.remote = mode === "remote" && this.commandRemote;
     status.slow = mode === "teach";
-    neutral.setSpeed(this.held || this.paused ? 0 : 100 * this.override * this.jogRatio);
+    neutral.setSpeed(this.held || this.paused ? 0 : 100 * this.override);
     status.running = this.running !== null && !(this.paused && !neutral.isMoving());
   }
 }

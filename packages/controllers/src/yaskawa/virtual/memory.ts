@@ -64,6 +64,10 @@ export class Lines {
   /** Groups that the controller itself fills. */
   set(group: number, value: number): void { this.other.set(group, value); }
 
+  /** Whether IN#(number) is on, wired or written over the network. */
+  isIn(number: number): boolean { return this.input(number); }
+  /** Whether OT#(number) is on. */
+  isOut(number: number): boolean { return this.signals.read(`ot_${number}`) === true; }
   private input(number: number): boolean {
     const group = Math.floor((number - 1) / 8), bit = (number - 1) % 8;
     return this.pressed.get(number) === true || (group < NETWORK_LAST && ((this.network.get(NETWORK_IN + group) ?? 0) & (1 << bit)) !== 0);

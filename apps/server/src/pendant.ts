@@ -1,0 +1,37 @@
+import { createServer } from "node:http";
+import type { AddressInfo } from "node:net";
+import type { Scheduler } from "@twincell/core";
+import { createPendantHost, type HostedPendant, type StationWords } from "@twincell/messages";
+import { isServed, LOOPBACK, studioListener } from "./pages.ts";
+import { staticFiles } from "./static-files.ts";
+import { openDoors } from "./sockets/doors.ts";
+import { stationDoor } from "./stations/socket.ts";
+
+export interface ServePendantOptions {
+  /** Folder of the built studio, in which the page of the pendant is. */
+  readonly studio: string;
+  /** Address of this machine that the virtual controller stands at; the page is served nowhere else. */
+  readonly host: string;
+  /** 0 takes any free port. */
+  readonly port: number;
+  readonly version: string;
+  readonly scheduler: Scheduler;
+  readonly words: StationWords;
+  readonly pendant: HostedPendant;
+}
+export type ServedPendant = { readonly kind: "served"; readonly url: string; close(): void } | { readonly kind: "taken"; readonly sentence: string };
+
+/** Serves the web pendant of one virtual controller. */
+export async function servePendant({ studio, host, port, ...options }: ServePendantOptions): Promise<ServedPendant> {
+  const hosts = new Set([...LOOPBACK, host]), server = createServer(studioListener(staticFiles(studio), hosts, null));
+  const problem = await new Promise<Error | null>(resolve => {
+    server.once("error", resolve);
+    server.listen(port, host, () => { resolve(null); });
+  });
+  if (problem) return { kind: "taken", sentence: `The pendant's page cannot be served at ${host}:${port}: ${problem.message}.` };
+  const socket = openDoors(server, [stationDoor(createPendantHost(options))], request => isServed(hosts, request));
+  return {
+    kind: "served", url: `http://${host}:${(server.address() as AddressInfo).port}/pendant/`,
+    close() { socket.close(); server.closeAllConnections(); server.close(); },
+  };
+}

@@ -1,0 +1,1 @@
+export { createStaubliFace, type StaubliFaceOptions } from "./face.ts";

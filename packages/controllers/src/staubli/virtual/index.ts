@@ -1,0 +1,2 @@
+export { createVirtualStaubli, type StaubliPendant, type StaubliStarted, type VirtualStaubli, type VirtualStaubliOptions } from "./controller.ts";
+export type { StaubliMode } from "./machine.ts";

@@ -1,0 +1,89 @@
+import type { CommandOutcome, Scheduler } from "@twincell/core";
+import type { Ask, AskOf, PendantAct } from "./ask.ts";
+import type { Channel } from "./channel.ts";
+import { PROTOCOL, readAsk, write } from "./read.ts";
+import type { PendantShown, PendantWords, StationWords, Tell } from "./tell.ts";
+
+/** What a host needs of the pendant and the cabinet of a virtual controller. */
+export interface HostedPendant {
+  readonly words: PendantWords;
+  readonly shown: PendantShown;
+  /** @param who  one at one channel: what they hold is let go when they leave. */
+  act(who: string, act: PendantAct): Promise<CommandOutcome>;
+  alive(who: string): void;
+  leave(who: string): void;
+}
+/** How often those who watch are told [s]. */
+const SHOWN_S = 0.04;
+const DONE: CommandOutcome = { kind: "done" };
+
+/** One who stands before a pendant, from `visit` or their first act until they leave. */
+export interface PendantVisit {
+  act(act: PendantAct): Promise<CommandOutcome>;
+  watch(on: boolean): CommandOutcome;
+  alive(): void;
+  leave(): void;
+}
+export function visitPendant(who: string, station: string, pendant: HostedPendant, scheduler: Scheduler, tell: (message: Tell) => void): PendantVisit {
+  let stop: (() => void) | null = null;
+  const show = (words?: PendantWords): void => { tell({ type: "pendant", station, ...(words ? { words } : {}), shown: pendant.shown } as Tell); };
+  const end = (): void => { stop?.(); stop = null; };
+  return {
+    act: what => pendant.act(who, what),
+    watch(on) {
+      end();
+      if (on) { show(pendant.words); stop = scheduler.every(SHOWN_S, () => { show(); }); }
+      return DONE;
+    },
+    alive() { pendant.alive(who); },
+    leave() { end(); pendant.leave(who); },
+  };
+}
+
+export interface PendantHostOptions {
+  readonly scheduler: Scheduler;
+  readonly version: string;
+  readonly words: StationWords;
+  readonly pendant: HostedPendant;
+}
+type Asked = Exclude<Ask, AskOf<"stop" | "alive" | "ping">>;
+
+/** The host of one pendant and nothing else: for a virtual controller that is commanded at its own ports. */
+export function createPendantHost({ scheduler, version, words, pendant }: PendantHostOptions): { join(who: string, channel: Channel): { hear(text: string): void; leave(): void } } {
+  return {
+    join(who, channel) {
+      let gone = false;
+      const tell = (message: Tell): void => { if (!gone) channel.send(write(message)); }, visit = visitPendant(who, words.id, pendant, scheduler, tell);
+      const leave = (): void => {
+        if (gone) return;
+        gone = true;
+        visit.leave();
+      };
+      const carryOut = async (ask: Asked): Promise<CommandOutcome> => {
+        if (ask.type === "pendant" && ask.station === words.id) return visit.act(ask.act);
+        if (ask.type === "visit" && ask.station === words.id) return visit.watch(ask.on);
+        return { kind: "refused", why: { code: "pendant.only", sentence: `This is the pendant of ${words.name} and nothing else.`, hint: "Command the controller at its own ports, from a station." } };
+      };
+      tell({ type: "hello", protocol: PROTOCOL, version, brands: [], stations: [words] });
+      return {
+        leave,
+        hear(text) {
+          if (gone) return;
+          const heard = readAsk(text);
+          if (heard.kind === "fault") {
+            tell({ type: "fault", sentence: heard.sentence });
+            leave();
+            channel.close();
+            return;
+          }
+          const ask = heard.message;
+          if (ask.type === "ping") tell({ type: "pong", sent_s: ask.sent_s, host_s: scheduler.now_s() });
+          else if (ask.type === "alive") visit.alive();
+          // Anyone may stop: at a pendant that is its red button.
+          else if (ask.type === "stop") void visit.act({ do: "emergency-stop", pressed: true });
+          else { const { id } = ask; void carryOut(ask).then(outcome => { tell({ type: "answer", id, outcome }); }); }
+        },
+      };
+    },
+  };
+}
