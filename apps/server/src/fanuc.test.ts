@@ -3,20 +3,21 @@
  * it is named by TWINCELL_PYTHON, or is the python3 of the path:  pip install fanuc-rmi==0.3.1
  */
 import { createFanucFace, createRealController, createVirtualFanuc, type VirtualFanuc } from "@twincell/controllers";
-import { robotById } from "@twincell/core";
+import { emptyProgram, robotById } from "@twincell/core";
+import { dialectById } from "@twincell/languages";
 import { spawn } from "node:child_process";
 import { afterEach, expect, test } from "vitest";
 import { nodeScheduler } from "./clock.ts";
 import { nodeNetwork } from "./sockets/node-network.ts";
 
-const robot = robotById("fanuc_lrmate200id")!, network = nodeNetwork(), scheduler = nodeScheduler, DEG = Math.PI / 180;
+const robot = robotById("fanuc_lrmate200id")!, tp = dialectById("fanuc-ls")!, network = nodeNetwork(), scheduler = nodeScheduler, DEG = Math.PI / 180;
 /** Robot and driver share one processor here with whatever else it does. */
 const PATIENT_S = 1;
 const open: (() => void)[] = [];
 afterEach(() => { for (const close of open.splice(0).reverse()) close(); });
 
 async function virtualFanuc(host: string, own = false): Promise<VirtualFanuc> {
-  const started = await createVirtualFanuc({ robot, scheduler, network, host, ...(own ? {} : { port: 0, sessionPort: 0 }) });
+  const started = await createVirtualFanuc({ robot, scheduler, network, host, ftpPort: 0, interpret: text => tp.interpret(text, robot), ...(own ? {} : { port: 0, sessionPort: 0 }) });
   if (started.kind === "taken") throw new Error(started.sentence);
   open.push(() => { started.virtual.close(); });
   return started.virtual;
@@ -29,8 +30,21 @@ test("T-22 T-23 FANUC: the driver moves the virtual controller over the loopback
   const target = robot.home_rad.map(q => q + 0.3);
   expect(await real.moveJoints(target)).toEqual({ kind: "done" });
   for (const is of [real.jointAngles(), fanuc.arm.jointAngles()]) is.forEach((q, i) => { expect(Math.abs(q - target[i]!)).toBeLessThanOrEqual(0.001 * DEG); });
-  expect(fanuc.ports).toEqual({ connect: 16_001, session: 16_002 });
+  expect(fanuc.ports).toMatchObject({ connect: 16_001, session: 16_002 });
 });
+
+test("a program of the studio goes to the controller as a TP listing by FTP, and is run there to its end", async () => {
+  const host = "127.0.0.43", fanuc = await virtualFanuc(host), { connect: port, files: ftpPort } = fanuc.ports;
+  const real = createRealController({ face: createFanucFace({ robot, scheduler, network, host, port, ftpPort, stale_s: PATIENT_S }), scheduler });
+  open.push(() => { real.close(); });
+  expect(await real.connect()).toEqual({ kind: "done" });
+  const q = robot.home_rad.map(angle => angle + 0.2), emitted = tp.emit({ ...emptyProgram(robot.id, "job"), steps: [{ id: "a", type: "move", path: "ptp", target: { q: [...q] }, speed: { ratio: 1 }, blend_m: 0 }] }, robot);
+  if (emitted.kind === "cannot") throw new Error(emitted.sentence);
+  expect(await real.runText!(emitted.files)).toEqual({ kind: "done" });
+  // A listing has thousandths of a degree.
+  q.forEach((angle, i) => { expect(Math.abs(fanuc.arm.jointAngle(i + 1) - angle)).toBeLessThan(0.001 * DEG); });
+  expect(fanuc.programs.names).toHaveLength(1);
+}, 30_000);
 
 const PYTHON = process.env["TWINCELL_PYTHON"] ?? "python3";
 const python = (script: string, ...args: string[]): Promise<{ code: number; out: string }> => new Promise(resolve => {
@@ -68,4 +82,33 @@ test.skipIf(!has)(`fanuc-rmi 0.3.1, a client that nobody here wrote, moves the v
   expect(said.joints["J3"]).toBeCloseTo((fanuc.arm.jointAngle(3) - fanuc.arm.jointAngle(2)) / DEG, 4);
   expect(Number.isFinite(said.place["Z"])).toBe(true);
   expect(out).not.toMatch(/'ErrorID': [1-9]/);
+}, 60_000);
+
+const FILES = `
+import io, json, sys
+from ftplib import FTP, all_errors
+ftp, said, back = FTP(), {}, io.BytesIO()
+said["welcome"] = ftp.connect(sys.argv[1], int(sys.argv[2]))
+ftp.login()
+ftp.cwd("md:")
+listing = b"/PROG  HELLO\\n/MN\\n/END\\n"
+ftp.storbinary("STOR hello.ls", io.BytesIO(listing))
+said["names"] = ftp.nlst()
+ftp.retrbinary("RETR hello.ls", back.write)
+said["same"], said["size"] = back.getvalue() == listing, ftp.size("hello.ls")
+try: ftp.storbinary("STOR hello.tp", io.BytesIO(b"x"))
+except all_errors as refused: said["refused"] = str(refused)
+ftp.storlines("STOR big.ls", io.BytesIO(b"/PROG  BIG\\n" + b"! line\\n" * 100000))
+said["big"] = ftp.size("big.ls")
+ftp.delete("hello.ls")
+said["left"], said["bye"] = ftp.nlst(), ftp.quit()
+print("\\n" + json.dumps(said))
+`;
+const hasFtp = (await python("import ftplib")).code === 0;
+test.skipIf(!hasFtp)(`ftplib, a client that nobody here wrote, puts, lists, reads and deletes listings${hasFtp ? "" : " (skipped: no Python; name one by TWINCELL_PYTHON)"}`, async () => {
+  const host = "127.0.0.44", fanuc = await virtualFanuc(host), { code, out } = await python(FILES, host, String(fanuc.ports.files));
+  expect(code, out).toBe(0);
+  expect(JSON.parse(out.trim().split("\n").at(-1)!)).toEqual({
+    welcome: "220 Twincell virtual controller FTP server ready.", names: ["HELLO.LS"], same: true, size: 22, refused: "550 HELLO.TP is no name of a listing (.LS).", big: 12 + 800_000, left: ["BIG.LS"], bye: "221 Goodbye.",
+  });
 }, 60_000);

@@ -1,6 +1,6 @@
-import { LIBRARY, manualScheduler, type CommandOutcome } from "@twincell/core";
+import { emptyProgram, LIBRARY, manualScheduler, type CommandOutcome, type Dialect, type Program } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { BRANDS, createRealController, memoryNetwork, robotsOf, type Brand } from "./index.ts";
+import { BRANDS, createRealController, memoryNetwork, openStation, robotsOf, type Brand } from "./index.ts";
 
 const HOST = "127.0.0.9";
 /** Where the wire cannot switch drives on and start a program: a person does it at the cabinet, with the key. */
@@ -92,4 +92,26 @@ test("what a person says of a controller reaches its driver: pulses per degree o
   };
   expect(await connected(new Array<number>(joints).fill(1000))).toEqual({ kind: "done" });
   expect(await connected([1000, 1000])).toMatchObject({ kind: "refused", why: { code: "yaskawa.pulses" } });
+});
+
+test("the lines of a program reach a station by the numbers they have on the controller, though nobody told its driver their names", async () => {
+  const brand = BRANDS.find(({ id }) => id === "yaskawa")!, scheduler = manualScheduler(), robot = LIBRARY.find(({ vendor }) => vendor === brand.vendor)!;
+  const dialect = { interpret: () => ({ kind: "not-understood", faults: [] }) } as unknown as Dialect, opened = await openStation({ id: "s", brand, robot, scheduler, dialect, deadMan: false });
+  if (opened.kind === "refused") throw new Error(opened.why.sentence);
+  const { station } = opened, connecting = station.connect(), seat = station.seat("you");
+  await scheduler.elapse(1);
+  expect(await connecting).toEqual({ kind: "done" });
+  seat.take();
+  const program: Program = {
+    ...emptyProgram(robot.id), signals: { lamp: { kind: "digital-out", address: 12 }, part: { kind: "digital-in", address: 5 } },
+    steps: [{ id: "a", type: "wait-for", when: { signal: "part", is: true }, timeout_s: 20 }, { id: "b", type: "set", signal: "lamp", to: true }],
+  };
+  const running = station.run(seat, program, false);
+  await scheduler.elapse(1);
+  expect(station.controller.signals!.read("OT#(12)")).toBe(false);
+  await station.pendant!.act("you", { do: "input", signal: "in_5", value: true });
+  await scheduler.elapse(2);
+  expect(await running).toEqual({ kind: "done" });
+  expect(station.controller.signals!.read("OT#(12)")).toBe(true);
+  station.close();
 });

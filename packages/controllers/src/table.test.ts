@@ -3,7 +3,7 @@ import { readdirSync, readFileSync } from "node:fs";
 import { expect, test } from "vitest";
 import { BRANDS, createRealController, driverTables, DRIVERS, memoryNetwork, robotsOf, ROWS, unconnected } from "./index.ts";
 
-const LINE: Readonly<Record<string, string>> = { ur: "digital_out_1", kuka: "$OUT[1]", yaskawa: "out_1", fanuc: "DO[1]", abb: "DO1", staubli: "valve1", "staubli-cs7": "out_1" };
+const LINE: Readonly<Record<string, string>> = { ur: "digital_out_1", kuka: "$OUT[1]", yaskawa: "OT#(1)", fanuc: "DO[1]", abb: "DO1", staubli: "valve1", "staubli-cs7": "out_1" };
 const here = (path: string): URL => new URL(path, import.meta.url);
 
 test("docs/controllers/README.md says what the drivers declare; after a change run scripts/write-controllers.mjs", () => {

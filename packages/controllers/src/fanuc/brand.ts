@@ -1,19 +1,21 @@
 import type { Brand } from "../real/index.ts";
 import { FANUC_CANNOT } from "./cannot.ts";
+import { FTP_PORT } from "./codec-ftp.ts";
 import { RMI_PORT, RMI_SESSION_PORT } from "./codec-rmi.ts";
 import { createFanucFace } from "./driver.ts";
 import { fanucPendant } from "./pendant.ts";
 import { createVirtualFanuc } from "./virtual/controller.ts";
 
-const PORTS = { connect: RMI_PORT, session: RMI_SESSION_PORT };
+const PORTS = { connect: RMI_PORT, session: RMI_SESSION_PORT, files: FTP_PORT };
 
 /** FANUC as apps meet it: the Remote Motion Interface of R-30iB controllers and later. */
 export const fanuc: Brand = {
   id: "fanuc", name: "FANUC", dialect: "fanuc-ls", vendor: "FANUC", ports: PORTS, cannot: FANUC_CANNOT,
-  face: ({ robot, scheduler, network, host, ports }) => createFanucFace({ robot, scheduler, network, host, port: ports?.["connect"] ?? RMI_PORT }),
-  async virtual({ robot, scheduler, network, host, ports, start_rad, maxSpeed }) {
+  terminal: ({ kind, address }) => kind === "digital-in" ? `DI[${address}]` : kind === "digital-out" ? `DO[${address}]` : undefined,
+  face: ({ robot, scheduler, network, host, ports }) => createFanucFace({ robot, scheduler, network, host, port: ports?.["connect"] ?? RMI_PORT, ftpPort: ports?.["files"] ?? FTP_PORT }),
+  async virtual({ robot, scheduler, network, host, ports, interpret, start_rad, maxSpeed }) {
     const started = await createVirtualFanuc({
-      robot, scheduler, network, host, port: ports?.["connect"] ?? RMI_PORT, sessionPort: ports?.["session"] ?? RMI_SESSION_PORT,
+      robot, scheduler, network, host, port: ports?.["connect"] ?? RMI_PORT, sessionPort: ports?.["session"] ?? RMI_SESSION_PORT, ftpPort: ports?.["files"] ?? FTP_PORT, interpret,
       ...(start_rad ? { start_rad } : {}), ...(maxSpeed === undefined ? {} : { maxSpeed }),
     });
     if (started.kind === "taken") return started;

@@ -1,7 +1,9 @@
-import type { CommandOutcome, JointSample, Refusal, Robot, Scheduler } from "@twincell/core";
+import type { CommandOutcome, EmittedFile, HandedText, JointSample, Refusal, Robot, Scheduler } from "@twincell/core";
 import type { Face, FaceEvents, FaceMotion, Opened } from "../real/index.ts";
 import type { ByteStream, Network } from "../transport/index.ts";
+import { FTP_PORT, programOf } from "./codec-ftp.ts";
 import { jointPart, RMI_ERROR, RMI_PORT, RmiReader, rmiBytes, rmiErrorWords, rmiJoints, rmiNumber, type RmiKey, type RmiPacket } from "./codec-rmi.ts";
+import { putFiles } from "./ftp-client.ts";
 import { fanucJoints, JOINTS, jointsOf, shownOf, type FanucJoints } from "./joints.ts";
 import { DONE, refused, stopped } from "../outcomes.ts";
 
@@ -11,6 +13,9 @@ export interface FanucFaceOptions {
   readonly network: Network;
   readonly host: string;
   readonly port?: number;
+  /** Where files are put by FTP. */
+  readonly ftpPort?: number;
+  readonly login?: { readonly user: string; readonly password: string };
   /** States are asked for this often [s]. */
   readonly period_s?: number;
   readonly stale_s?: number;
@@ -22,7 +27,7 @@ export interface FanucFaceOptions {
 }
 type Fields = Readonly<Record<string, unknown>>;
 type Lent = { -readonly [K in keyof Omit<JointSample, "step">]: Omit<JointSample, "step">[K] };
-interface Moving { readonly resolve: (outcome: CommandOutcome) => void; sequence: number; cancelled: boolean; aborted: boolean; outcome: CommandOutcome | null; asOf: number }
+interface Moving { readonly resolve: (outcome: CommandOutcome) => void; /** Not a motion but a program: it moves when it moves. */ readonly isText: boolean; sequence: number; cancelled: boolean; aborted: boolean; outcome: CommandOutcome | null; asOf: number }
 
 const DIGITS = 12, PATIENCE_S = 2, STANDS_DEG = 2e-4;
 /** With the watches behind it a stop is commanded within 100 ms of the last state (row X-41) [s]. */
@@ -44,6 +49,7 @@ export function createFanucFace(options: FanucFaceOptions): Face {
   const lent: Lent = { sequence: 0, time_s: 0, q_rad: new Float64Array(JOINTS), moving: false, mode: "remote", safety: "normal", override: 1, gripperClosed: false, message: "", signals: values };
   let stream: ByteStream | null = null, events: FaceEvents | null = null, stopPolling: (() => void) | null = null, life = 0, polling = false;
   const asked: { readonly key: RmiKey; readonly name: string; readonly since_s: number; readonly answer: (fields: Fields | null) => void }[] = [];
+  let stops = 0;
   let moving: Moving | null = null, running = false, paused = false, locked = false, servos = true, pendant = false, fault = "", next = 1, time_ms = NaN, polls = 0;
 
   const wasStopped = (): Refusal => refusal("controller.stopped", `${robot.name} was stopped.`, "Command the move again when the way is clear.");
@@ -126,7 +132,7 @@ export function createFanucFace(options: FanucFaceOptions): Face {
     lent.safety = locked ? "emergency-stop" : servos ? "normal" : "protective-stop";
     lent.message = fault !== "" ? fault : servos ? "" : "The servos are off.";
     const moved = j_deg.some((value, i) => Math.abs(value - before_deg[i]!) > STANDS_DEG);
-    lent.moving = (moving !== null && moving.sequence > 0 && !paused && !moving.aborted && !moving.outcome) || moved;
+    lent.moving = (moving !== null && !moving.isText && moving.sequence > 0 && !paused && !moving.aborted && !moving.outcome) || moved;
     if (moving?.aborted && !moved) settle(stopped(wasStopped()));
     return true;
   }
@@ -180,11 +186,20 @@ export function createFanucFace(options: FanucFaceOptions): Face {
   }
 
   async function move(motion: FaceMotion): Promise<CommandOutcome> {
-    if (!stream) return refused(closedHere);
     if (motion.path === "arc") return refused(refusal("fanuc.arc", "Arcs are not sent over this interface: their points need FANUC's words for a posture, which have not been tried.", "Run the program as text of the controller's own language, or use lines."));
+    const isLine = motion.path === "line", shown = shownOf(motion.q_rad, joints!, new Float64Array(JOINTS));
+    return instruct(isLine ? "FRC_LinearMotionJRep" : "FRC_JointMotionJRep", {
+      JointAngle: jointPart(shown, DIGITS), SpeedType: isLine ? "mmSec" : "Percent",
+      Speed: isLine ? 1000 * motion.speed_mps : Math.min(100, Math.max(1, Math.round(100 * motion.ratio))), TermType: "FINE", TermValue: 100,
+      ...(motion.acceleration < 1 ? { ACC: Math.max(1, Math.round(100 * motion.acceleration)) } : {}),
+    }, false);
+  }
+  /** Appends an instruction to RMI_MOVE, which is started where it does not run, and waits until it has been carried out. */
+  async function instruct(name: string, fields: Fields, isText: boolean): Promise<CommandOutcome> {
+    if (!stream) return refused(closedHere);
     if (!servos) return refused(refusal("fanuc.servo-off", fault === "" ? "The servos are off." : `The servos are off: ${fault}.`, "Reset the robot, then command the move again."));
     return new Promise(resolve => {
-      const mine: Moving = { resolve, sequence: 0, cancelled: false, aborted: false, outcome: null, asOf: 0 };
+      const mine: Moving = { resolve, isText, sequence: 0, cancelled: false, aborted: false, outcome: null, asOf: 0 };
       moving = mine;
       void (async () => {
         if (!running) {
@@ -197,25 +212,39 @@ export function createFanucFace(options: FanucFaceOptions): Face {
         if (paused) await order("FRC_Pause");
         if (moving !== mine) return;
         if (mine.cancelled) { settle(stopped(wasStopped())); return; }
-        const isLine = motion.path === "line", shown = shownOf(motion.q_rad, joints!, new Float64Array(JOINTS));
         mine.sequence = next++;
-        stream?.send(rmiBytes({
-          key: "Instruction", name: isLine ? "FRC_LinearMotionJRep" : "FRC_JointMotionJRep",
-          fields: {
-            SequenceID: mine.sequence, JointAngle: jointPart(shown, DIGITS), SpeedType: isLine ? "mmSec" : "Percent",
-            Speed: isLine ? 1000 * motion.speed_mps : Math.min(100, Math.max(1, Math.round(100 * motion.ratio))), TermType: "FINE", TermValue: 100,
-            ...(motion.acceleration < 1 ? { ACC: Math.max(1, Math.round(100 * motion.acceleration)) } : {}),
-          },
-        }));
+        stream?.send(rmiBytes({ key: "Instruction", name, fields: { SequenceID: mine.sequence, ...fields } }));
       })();
     });
   }
+  /** Puts the listings on the controller; started, the first one is called and runs to its end. */
+  async function handText(files: readonly EmittedFile[]): Promise<HandedText> {
+    const listings = files.filter(({ name }) => /\.ls$/i.test(name)).map(({ text }) => ({ program: programOf(text), text })), [first] = listings, before = stops;
+    if (!first || listings.some(({ program }) => program === "")) return { kind: "refused", why: refusal("fanuc.no-listing", "There is no TP listing among the files that begins with /PROG and a name.", "Hand over .LS files, the program to be run first.") };
+    if (!stream) return { kind: "refused", why: closedHere };
+    const login = options.login ?? { user: "anonymous", password: "" };
+    const why = await putFiles({ network, scheduler, to: { host, port: options.ftpPort ?? FTP_PORT }, ...login }, listings.map(({ program, text }) => ({ name: `${program}.LS`, bytes: Uint8Array.from(text, sign => sign.charCodeAt(0) & 255) })));
+    if (why !== null) return { kind: "refused", why: refusal("fanuc.files", `The program was not put on the controller: ${why}`, "Look at the FTP server of the controller (port 21) and at the option for ASCII programs.") };
+    return { kind: "handed", start: () => call(first.program, before), drop() { /* A listing that lies there moves nothing. */ } };
+  }
+  async function call(program: string, before: number): Promise<CommandOutcome> {
+    if (stops !== before) return stopped(wasStopped());
+    const outcome = await instruct("FRC_Call", { ProgramName: program }, true);
+    if (outcome.kind !== "refused" || !stream) return outcome;
+    const reply = await ask("Command", "FRC_ReadError", { Count: 1 }), text = typeof reply?.["ErrorData"] === "string" ? reply["ErrorData"] : "";
+    return text === "" ? outcome : refused({ ...outcome.why, sentence: `${outcome.why.sentence.replace(/\.$/, "")}: ${text}` });
+  }
 
   return {
-    brand: "FANUC", robot, stale_s: options.stale_s ?? Math.max(STALE_S, 4 * period_s), open, close, move,
+    brand: "FANUC", robot, stale_s: options.stale_s ?? Math.max(STALE_S, 4 * period_s), open, close, move, handText,
+    async runText(files: readonly EmittedFile[]) {
+      const handed = await handText(files);
+      return handed.kind === "refused" ? handed : handed.start();
+    },
     watchdog: { kind: "none", because: "The interface carries a motion that was sent out to its end, whoever is still there: streamed motion is refused." },
     stop(emergency) {
       if (emergency) locked = true;
+      stops++;
       if (moving) moving.cancelled = true;
       void order("FRC_Abort").then(() => {
         running = false;

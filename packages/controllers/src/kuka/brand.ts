@@ -1,3 +1,4 @@
+import type { SignalLine } from "@twincell/core";
 import type { Brand, BrandStarted, BrandVirtualOptions, Face, FaceOptions } from "../real/index.ts";
 import { kukaAxes } from "./axes.ts";
 import { KUKA_CANNOT, KUKA_RSI_CANNOT } from "./cannot.ts";
@@ -9,6 +10,8 @@ import { RSI_NAME } from "./loop.ts";
 import { kukaPendant } from "./pendant.ts";
 import { createVirtualKuka, startLoop } from "./virtual/controller.ts";
 
+const TERMINALS: Readonly<Record<SignalLine["kind"], string>> = { "digital-in": "$IN", "digital-out": "$OUT", "analogue-in": "$ANIN", "analogue-out": "$ANOUT" };
+
 const RSI = axisConfig("127.0.0.2", 49_152);
 const overRsi = ({ robot, scheduler, network, host, ports }: FaceOptions): Face => createKukaRsiFace({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT, config: RSI });
 
@@ -16,6 +19,7 @@ const overRsi = ({ robot, scheduler, network, host, ports }: FaceOptions): Face 
 export const kuka: Brand = {
   id: "kuka", name: "KUKA", dialect: "krl", ports: { variables: C3_PORT }, vendor: "KUKA", cannot: KUKA_CANNOT, drives: robot => kukaAxes(robot) !== undefined,
   otherWays: [{ name: "KUKA (RSI)", cannot: KUKA_RSI_CANNOT, shows: ["T-21", "T-23", "T-27"], tests: "rsi.test.ts", face: overRsi }],
+  terminal: ({ kind, address }) => `${TERMINALS[kind]}[${address}]`,
   face: ({ robot, scheduler, network, host, ports }) => createKukaFace({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT }),
   virtual: options => start(options, false),
 };

@@ -1,4 +1,4 @@
-import type { CommandOutcome, Interpreted, OperatingMode, Robot, SafetyState, Scheduler } from "@twincell/core";
+import type { CommandOutcome, Interpreted, OperatingMode, Robot, SafetyState, Scheduler, SignalLine } from "@twincell/core";
 import type { Network } from "../transport/index.ts";
 import type { Cannot } from "./cannot.ts";
 import type { Face } from "./face.ts";
@@ -129,6 +129,8 @@ export interface Brand {
   readonly drives?: (robot: Robot) => boolean;
   /** What its driver cannot do, with the reasons. */
   readonly cannot: readonly Cannot[];
+  /** What the driver calls the line that a program gives that number; undefined where it has none. Left out, lines keep the names of the program. */
+  terminal?(line: SignalLine & { readonly address: number }): string | undefined;
   /** Other drivers of the same controllers, that apps do not offer by themselves. */
   readonly otherWays?: readonly OtherWay[];
   face(options: FaceOptions): Face;

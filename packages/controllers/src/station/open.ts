@@ -1,6 +1,9 @@
-import { checkProgram, identity, linkSolids, planProgram, unrolled, type CellGeometry, type CommandOutcome, type Dialect, type Finding, type Pose, type Program, type Refusal, type Robot, type Scheduler } from "@twincell/core";
+import {
+  checkProgram, identity, linkSolids, planProgram, unrolled, type CellGeometry, type CommandOutcome, type Dialect, type Finding, type Pose, type Program, type Refusal, type Robot, type Scheduler, type Signals, type Step,
+} from "@twincell/core";
 import { createRealController, type Brand, type ControllerData, type PortNumbers } from "../real/index.ts";
 import { memoryNetwork, type Network } from "../transport/index.ts";
+import { withLines } from "../runner/index.ts";
 import type { SharedCell } from "../cell/index.ts";
 import type { Seat } from "../guard/index.ts";
 import { LookAhead, wayBlocked } from "../twin/index.ts";
@@ -86,7 +89,7 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
     const own: CellGeometry = { worldFromBase: worldFromBase ?? identity(), links: linkSolids(robot), objects: [], allowedPairs: [], shapeError_m: robot.shapeError_m };
     const small = answer.plan.segments.length <= MOST_CHECKED;
     const findings = small ? checkProgram(program, robot, { ...from, cell: own }).verdict.steps.flatMap(step => step.findings).sort((a, b) => a.at_s - b.at_s) : [];
-    const job = { program, steps: () => unrolled(program, controller.signals), findings, ...(asText ? { dialect } : {}) };
+    const job = { program, steps: () => atTerminals(program, brand, controller.signals), findings, ...(asText ? { dialect } : {}) };
     return answer.kind === "planned" ? { ...job, plan: answer.plan, stuck: null } : { ...job, stuck: { code: answer.stuck.code, sentence: answer.stuck.sentence, hint: answer.stuck.hint } };
   }
   return {
@@ -133,6 +136,16 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
       },
     },
   };
+}
+
+/** The steps of a program as the wire takes them: lines with a number by the controller's own names for those, decisions too. */
+function* atTerminals(program: Program, brand: Brand, signals?: Signals): Generator<Step> {
+  const terminal = (name: string): string => {
+    const line = program.signals[name];
+    return (line?.address === undefined ? undefined : brand.terminal?.({ ...line, address: line.address })) ?? name;
+  };
+  const read = signals && { read: (name: string) => signals.read(terminal(name)), write: (name: string, value: boolean | number) => { signals.write(terminal(name), value); } };
+  for (const step of unrolled(program, read)) yield withLines(step, terminal);
 }
 
 const cannotWatch = (brand: string, because: string): { readonly kind: "refused"; readonly why: Refusal } => ({ kind: "refused", why: { code: "station.no-watching", sentence: `Controllers of ${brand} cannot only be watched: ${because}`, hint: "Open it to command; it moves only when it is told to." } });

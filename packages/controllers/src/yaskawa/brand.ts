@@ -13,6 +13,7 @@ const REBOOT_S = 2;
 export const yaskawa: Brand = {
   id: "yaskawa", name: "Yaskawa", dialect: "inform", vendor: "Yaskawa", ports: PORTS, cannot: YASKAWA_CANNOT,
   data: [{ id: "pulses_per_degree", name: "Pulses per degree", where: "In the controller's parameter file ALL.PRM, group RC; S axis first." }],
+  terminal: ({ kind, address }) => kind === "digital-in" ? `IN#(${address})` : kind === "digital-out" ? `OT#(${address})` : undefined,
   face: ({ ports, data, ...options }) => {
     const pulsesPerDegree = data?.["pulses_per_degree"];
     return yaskawaFace({ ...options, ports: { ...PORTS, ...ports }, ...(pulsesPerDegree ? { scale: { pulsesPerDegree, source: "said by a person" } } : {}) });

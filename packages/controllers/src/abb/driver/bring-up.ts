@@ -2,12 +2,14 @@ import type { CommandOutcome, Robot, Scheduler } from "@twincell/core";
 import { DONE, refused } from "../../outcomes.ts";
 import type { RwsClient } from "./rws-client.ts";
 import type { PanelState } from "./rws-state.ts";
-import { pointToMain, startProgram, stopProgram } from "./text.ts";
+import { pointToMain, putBack, startProgram, stopProgram } from "./text.ts";
 import { manualThere, noGuiding, refusedThere } from "./words.ts";
 
 export interface BringUpOptions {
   readonly client: RwsClient; readonly panel: PanelState; readonly scheduler: Scheduler; readonly robot: Robot;
   readonly ctrlstate: string; readonly execution: string;
+  /** Modules of texts that were not taken away yet. */
+  readonly left: Set<string>;
   /** Whether a program there waits for targets. */
   readonly isGuided: () => boolean;
 }
@@ -15,7 +17,7 @@ export interface BringUpOptions {
 const PATIENCE_S = 3, LOOK_S = 0.02;
 
 /** What a person does after a stop: motors on, program pointer to main, the program started. In manual mode all that is the pendant's. */
-export async function bringUp({ client, panel, scheduler, robot, ctrlstate, execution, isGuided }: BringUpOptions): Promise<CommandOutcome> {
+export async function bringUp({ client, panel, scheduler, robot, ctrlstate, execution, left, isGuided }: BringUpOptions): Promise<CommandOutcome> {
   const pause = (): Promise<void> => new Promise(resolve => { const stop = scheduler.every(LOOK_S, () => { stop(); resolve(); }); });
   async function until(so: () => boolean, target?: string, name?: "ctrlstate" | "ctrlexecstate"): Promise<boolean> {
     for (const from_s = scheduler.now_s(); ; await pause()) {
@@ -42,6 +44,9 @@ export async function bringUp({ client, panel, scheduler, robot, ctrlstate, exec
     await stopProgram(client);
     if (!await until(() => !panel.isRunning, execution, "ctrlexecstate")) return refused(refusedThere("Stopping the program", "it goes on running."));
   }
+  // Only the program that waits for targets is started by a reset: whatever else is there would move by itself.
+  const why = await putBack(client, left);
+  if (why) return refused(why);
   const pointed = await pointToMain(client);
   if (pointed.kind !== "answer") return refused(refusedThere("Setting the program pointer to PROC main", pointed.sentence));
   const started = await startProgram(client, "forever");

@@ -278,6 +278,55 @@ describe("program texts", () => {
   });
 });
 
+describe("what is handed over in two", () => {
+  const far = AROUND.map(q => q * 180 / Math.PI).join(",");
+
+  test("lies there until it is started; dropped, or stopped in between, the program that waits for targets has its place again", async () => {
+    const { real, virtual, carryOut, scheduler } = await bench(), rest = virtual.neutral.jointAngles();
+    const handing = async () => { const asked = real.handText!(module(`MoveAbsJ ${far};`)); await scheduler.elapse(0.5); const handed = await asked; if (handed.kind === "refused") throw new Error(handed.why.sentence); return handed; };
+    const dropped = await handing();
+    expect([virtual.programs.names, virtual.programs.isRunning, real.isConnected]).toEqual([["job"], false, true]);
+    dropped.drop();
+    await scheduler.elapse(0.5);
+    expect([virtual.programs.names, virtual.programs.isRunning]).toEqual([["TwincellEGM"], true]);
+    const stopped = await handing();
+    real.stop();
+    expect((await carryOut(stopped.start())).kind).toBe("stopped");
+    virtual.neutral.jointAngles().forEach((q, i) => { expect(q).toBeCloseTo(rest[i]!, 6); });
+    expect(await carryOut((await handing()).start())).toEqual({ kind: "done" });
+    expect(virtual.neutral.jointAngle(1)).toBeCloseTo(2.4, 6);
+  });
+
+  test("a text that is left there by a broken line is never started by a reset, nor by turning the key: it is taken away first", async () => {
+    const { real, virtual, carryOut, scheduler } = await bench(), running = real.runText!(module(`MoveAbsJ ${far};`));
+    await scheduler.elapse(0.3);
+    virtual.setRefusing(true);
+    expect((await carryOut(running)).kind).toBe("stopped");
+    await scheduler.elapse(2);
+    virtual.pendant.setMode("manual");
+    virtual.setRefusing(false);
+    await scheduler.elapse(8);
+    expect([real.isConnected, virtual.programs.names]).toEqual([true, ["job"]]);
+    const rest = virtual.neutral.jointAngles();
+    virtual.pendant.setMode("remote");
+    await scheduler.elapse(1);
+    expect(virtual.programs.isRunning).toBe(false);
+    real.reset();
+    await scheduler.elapse(1);
+    expect([virtual.programs.names, virtual.programs.isRunning]).toEqual([["TwincellEGM"], true]);
+    virtual.neutral.jointAngles().forEach((q, i) => { expect(q).toBeCloseTo(rest[i]!, 6); });
+    expect(await carryOut(real.moveJoints(turned(0)))).toEqual({ kind: "done" });
+  });
+
+  test("watch only: states over Robot Web Services, nothing heard of EGM, nothing written", async () => {
+    const { real, virtual, scheduler, heard, network } = await bench({}, { isWatched: () => true });
+    await scheduler.elapse(1);
+    expect([real.isConnected, heard.at(-1)!.safety, virtual.programs.names, virtual.programs.isRunning]).toEqual([true, "normal", ["TwincellEGM"], true]);
+    // Whoever guides it has the port.
+    expect((await network.bind({ host: HOST, port: 6510 })).kind).toBe("bound");
+  });
+});
+
 describe("X-41 when a line is lost", () => {
   test("T-46, T-47 everything cut: noticed within 100 ms, the robot stops by itself within its time-out and braking time, and stays", async () => {
     const { real, network, virtual, scheduler } = await bench(), moving = real.moveJoints(AROUND);

@@ -1,4 +1,4 @@
-import type { CommandOutcome, EmittedFile, JointSample, Refusal, SafetyState } from "@twincell/core";
+import type { CommandOutcome, EmittedFile, HandedText, JointSample, Refusal, SafetyState } from "@twincell/core";
 import { DONE, refused } from "../../outcomes.ts";
 import { pathText, type Login } from "../../http/index.ts";
 import type { Face, FaceEvents, Opened } from "../../real/index.ts";
@@ -8,7 +8,7 @@ import { RwsClient, RwsSession, type RwsReply } from "./rws-client.ts";
 import { PanelState } from "./rws-state.ts";
 import { bringUp } from "./bring-up.ts";
 import { SampleClock } from "./sample-clock.ts";
-import { runRapid, startProgram, stopProgram, type RunningText } from "./text.ts";
+import { handRapid, startProgram, stopProgram, type TextRun } from "./text.ts";
 import * as say from "./words.ts";
 
 export interface AbbFaceOptions extends GuideOptions {
@@ -23,10 +23,12 @@ export interface AbbFaceOptions extends GuideOptions {
   readonly model?: string;
   /** The output that closes the gripper. */
   readonly gripperSignal?: string;
+  /** Asked when it is opened: nothing is taken then from whoever commands the controller, not even what EGM tells. */
+  readonly isWatched?: () => boolean;
 }
 type Lent = { -readonly [K in keyof Omit<JointSample, "step">]: JointSample[K] };
 
-const STALE_S = 0.08, PANEL_STALE_S = 0.5, PERIOD_S = 0.02, WATCH_S = 0.01;
+const STALE_S = 0.08, PANEL_STALE_S = 0.5, FILL_S = 0.02, PERIOD_S = 0.02, WATCH_S = 0.01;
 /** A controller that guides says so within this time of being opened; one that does not is opened all the same [s]. */
 const GUIDES_S = 0.3;
 /** The robot has come to rest within this time, or is not heard any more [s]. */
@@ -46,13 +48,17 @@ const SIGNALS = "/rw/iosystem/signals", JOINTS = "/rw/motionsystem/mechunits/ROB
  */
 export function abbFace(options: AbbFaceOptions): Face {
   const { robot, scheduler, network, host } = options, n = robot.arm.joints.length, port = options.ports?.rws ?? RWS_PORT, stale_s = options.stale_s ?? STALE_S, gripper = options.gripperSignal ?? "doGripper";
-  const guide = createGuide(options), { message } = guide, clock = new SampleClock(() => scheduler.now_s()), before_rad = new Float64Array(n);
+  const guide = createGuide(options), { message } = guide, clock = new SampleClock(() => scheduler.now_s()), before_rad = new Float64Array(n), left = new Set<string>();
+  // One session for as long as this driver lives: a controller has seventy, and what it holds is given back in it.
+  const session = new RwsSession(options.login ?? RWS_LOGIN);
   let panel = new PanelState(n), events: FaceEvents | null = null, life = 0, polling = false, turn = 0, hasLines = true, axes = 0;
   let poll: RwsClient | null = null, act: RwsClient | null = null, brake: RwsClient | null = null, timers: readonly (() => void)[] = [];
-  let broken: { readonly why: Refusal; readonly since_s: number } | null = null, severed = false, rising = false, text: RunningText | null = null, complaint = "";
+  let broken: { readonly why: Refusal; readonly since_s: number } | null = null, severed = false, rising = false, text: TextRun | null = null, complaint = "";
   const sample: Lent = { sequence: 0, time_s: 0, q_rad: new Float64Array(n), moving: false, mode: "manual", safety: "normal", override: 1, gripperClosed: false, message: "", signals: panel.lines };
 
   const guides = (): boolean => scheduler.now_s() - guide.heard_s <= stale_s;
+  /** Sooner than EGM counts as silent its place is taken by answers, so that nobody misses a state. */
+  const isFresh = (): boolean => scheduler.now_s() - guide.heard_s <= Math.min(stale_s, FILL_S);
   const isGuided = (): boolean => guides() && say.notGuidedBecause(message) === "";
   function safetyOf(): SafetyState {
     if (severed || rising) return "emergency-stop";
@@ -90,7 +96,7 @@ export function abbFace(options: AbbFaceOptions): Face {
   function close(why: Refusal = say.linkClosed(robot)): void {
     life++;
     // Nobody will be there to end what is under way.
-    if (brake && (guide.isGoing || text)) void stopProgram(brake);
+    if (brake && (guide.isGoing || text)) void stopProgram(brake, true);
     for (const stop of timers) stop();
     timers = [];
     for (const client of [poll, act, brake]) client?.close();
@@ -108,9 +114,9 @@ export function abbFace(options: AbbFaceOptions): Face {
       const flaw = take(resource, reply);
       if (flaw !== null) { breakBy(say.servicesLost(robot, flaw)); return; }
     }
-    if (guides()) return;
+    if (isFresh()) return;
     const reply = await client.get(JOINTS);
-    if (mine !== life || guides()) return;
+    if (mine !== life || isFresh()) return;
     before_rad.set(panel.q_rad);
     if (reply.kind !== "answer" || panel.takeJoints(reply.states) !== n) { breakBy(say.servicesLost(robot, reply.kind === "answer" ? "it does not say where the robot is." : reply.sentence)); return; }
     clock.ours();
@@ -126,7 +132,7 @@ export function abbFace(options: AbbFaceOptions): Face {
 
   async function open(heard: FaceEvents): Promise<Opened> {
     close();
-    const mine = life, session = new RwsSession(options.login ?? RWS_LOGIN);
+    const mine = life;
     const fail = (why: Refusal, again: boolean): Opened => { if (mine === life) close(); return { kind: "failed", why, again }; };
     const client = (): RwsClient => new RwsClient({ network, scheduler, session, to: { host, port }, lost(sentence) { breakBy(say.servicesLost(robot, sentence)); }, roundTrip(seconds) { events?.roundTrip(seconds); } });
     const own = poll = client(), type = await own.get("/rw/system/robottype");
@@ -151,7 +157,7 @@ export function abbFace(options: AbbFaceOptions): Face {
     hasLines = take("lines", lines) === null;
     if (mine !== life) return fail(say.linkClosed(robot), true);
     axes = n;
-    const deaf = await guide.open({
+    const watched = options.isWatched?.() ?? false, deaf = watched ? null : await guide.open({
       state(_, got) {
         axes = got;
         if (got !== n) { breakBy(say.otherAxes(robot, got)); return; }
@@ -160,7 +166,7 @@ export function abbFace(options: AbbFaceOptions): Face {
       },
     });
     if (deaf) return fail(deaf, true);
-    for (const from_s = scheduler.now_s(); !guides() && axes === n && mine === life && scheduler.now_s() - from_s < GUIDES_S;) await pause(WATCH_S);
+    for (const from_s = scheduler.now_s(); !watched && !guides() && axes === n && mine === life && scheduler.now_s() - from_s < GUIDES_S;) await pause(WATCH_S);
     if (mine !== life) return fail(say.linkClosed(robot), true);
     if (axes !== n) return fail(say.otherAxes(robot, axes), false);
     severed = false;
@@ -188,6 +194,20 @@ export function abbFace(options: AbbFaceOptions): Face {
     if (place === undefined) return say.noSuchLine(signal);
     order(act.post(`${SIGNALS}${pathText(place.split("/"))}?action=set`, { lvalue: String(Number(value)) }), `Writing "${signal}"`);
     return null;
+  }
+  async function handText(files: readonly EmittedFile[]): Promise<HandedText> {
+    const mine = life, client = act;
+    if (!client) return { kind: "refused", why: say.linkClosed(robot) };
+    setSpeedRatio(client, guide.override);
+    const run = text = handRapid(files, client, panel, scheduler, robot, left, () => sample.moving, async well => {
+      if (text === run) text = null;
+      if (!well || mine !== life || severed || panel.ctrl !== "motoron") return;
+      // It moves nothing by itself.
+      await startProgram(client, "forever");
+      for (const from_s = scheduler.now_s(); !isGuided() && mine === life && scheduler.now_s() - from_s < GUIDES_S;) await pause(WATCH_S);
+    }), handed = await run.handed;
+    if (handed.kind === "refused" && text === run) text = null;
+    return handed;
   }
   const setSpeedRatio = (client: RwsClient, ratio: number): void => { order(client.post(`${PANEL.speedratio}?action=setspeedratio`, { "speed-ratio": String(Math.round(100 * ratio)) }), "Setting the speed"); };
 
@@ -217,7 +237,7 @@ export function abbFace(options: AbbFaceOptions): Face {
       const mine = life, up = panel.safety === "normal" && isGuided();
       if (up && !severed) return DONE;
       rising = severed || safetyOf() === "emergency-stop";
-      const outcome = await bringUp({ client: act, panel, scheduler, robot, ctrlstate: PANEL.ctrlstate, execution: PANEL.ctrlexecstate, isGuided });
+      const outcome = await bringUp({ client: act, panel, scheduler, robot, ctrlstate: PANEL.ctrlstate, execution: PANEL.ctrlexecstate, left, isGuided });
       if (mine === life) {
         rising = false;
         if (outcome.kind === "done") severed = false;
@@ -226,17 +246,10 @@ export function abbFace(options: AbbFaceOptions): Face {
     },
     setSignal,
     setGripper: closed => setSignal(gripper, closed),
+    handText,
     async runText(files: readonly EmittedFile[]) {
-      const mine = life, client = act;
-      if (!client) return refused(say.linkClosed(robot));
-      setSpeedRatio(client, guide.override);
-      const run = text = runRapid(files, client, panel, scheduler, robot), outcome = await run.outcome;
-      text = null;
-      if (mine !== life || severed || panel.ctrl !== "motoron") return outcome;
-      // It moves nothing by itself.
-      await startProgram(client, "forever");
-      for (const from_s = scheduler.now_s(); !isGuided() && mine === life && scheduler.now_s() - from_s < GUIDES_S;) await pause(WATCH_S);
-      return outcome;
+      const handed = await handText(files);
+      return handed.kind === "refused" ? handed : handed.start();
     },
   };
 }

@@ -48,6 +48,8 @@ export interface Guide {
 const THERE_RAD = 0.0005 * Math.PI / 180;
 /** A gap between two messages counts as at most so long: after a longer one the path goes on from where it was [s]. */
 const MOST_GAP_S = 0.05;
+/** Without a motion of ours a robot that is faster than this is not moved by us [rad/s]. */
+const DRIVEN_RAD_S = 0.01;
 const STILL_RAD_S = 1e-4, MOTION = "motion";
 
 interface Going { readonly stepper: Stepper; readonly resolve: (outcome: CommandOutcome) => void; isSent: boolean; stopping: Refusal | null }
@@ -85,6 +87,8 @@ export function createGuide(options: GuideOptions): Guide {
       else if (dt_s > 0) fastest = Math.max(fastest, Math.abs(q_rad[i]! - before_rad) / dt_s);
       gap_rad = Math.max(gap_rad, Math.abs(target_rad[i]! - q_rad[i]!));
     }
+    // Somebody else moves it, or it still brakes from what moved it before.
+    if (!going && !fresh && fastest > DRIVEN_RAD_S) { target_rad.set(q_rad); gap_rad = 0; }
     fresh = false;
     const because = notGuidedBecause(message);
     if (because !== "") {

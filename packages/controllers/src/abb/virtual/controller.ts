@@ -83,7 +83,7 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
   if (bound.kind === "taken") return bound;
   const { socket } = bound, { start_rad, initialize } = options;
   const neutral = createVirtualController({ robot, scheduler, cycle_s, mode: "remote", maxSpeed: options.maxSpeed ?? 1, ...(start_rad ? { start_rad } : {}), ...(initialize ? { initialize } : {}) });
-  let isOff = false, powered_s = scheduler.now_s(), cycled_s = powered_s, stopWaiting: () => void = () => { /* Nothing is waited for yet. */ };
+  let isOff = false, byOthers = false, powered_s = scheduler.now_s(), cycled_s = powered_s, stopWaiting: () => void = () => { /* Nothing is waited for yet. */ };
   const now_s = (): number => scheduler.now_s() - powered_s;
 
   const cabinet = new Cabinet(now_s, because => {
@@ -109,7 +109,8 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
   /** What a person does in the morning. */
   function start(): void {
     if (cabinet.switchOn() !== null) return;
-    if (programs.isRunning) return;
+    // What somebody left there moves by itself: that is not started by turning a key.
+    if (programs.isRunning || !programs.isGuided) return;
     if (programs.reset() === null) programs.start(null);
   }
   start();
@@ -118,9 +119,12 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
     // A clock that ticks late is made good in one longer cycle, up to a bound that keeps the lag stable.
     const at_s = scheduler.now_s(), dt_s = Math.min(LONGEST_CYCLE_S, at_s - cycled_s);
     cycled_s = at_s;
-    if (isOff) return;
+    if (isOff) { egm.standsAt(q_rad => { neutral.jointAngles(q_rad); }); return; }
     egm.motorsOn = cabinet.motorsOn;
-    if (programs.hasArm || neutral.isMoving()) egm.standsAt(q_rad => { neutral.jointAngles(q_rad); });
+    const others = programs.hasArm || neutral.isMoving(), hadIt = byOthers;
+    byOthers = others;
+    // Where they left it is known a cycle later.
+    if (others || hadIt) egm.standsAt(q_rad => { neutral.jointAngles(q_rad); });
     else {
       egm.cycle(dt_s);
       neutral.jumpTo(egm.q_rad);
@@ -143,7 +147,7 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
   }
 
   const controller: VirtualAbb = {
-    robot, neutral, programs, cabinet, files, lines, address: socket.address, rws: server?.listening.kind === "listening" ? server.listening.address : null, brakingTime_s: brakingTime_s(robot) + 2 * cycle_s,
+    robot, neutral, programs, cabinet, files, lines, address: socket.address, rws: server?.listening.kind === "listening" ? server.listening.address : null, brakingTime_s: Math.max(brakingTime_s(robot) + 2 * cycle_s, neutral.brakingTime_s),
     get frozen() { return egm.frozen; }, set frozen(is) { egm.frozen = is; },
     get message() { return egm.message; }, get hasFailed() { return egm.hasFailed; },
     pendant: {
@@ -167,7 +171,7 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
     reboot(off_s) {
       cabinet.boot();
       egm.boot();
-      server?.cut();
+      server?.boot();
       isOff = true;
       stopWaiting();
       const stop = scheduler.every(off_s, () => { stop(); isOff = false; powered_s = scheduler.now_s(); });

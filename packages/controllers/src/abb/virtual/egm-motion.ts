@@ -68,8 +68,13 @@ export class EgmMotion {
     this.state = to;
     this.message = because;
   }
-  /** Somebody else moved the robot. */
-  standsAt(fill: (q_rad: Float64Array) => void): void { fill(this.q_rad); this.v_rad_s.fill(0); }
+  /** Somebody else moves the robot: it is not called back to where it was before. */
+  standsAt(fill: (q_rad: Float64Array) => void): void {
+    fill(this.q_rad);
+    this.v_rad_s.fill(0);
+    this.target_rad.set(this.q_rad);
+    this.wanted_rad_s.fill(0);
+  }
   boot(): void { this.v_rad_s.fill(0); this.sequence = 0; }
 
   /** One cycle of motion towards the target, or of braking. */

@@ -111,7 +111,8 @@ export class Programs {
   }
   /** Something took the robot from its program: it brakes as hard as it can, and goes on from PROC main only. */
   interrupted(because: string): void {
-    this.stop(because);
+    if (this.isRunning) this.cabinet.log(EVENT.stopped, 1, "Program stopped", because);
+    if (this.isGuided) this.guided.stop();
     this.lose();
   }
 
@@ -135,6 +136,7 @@ export class Programs {
     if (this.isOnArm) this.arm.stop();
     this.isOnArm = this.isPointed = false;
     if (this.state === "star") this.state = "stop";
+    this.pace();
   }
   private pace(): void { this.arm.setSpeed(this.isOnArm && !this.isRunning ? 0 : this.cabinet.speedRatio); }
 }

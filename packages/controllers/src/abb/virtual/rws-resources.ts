@@ -60,7 +60,7 @@ export function createResources(options: ResourceOptions, sessions: Sessions): (
 
   function execution(session: Session, action: string, form: Form | null): Answer {
     if (!form) return states(state("rap-execution", "execution", { ctrlexecstate: programs.isRunning ? "running" : "stopped", cycle: programs.cycle }));
-    if (action === "stop") { programs.stop(); return DONE; }
+    if (action === "stop") { if (form.get("stopmode") === "qstop") programs.interrupted("The program was stopped quickly from outside."); else programs.stop(); return DONE; }
     const why = unwritable(session, "rapid");
     if (why) return why;
     if (action === "resetpp") return orRefused(programs.reset());

@@ -9,7 +9,7 @@ export interface RwsServerOptions extends ResourceOptions {
   readonly network: Network; readonly host: string; readonly port: number; readonly scheduler: Scheduler; readonly log: (sentence: string) => void;
   readonly isOff: () => boolean;
 }
-export interface RwsServer { readonly listening: Listening; grantRemote(granted: boolean): void; cut(): void; close(): void;
+export interface RwsServer { readonly listening: Listening; grantRemote(granted: boolean): void; /** Off and on again: everybody has to log in anew. */ boot(): void; close(): void;
   /** Those that are connected are cut and nobody is let in, while it is true. */
   setRefusing(refusing: boolean): void;
 }
@@ -77,7 +77,8 @@ export async function serveRws(options: RwsServerOptions): Promise<RwsServer> {
 
   const listening = await options.network.listen({ host, port: options.port }, accept), cut = (): void => { for (const stream of [...open]) { open.delete(stream); stream.close(); } };
   return {
-    listening, cut,
+    listening,
+    boot() { cut(); sessions.clear(); },
     setRefusing(is) { refusing = is; if (is) cut(); },
     grantRemote(granted) { sessions.answerRemote(granted); },
     close() { if (listening.kind === "listening") listening.close(); cut(); },

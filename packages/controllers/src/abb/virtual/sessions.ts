@@ -35,6 +35,7 @@ export class Sessions {
     this.all.set(session.id, session);
     return session;
   }
+  clear(): void { for (const session of [...this.all.values()]) this.end(session); }
   end(session: Session): void {
     this.all.delete(session.id);
     for (const [domain, master] of this.masters) if (master === session) this.masters.delete(domain);

@@ -1,11 +1,13 @@
-import { compose, flangePose, inverse, toFanucWpr, type CommandOutcome, type MoveStep, type Pose, type Robot, type Scheduler } from "@twincell/core";
+import { compose, flangePose, inverse, toFanucWpr, type CommandOutcome, type Interpreted, type MoveStep, type Pose, type Robot, type Scheduler } from "@twincell/core";
 import { jointMoveSpeed } from "../../guard/index.ts";
 import type { ByteStream, Network } from "../../transport/index.ts";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
 import { jointPart, MOST_WAITING, RMI_ERROR, RMI_PORT, RMI_SESSION_PORT, RmiReader, rmiBytes, rmiNumber, type RmiPacket } from "../codec-rmi.ts";
 import { fanucJoints, JOINTS, shownOf, type FanucJoints } from "../joints.ts";
 import { instructionOf, type Instruction } from "./instructions.ts";
+import { serveFtp } from "./ftp-server.ts";
 import { FanucMachine, T1_MPS, type FanucKey } from "./machine.ts";
+import { Programs } from "./programs.ts";
 
 export interface VirtualFanucOptions {
   readonly robot: Robot;
@@ -15,6 +17,10 @@ export interface VirtualFanucOptions {
   /** 16001, where clients ask, and 16002, where the one that is let in goes. */
   readonly port?: number;
   readonly sessionPort?: number;
+  /** Where files are put by FTP; 0 takes a free port. Without it the controller serves none. */
+  readonly ftpPort?: number;
+  /** Executes TP listings, the first of them one behind the other. Without it none is understood. */
+  readonly interpret?: (text: string) => Interpreted;
   readonly joints?: FanucJoints;
   readonly start_rad?: ArrayLike<number>;
   readonly maxSpeed?: number;
@@ -33,7 +39,8 @@ export interface FanucPendant {
 export interface FanucFaults { refusing: boolean; silent: boolean; delay_s: number; frozen: boolean }
 export interface VirtualFanuc {
   readonly robot: Robot; readonly arm: VirtualController; readonly pendant: FanucPendant; readonly faults: FanucFaults;
-  readonly ports: { readonly connect: number; readonly session: number };
+  readonly ports: { readonly connect: number; readonly session: number; /** 0 without FTP. */ readonly files: number };
+  readonly programs: Programs;
   readonly servosOn: boolean;
   readonly machine: Pick<FanucMachine, "key" | "pendant" | "emergency" | "fenceOpen" | "faults" | "ready" | "override" | "setOverride">;
   /** Whether RMI_MOVE runs. */
@@ -57,7 +64,8 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
   const log = options.log ?? ((): void => { /* Nobody asked for it. */ });
   const arm = createVirtualController({ robot, scheduler, name: `Virtual ${robot.name}`, ...(options.start_rad ? { start_rad: options.start_rad } : {}), ...(options.maxSpeed === undefined ? {} : { maxSpeed: options.maxSpeed }) });
   const faults: FanucFaults = { refusing: false, silent: false, delay_s: 0, frozen: false }, now_rad = arm.jointAngles(), shown = new Float64Array(JOINTS);
-  let session: ByteStream | null = null, expected = false, running = false, next = 1, queue: Waiting[] = [], busy: Waiting | null = null, life = 0, time_s = 0, booted_s = 0, last_s = 0, heard_s = 0;
+  let session: ByteStream | null = null, expected = false, running = false, next = 1, queue: Waiting[] = [], busy: Waiting | null = null, life = 0, time_s = 0, booted_s = 0, last_s = 0, heard_s = 0, complaint = "";
+  const programs = new Programs(options.interpret ?? (() => ({ kind: "not-understood", faults: [] })));
 
   const send = (packet: RmiPacket, to = session): void => {
     if (!to || faults.silent) return;
@@ -99,8 +107,11 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
       answer(waiting, id);
       work();
     };
-    if (waiting.instruction.kind !== "step") { end(waiting.instruction.kind === "error" ? waiting.instruction.id : RMI_ERROR.ok); return; }
-    void arm.run([waiting.instruction.make(arm.jointAngles())], { tools: {}, frames: {} }).then(outcome => {
+    const { instruction } = waiting;
+    if (instruction.kind === "error" || instruction.kind === "nothing") { end(instruction.kind === "error" ? instruction.id : RMI_ERROR.ok); return; }
+    const callee = instruction.kind === "call" ? programs.call(instruction.program, arm.signals) : { kind: "ready", steps: [instruction.make(arm.jointAngles())], context: { tools: {}, frames: {} } } as const;
+    if (callee.kind === "not-understood") { complaint = `INTP-105 ${callee.sentence}`; end(RMI_ERROR.program); return; }
+    void arm.run(callee.steps, callee.context).then(outcome => {
       if (mine !== life) return;
       if (outcome.kind === "done") { end(RMI_ERROR.ok); return; }
       answer(waiting, RMI_ERROR.position);
@@ -134,8 +145,8 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
         if (!machine.isHeld) return only(RMI_ERROR.notPaused);
         machine.hold(false);
         return only(RMI_ERROR.ok);
-      case "FRC_Reset": return only(machine.reset() === null ? RMI_ERROR.ok : RMI_ERROR.failed);
-      case "FRC_ReadError": return { ...only(RMI_ERROR.ok), Count: Math.min(1, machine.faults.length), ErrorData: machine.faults.at(-1) ?? "" };
+      case "FRC_Reset": complaint = ""; return only(machine.reset() === null ? RMI_ERROR.ok : RMI_ERROR.failed);
+      case "FRC_ReadError": return { ...only(RMI_ERROR.ok), Count: Math.min(1, machine.faults.length), ErrorData: machine.faults.at(-1) ?? complaint };
       case "FRC_GetStatus": return {
         ...only(RMI_ERROR.ok), ServoReady: machine.ready ? 1 : 0, TPMode: machine.pendant ? 1 : 0, RMIMotionStatus: running ? 1 : 0, ProgramStatus: machine.isHeld ? 1 : 0, SingleStepMode: 0,
         NumberUTool: 10, NumberUFrame: 9, NextSequenceID: next, Override: machine.override,
@@ -212,11 +223,13 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
     }, () => { /* It goes to the other port. */ });
   });
   if (first.kind === "taken") { second.close(); arm.close(); return first; }
+  const ftp = options.ftpPort === undefined ? null : await serveFtp({ network, host, port: options.ftpPort, programs, log });
+  if (ftp?.listening.kind === "taken") { first.close(); second.close(); arm.close(); return ftp.listening; }
 
   return {
     kind: "started",
     virtual: {
-      robot, arm, faults, ports: { connect: first.address.port, session: second.address.port },
+      robot, arm, faults, programs, ports: { connect: first.address.port, session: second.address.port, files: ftp?.listening.kind === "listening" ? ftp.listening.address.port : 0 },
       get servosOn() { return machine.ready; },
       machine, isRunning: () => running,
       pendant: {
@@ -230,6 +243,7 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
         },
       },
       reboot() {
+        ftp?.cut();
         session?.close();
         session = null;
         abort();
@@ -237,7 +251,7 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
         booted_s = last_s;
         time_s = 0;
       },
-      close() { first.close(); second.close(); session?.close(); arm.close(); },
+      close() { first.close(); second.close(); ftp?.close(); session?.close(); arm.close(); },
     },
   };
 }

@@ -2,7 +2,7 @@ import { compose, flangePose, fromFanucWpr, pose, type MoveStep, type Pose, type
 import { RMI_ERROR, rmiJoints, rmiNumber, rmiPart, type RmiPacket } from "../codec-rmi.ts";
 import { jointsOf, JOINTS, shownOf, type FanucJoints } from "../joints.ts";
 
-export type Instruction = { readonly kind: "step"; readonly make: (q_rad: Float64Array) => Step } | { readonly kind: "nothing" } | { readonly kind: "error"; readonly id: number };
+export type Instruction = { readonly kind: "step"; readonly make: (q_rad: Float64Array) => Step } | { readonly kind: "call"; readonly program: string } | { readonly kind: "nothing" } | { readonly kind: "error"; readonly id: number };
 const PLACE = ["X", "Y", "Z", "W", "P", "R"] as const;
 const error = (id: number): Instruction => ({ kind: "error", id });
 
@@ -12,6 +12,10 @@ export function instructionOf({ name, fields }: RmiPacket, robot: Robot, joints:
     case "FRC_WaitTime": {
       const s = rmiNumber(fields, "Time");
       return s >= 0 ? { kind: "step", make: () => ({ id: "wait", type: "wait", s }) } : error(RMI_ERROR.value);
+    }
+    case "FRC_Call": {
+      const program = fields["ProgramName"];
+      return typeof program === "string" && /^[A-Za-z][A-Za-z0-9_]{0,35}$/.test(program) ? { kind: "call", program } : error(RMI_ERROR.value);
     }
     case "FRC_SetUFrame": case "FRC_SetUTool": return { kind: "nothing" };
     case "FRC_JointMotionJRep": case "FRC_LinearMotionJRep": case "FRC_JointRelativeJRep": {

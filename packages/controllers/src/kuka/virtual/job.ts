@@ -1,5 +1,6 @@
-import type { Condition, Executed, Interpreted, Robot, Signals, Step } from "@twincell/core";
+import type { Executed, Interpreted, Robot, Signals, Step } from "@twincell/core";
 import { slowed } from "../../guard/index.ts";
+import { withLines } from "../../runner/index.ts";
 import { T1_MPS } from "./machine.ts";
 
 type Ready = Extract<Interpreted, { kind: "ready" }>;
@@ -67,7 +68,7 @@ export class Job {
       this.line = line;
       if (step) {
         this.idle = 0;
-        return this.renamed({ ...step, id: `line ${line} #${++this.count}` });
+        return withLines({ ...step, id: `line ${line} #${++this.count}` }, name => this.wire(name));
       }
       if (++this.idle % LINES_PER_CYCLE === 0) return { id: `line ${line} #${++this.count}`, type: "wait", s: 0.004 };
     }
@@ -77,15 +78,6 @@ export class Job {
   private wire(name: string): string {
     const line = this.context.signals?.[name];
     return line?.address === undefined ? name : `${WIRES[line.kind]}[${line.address}]`;
-  }
-  private renamed(step: Step): Step {
-    const when = <T extends Condition>(condition: T): T => ({ ...condition, signal: this.wire(condition.signal) });
-    switch (step.type) {
-      case "set": return { ...step, signal: this.wire(step.signal) };
-      case "wait-for": return { ...step, when: when(step.when) };
-      case "move": return step.until ? { ...step, until: { ...step.until, when: when(step.until.when) } } : step;
-      default: return step;
-    }
   }
 }
 

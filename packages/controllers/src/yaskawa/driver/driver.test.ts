@@ -4,6 +4,8 @@ import { createRealController } from "../../real/index.ts";
 import { createTwin } from "../../twin/index.ts";
 import { resolution_rad } from "../codec/index.ts";
 import { HOST, bench, gp8, job, turned } from "../testing/bench.ts";
+import type { Client } from "./client.ts";
+import { lineTable, logicalOf, watchedLines } from "./lines.ts";
 import { yaskawaFace } from "./index.ts";
 
 /** All the way round from the middle: long enough for full speed. */
@@ -141,6 +143,37 @@ describe("the driver of Yaskawa's Ethernet server", () => {
     expect((await set("lamp", true)).outcome).toMatchObject({ kind: "refused", why: { code: "signals.not-writable" } });
     expect((await set("horn", true)).outcome).toMatchObject({ kind: "refused", why: { code: "signals.unknown" } });
     expect((await set("start", 0.5)).outcome).toMatchObject({ kind: "refused", why: { code: "signals.kind" } });
+  });
+
+  test("lines by INFORM's own names: inputs are read, outputs switched by the network inputs that the ladder passes on, and read back", async () => {
+    const { real, scheduler, virtual } = await bench({}, {});
+    virtual.pendant.setInput(5, true);
+    for (const [signal, output] of [["OT#(2)", "ot_2"], ["OUT#(12)", "ot_12"], ["ot_3", "ot_3"], ["out_128", "ot_128"]] as const) {
+      real.signals!.write(signal, true);
+      await scheduler.elapse(0.3);
+      expect(virtual.neutral.signals.read(output), signal).toBe(true);
+      expect(real.signals!.read(signal === "OUT#(12)" ? "OT#(12)" : signal), signal).toBe(true);
+    }
+    expect([real.signals!.read("IN#(5)"), real.signals!.read("IN#(6)"), real.signals!.read("ot_2"), real.signals!.read("ot_4")]).toEqual([true, false, true, false]);
+    real.signals!.write("OT#(2)", false);
+    await scheduler.elapse(0.3);
+    expect([virtual.neutral.signals.read("ot_2"), virtual.neutral.signals.read("ot_3"), real.signals!.read("OT#(2)")]).toEqual([false, true, false]);
+    // What a job switches stays as it is until the line from outside changes.
+    virtual.neutral.signals.write("ot_3", false);
+    real.signals!.write("OT#(2)", true);
+    await scheduler.elapse(0.3);
+    expect(virtual.neutral.signals.read("ot_3")).toBe(false);
+    real.signals!.write("27013", true);
+    await scheduler.elapse(0.3);
+    expect([virtual.neutral.signals.read("in_4"), real.signals!.read("27013")]).toEqual([true, true]);
+  });
+
+  test("a controller that is no virtual one: inputs and outputs are watched, an output is switched only where the ladder's network input is said", async () => {
+    expect(["IN#(1)", "in_9", "OT#(8)", "OUT#(9)", "27013", "99999", "lamp", "IN#(0)", "IN#(1"].map(logicalOf)).toEqual([10, 20, 10_017, 10_020, 27_013, 99_999, undefined, undefined, undefined]);
+    const client = { ask: () => new Promise<never>(() => { /* Nothing is answered here. */ }), say() { /* Nobody listens. */ } } as unknown as Client, complain = (): void => { throw new Error("Nothing was refused."); };
+    const plain = lineTable(watchedLines(), undefined, () => { /* Not looked at. */ }), joined = lineTable(watchedLines(), 27_300, () => { /* Not looked at. */ });
+    expect([plain.write(client, "OT#(1)", true, complain), plain.write(client, "IN#(1)", true, complain), plain.write(client, "99999", true, complain)]).toMatchObject([{ code: "signals.not-writable" }, { code: "signals.not-writable" }, { code: "signals.unknown" }]);
+    expect([plain.write(client, "27010", true, complain), joined.write(client, "OT#(10)", true, complain), joined.groups]).toEqual([null, null, [1, 1001, 2, 1002, 2731]]);
   });
 
   test("a program text becomes a job: saved, selected, started, watched to its end", async () => {

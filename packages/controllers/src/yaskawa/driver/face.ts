@@ -1,12 +1,12 @@
 import type { CommandOutcome, EmittedFile, HandedText, Refusal, Robot, Scheduler } from "@twincell/core";
 import type { Face, FaceEvents, FaceMotion, Opened } from "../../real/index.ts";
 import type { Network } from "../../transport/index.ts";
-import { COMMAND, DIVISION, FILE_PORT, ROBOT_PORT, SERVICE, EXAMPLE_SCALE, readAlarm, readJob, textAt, type PulseScale } from "../codec/index.ts";
+import { COMMAND, DIVISION, FILE_PORT, ROBOT_PORT, SERVICE, EXAMPLE_OUTPUTS, EXAMPLE_SCALE, readAlarm, readJob, textAt, type PulseScale } from "../codec/index.ts";
 import { hsesClient, type Answer, type Client } from "./client.ts";
 import { fileClient, type FileClient } from "./files.ts";
 import { Hand } from "./hand.ts";
 import { handJob } from "./job.ts";
-import { lineTable, type LineTable } from "./lines.ts";
+import { lineTable, watchedLines, type LineTable } from "./lines.ts";
 import { robotState } from "./state.ts";
 import { badAnswer, noGripper, noPulses, noWay, otherAxes, otherModel, unknownPulses } from "./words.ts";
 
@@ -28,8 +28,13 @@ export interface YaskawaFaceOptions {
   /** From one state to the next [s]. */
   readonly poll_s?: number;
   readonly stale_s?: number;
-  /** Logical numbers of lines by name; only network inputs (27010 …) are written. Left out, a virtual controller has those of its example ladder. */
+  /**
+   * Logical numbers of lines by name. Others are found by INFORM's own names and by their numbers. Left out, the first sixteen
+   * general inputs and outputs are watched, and a virtual controller has those of its example ladder.
+   */
   readonly signals?: Readonly<Record<string, number>>;
+  /** Network input that the ladder passes on to OT#(1), the next one to OT#(2): outputs are switched in no other way. The example's for a virtual controller. */
+  readonly outputsFrom?: number;
   /** The line that closes the gripper. */
   readonly gripper?: number;
 }
@@ -46,16 +51,17 @@ const GRIPPER = "gripper";
 /** What a virtual controller answers as its software; and its lines: sixteen in, sixteen out, and one for the gripper. */
 const VIRTUAL = "VIRTUAL", EXAMPLE_GRIPPER = 29_567;
 const EXAMPLE_SIGNALS = Object.fromEntries(Array.from({ length: 16 }, (_, i) => [i, 10 * Math.floor(i / 8) + i % 8] as const)
-  .flatMap(([i, at]) => [[`in_${i + 1}`, 27_010 + at], [`ot_${i + 1}`, 10_010 + at]]));
+  .flatMap(([i, at]) => [[`in_${i + 1}`, 27_010 + at], [`IN#(${i + 1})`, 10 + at], [`ot_${i + 1}`, 10_010 + at]]));
 
 /** The high-speed Ethernet server as a face: states by asking, motion by commands, stop by hold. */
 export function yaskawaFace(options: YaskawaFaceOptions): YaskawaFace {
   const { robot, scheduler, network, host, scale = EXAMPLE_SCALE } = options, n = robot.arm.joints.length, state = robotState(robot, scale);
   const to = { host, port: options.ports?.robot ?? ROBOT_PORT }, filesAt = { host, port: options.ports?.files ?? FILE_PORT };
-  const tableOf = (signals: Readonly<Record<string, number>>, gripper: number | undefined): LineTable => lineTable({ ...signals, ...(gripper === undefined ? {} : { [GRIPPER]: gripper }) }, (signal, on) => {
+  let outputsFrom = options.outputsFrom;
+  const tableOf = (signals: Readonly<Record<string, number>>, gripper: number | undefined): LineTable => lineTable({ ...signals, ...(gripper === undefined ? {} : { [GRIPPER]: gripper }) }, outputsFrom, (signal, on) => {
     if (signal === GRIPPER) state.sample.gripperClosed = on; else state.sample.signals.set(signal, on);
   });
-  let lines = tableOf(options.signals ?? {}, options.gripper), hasGripper = options.gripper !== undefined;
+  let lines = tableOf(options.signals ?? watchedLines(), options.gripper), hasGripper = options.gripper !== undefined;
   const hand = new Hand({ robot, scheduler, scale, state });
   let line: { readonly orders: Client; readonly files: FileClient; readonly close: () => void } | null = null, life = 0, begun_s = 0, beside_s = 0, beside = 0;
 
@@ -119,7 +125,7 @@ export function yaskawaFace(options: YaskawaFaceOptions): YaskawaFace {
     if (info.kind === "silent") return { why: noWay(to, info), again: true };
     const isVirtual = isWell(info) && textAt(info.reply.data, 0, 24).startsWith(VIRTUAL);
     if (options.scale === undefined && !isVirtual) return { why: unknownPulses(robot), again: false };
-    if (isVirtual && options.signals === undefined && options.gripper === undefined) { lines = tableOf(EXAMPLE_SIGNALS, EXAMPLE_GRIPPER); hasGripper = true; }
+    if (isVirtual && options.signals === undefined && options.gripper === undefined) { outputsFrom ??= EXAMPLE_OUTPUTS; lines = tableOf(EXAMPLE_SIGNALS, EXAMPLE_GRIPPER); hasGripper = true; }
     const model = isWell(info) ? textAt(info.reply.data, 24, 16).trim() : "", wanted = options.model ?? robot.name.replace(new RegExp(`^${robot.vendor}\\s+`, "i"), "");
     if (model !== "" && !plain(model).includes(plain(wanted))) return { why: otherModel(robot, wanted, model), again: false };
     const names = await ask(client, COMMAND.axisNames, 1, OPEN_PATIENCE_S);

@@ -22,6 +22,7 @@ export const notTaken = (what: string, answer: Answer): Refusal => answer.kind =
 export const noLine = (signal: string): Refusal => refusal("signals.unknown", `The signal "${signal}" has no address on this controller.`, "Give it the number of a network input, such as 27010.");
 export const notWritable = (signal: string, logical: number): Refusal =>
   refusal("signals.not-writable", `The signal "${signal}" is line ${logical}; only network inputs (27010 to 29567) are written from outside.`, "Give it the number of a network input, and let the ladder of the controller pass it on.");
+export const noLadder = (signal: string, logical: number): Refusal => refusal("signals.not-writable", `The signal "${signal}" is output ${logical}; outputs are switched by the ladder of the controller, and which network input it passes on to them is not said.`, "Name a network input (27010 to 29567) instead, or say which one stands for OT#(1).");
 export const notDigital = (signal: string): Refusal => refusal("signals.kind", `The signal "${signal}" is on or off; a level cannot be said to it.`, "Use a register or a variable for levels.");
 export const noGripper = (robot: Robot): Refusal => refusal("controller.gripper", `No line is set for the gripper of ${robot.name}.`, "Give the gripper the number of a network input, such as 27010.");
 export const endedEarly = (robot: Robot): Refusal => refusal("yaskawa.ended", `${robot.name} came to rest before its target.`, "Look at the pendant, then command the move again.");

@@ -1,5 +1,5 @@
 import type { Signals } from "@twincell/core";
-import { KINDS, ioGroupOf, type ValueKind } from "../codec/index.ts";
+import { EXAMPLE_OUTPUTS, EXAMPLE_OUTPUT_GROUPS, KINDS, ioGroupOf, type ValueKind } from "../codec/index.ts";
 
 /** Variables and registers of a controller, each as its bytes; kept over a restart. */
 export class Variables {
@@ -23,7 +23,7 @@ const GENERAL_IN = 1, GENERAL_OUT = 1001, NETWORK_IN = 2701, NETWORK_OUT = 3701,
 
 /**
  * Lines in and out in groups of eight. The ladder of this virtual controller is an example: network inputs are joined to
- * the general inputs of the same place, and general outputs are repeated as network outputs.
+ * the general inputs of the same place, those from 27170 on switch general outputs when they change, and general outputs are repeated as network outputs.
  */
 export class Lines {
   private readonly signals: Signals;
@@ -49,7 +49,9 @@ export class Lines {
   /** Only network inputs are written from outside; false for any other group. */
   write(group: number, value: number): boolean {
     if (ioGroupOf(group)?.name !== "network input") return false;
+    const changed = value ^ (this.network.get(group) ?? 0), place = group - EXAMPLE_OUTPUTS / 10;
     this.network.set(group, value);
+    if (place >= 0 && place < EXAMPLE_OUTPUT_GROUPS) for (let bit = 0; bit < 8; bit++) if (changed & (1 << bit)) this.signals.write(`ot_${8 * place + bit + 1}`, (value & (1 << bit)) !== 0);
     for (let bit = 0; bit < 8; bit++) this.tell(8 * (group - NETWORK_IN) + bit + 1);
     return true;
   }
