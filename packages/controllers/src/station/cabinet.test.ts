@@ -1,6 +1,6 @@
-import { flangePose, LIBRARY, manualScheduler, type CommandOutcome } from "@twincell/core";
+import { flangePose, manualScheduler, type CommandOutcome } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { BRANDS } from "../brands.ts";
+import { BRANDS, robotsOf } from "../brands.ts";
 import { createRealController, type Brand } from "../real/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
 import { openCabinet, type CabinetAct } from "./index.ts";
@@ -8,7 +8,7 @@ import { openCabinet, type CabinetAct } from "./index.ts";
 const HOST = "127.0.0.9", ME = "me";
 /** A brand's virtual controller with its cabinet, and its driver at the other end of a network in memory. */
 async function bench(brand: Brand) {
-  const robot = LIBRARY.find(({ vendor, arm }) => vendor === brand.vendor && arm.joints.length === 6)!, scheduler = manualScheduler(), network = memoryNetwork(scheduler);
+  const robot = robotsOf(brand).find(({ arm }) => arm.joints.length === 6)!, scheduler = manualScheduler(), network = memoryNetwork(scheduler);
   const opened = await openCabinet({ brand, robot, scheduler, network, host: HOST, interpret: () => ({ kind: "not-understood", faults: [] }) });
   if (opened.kind === "taken") throw new Error(opened.sentence);
   const { cabinet, virtual } = opened, real = createRealController({ face: brand.face({ robot, scheduler, network, host: HOST, ports: virtual.ports }), scheduler });

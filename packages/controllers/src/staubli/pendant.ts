@@ -4,6 +4,8 @@ import type { StaubliMode, VirtualStaubli } from "./virtual/index.ts";
 
 const KEYS: readonly KeyPosition[] = [{ id: "manual", name: "Manual", mode: "manual" }, { id: "local", name: "Local", mode: "automatic" }, { id: "remote", name: "Remote", mode: "remote" }];
 const POSITION: Readonly<Record<OperatingMode, StaubliMode>> = { manual: "manual", automatic: "local", remote: "remote" };
+/** The lines of the first I/O board. VAL 3 programs read and write them; the protocol carries none. */
+const SHOWN = 8, INPUTS = Array.from({ length: SHOWN }, (_, i) => `%I${i}`), OUTPUTS = Array.from({ length: SHOWN }, (_, i) => `%Q${i}`);
 const PRESSES_S = 2, LOOK_S = 0.05;
 
 /** Working-mode selector and pendant of a virtual CS8 or CS9. */
@@ -29,8 +31,7 @@ export function staubliPendant(virtual: VirtualStaubli, scheduler: Scheduler): P
   }
   return {
     keys: KEYS, labels: { servo: "Arm power", reset: "Acknowledge" },
-    // The protocol carries none.
-    lines: { inputs: [], outputs: [], read: signal => arm.signals.read(signal) === true },
+    lines: { inputs: INPUTS, outputs: OUTPUTS, read: signal => arm.signals.read(signal) === true },
     get shown(): PendantShown {
       const alarms = [...machine.isPressed ? ["The emergency stop is pressed."] : [], ...machine.isDoorOpen ? ["The door is open."] : [], ...machine.error === "" ? [] : [machine.error]];
       return { key: machine.mode, servo: machine.isPowered ? "on" : "off", safety: safety(), override: machine.monitorSpeed / 100, program: virtual.runsText ? "start" : "ros_server", running: virtual.runsText || virtual.waiting > 0, alarms };

@@ -27,6 +27,11 @@ const THERE_RAD = 1e-6, NEAR_RAD = 2e-4, NEAR_S = 0.3;
 const STANDS_RAD = 2e-6;
 /** The program takes a share of exactly 0.001 for something else, and none of 0 or below. */
 const LEAST_RATIO = 0.002;
+/**
+ * A point without speed, which the program refuses and answers: so long is the way there and back, and the socket of the motions is alive. It names where
+ * the robot stands, and is sent only while it does: a program that took it all the same would move nothing.
+ */
+const PROBE = -9, PROBE_S = 0.5;
 /** A robot that stands so far beyond its limits is another one [rad]. */
 const BEYOND_RAD = 0.02;
 
@@ -48,7 +53,7 @@ export function createStaubliFace(options: StaubliFaceOptions): Face {
   const status = noStatus(), raw = new Float64Array(AXES), before_rad = new Float64Array(JOINTS).fill(NaN), answer = noPoint();
   const lent: Lent = { sequence: 0, time_s: 0, q_rad: new Float64Array(JOINTS), moving: false, mode: "manual", safety: "normal", override: 1, gripperClosed: false, message: "" };
   let motionLine: ByteStream | null = null, feedback: ByteStream | null = null, events: FaceEvents | null = null, life = 0;
-  let statuses = 0, states = 0, moving: Moving | null = null, ratio = 1, left = false, locked = false, next = NOT_YET + 1, halts = 0, begun_s = 0, onState: (() => void) | null = null;
+  let statuses = 0, states = 0, moving: Moving | null = null, ratio = 1, left = false, locked = false, next = NOT_YET + 1, halts = 0, begun_s = 0, probed_s = 0, isProbing = false, onState: (() => void) | null = null;
 
   const settle = (outcome: CommandOutcome): void => { const ended = moving; moving = null; ended?.resolve(outcome); };
   const send = (sequence: number, q_rad: ArrayLike<number> | null, velocity: number, duration_s: number): void => {
@@ -76,6 +81,7 @@ export function createStaubliFace(options: StaubliFaceOptions): Face {
     events = null;
     onState = null;
     states = statuses = halts = 0;
+    isProbing = false;
     before_rad.fill(NaN);
     settle(stopped(closedHere));
   }
@@ -102,6 +108,11 @@ export function createStaubliFace(options: StaubliFaceOptions): Face {
     if (message.type !== MESSAGE.point || message.comm !== COMM.reply) return;
     const at = moving;
     readPoint(message, answer);
+    if (answer.sequence === PROBE) {
+      events?.roundTrip(scheduler.now_s() - probed_s);
+      isProbing = false;
+      return;
+    }
     if (answer.sequence === SEQUENCE.stop) {
       halts = Math.max(0, halts - 1);
       if (halts === 0 && at?.saidBy === "us" && at.sequence === NOT_YET) say(at);
@@ -141,6 +152,16 @@ export function createStaubliFace(options: StaubliFaceOptions): Face {
     lent.moving = !stands || (moving !== null && !moving.braking && moving.saidBy !== "nobody");
     onState?.();
     events?.sample(lent);
+    if (events) probe(stands);
+  }
+  function probe(stands: boolean): void {
+    const t = scheduler.now_s();
+    if (isProbing && t - probed_s > PATIENCE_S) lose(`The socket of the motions has not answered for ${PATIENCE_S} s.`);
+    else if (!isProbing && stands && !moving && t - probed_s > PROBE_S) {
+      isProbing = true;
+      probed_s = t;
+      send(PROBE, lent.q_rad, 0, 0);
+    }
   }
 
   /** Where the motion under way is, with every state that comes. */
