@@ -11,6 +11,7 @@ import { shortName } from "../stores/robot.ts";
 import { onStop } from "../stores/stop.ts";
 import { words } from "../words/index.ts";
 import { browserShelf, listRuns, openRunFile, type RunFile } from "./archive.ts";
+import { noteOther } from "./shown.ts";
 import { hostAt, onHosts, type Told } from "./station-hosts.ts";
 
 /** The fast state of a station: written in place, read by the frame loop. */
@@ -269,7 +270,7 @@ const due = (what: string): boolean => {
 function foresee({ station: id, ahead }: TellOf<"ahead">): void {
   const live = lives.get(id), known = stationOf(id);
   if (!live || !known) return;
-  if (ahead && ahead.q_rad.length === live.ahead.q_rad.length) { live.ahead.q_rad.set(ahead.q_rad); live.ahead.revision++; }
+  if (ahead && ahead.q_rad.length === live.ahead.q_rad.length) { live.ahead.q_rad.set(ahead.q_rad); live.ahead.revision++; noteOther(); }
   const ghost = !ahead ? "none" : ahead.problem ? "blocked" : "free";
   if (ghost === known.ghost && !(ahead?.problem && due(`${id} ahead`))) return;
   changeStation(id, { ghost, foreseen: ahead?.problem ? words.stations.inTime(ahead.problem.in_s.toFixed(1), ahead.problem.sentence) : "" });
@@ -282,6 +283,7 @@ function show(sample: TellOf<"sample">): void {
   live.received_s = performance.now() / 1000;
   live.sent_s = sample.sent_s;
   live.revision++;
+  noteOther();
   const { sequence, time_s, moving, mode, safety, override, gripperClosed, step, message, plan_rad, command_rad } = sample;
   recordings.get(sample.station)?.recorder.record({ sequence, time_s, q_rad: live.q_rad, moving, mode, safety, override, gripperClosed, step, message } satisfies JointSample);
   if (safety === known.safety && mode === known.mode && !due(sample.station)) return;

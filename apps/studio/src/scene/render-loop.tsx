@@ -5,7 +5,7 @@ import { PerspectiveCamera, Quaternion } from "three";
 import { takeEffort_ms } from "../live/effort.ts";
 import { chosenAidAxis } from "../live/aids.ts";
 import { onTouching, theLive } from "../live/live.ts";
-import { shownRobot } from "../live/shown.ts";
+import { othersRevision, shownRobot } from "../live/shown.ts";
 import { jogStore } from "../stores/jog.ts";
 import { viewStore } from "../stores/view.ts";
 import { closeCameraPosition, closeCameraSide, closeCameraUp } from "./camera/close-camera.ts";
@@ -24,12 +24,12 @@ export function RenderLoop({ meter, picture, cube }: { readonly meter: FrameMete
   const clock = useMemo(() => ({ start: 0, turned: new Quaternion(0, 0, 0, 0) }), []);
   const invalidate = useThree(state => state.invalidate), sharpness = useMemo(() => new Sharpness(), []);
 
-  // Nothing is drawn while nothing changes: one comparison per display frame keeps watch.
+  // Nothing is drawn while nothing changes: two comparisons per display frame keep watch.
   useEffect(() => {
-    let seen = -1, handle = 0;
+    let seen = -1, others = -1, handle = 0;
     const watch = (): void => {
-      const { revision } = shownRobot();
-      if (revision !== seen) { seen = revision; invalidate(); }
+      const { revision } = shownRobot(), moved = othersRevision();
+      if (revision !== seen || moved !== others) { seen = revision; others = moved; invalidate(); }
       handle = requestAnimationFrame(watch);
     };
     handle = requestAnimationFrame(watch);
