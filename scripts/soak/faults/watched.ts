@@ -52,6 +52,8 @@ export function watched(brand: Brand, scheduler: ManualScheduler, random: () => 
         const face = brand.face(options), { runText } = face;
         return {
           ...face,
+          // It may change with how the controller speaks just now.
+          get stale_s() { return face.stale_s; },
           async open(events) {
             const opened = await face.open({
               sample(lent) { heard_s = scheduler.now_s(); events.sample(lied(lent)); },

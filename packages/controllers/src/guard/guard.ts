@@ -18,7 +18,7 @@ export interface GuardOptions {
   /** Whether the clearance margin is kept at those joint angles; asked for targets and along the motion. */
   readonly isSafe?: (q_rad: Float64Array) => boolean;
   /** Without a sample for this long the link counts as lost. With the watch's own period it stays below 100 ms (row X-41). */
-  readonly silence_s?: number;
+  readonly silence_s?: number | (() => number);
   /** When given, the commander must call `alive` at least this often. */
   readonly heartbeat_s?: number;
   /** Longest time the robot needs to stop; how far ahead the clearance is looked at follows from it. */
@@ -81,7 +81,7 @@ const SPEED_SLACK = 1.1;
 export function createGuard(options: GuardOptions): Guard {
   const { controller, scheduler, place } = options, { robot, jumpTo } = controller, n = robot.arm.joints.length;
   const rules = { deadMan: options.deadMan ?? controller.kind !== "virtual" };
-  const isSafe = options.isSafe ?? (() => true), silence_s = options.silence_s ?? 0.06, cap_mps = options.manualCap_mps ?? MANUAL_CAP_MPS;
+  const isSafe = options.isSafe ?? (() => true), silence = options.silence_s ?? 0.06, silence_s = typeof silence === "number" ? (): number => silence : silence, cap_mps = options.manualCap_mps ?? MANUAL_CAP_MPS;
   const braking_s = options.brakingTime_s ?? hardBrakingTime_s(robot);
   const flangeFromTcp = options.flangeFromTcp ?? identity<"flange", "tcp">(), tcp = tcpOf(robot.arm, flangeFromTcp), bound_mps = speedBound(robot, flangeFromTcp);
   const changes = listeners<GuardState>(), notices = listeners<Refusal>();
@@ -210,7 +210,7 @@ export function createGuard(options: GuardOptions): Guard {
   const stopWatching = scheduler.every(WATCH_S, () => {
     const now_s = scheduler.now_s();
     if (state.link === "lost") return;
-    if (now_s - heard_s > silence_s) { notice(silent(now_s - heard_s)); send({ type: "link-lost" }); return; }
+    if (now_s - heard_s > silence_s()) { notice(silent(now_s - heard_s)); send({ type: "link-lost" }); return; }
     const { heartbeat_s } = options, { holder } = state;
     if (heartbeat_s !== undefined && holder !== null && state.link === "up" && now_s - alive_s > heartbeat_s) {
       notice(commanderWentSilent(holder, now_s - alive_s));

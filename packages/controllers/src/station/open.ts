@@ -78,7 +78,7 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
   const controller = createRealController({ face, scheduler, name, ...(worldFromBase ? { worldFromBase } : {}) });
   const place = options.shared?.cell.join({ id: options.id, name, robot, worldFromBase: options.shared.stand, ...(virtual ? { brakingTime_s: virtual.brakingTime_s } : {}) });
   const station = createStation({
-    controller, scheduler, name, silence_s: face.stale_s, ...(place ? { place } : {}), ...(options.watching === undefined ? {} : { watching: options.watching }),
+    controller, scheduler, name, silence_s: () => face.stale_s, ...(place ? { place } : {}), ...(options.watching === undefined ? {} : { watching: options.watching }),
     ...(worldFromBase ? { worldFromBase } : {}), ...(virtual ? { brakingTime_s: virtual.brakingTime_s } : {}),
     ...(options.heartbeat_s === undefined ? {} : { heartbeat_s: options.heartbeat_s }),
     deadMan: options.deadMan ?? near === null,

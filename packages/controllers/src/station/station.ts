@@ -21,7 +21,7 @@ export interface StationOptions {
   /** Begins as one that is only watched; see the guard. */
   readonly watching?: boolean;
   /** Without a sample for this long the link counts as lost; see the guard. */
-  readonly silence_s?: number;
+  readonly silence_s?: number | (() => number);
   readonly heartbeat_s?: number;
   readonly brakingTime_s?: number;
   /** More than this far from plan or command is said aloud [rad]. */
