@@ -2,6 +2,7 @@ import type { SafetyState } from "@twincell/core";
 import type { KeyPosition, Pendant, PendantShown } from "../real/index.ts";
 import { fanucInput, type VirtualFanuc } from "./virtual/controller.ts";
 import type { FanucKey } from "./virtual/machine.ts";
+import { jogKeys } from "../virtual/jog-keys.ts";
 
 const KEYS: readonly KeyPosition[] = [{ id: "T1", name: "T1", mode: "manual" }, { id: "T2", name: "T2", mode: "manual" }, { id: "AUTO", name: "AUTO", mode: "automatic" }];
 const SHOWN = 16, numbered = (sort: "DI" | "DO"): readonly string[] => Array.from({ length: SHOWN }, (_, i) => `${sort}[${i + 1}]`);
@@ -9,8 +10,7 @@ const INPUTS = numbered("DI"), OUTPUTS = numbered("DO");
 
 /** iPendant and operator panel of a virtual FANUC controller. */
 export function fanucPendant({ pendant, arm, machine, isRunning }: Pick<VirtualFanuc, "pendant" | "arm" | "machine" | "isRunning">): Pendant {
-  let jogging = false;
-  const stopJog = (): void => { if (jogging) arm.stop(); };
+  const { jog, stopJog } = jogKeys((q_rad, ratio) => pendant.jog(q_rad, ratio), () => { arm.stop(); });
   const safety = (): SafetyState => machine.emergency ? "emergency-stop" : machine.fenceOpen && !machine.pendant ? "guard-stop" : machine.faults.length > 0 ? "protective-stop" : "normal";
   return {
     keys: KEYS, labels: { servo: "Servos", reset: "RESET" },
@@ -24,13 +24,7 @@ export function fanucPendant({ pendant, arm, machine, isRunning }: Pick<VirtualF
     setServo: on => on ? pendant.reset() : "The pendant has no key for servos off: the red button takes them off.",
     setOverride: ratio => machine.setOverride(Math.max(1, Math.round(100 * ratio))) ? null : "The override goes from 1 to 100 %.",
     reset: () => pendant.reset(),
-    async jog(q_rad, ratio) {
-      jogging = true;
-      const outcome = await pendant.jog(q_rad, ratio);
-      jogging = false;
-      return outcome;
-    },
-    stopJog,
+    jog, stopJog,
     emergencyStop(pressed) { pendant.setEmergencyStop(pressed); },
     setGuardOpen(open) { pendant.setGuardOpen(open); },
     protectiveStop(because) { pendant.fault(because); },

@@ -2,6 +2,7 @@ import type { OperatingMode, SafetyState, Scheduler } from "@twincell/core";
 import type { KeyPosition, Pendant, PendantShown } from "../real/index.ts";
 import type { VirtualKuka } from "./virtual/controller.ts";
 import type { KukaMode } from "./virtual/machine.ts";
+import { jogKeys } from "../virtual/jog-keys.ts";
 
 const KEYS: readonly KeyPosition[] = [
   { id: "T1", name: "T1", mode: "manual" }, { id: "T2", name: "T2", mode: "manual" }, { id: "AUT", name: "AUT", mode: "automatic" }, { id: "EX", name: "EXT", mode: "remote" },
@@ -13,8 +14,8 @@ const INPUTS = numbered("IN"), OUTPUTS = numbered("OUT");
 
 /** smartPAD of a virtual KUKA controller. */
 export function kukaPendant({ pendant, arm, machine, program }: VirtualKuka, scheduler: Scheduler): Pendant {
-  let jogging = false, held = false;
-  const stopJog = (): void => { if (jogging) arm.stop(); };
+  let held = false;
+  const keys = jogKeys((q_rad, ratio) => pendant.jog(q_rad, ratio), () => { arm.stop(); });
   const safety = (): SafetyState => machine.emergency ? "emergency-stop" : !machine.safetyClosed && !machine.isManual ? "guard-stop" : machine.stopMessage ? "protective-stop" : "normal";
   return {
     keys: KEYS, labels: { servo: "Drives", reset: "Confirm all" },
@@ -40,13 +41,11 @@ export function kukaPendant({ pendant, arm, machine, program }: VirtualKuka, sch
     // Without a hand on it, the enabling switch is pressed for as long as the jog lasts.
     async jog(q_rad, ratio) {
       pendant.setEnabling(true);
-      jogging = true;
-      const outcome = await pendant.jog(q_rad, ratio);
-      jogging = false;
+      const outcome = await keys.jog(q_rad, ratio);
       if (!held) pendant.setEnabling(false);
       return outcome;
     },
-    stopJog,
+    stopJog: keys.stopJog,
     emergencyStop(pressed) { pendant.setEmergencyStop(pressed); },
     setGuardOpen(open) { pendant.setGuardOpen(open); },
     protectiveStop(because) { pendant.fail(because); },

@@ -2,6 +2,7 @@ import type { SafetyState, Scheduler } from "@twincell/core";
 import type { KeyPosition, Pendant, PendantShown } from "../real/index.ts";
 import { stateName } from "./codec.ts";
 import type { VirtualCs7 } from "./virtual/index.ts";
+import { jogKeys } from "../virtual/jog-keys.ts";
 
 const KEYS: readonly KeyPosition[] = [{ id: "man", name: "MAN", mode: "manual" }, { id: "comp", name: "COMP", mode: "remote" }];
 const SHOWN = 8, OUTPUTS = Array.from({ length: SHOWN }, (_, i) => `out_${i + 1}`), INPUTS = Array.from({ length: SHOWN }, (_, i) => `in_${1001 + i}`);
@@ -10,8 +11,7 @@ const TYPES_S = 2, LOOK_S = 0.1;
 /** Manual control pendant, high-power button and terminal of a virtual CS7. */
 export function cs7Pendant(virtual: VirtualCs7, scheduler: Scheduler): Pendant {
   const { pendant, machine, arm } = virtual;
-  let jogging = false;
-  const stopJog = (): void => { if (jogging) arm.stop(); };
+  const { jog, stopJog } = jogKeys((q_rad, ratio) => pendant.jog(q_rad, ratio), () => { arm.stop(); });
   const safety = (): SafetyState => machine.isPressed ? "emergency-stop" : machine.isGuardOpen ? "guard-stop" : machine.isPowered && machine.calibrated ? "normal" : "protective-stop";
   /** What is typed at the cabinet's terminal, and the hand on the blinking button. */
   function power(): string | null {
@@ -44,13 +44,7 @@ export function cs7Pendant(virtual: VirtualCs7, scheduler: Scheduler): Pendant {
     },
     setOverride: ratio => machine.setSpeed(Math.max(1, Math.round(100 * ratio))) ? null : "The monitor speed goes from 1 to 100 %.",
     reset: power,
-    async jog(q_rad, ratio) {
-      jogging = true;
-      const outcome = await pendant.jog(q_rad, ratio);
-      jogging = false;
-      return outcome;
-    },
-    stopJog,
+    jog, stopJog,
     emergencyStop(pressed) { pendant.setEmergencyStop(pressed); },
     setGuardOpen(open) { pendant.setGuardOpen(open); },
     protectiveStop() { pendant.fail(); },

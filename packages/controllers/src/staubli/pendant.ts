@@ -1,6 +1,7 @@
 import type { OperatingMode, SafetyState, Scheduler } from "@twincell/core";
 import type { KeyPosition, Pendant, PendantShown } from "../real/index.ts";
 import type { StaubliMode, VirtualStaubli } from "./virtual/index.ts";
+import { jogKeys } from "../virtual/jog-keys.ts";
 
 const KEYS: readonly KeyPosition[] = [{ id: "manual", name: "Manual", mode: "manual" }, { id: "local", name: "Local", mode: "automatic" }, { id: "remote", name: "Remote", mode: "remote" }];
 const POSITION: Readonly<Record<OperatingMode, StaubliMode>> = { manual: "manual", automatic: "local", remote: "remote" };
@@ -11,8 +12,8 @@ const PRESSES_S = 2, LOOK_S = 0.05;
 /** Working-mode selector and pendant of a virtual CS8 or CS9. */
 export function staubliPendant(virtual: VirtualStaubli, scheduler: Scheduler): Pendant {
   const { pendant, machine, arm } = virtual;
-  let jogging = false, gripped = false;
-  const stopJog = (): void => { if (jogging) arm.stop(); };
+  let gripped = false;
+  const keys = jogKeys((q_rad, ratio) => pendant.jog(q_rad, ratio), () => { arm.stop(); });
   const safety = (): SafetyState => machine.isPressed ? "emergency-stop" : machine.isDoorOpen ? "guard-stop" : machine.error !== "" ? "protective-stop" : "normal";
   const reset = (): string | null => {
     pendant.acknowledge();
@@ -51,13 +52,11 @@ export function staubliPendant(virtual: VirtualStaubli, scheduler: Scheduler): P
       // Jogged with nobody at the switch, it is pressed for as long as the jog lasts.
       const presses = !gripped;
       if (presses) { pendant.acknowledge(); pendant.setEnabling(true); }
-      jogging = true;
-      const outcome = await pendant.jog(q_rad, ratio);
-      jogging = false;
+      const outcome = await keys.jog(q_rad, ratio);
       if (presses) pendant.setEnabling(false);
       return outcome;
     },
-    stopJog,
+    stopJog: keys.stopJog,
     emergencyStop(pressed) { pendant.setEmergencyStop(pressed); },
     setGuardOpen(open) { pendant.setDoorOpen(open); },
     protectiveStop(because) { pendant.fail(because); },

@@ -1,6 +1,7 @@
 import type { OperatingMode, SafetyState } from "@twincell/core";
 import type { KeyPosition, Pendant, PendantShown } from "../real/brand.ts";
 import type { VirtualController } from "./controller.ts";
+import { jogKeys } from "./jog-keys.ts";
 
 export interface NeutralPendantOptions {
   readonly keys: readonly KeyPosition[];
@@ -11,11 +12,11 @@ export interface NeutralPendantOptions {
 
 /** The pendant of a neutral virtual robot. A brand spreads it under what its own cabinet does otherwise. */
 export function neutralPendant(neutral: VirtualController, { keys, labels = { servo: "Drives", reset: "Reset" }, inputs = [], outputs = [] }: NeutralPendantOptions): Pendant {
-  let key = keys[0]?.id ?? "", mode: OperatingMode = keys[0]?.mode ?? "automatic", safety: SafetyState = "normal", override = 1, message = "", pressed = false, jogging = false;
+  let key = keys[0]?.id ?? "", mode: OperatingMode = keys[0]?.mode ?? "automatic", safety: SafetyState = "normal", override = 1, message = "", pressed = false;
   neutral.onSample(sample => { mode = sample.mode; safety = sample.safety; override = sample.override; message = sample.message; });
   const positionOf = (of: OperatingMode): KeyPosition | undefined => keys.find(each => each.mode === of) ?? keys.find(each => each.mode !== "manual");
   const turn = (to: KeyPosition | undefined): void => { if (to) { key = to.id; mode = to.mode; neutral.atTheRobot.setMode(to.mode); } };
-  const stopJog = (): void => { if (jogging) neutral.stop(); };
+  const { jog, stopJog } = jogKeys((q_rad, ratio) => neutral.atTheRobot.jog(q_rad, ratio), () => { neutral.stop(); });
   return {
     keys, labels,
     lines: { inputs, outputs, read: signal => neutral.signals.read(signal) === true },
@@ -44,13 +45,7 @@ export function neutralPendant(neutral: VirtualController, { keys, labels = { se
       const outcome = neutral.reset();
       return outcome.kind === "done" ? null : outcome.why.sentence;
     },
-    async jog(q_rad, ratio) {
-      jogging = true;
-      const outcome = await neutral.atTheRobot.jog(q_rad, ratio);
-      jogging = false;
-      return outcome;
-    },
-    stopJog,
+    jog, stopJog,
     emergencyStop(is) { pressed = is; if (is) neutral.stop(true); },
     setGuardOpen(open) { neutral.atTheRobot.setGuardOpen(open); },
     protectiveStop(because) { neutral.atTheRobot.protectiveStop(because); },

@@ -2,6 +2,7 @@ import type { OperatingMode, SafetyState } from "@twincell/core";
 import type { KeyPosition, Pendant, PendantShown } from "../real/index.ts";
 import { refusalSentence } from "./codec/index.ts";
 import type { VirtualYaskawa, YaskawaKeySwitch } from "./virtual/index.ts";
+import { jogKeys } from "../virtual/jog-keys.ts";
 
 const KEYS: readonly KeyPosition[] = [{ id: "teach", name: "TEACH", mode: "manual" }, { id: "play", name: "PLAY", mode: "automatic" }, { id: "remote", name: "REMOTE", mode: "remote" }];
 const POSITION: Readonly<Record<OperatingMode, YaskawaKeySwitch>> = { manual: "teach", automatic: "play", remote: "remote" };
@@ -12,8 +13,8 @@ const why = (added: number): string | null => added === 0 ? null : refusalSenten
 
 /** Programming pendant of a virtual Yaskawa controller. */
 export function yaskawaPendant({ pendant, machine, lines, neutral }: VirtualYaskawa): Pendant {
-  let jogging = false, held = false, pressed = false;
-  const stopJog = (): void => { if (jogging) neutral.stop(); };
+  let held = false, pressed = false;
+  const { jog, stopJog } = jogKeys((q_rad, ratio) => pendant.jog(q_rad, ratio), () => { neutral.stop(); });
   const isTeach = (): boolean => machine.keySwitch === "teach";
   const safety = (): SafetyState => pressed ? "emergency-stop" : machine.status.heldOutside ? "guard-stop" : machine.status.alarm || machine.status.error ? "protective-stop" : "normal";
   return {
@@ -47,13 +48,7 @@ export function yaskawaPendant({ pendant, machine, lines, neutral }: VirtualYask
       pendant.reset();
       return null;
     },
-    async jog(q_rad, ratio) {
-      jogging = true;
-      const outcome = await pendant.jog(q_rad, ratio);
-      jogging = false;
-      return outcome;
-    },
-    stopJog,
+    jog, stopJog,
     emergencyStop(is) { pressed = is; pendant.emergencyStop(is); },
     setGuardOpen(open) { pendant.setGuardOpen(open); },
     protectiveStop(because) { pendant.raiseAlarm(ALARM_BY_HAND, because); },
