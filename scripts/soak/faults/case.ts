@@ -103,6 +103,8 @@ export async function oneCase(cell: Cell, name: string, doing: Doing, worst: Wor
   for (let i = 0; i < TRIES && last !== "done"; i++) {
     // A person at the cabinet, where the wire cannot switch drives on or start a program.
     if (i > 0) { virtual.pendant.setMode("manual"); await scheduler.elapse(0.1); virtual.pendant.setMode("remote"); await scheduler.elapse(0.5); }
+    // A controller that twice named itself another robot is looked for again only at a person's word.
+    if (station.link?.state === "closed") { void station.connect(); await scheduler.elapse(1); }
     seat.take();
     seat.hold(true);
     seat.confirm();

@@ -1,4 +1,4 @@
-import { BRANDS, robotsOf } from "@twincell/controllers";
+import { BRANDS, robotsOf, type Datum } from "@twincell/controllers";
 import { LIBRARY, type Robot } from "@twincell/core";
 import { PLUG_IN, PLUG_IN_PORT } from "@twincell/messages";
 import { words } from "../words/index.ts";
@@ -8,7 +8,7 @@ export interface OfferedBrand {
   readonly name: string;
   /** Of the library, that it drives. */
   readonly robots: readonly Robot[];
-  readonly data: readonly { readonly id: string; readonly name: string; readonly where: string }[];
+  readonly data: readonly Datum[];
   /** A port that is asked for, where there is no vendor who fixed it. */
   readonly port: number | null;
 }

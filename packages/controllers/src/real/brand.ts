@@ -6,9 +6,18 @@ import type { Face } from "./face.ts";
 /** Ports by the brand's own names for them; those left out are the vendor's own. */
 export type PortNumbers = Readonly<Record<string, number>>;
 
-/** What stands in the controller's own parameter file and is never guessed: numbers of each joint, by the name of the datum. */
+/** What stands in the controller's own parameter file and is never guessed: numbers, by the id of the datum. */
 export type ControllerData = Readonly<Record<string, readonly number[]>>;
-export interface Datum { readonly id: string; readonly name: string; /** Where a person finds it. */ readonly where: string }
+export interface Datum {
+  readonly id: string;
+  readonly name: string;
+  /** Where a person finds it. */
+  readonly where: string;
+  /** How many numbers; one a joint when left out. */
+  readonly count?: number;
+  /** What it is for most. */
+  readonly usual?: readonly number[];
+}
 
 export interface FaceOptions {
   readonly robot: Robot;
@@ -121,7 +130,7 @@ export interface Brand {
   readonly dialect: string;
   /** The vendor's own port numbers. */
   readonly ports: PortNumbers;
-  /** What a person must say of a real controller before it can be driven; one number a joint. */
+  /** What a person must say of a real controller before it can be driven. */
   readonly data?: readonly Datum[];
   /** Vendor of the robots it drives, as robots name it. */
   readonly vendor: string;

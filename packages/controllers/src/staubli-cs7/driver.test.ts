@@ -152,8 +152,8 @@ describe("the driver", () => {
     expect(farthest(real.jointAngles(), there.map(value => value * Math.PI / 180))).toBeLessThanOrEqual(ACCURACY_RAD);
   });
 
-  test("a slow serial line, 0.3 s an answer: states are fewer, motions come and end, the stop is typed at once", async () => {
-    const { scheduler, cs7, real, ended } = await bench({ face: { stale_s: 2 } });
+  test("X-41 a slow serial line, 0.3 s an answer: it stays open, says how late a break is noticed, motions come and end, the stop is typed at once", async () => {
+    const { scheduler, cs7, real, ended } = await bench({ face: { baud: 9600 } });
     cs7.faults.delay_s = 0.3;
     await scheduler.elapse(1);
     let states = 0;

@@ -32,8 +32,8 @@ function Open() {
   const chosen = BRAND_LIST.find(({ id }) => id === brand), robots = chosen?.robots ?? [], robotId = robots.find(({ id }) => id === robot)?.id ?? robots[0]?.id ?? "";
   // A driver that is a process of its own has nothing to show in a page: it is reached through the server.
   const isPlugIn = chosen?.port !== null && chosen !== undefined, place: HostPlace = isPlugIn ? "server" : wanted, number = Number(port === "" ? chosen?.port : port), portFits = !isPlugIn || (Number.isInteger(number) && number > 0 && number < 65_536);
-  const asked = place === "server" ? chosen?.data ?? [] : [], data = Object.fromEntries(asked.map(({ id }) => [id, numbersOf(typed[id] ?? "")]));
-  const whole = asked.every(({ id }) => data[id]!.length === (robotById(robotId)?.arm.joints.length ?? 0) && data[id]!.every(value => Number.isFinite(value) && value !== 0));
+  const asked = place === "server" ? chosen?.data ?? [] : [], data = Object.fromEntries(asked.map(({ id, usual }) => [id, numbersOf(typed[id] ?? usual?.join(" ") ?? "")]));
+  const whole = asked.every(({ id, count }) => data[id]!.length === (count ?? robotById(robotId)?.arm.joints.length ?? 0) && data[id]!.every(value => Number.isFinite(value) && value !== 0));
   if (!document) return null;
   const add = async (): Promise<void> => {
     setBusy(true);
@@ -64,9 +64,9 @@ function Open() {
         <div className="pair"><span className="label">{words.stations.purpose}</span>
           <Segments label={words.stations.purpose} value={purpose} onChange={setPurpose} options={(["command", "watch"] as const).map(value => ({ value, words: words.stations.purposes[value] }))} /></div>
         {purpose === "watch" && <p className="small muted">{words.stations.purposeHint}</p>}
-        {asked.map(({ id, name, where }) => (
+        {asked.map(({ id, name, where, count, usual }) => (
           <div className="pair" key={id}><label className="label" htmlFor={`station-${id}`}>{name}<span className="small dim block">{where}</span></label>
-            <span className="field text"><input id={`station-${id}`} value={typed[id] ?? ""} placeholder={words.stations.numbers} spellCheck={false} autoComplete="off" onChange={event => setTyped({ ...typed, [id]: event.currentTarget.value })} /></span></div>
+            <span className="field text"><input id={`station-${id}`} value={typed[id] ?? usual?.join(" ") ?? ""} placeholder={count === 1 ? "" : words.stations.numbers} spellCheck={false} autoComplete="off" onChange={event => setTyped({ ...typed, [id]: event.currentTarget.value })} /></span></div>
         ))}
         <div className="pair"><span className="label">{words.stations.stand}</span>
           <span className="fields-3">

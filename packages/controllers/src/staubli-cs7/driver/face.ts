@@ -17,11 +17,15 @@ export interface Cs7FaceOptions {
   /** States are asked for this often, as far as the line can carry it [s]. */
   readonly period_s?: number;
   readonly stale_s?: number;
+  /** Of a serial line to the controller's terminal; a network's when left out. */
+  readonly baud?: number;
 }
 type Lent = { -readonly [K in keyof Omit<JointSample, "step">]: Omit<JointSample, "step">[K] };
 interface Moving { readonly motion: FaceMotion; readonly resolve: (outcome: CommandOutcome) => void; id: number; begun: boolean; over: boolean; held: boolean; ending: CommandOutcome | null; looks: number; stood_s: number }
 
 const PERIOD_S = 0.02, STALE_S = 0.08, PATIENCE_S = 4, SHORT_S = 1, BEYOND_RAD = 0.02, STANDS_DEG = 0.0015;
+/** Letters of one poll, both ways, ten bits each; so many polls may be missed before the line counts as lost. */
+const POLL_LETTERS = 340, LETTER_BITS = 10, MISSED = 2.5;
 const QUESTION = `LISTR STATE(1),STATE(2),${TWC.done}`;
 
 /**
@@ -29,6 +33,7 @@ const QUESTION = `LISTR STATE(1),STATE(2),${TWC.done}`;
  * in a task of its own, so that the monitor stays free. An emergency stop takes high power off (PANIC). A hold brakes the motion and says it again.
  */
 export function createCs7Face(options: Cs7FaceOptions): Face {
+  const stale_s = options.stale_s ?? Math.max(STALE_S, 4 * (options.period_s ?? PERIOD_S), options.baud === undefined ? 0 : MISSED * POLL_LETTERS * LETTER_BITS / options.baud);
   const { robot, scheduler, network, host } = options, joints = options.joints ?? vPlusJoints(robot), period_s = options.period_s ?? PERIOD_S;
   const j_deg = new Float64Array(JOINTS).fill(NaN), values = new Map<string, boolean | number>(), known = new Map<string, number>();
   const lent: Lent = { sequence: 0, time_s: 0, q_rad: new Float64Array(JOINTS), moving: false, mode: "remote", safety: "normal", override: 1, gripperClosed: false, message: "", signals: values };
@@ -170,8 +175,11 @@ export function createCs7Face(options: Cs7FaceOptions): Face {
   }
 
   return {
-    brand: "Stäubli CS7", robot, stale_s: options.stale_s ?? Math.max(STALE_S, 4 * period_s), open, close,
-    watchdog: { kind: "none", because: "The monitor has no watchdog: a motion that was started goes on to its end when the line breaks, and streamed motion is refused." },
+    brand: "Stäubli CS7", robot, stale_s, open, close,
+    watchdog: {
+      kind: "none",
+      because: `The monitor has no watchdog: a motion that was started goes on to its end when the line breaks, and streamed motion is refused.${stale_s > STALE_S ? ` Over this slow line a break is noticed after ${stale_s.toFixed(1)} s and not within 100 ms.` : ""}`,
+    },
     move(wanted) {
       if (!line) return Promise.resolve(refused(closedHere));
       if (wanted.path === "arc") return Promise.resolve(refused(noArc));
