@@ -213,7 +213,8 @@ export function abbFace(options: AbbFaceOptions): Face {
 
   return {
     brand: "ABB", robot, watchdog: { kind: "robot", within_s: COMM_TIMEOUT_S },
-    get stale_s() { return events && !guides() ? Math.max(stale_s, PANEL_STALE_S) : stale_s; },
+    // A robot that nobody moves from here may be heard of seldom; one that carries out our text may not (row X-41).
+    get stale_s() { return events && !guides() && !text ? Math.max(stale_s, PANEL_STALE_S) : stale_s; },
     open, close() { close(); },
     move(motion) {
       if (!events) return Promise.resolve(refused(say.linkClosed(robot)));
