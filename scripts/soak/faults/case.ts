@@ -101,10 +101,18 @@ export async function oneCase(cell: Cell, name: string, doing: Doing, worst: Wor
 
   let last = "nothing was tried";
   for (let i = 0; i < TRIES && last !== "done"; i++) {
-    // A person at the cabinet, where the wire cannot switch drives on or start a program.
-    if (i > 0) { virtual.pendant.setMode("manual"); await scheduler.elapse(0.1); virtual.pendant.setMode("remote"); await scheduler.elapse(0.5); }
+    // A person at the cabinet, where the wire cannot switch drives on, acknowledge a message or start a program.
+    if (i > 0) {
+      virtual.pendant.setMode("manual");
+      await scheduler.elapse(0.1);
+      virtual.pendant.reset();
+      virtual.pendant.setMode("remote");
+      await scheduler.elapse(0.5);
+    }
     // A controller that twice named itself another robot is looked for again only at a person's word.
-    if (station.link?.state === "closed") { void station.connect(); await scheduler.elapse(1); }
+    // So is one whose set-up was spoilt on its way when the line was opened: after three tries in vain a person opens it anew.
+    if (i === 3) { station.disconnect(); await scheduler.elapse(0.5); }
+    if (station.link?.state === "closed") { void station.connect(); await scheduler.elapse(2); }
     seat.take();
     seat.hold(true);
     seat.confirm();
