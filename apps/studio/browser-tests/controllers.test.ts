@@ -13,10 +13,12 @@ const to = (id: string, x: number, y: number, z: number): MoveStep => ({
   id, type: "move", path: "ptp", speed: { ratio: 0.3 }, blend_m: 0,
   target: { pose: { position: [x, y, z], quaternion: [0, 1, 0, 0] } as unknown as Pose<"frame", "tcp">, frame: "world", tool: "flange" },
 });
+/** So often that the quickest of three robots still moves when the slowest has begun. */
+const TO_AND_FRO = Array.from({ length: 16 }, (_, i) => to(`s${i + 1}`, 0.42, i % 2 === 0 ? -0.12 : 0.12, 0.4));
 const carton = tracedCartonCell();
 const cell: CellDocument = {
   ...carton, name: "Three brands", robot: { ...carton.robot, worldFromBase: identity() }, objects: [], program: "To and fro",
-  programs: [{ ...carton.programs[0]!, name: "To and fro", tools: {}, frames: {}, groups: {}, steps: [to("a", 0.42, -0.12, 0.4), to("b", 0.42, 0.12, 0.4), to("c", 0.42, -0.12, 0.4), to("d", 0.42, 0.12, 0.4)] }],
+  programs: [{ ...carton.programs[0]!, name: "To and fro", tools: {}, frames: {}, groups: {}, steps: TO_AND_FRO }],
 };
 
 async function add(page: Page, brand: string, robot: string): Promise<void> {
