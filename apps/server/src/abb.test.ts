@@ -6,13 +6,13 @@ import { abbFace, createRealController, createVirtualAbb, type VirtualAbb } from
 import { degrees, emptyProgram, robotById } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
 import { spawn, spawnSync } from "node:child_process";
-import { createSocket } from "node:dgram";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { setTimeout as pause } from "node:timers/promises";
 import { afterEach, expect, test } from "vitest";
 import { nodeScheduler } from "./clock.ts";
 import { nodeNetwork } from "./sockets/node-network.ts";
+import { freeDatagramPort } from "./testing/free-port.ts";
 
 const robot = robotById("abb_irb120")!, rapid = dialectById("rapid")!, network = nodeNetwork(), scheduler = nodeScheduler, ACCURACY_RAD = 0.001 * Math.PI / 180;
 /** On a machine that runs other tests beside this one a state may be late; how soon silence is noticed is shown in virtual time. */
@@ -26,11 +26,6 @@ async function virtualAbb(host: string, port: number): Promise<VirtualAbb> {
   open.push(started.controller);
   return started.controller;
 }
-/** A port that nobody has. */
-const freePort = (host: string): Promise<number> => new Promise(resolve => {
-  const socket = createSocket("udp4");
-  socket.bind(0, host, () => { const { port } = socket.address(); socket.close(() => { resolve(port); }); });
-});
 
 test("T-22 T-23 the driver guides the virtual controller over the loopback, on the vendor's own port", async () => {
   const host = "127.0.0.51", virtual = await virtualAbb(host, 6510), real = createRealController({ face: abbFace({ robot, scheduler, network, host, ports: { rws: virtual.rws!.port }, stale_s: BUSY_S }), scheduler });
@@ -88,7 +83,7 @@ print(json.dumps({"first": list(first.joint_angles), "last": list(state.joint_an
 egm.close()
 `;
 test.skipIf(!hasClient)(`abb-robot-client, a client that nobody here wrote, guides the virtual controller${hasClient ? "" : " (skipped: no Python with abb-robot-client; name one by TWINCELL_PYTHON)"}`, async () => {
-  const host = "127.0.0.52", port = await freePort(host), virtual = await virtualAbb(host, port);
+  const host = "127.0.0.52", port = await freeDatagramPort(host), virtual = await virtualAbb(host, port);
   const { code, out } = await python(GUIDE, String(port));
   expect(code, out).toBe(0);
   const said = JSON.parse(out.trim().split("\n").at(-1)!) as { first: number[]; last: number[]; motors: boolean; rapid: boolean; rate: number };
@@ -138,7 +133,7 @@ rws.close()
 print(json.dumps(said))
 `;
 test.skipIf(!hasClient)(`abb-robot-client reads and drives the virtual controller over Robot Web Services: states, signals, data, files, a program from start to end${hasClient ? "" : " (skipped: no Python with abb-robot-client; name one by TWINCELL_PYTHON)"}`, async () => {
-  const host = "127.0.0.53", virtual = await virtualAbb(host, await freePort(host)), folder = mkdtempSync(`${tmpdir()}/twincell-abb-`), file = `${folder}/job.mod`;
+  const host = "127.0.0.53", virtual = await virtualAbb(host, await freeDatagramPort(host)), folder = mkdtempSync(`${tmpdir()}/twincell-abb-`), file = `${folder}/job.mod`;
   open.push({ close() { rmSync(folder, { recursive: true }); } });
   const goal = Array.from(robot.home_rad, (angle, i) => degrees(angle) + (i === 0 ? 25 : 0));
   writeFileSync(file, `MODULE job\n  PERS num parts:=3;\n  PROC main()\n    SetDO lamp,1;\n    MoveAbsJ [[${goal.map(angle => angle.toFixed(4)).join(",")}],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\n  ENDPROC\nENDMODULE\n`);

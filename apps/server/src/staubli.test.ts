@@ -14,6 +14,7 @@ import { setTimeout as pause } from "node:timers/promises";
 import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
 import { nodeScheduler } from "./clock.ts";
 import { nodeNetwork } from "./sockets/node-network.ts";
+import { freePort } from "./testing/free-port.ts";
 import { CLIENT, LOOPBACK, SERVER, SOURCES } from "./testing/simple-message.ts";
 
 const robot = robotById("staubli_rx160")!, network = nodeNetwork(), scheduler = nodeScheduler, ACCURACY_RAD = 0.001 * Math.PI / 180;
@@ -102,7 +103,7 @@ describe.skipIf(!has)(`simple_message of ROS-Industrial, which nobody here wrote
   }, 120_000);
 
   test("T-22 T-23 our driver connects to its server, moves it and reads it", async () => {
-    const program = await compiled("server", SERVER), motion = 20_000 + Math.floor(Math.random() * 20_000), feedback = motion + 2;
+    const program = await compiled("server", SERVER), motion = await freePort("127.0.0.1"), feedback = await freePort("127.0.0.1");
     let stop = (): void => { /* Not started yet. */ };
     const over = run(program, [String(motion), String(feedback)], kill => { stop = kill; });
     open.push(() => { stop(); });

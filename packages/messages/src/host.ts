@@ -3,7 +3,7 @@ import { actWords, type Act } from "./acts.ts";
 import type { Ask, AskOf } from "./ask.ts";
 import { visitPendant, type HostedPendant, type PendantVisit } from "./pendant.ts";
 import type { Channel } from "./channel.ts";
-import { PROTOCOL, readAsk, write } from "./read.ts";
+import { askOrEnd, PROTOCOL, write } from "./read.ts";
 import type { StationWords, Tell, TellOf } from "./tell.ts";
 
 /** The place of one who commands at one station. */
@@ -258,14 +258,8 @@ export function createHost(options: HostOptions): Host {
         leave,
         hear(text) {
           if (gone) return;
-          const heard = readAsk(text);
-          if (heard.kind === "fault") {
-            tell({ type: "fault", sentence: heard.sentence });
-            leave();
-            channel.close();
-            return;
-          }
-          const ask = heard.message;
+          const ask = askOrEnd(text, tell, () => { leave(); channel.close(); });
+          if (!ask) return;
           switch (ask.type) {
             case "ping": tell({ type: "pong", sent_s: ask.sent_s, host_s: options.scheduler.now_s() }); break;
             case "alive": { const entry = stations.get(ask.station); if (entry) { seatAt(entry.station).alive(); visits.get(entry.station)?.alive(); } break; }

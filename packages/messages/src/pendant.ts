@@ -1,7 +1,7 @@
 import type { CommandOutcome, Scheduler } from "@twincell/core";
 import type { Ask, AskOf, PendantAct } from "./ask.ts";
 import type { Channel } from "./channel.ts";
-import { PROTOCOL, readAsk, write } from "./read.ts";
+import { askOrEnd, PROTOCOL, write } from "./read.ts";
 import type { PendantShown, PendantWords, StationWords, Tell } from "./tell.ts";
 
 /** What a host needs of the pendant and the cabinet of a virtual controller. */
@@ -69,14 +69,8 @@ export function createPendantHost({ scheduler, version, words, pendant }: Pendan
         leave,
         hear(text) {
           if (gone) return;
-          const heard = readAsk(text);
-          if (heard.kind === "fault") {
-            tell({ type: "fault", sentence: heard.sentence });
-            leave();
-            channel.close();
-            return;
-          }
-          const ask = heard.message;
+          const ask = askOrEnd(text, tell, () => { leave(); channel.close(); });
+          if (!ask) return;
           if (ask.type === "ping") tell({ type: "pong", sent_s: ask.sent_s, host_s: scheduler.now_s() });
           else if (ask.type === "alive") visit.alive();
           // Anyone may stop: at a pendant that is its red button.

@@ -12,6 +12,14 @@ export const LONGEST_MESSAGE = 32 * 1024 * 1024;
 export type Read<T> = { readonly kind: "read"; readonly message: T } | { readonly kind: "fault"; readonly sentence: string };
 
 export const readAsk = (text: string): Read<Ask> => read(text, askSchema, "request");
+/** The request that a text is; what is none is answered with its fault, ends the connection, and gives null. */
+export function askOrEnd(text: string, tell: (message: Tell) => void, end: () => void): Ask | null {
+  const heard = readAsk(text);
+  if (heard.kind === "read") return heard.message;
+  tell({ type: "fault", sentence: heard.sentence });
+  end();
+  return null;
+}
 export const readTell = (text: string): Read<Tell> => read(text, tellSchema, "message");
 export const write = (message: Ask | Tell): string => JSON.stringify(message);
 

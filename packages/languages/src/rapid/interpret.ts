@@ -1,5 +1,5 @@
 import type { Dialect } from "@twincell/core";
-import { blockDoors, changedNames } from "../text/structured/index.ts";
+import { blockDoors, changedNames, routineScript } from "../text/structured/index.ts";
 import { readSource } from "./read/grammar.ts";
 import { Machine } from "./run/machine.ts";
 
@@ -11,11 +11,6 @@ export const { interpret: interpretRapid, parse: parseRapid }: Pick<Dialect, "pa
   name: "RAPID", speaks: ({ id }) => SPEAKS.has(id), read: readSource,
   script(source, robot, worldFromBase) {
     const changing = changedNames([...source.routines.values()].map(({ body }) => body));
-    return {
-      title: source.title,
-      machine: (surroundings, signals) => new Machine(source, changing, robot, worldFromBase, surroundings, signals),
-      run: machine => machine.main(),
-      block: machine => machine.open(),
-    };
+    return routineScript(source.title, (surroundings, signals) => new Machine(source, changing, robot, worldFromBase, surroundings, signals));
   },
 });

@@ -1,5 +1,5 @@
 import type { Dialect } from "@twincell/core";
-import { blockDoors, constantsOf } from "../text/structured/index.ts";
+import { blockDoors, constantsOf, mainScript } from "../text/structured/index.ts";
 import { readSource } from "./read/grammar.ts";
 import { Machine, speaksUrScript } from "./run/machine.ts";
 
@@ -8,11 +8,6 @@ export const { interpret: interpretUrScript, parse: parseUrScript }: Pick<Dialec
   name: "URScript", speaks: speaksUrScript, read: readSource,
   script(source, robot, worldFromBase) {
     const constants = constantsOf(source.main, source.routines.values());
-    return {
-      title: source.title,
-      machine: (surroundings, signals) => new Machine(source, constants, robot, worldFromBase, surroundings, signals),
-      run: machine => machine.block(source.main),
-      block: () => source.main,
-    };
+    return mainScript(source, (surroundings, signals) => new Machine(source, constants, robot, worldFromBase, surroundings, signals));
   },
 });

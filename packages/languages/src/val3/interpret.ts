@@ -1,5 +1,5 @@
 import type { Dialect } from "@twincell/core";
-import { blockDoors, changedNames } from "../text/structured/index.ts";
+import { blockDoors, changedNames, routineScript } from "../text/structured/index.ts";
 import { readApplication } from "./read/application.ts";
 import { hasWorld } from "./run/arm.ts";
 import { Machine } from "./run/machine.ts";
@@ -9,11 +9,6 @@ export const { interpret: interpretVal3, parse: parseVal3 }: Pick<Dialect, "pars
   name: "VAL 3", speaks: hasWorld, read: readApplication,
   script(application, robot, worldFromBase) {
     const changing = changedNames([...application.routines.values()].map(({ body }) => body));
-    return {
-      title: application.title,
-      machine: (surroundings, signals) => new Machine(application, changing, robot, worldFromBase, surroundings, signals),
-      run: machine => machine.main(),
-      block: machine => machine.open(),
-    };
+    return routineScript(application.title, (surroundings, signals) => new Machine(application, changing, robot, worldFromBase, surroundings, signals));
   },
 });

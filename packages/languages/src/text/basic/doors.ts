@@ -1,5 +1,5 @@
 import type { Dialect, Robot } from "@twincell/core";
-import { blockDoors } from "../structured/index.ts";
+import { blockDoors, mainScript } from "../structured/index.ts";
 import type { BasicMachine, Stage } from "./machine.ts";
 import type { BasicAnswer } from "./reader.ts";
 
@@ -14,10 +14,5 @@ export interface BasicLanguage {
 /** The two doors through which text of a BASIC comes in. */
 export const basicDoors = ({ machine, ...language }: BasicLanguage): Pick<Dialect, "parse" | "interpret"> => blockDoors({
   ...language,
-  script: (source, robot, worldFromBase) => ({
-    title: source.title,
-    machine: (surroundings, signals) => machine({ source, robot, worldFromBase, surroundings, ...(signals === undefined ? {} : { signals }) }),
-    run: basic => basic.block(source.main),
-    block: () => source.main,
-  }),
+  script: (source, robot, worldFromBase) => mainScript(source, (surroundings, signals) => machine({ source, robot, worldFromBase, surroundings, ...(signals === undefined ? {} : { signals }) })),
 });

@@ -20,6 +20,13 @@ export interface Script<M> {
   /** What a person should know of what was written down. */
   readonly warnings?: (machine: M) => readonly TextFault[];
 }
+/** A text whose program stands in it as statements, outside of routines. */
+export const mainScript = <M extends { block(block: Block): Generator<Executed, unknown> }>({ title, main }: { readonly title: string; readonly main: Block }, machine: Script<M>["machine"]): Script<M> =>
+  ({ title, machine, run: started => started.block(main), block: () => main });
+/** A text whose program is a routine that its machine finds. */
+export const routineScript = <M extends { main(): Generator<Executed, unknown>; open(): Block }>(title: string, machine: Script<M>["machine"]): Script<M> =>
+  ({ title, machine, run: started => started.main(), block: started => started.open() });
+
 /** A language of blocks: who speaks it, and how a text of it is read. */
 export interface BlockLanguage<S, M> {
   readonly name: string;
