@@ -1,6 +1,7 @@
 import { emptyProgram, LIBRARY, manualScheduler, type CommandOutcome, type Dialect, type Program } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { BRANDS, createRealController, memoryNetwork, openStation, robotsOf, type Brand } from "./index.ts";
+import { endedOn } from "./testing/index.ts";
 
 const HOST = "127.0.0.9";
 /** Where the wire cannot switch drives on and start a program: a person does it at the cabinet, with the key. */
@@ -11,13 +12,7 @@ async function bench(brand: Brand) {
   const started = await brand.virtual({ robot, scheduler, network, host: HOST, interpret: () => ({ kind: "not-understood", faults: [] }) });
   if (started.kind === "taken") throw new Error(started.sentence);
   const { virtual } = started, real = createRealController({ face: brand.face({ robot, scheduler, network, host: HOST }), scheduler });
-  const ended = async <T>(command: Promise<T>): Promise<T> => {
-    let over = false;
-    void command.then(() => { over = true; });
-    for (let t = 0; t < 60 && !over; t += 0.05) await scheduler.elapse(0.05);
-    if (!over) throw new Error("The command took more than a minute.");
-    return command;
-  };
+  const ended = endedOn(scheduler, 0.05);
   expect(await ended(real.connect())).toEqual({ kind: "done" });
   await scheduler.elapse(0.2);
   const near = (by_rad: number): number[] => robot.home_rad.map((q, i) => i < 3 ? q + by_rad : q);

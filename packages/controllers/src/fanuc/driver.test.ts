@@ -1,32 +1,15 @@
-import { flangePose, manualScheduler, robotById, seededRandom, type CommandOutcome, type Step, type Target } from "@twincell/core";
+import { flangePose, robotById, seededRandom, type CommandOutcome, type Step, type Target } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { createRealController } from "../real/index.ts";
-import { memoryNetwork } from "../transport/index.ts";
+import { silenceHoldsNothingUp } from "../testing/index.ts";
 import { createTwin } from "../twin/index.ts";
-import { createFanucFace, createVirtualFanuc, type FanucFaceOptions, type VirtualFanucOptions } from "./index.ts";
+import { bench, HOST, robot, shifted } from "./testing/bench.ts";
 
-const robot = robotById("fanuc_lrmate200id")!, HOST = "127.0.0.5", ACCURACY_RAD = 0.001 * Math.PI / 180;
-const shifted = (by_rad: number): number[] => Array.from(robot.home_rad, q => q + by_rad), far = shifted(0.7);
+const ACCURACY_RAD = 0.001 * Math.PI / 180;
+const far = shifted(0.7);
 const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number => Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
 const codeOf = (outcome: CommandOutcome): string => outcome.kind === "done" ? "done" : outcome.why.code;
 const NOTHING = { tools: {}, frames: {} };
 
-async function bench(more: { virtual?: Partial<VirtualFanucOptions>; face?: Partial<FanucFaceOptions> } = {}) {
-  const scheduler = manualScheduler(), network = memoryNetwork(scheduler), log: string[] = [];
-  const started = await createVirtualFanuc({ robot, scheduler, network, host: HOST, log: sentence => { log.push(sentence); }, ...more.virtual });
-  if (started.kind === "taken") throw new Error(started.sentence);
-  const real = createRealController({ face: createFanucFace({ robot, scheduler, network, host: HOST, period_s: 0.004, ...more.face }), scheduler }), connecting = real.connect();
-  await scheduler.elapse(0.1);
-  await connecting;
-  const ended = async <T>(command: Promise<T>): Promise<T> => {
-    let over = false;
-    void command.then(() => { over = true; });
-    for (let t = 0; t < 60 && !over; t += 0.02) await scheduler.elapse(0.02);
-    if (!over) throw new Error("The command took more than a minute.");
-    return command;
-  };
-  return { scheduler, network, fanuc: started.virtual, real, log, ended };
-}
 /** A client of lines: what comes back, parsed. */
 async function lines({ scheduler, network }: Awaited<ReturnType<typeof bench>>, port: number) {
   const connected = network.connect({ host: HOST, port });
@@ -165,17 +148,8 @@ describe("the driver", () => {
   });
 
   test("T-46 T-47 FANUC: a controller that does not answer holds nothing up here, and the stop still goes out", async () => {
-    const { scheduler, fanuc, real, ended } = await bench(), moving = real.moveJoints(far);
-    await scheduler.elapse(0.2);
-    fanuc.faults.silent = true;
-    const from_s = scheduler.now_s();
-    real.stop();
-    expect(scheduler.now_s()).toBe(from_s);
-    expect((await ended(moving)).kind).toBe("stopped");
-    expect(farthest(fanuc.arm.jointAngles(), far)).toBeGreaterThan(0.1);
-    fanuc.faults.silent = false;
-    await scheduler.elapse(12);
-    expect(real.isConnected).toBe(true);
+    const open = await bench();
+    await silenceHoldsNothingUp({ ...open, ...open.fanuc }, far, 0.2);
   });
 
   test("a clock that stands still is stale; a reboot is survived, and its fault waits for a person", async () => {

@@ -1,12 +1,10 @@
-import { manualScheduler, robotById, seededRandom, type CommandOutcome, type EmittedFile, type Executed, type Interpreted } from "@twincell/core";
+import { seededRandom, type EmittedFile, type Executed, type Interpreted } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { createRealController } from "../real/index.ts";
-import { memoryNetwork, type ByteStream } from "../transport/index.ts";
+import type { ByteStream } from "../transport/index.ts";
 import { FtpLines, FtpReplies, passivePort, passiveText, programOf, readCommand } from "./codec-ftp.ts";
-import { createFanucFace, createVirtualFanuc, type FanucFaceOptions, type VirtualFanucOptions } from "./index.ts";
+import { bench as openBench, HOST, shifted } from "./testing/bench.ts";
 
-const robot = robotById("fanuc_lrmate200id")!, HOST = "127.0.0.5", bytes = (text: string): Uint8Array => Uint8Array.from(text, sign => sign.charCodeAt(0));
-const shifted = (by_rad: number): number[] => Array.from(robot.home_rad, q => q + by_rad);
+const bytes = (text: string): Uint8Array => Uint8Array.from(text, sign => sign.charCodeAt(0));
 
 /** Joint moves in radians, outputs, calls and faults of a listing: enough to show that a controller executes what it is handed. TP itself is read in the apps' tests. */
 function interpret(text: string): Interpreted {
@@ -26,22 +24,7 @@ function interpret(text: string): Interpreted {
 }
 const listing = (...body: string[]): EmittedFile[] => [{ name: "job.ls", text: ["/PROG  JOB", "/MN", ...body, "/END", ""].join("\n"), lines: [] }];
 
-async function bench(more: { virtual?: Partial<VirtualFanucOptions>; face?: Partial<FanucFaceOptions> } = {}) {
-  const scheduler = manualScheduler(), network = memoryNetwork(scheduler), log: string[] = [];
-  const started = await createVirtualFanuc({ robot, scheduler, network, host: HOST, ftpPort: 21, interpret, log: sentence => { log.push(sentence); }, ...more.virtual });
-  if (started.kind === "taken") throw new Error(started.sentence);
-  const real = createRealController({ face: createFanucFace({ robot, scheduler, network, host: HOST, period_s: 0.004, ...more.face }), scheduler }), connecting = real.connect();
-  await scheduler.elapse(0.1);
-  await connecting;
-  const ended = async (command: Promise<CommandOutcome>): Promise<CommandOutcome> => {
-    let over = false;
-    void command.then(() => { over = true; });
-    for (let t = 0; t < 60 && !over; t += 0.02) await scheduler.elapse(0.02);
-    if (!over) throw new Error("The command took more than a minute.");
-    return command;
-  };
-  return { scheduler, network, fanuc: started.virtual, real, log, ended };
-}
+const bench = (more: Parameters<typeof openBench>[0] = {}) => openBench({ ...more, virtual: { ftpPort: 21, interpret, ...more.virtual } });
 /** A client of FTP, byte by byte. */
 async function talk({ scheduler, network }: Awaited<ReturnType<typeof bench>>, port = 21) {
   const connecting = network.connect({ host: HOST, port });

@@ -2,6 +2,7 @@ import { flangePose, manualScheduler, type CommandOutcome } from "@twincell/core
 import { describe, expect, test } from "vitest";
 import { BRANDS, robotsOf } from "../brands.ts";
 import { createRealController, type Brand } from "../real/index.ts";
+import { endedOn } from "../testing/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
 import { openCabinet, type CabinetAct } from "./index.ts";
 
@@ -12,13 +13,7 @@ async function bench(brand: Brand) {
   const opened = await openCabinet({ brand, robot, scheduler, network, host: HOST, interpret: () => ({ kind: "not-understood", faults: [] }) });
   if (opened.kind === "taken") throw new Error(opened.sentence);
   const { cabinet, virtual } = opened, real = createRealController({ face: brand.face({ robot, scheduler, network, host: HOST, ports: virtual.ports }), scheduler });
-  const ended = async <T>(command: Promise<T>): Promise<T> => {
-    let over = false;
-    void command.then(() => { over = true; });
-    for (let t = 0; t < 60 && !over; t += 0.02) await scheduler.elapse(0.02);
-    if (!over) throw new Error("The command took more than a minute.");
-    return command;
-  };
+  const ended = endedOn(scheduler);
   const act = (what: CabinetAct): Promise<CommandOutcome> => cabinet.act(ME, what), key = (mode: string) => cabinet.words.keys.find(each => each.mode === mode)!.id;
   let beats = true;
   scheduler.every(0.025, () => { if (beats) cabinet.alive(ME); });

@@ -1,6 +1,7 @@
 import { flangePose, robotById, type CommandOutcome, type Robot, type Step, type Target } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { createTwin } from "../twin/index.ts";
+import { silenceHoldsNothingUp } from "../testing/index.ts";
 import { BEGIN_RAD, bench, RX160, shifted } from "./testing/bench.ts";
 
 const ACCURACY_RAD = 0.001 * Math.PI / 180, NOTHING = { tools: {}, frames: {} };
@@ -103,17 +104,8 @@ describe("the driver", () => {
   });
 
   test("T-46 T-47 Stäubli: a controller that does not answer holds nothing up here, and the stop still goes out", async () => {
-    const { scheduler, staubli, real, ended } = await bench(), moving = real.moveJoints(far);
-    await scheduler.elapse(0.15);
-    staubli.faults.silent = true;
-    const from_s = scheduler.now_s();
-    real.stop();
-    expect(scheduler.now_s()).toBe(from_s);
-    expect((await ended(moving)).kind).toBe("stopped");
-    expect(farthest(staubli.arm.jointAngles(), far)).toBeGreaterThan(0.1);
-    staubli.faults.silent = false;
-    await scheduler.elapse(12);
-    expect(real.isConnected).toBe(true);
+    const open = await bench();
+    await silenceHoldsNothingUp({ ...open, ...open.staubli }, far, 0.15);
   });
 
   test("an emergency stop from here brakes, and keeps this client from moving until a person resets it; the power stays on", async () => {

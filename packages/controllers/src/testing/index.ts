@@ -1,7 +1,9 @@
 export { manualScheduler } from "@twincell/core";
 export * from "./contract.ts";
+export * from "./ended.ts";
 export * from "./network.ts";
 export * from "./near-face.ts";
 export * from "./numeric.ts";
+export * from "./silent.ts";
 export * from "./spoiled.ts";
 export { createVirtualController } from "../virtual/index.ts";

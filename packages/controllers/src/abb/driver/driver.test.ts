@@ -1,15 +1,8 @@
-import { flangePose, manualScheduler, robotById, type CommandOutcome, type EmittedFile, type Executed, type Interpreted, type JointSample, type Step } from "@twincell/core";
+import { type EmittedFile, type Executed, type Interpreted, type JointSample, type Step } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { createRealController } from "../../real/index.ts";
-import { memoryNetwork } from "../../transport/index.ts";
-import { createTwin } from "../../twin/index.ts";
-import { createVirtualAbb, type VirtualAbbOptions } from "../virtual/index.ts";
+import { AROUND, endsWhereCommanded, errorEndsTheMotion, followsThePendant, guidedBench, HOST, irb120, keepsToTheLine, NOTHING, turned } from "../testing/guided.ts";
+import type { VirtualAbbOptions } from "../virtual/index.ts";
 import { abbFace, type AbbFaceOptions } from "./index.ts";
-
-const HOST = "127.0.0.1", irb120 = robotById("abb_irb120")!, ACCURACY_RAD = 0.001 * Math.PI / 180, NOTHING = { tools: {}, frames: {} };
-/** Far enough for full speed. */
-const AROUND = irb120.home_rad.with(0, 2.4);
-const turned = (by_rad: number): number[] => Array.from(irb120.home_rad, q => q + by_rad);
 
 /** Joint moves in degrees, signals and faults of a module: enough to show that a controller executes what it is handed. RAPID itself is read in the apps' tests. */
 function interpret(text: string): Interpreted {
@@ -29,24 +22,8 @@ function interpret(text: string): Interpreted {
 }
 const module = (...body: string[]): EmittedFile[] => [{ name: "job.mod", text: ["MODULE job", "PROC main()", ...body, "ENDPROC", "ENDMODULE", ""].join("\n"), lines: [] }];
 
-async function bench(virtualOptions: Partial<VirtualAbbOptions> = {}, faceOptions: Partial<AbbFaceOptions> = {}) {
-  const scheduler = manualScheduler(), network = memoryNetwork(scheduler), log: string[] = [], heard: JointSample[] = [], links: string[] = [];
-  const started = await createVirtualAbb({ robot: irb120, scheduler, network, host: HOST, rws: 80, interpret, log: line => { log.push(line); }, ...virtualOptions });
-  if (started.kind === "taken") throw new Error(started.sentence);
-  const { controller: virtual } = started, real = createRealController({ face: abbFace({ robot: irb120, scheduler, network, host: HOST, ...faceOptions }), scheduler });
-  real.onSample(sample => { heard.push({ ...sample, q_rad: sample.q_rad.slice(), ...(sample.signals ? { signals: new Map(sample.signals) } : {}) }); if (heard.length > 2000) heard.shift(); });
-  real.onLink(({ state, sentence }) => { links.push(sentence === "" ? state : `${state}: ${sentence}`); });
-  const carryOut = async (command: Promise<CommandOutcome>, most_s = 40): Promise<CommandOutcome> => {
-    let outcome: CommandOutcome | undefined;
-    void command.then(is => { outcome = is; });
-    for (const end_s = scheduler.now_s() + most_s; !outcome && scheduler.now_s() < end_s;) await scheduler.elapse(0.05);
-    if (!outcome) throw new Error(`The command took more than ${most_s} s.`);
-    return outcome;
-  };
-  const connecting = real.connect();
-  await scheduler.elapse(0.1);
-  return { scheduler, network, virtual, real, connecting, heard, log, links, carryOut };
-}
+const bench = (virtualOptions: Partial<VirtualAbbOptions> = {}, faceOptions: Partial<AbbFaceOptions> = {}) =>
+  guidedBench(options => abbFace({ ...options, ...faceOptions }), { rws: 80, interpret, ...virtualOptions });
 const spread = (heard: readonly JointSample[], of: (sample: JointSample) => string): string[] => heard.map(of).filter((value, i, all) => value !== all[i - 1]);
 
 describe("the driver of ABB's controllers, over both of their interfaces", () => {
@@ -68,13 +45,8 @@ describe("the driver of ABB's controllers, over both of their interfaces", () =>
   });
 
   test("T-23 joints end within 0.001° of what was commanded; 250 states a second, none missing, while resources are asked for beside", async () => {
-    const { real, carryOut, scheduler } = await bench();
-    for (const by of [0.3, -0.2, 0.05]) {
-      expect(await carryOut(real.moveJoints(turned(by)))).toEqual({ kind: "done" });
-      turned(by).forEach((q, i) => { expect(Math.abs(real.jointAngle(i + 1) - q)).toBeLessThanOrEqual(ACCURACY_RAD); });
-    }
-    await scheduler.elapse(2);
-    expect(real.link).toMatchObject({ rate_Hz: 250, missing: 0 });
+    const guided = await bench(), { real, scheduler } = guided;
+    await endsWhereCommanded(guided);
     expect(real.link.roundTrip_s).toBeGreaterThan(0);
     // A connection carries 400 requests; nobody notices that there are others by now.
     await scheduler.elapse(20);
@@ -110,32 +82,13 @@ describe("the driver of ABB's controllers, over both of their interfaces", () =>
   });
 
   test("T-20 an error of EGM on the controller ends the motion and is told; a reset starts it again, and nothing old is followed", async () => {
-    const { real, virtual, carryOut, scheduler, heard } = await bench(), moving = real.moveJoints(AROUND);
-    await scheduler.elapse(0.3);
-    virtual.pendant.protectiveStop("joint 2 met something");
-    expect(await carryOut(moving)).toMatchObject({ kind: "stopped", why: { sentence: `${irb120.name} does not take targets. EGM ended with an error on the controller.` } });
-    await scheduler.elapse(1);
-    expect(heard.at(-1)).toMatchObject({ safety: "protective-stop", message: "EGM ended with an error on the controller." });
-    const rest = virtual.neutral.jointAngles();
-    real.reset();
-    await scheduler.elapse(1);
-    expect([...virtual.neutral.jointAngles()].every((q, i) => Math.abs(q - rest[i]!) < 1e-9)).toBe(true);
-    expect(await carryOut(real.moveJoints(turned(0)))).toEqual({ kind: "done" });
+    const guided = await bench();
+    await errorEndsTheMotion(guided, () => { guided.real.reset(); });
   });
 
   test("T-24, T-25 the twin follows; T-26 in manual the pendant's jogs are mirrored, commands and resets refused", async () => {
-    const { real, virtual, carryOut, scheduler, heard } = await bench(), twin = createTwin({ real, scheduler });
-    await carryOut(twin.moveJoints(turned(0.2)));
-    await scheduler.elapse(0.1);
-    expect([...twin.jointAngles()]).toEqual([...real.jointAngles()]);
-    virtual.pendant.setMode("manual");
-    await scheduler.elapse(0.3);
-    expect(await real.moveToZero()).toMatchObject({ kind: "refused", why: { code: "controller.manual-mode" } });
-    void virtual.pendant.jog(turned(0));
-    await scheduler.elapse(0.2);
-    expect(heard.at(-1)).toMatchObject({ mode: "manual", moving: true });
-    await scheduler.elapse(3);
-    expect(Math.abs(real.jointAngle(1) - irb120.home_rad[0]!)).toBeLessThan(1e-6);
+    const guided = await bench(), { real, virtual, scheduler } = guided;
+    await followsThePendant(guided, 0.3, 1e-6);
     real.reset();
     await scheduler.elapse(0.5);
     expect(virtual.programs.isRunning).toBe(false);
@@ -208,17 +161,7 @@ describe("the driver of ABB's controllers, over both of their interfaces", () =>
   });
 
   test("lines and arcs go over EGM as before, and the speed changes on the way", async () => {
-    const { real, carryOut, scheduler, heard } = await bench();
-    const at = flangePose(irb120.arm, real.jointAngles()), place = (dy: number, dz: number) => ({ pose: { position: [at.position[0], at.position[1] + dy, at.position[2] + dz] as [number, number, number], quaternion: at.quaternion }, frame: "world", tool: "flange" });
-    heard.length = 0;
-    const running = real.run([{ id: "l", type: "move", path: "lin", target: place(0.1, -0.1), speed: { mps: 0.1 }, blend_m: 0 }], NOTHING);
-    await scheduler.elapse(0.5);
-    real.setSpeed(30);
-    expect(await carryOut(running)).toEqual({ kind: "done" });
-    for (const { q_rad } of heard) {
-      const [x, y, z] = flangePose(irb120.arm, q_rad).position;
-      expect(Math.hypot(x - at.position[0], (y - at.position[1] + (z - at.position[2])) / Math.SQRT2)).toBeLessThan(1e-3);
-    }
+    await keepsToTheLine(await bench());
   });
 });
 

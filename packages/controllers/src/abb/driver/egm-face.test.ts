@@ -1,33 +1,10 @@
-import { flangePose, manualScheduler, robotById, type CommandOutcome, type JointSample, type Step } from "@twincell/core";
+import { flangePose } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { createRealController } from "../../real/index.ts";
-import { memoryNetwork } from "../../transport/index.ts";
-import { createTwin } from "../../twin/index.ts";
-import { createVirtualAbb, type VirtualAbbOptions } from "../virtual/index.ts";
+import { AROUND, beside, endsWhereCommanded, errorEndsTheMotion, followsThePendant, guidedBench, HOST, irb120, keepsToTheLine, NOTHING, turned } from "../testing/guided.ts";
+import type { VirtualAbbOptions } from "../virtual/index.ts";
 import { abbEgmFace, type AbbEgmFaceOptions } from "./index.ts";
 
-const HOST = "127.0.0.1", irb120 = robotById("abb_irb120")!, ACCURACY_RAD = 0.001 * Math.PI / 180, NOTHING = { tools: {}, frames: {} };
-/** Far enough for full speed. */
-const AROUND = irb120.home_rad.with(0, 2.4);
-const turned = (by_rad: number): number[] => Array.from(irb120.home_rad, q => q + by_rad);
-
-async function bench(virtualOptions: Partial<VirtualAbbOptions> = {}, faceOptions: Partial<AbbEgmFaceOptions> = {}) {
-  const scheduler = manualScheduler(), network = memoryNetwork(scheduler), log: string[] = [], heard: JointSample[] = [];
-  const started = await createVirtualAbb({ robot: irb120, scheduler, network, host: HOST, log: line => { log.push(line); }, ...virtualOptions });
-  if (started.kind === "taken") throw new Error(started.sentence);
-  const { controller: virtual } = started, real = createRealController({ face: abbEgmFace({ robot: irb120, scheduler, network, host: HOST, ...faceOptions }), scheduler });
-  real.onSample(sample => { heard.push({ ...sample, q_rad: sample.q_rad.slice() }); if (heard.length > 2000) heard.shift(); });
-  const connecting = real.connect();
-  await scheduler.elapse(0.1);
-  const carryOut = async (command: Promise<CommandOutcome>, most_s = 40): Promise<CommandOutcome> => {
-    let outcome: CommandOutcome | undefined;
-    void command.then(is => { outcome = is; });
-    for (const end_s = scheduler.now_s() + most_s; !outcome && scheduler.now_s() < end_s;) await scheduler.elapse(0.05);
-    if (!outcome) throw new Error(`The command took more than ${most_s} s.`);
-    return outcome;
-  };
-  return { scheduler, network, virtual, real, connecting, heard, log, carryOut };
-}
+const bench = (virtualOptions: Partial<VirtualAbbOptions> = {}, faceOptions: Partial<AbbEgmFaceOptions> = {}) => guidedBench(options => abbEgmFace({ ...options, ...faceOptions }), virtualOptions);
 
 describe("the driver of ABB's externally guided motion alone", () => {
   test("T-19 connected by the first message of the controller; nobody, or a robot with other axes, is one sentence", async () => {
@@ -44,28 +21,12 @@ describe("the driver of ABB's externally guided motion alone", () => {
   });
 
   test("T-23 joints end within 0.001° of what was commanded; 250 states a second, none missing", async () => {
-    const { real, carryOut, scheduler } = await bench();
-    for (const by of [0.3, -0.2, 0.05]) {
-      expect(await carryOut(real.moveJoints(turned(by)))).toEqual({ kind: "done" });
-      turned(by).forEach((q, i) => { expect(Math.abs(real.jointAngle(i + 1) - q)).toBeLessThanOrEqual(ACCURACY_RAD); });
-    }
-    await scheduler.elapse(2);
-    expect(real.link).toMatchObject({ rate_Hz: 250, missing: 0 });
+    await endsWhereCommanded(await bench());
   });
 
   test("lines and arcs are followed, soft accelerations kept, and the speed changes on the way", async () => {
-    const { real, carryOut, scheduler, heard } = await bench();
-    const at = flangePose(irb120.arm, real.jointAngles()), place = (dy: number, dz: number) => ({ pose: { position: [at.position[0], at.position[1] + dy, at.position[2] + dz] as [number, number, number], quaternion: at.quaternion }, frame: "world", tool: "flange" });
-    const line: Step = { id: "l", type: "move", path: "lin", target: place(0.1, -0.1), speed: { mps: 0.1 }, acceleration: { ratio: 0.5 }, blend_m: 0 };
-    heard.length = 0;
-    const running = real.run([line], NOTHING);
-    await scheduler.elapse(0.5);
-    real.setSpeed(30);
-    expect(await carryOut(running)).toEqual({ kind: "done" });
-    for (const { q_rad } of heard) {
-      const [x, y, z] = flangePose(irb120.arm, q_rad).position;
-      expect(Math.hypot(x - at.position[0], (y - at.position[1] + (z - at.position[2])) / Math.SQRT2)).toBeLessThan(1e-3);
-    }
+    const guided = await bench(), { real, carryOut } = guided, at = flangePose(irb120.arm, real.jointAngles()), place = beside(at);
+    await keepsToTheLine(guided, { acceleration: { ratio: 0.5 } });
     real.setSpeed(100);
     expect(await carryOut(real.run([{ id: "c", type: "move", path: "circ", via: place(0.05, -0.02), target: place(0, 0), speed: { mps: 0.1 }, blend_m: 0 }], NOTHING))).toEqual({ kind: "done" });
     expect(flangePose(irb120.arm, real.jointAngles()).position[1]).toBeCloseTo(at.position[1], 4);
@@ -73,33 +34,12 @@ describe("the driver of ABB's externally guided motion alone", () => {
   });
 
   test("T-20 an error on the controller ends the motion and is told; nothing old is followed when EGM is started again", async () => {
-    const { real, virtual, carryOut, scheduler, heard } = await bench();
-    const moving = real.moveJoints(AROUND);
-    await scheduler.elapse(0.3);
-    virtual.pendant.protectiveStop("joint 2 met something");
-    expect(await carryOut(moving)).toMatchObject({ kind: "stopped", why: { sentence: `${irb120.name} does not take targets. EGM ended with an error on the controller.` } });
-    await scheduler.elapse(1);
-    expect(heard.at(-1)).toMatchObject({ safety: "protective-stop", message: "EGM ended with an error on the controller." });
-    const rest = virtual.neutral.jointAngles();
-    virtual.pendant.setMode("automatic");
-    await scheduler.elapse(1);
-    expect([...virtual.neutral.jointAngles()].every((q, i) => Math.abs(q - rest[i]!) < 1e-9)).toBe(true);
-    expect(await carryOut(real.moveJoints(turned(0)))).toEqual({ kind: "done" });
+    const guided = await bench();
+    await errorEndsTheMotion(guided, () => { guided.virtual.pendant.setMode("automatic"); });
   });
 
   test("T-24, T-25 the twin follows; T-26 in manual the pendant's jogs are mirrored and commands refused", async () => {
-    const { real, virtual, carryOut, scheduler, heard } = await bench(), twin = createTwin({ real, scheduler });
-    await carryOut(twin.moveJoints(turned(0.2)));
-    await scheduler.elapse(0.1);
-    expect([...twin.jointAngles()]).toEqual([...real.jointAngles()]);
-    virtual.pendant.setMode("manual");
-    await scheduler.elapse(0.1);
-    expect(await real.moveToZero()).toMatchObject({ kind: "refused", why: { code: "controller.manual-mode" } });
-    void virtual.pendant.jog(turned(0));
-    await scheduler.elapse(0.2);
-    expect(heard.at(-1)).toMatchObject({ mode: "manual", moving: true });
-    await scheduler.elapse(3);
-    expect(Math.abs(real.jointAngle(1) - irb120.home_rad[0]!)).toBeLessThan(1e-9);
+    await followsThePendant(await bench(), 0.1, 1e-9);
   });
 
   test("T-27 somebody near the robot stops it; it is where it was when he has stepped back", async () => {

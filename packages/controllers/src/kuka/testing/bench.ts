@@ -1,6 +1,6 @@
 import { robotById, type Executed, type Interpreted, type RealController, type Robot, type Step } from "@twincell/core";
 import { createRealController } from "../../real/index.ts";
-import { manualScheduler } from "../../testing/index.ts";
+import { endedOn, manualScheduler } from "../../testing/index.ts";
 import { memoryNetwork, type MemoryNetwork } from "../../transport/index.ts";
 import { createKukaFace, createVirtualKuka, startLoop, type KukaFaceOptions, type VirtualKuka, type VirtualKukaOptions } from "../index.ts";
 
@@ -41,10 +41,4 @@ export async function kukaBench(more: { readonly virtual?: Partial<VirtualKukaOp
   return { scheduler, network, kuka, real, log };
 }
 /** Lets a command run to its end. */
-export async function ended<T>({ scheduler }: Pick<KukaBench, "scheduler">, command: Promise<T>, most_s = 60): Promise<T> {
-  let over = false;
-  void command.then(() => { over = true; });
-  for (let t = 0; t < most_s && !over; t += 0.02) await scheduler.elapse(0.02);
-  if (!over) throw new Error(`The command took more than ${most_s} s.`);
-  return command;
-}
+export const ended = <T>({ scheduler }: Pick<KukaBench, "scheduler">, command: Promise<T>, most_s?: number): Promise<T> => endedOn(scheduler, 0.02, most_s)(command);

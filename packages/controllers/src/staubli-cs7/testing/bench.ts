@@ -1,6 +1,6 @@
 import { robotById, type Executed, type Interpreted, type RealController, type Robot, type Step } from "@twincell/core";
 import { createRealController } from "../../real/index.ts";
-import { manualScheduler } from "../../testing/index.ts";
+import { endedOn, manualScheduler } from "../../testing/index.ts";
 import { memoryNetwork, type MemoryNetwork } from "../../transport/index.ts";
 import { createCs7Face, createVirtualCs7, type Cs7FaceOptions, type VirtualCs7, type VirtualCs7Options } from "../index.ts";
 
@@ -39,12 +39,6 @@ export async function bench(more: { readonly virtual?: Partial<VirtualCs7Options
   await connecting;
   return {
     scheduler, network, cs7: started.virtual, real, log,
-    async ended(command) {
-      let over = false;
-      void command.then(() => { over = true; });
-      for (let t = 0; t < 60 && !over; t += 0.02) await scheduler.elapse(0.02);
-      if (!over) throw new Error("The command took more than a minute.");
-      return command;
-    },
+    ended: endedOn(scheduler),
   };
 }
