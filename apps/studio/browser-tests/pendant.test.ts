@@ -98,6 +98,7 @@ async function atRest(page: Page): Promise<number[]> {
   const read = (): Promise<number[]> => page.locator(".desk-jog .axis-value").allInnerTexts().then(texts => texts.map(parseFloat));
   let before = await read();
   for (;;) {
+    // Longer than from one read-out to the next: two that are alike are not the same one looked at twice.
     await page.waitForTimeout(150);
     const now = await read();
     if (now.every((value, i) => value === before[i])) return now;
@@ -224,7 +225,8 @@ test("the pendant's page on a desk and on a phone, in both themes: everything wi
       const { page, context } = await studio.open({ width, height, theme, touch: width < 800 });
       const { page: hand } = await pendantPage(context, said.pendant);
       await page.close();
-      await hand.waitForTimeout(300);
+      await hand.locator('.desk[data-connected="true"] .arm-paint').first().waitFor();
+      await hand.evaluate(() => document.fonts.ready.then(() => null));
       await hand.screenshot({ path: picture(`pendant-${brand}-${theme}-${width}`) });
       expect(await hand.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${brand} ${width}`).toBe(true);
       const small = await hand.evaluate(touch => [...document.querySelectorAll<HTMLElement>(".desk button")].filter(button => { const { height: h } = button.getBoundingClientRect(); return h > 0 && h < touch; }).map(button => `${button.textContent || button.ariaLabel} ${button.getBoundingClientRect().height}`), width < 800 ? 44 : 24);

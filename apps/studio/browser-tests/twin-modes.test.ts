@@ -59,7 +59,11 @@ test("T-24 T-26 T-63 two robots that face each other: the ghost runs ahead, a bl
   // Simulate ahead: the ghost goes through the program, and the robot stays.
   await ur.getByRole("button", { name: "Look ahead" }).click();
   await until(page, "ur", "ghost");
-  await page.waitForTimeout(700);
+  // Until it can be told from the robot in the picture.
+  await page.waitForFunction(() => {
+    const station = window.twincell.stores.stationStore.getState().stations.find(({ brand }) => brand === "ur"), live = station && window.twincell.live.station(station.id);
+    return live !== undefined && live.q_rad.some((q, i) => Math.abs(q - live.ahead.q_rad[i]!) > 0.2);
+  }, null, { timeout: 30_000, polling: 50 });
   await page.screenshot({ path: picture("twin-ghost") });
   expect((await state(page, "ur"))?.moving).toBe(false);
   await until(page, "ur", "no ghost");
