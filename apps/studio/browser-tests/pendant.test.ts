@@ -229,6 +229,9 @@ test("the pendant's page on a desk and on a phone, in both themes: everything wi
       await hand.evaluate(() => document.fonts.ready.then(() => null));
       await hand.screenshot({ path: picture(`pendant-${brand}-${theme}-${width}`) });
       expect(await hand.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${brand} ${width}`).toBe(true);
+      // No part is squeezed below what it holds, so that it lies on the next; the enabling switch alone floats, where a thumb finds it.
+      const laps = await hand.evaluate(() => [...document.querySelectorAll<HTMLElement>(".desk, .desk > *")].filter(part => getComputedStyle(part).overflowY === "visible" && part.scrollHeight > part.clientHeight + 2).map(part => `${part.className}: ${part.scrollHeight} in ${part.clientHeight}`));
+      expect(laps, `${brand} ${width}`).toEqual([]);
       const small = await hand.evaluate(touch => [...document.querySelectorAll<HTMLElement>(".desk button")].filter(button => { const { height: h } = button.getBoundingClientRect(); return h > 0 && h < touch; }).map(button => `${button.textContent || button.ariaLabel} ${button.getBoundingClientRect().height}`), width < 800 ? 44 : 24);
       expect(small).toEqual([]);
       await context.close();
