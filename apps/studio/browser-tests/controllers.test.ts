@@ -39,6 +39,26 @@ const until = (page: Page, id: string, so: string): Promise<unknown> => page.wai
   [id, so] as const, { timeout: 60_000, polling: 50 },
 );
 
+/** In the page: every arm of another controller is inside the picture, the one that came last as well. */
+function allInside(): boolean {
+  const { scene, gl, project } = window.twincellScene!, picture = gl.domElement.getBoundingClientRect();
+  let parts = 0, outside = 0;
+  scene.traverse(object => {
+    if (object.userData["station"] !== true) return;
+    object.traverse(part => {
+      if (!("isMesh" in part)) return;
+      const { geometry } = part as unknown as { readonly geometry: { computeBoundingBox(): void; readonly boundingBox: { clone(): { applyMatrix4(matrix: unknown): { readonly min: { x: number; y: number; z: number }; readonly max: { x: number; y: number; z: number } } } } } };
+      geometry.computeBoundingBox();
+      const { min, max } = geometry.boundingBox.clone().applyMatrix4(part.matrixWorld);
+      // The scene's y is up; the world's z is.
+      const at = project([(min.x + max.x) / 2, -(min.z + max.z) / 2, (min.y + max.y) / 2]);
+      parts++;
+      if (!at.visible || at.x < picture.left || at.x > picture.right || at.y < picture.top || at.y > picture.bottom) outside++;
+    });
+  });
+  return parts > 10 && outside === 0;
+}
+
 test("T-24 T-54 X-41 three makers' controllers at once: one program on all, the plug of one is pulled, and that moment comes back", async () => {
   const { page, problems } = await studio.open();
   await drawn(page);
@@ -48,6 +68,7 @@ test("T-24 T-54 X-41 three makers' controllers at once: one program on all, the 
   await add(page, "Yaskawa", "GP8");
   await add(page, "KUKA", "KR 6 R900");
   for (const brand of ["ur", "yaskawa", "kuka"]) await until(page, brand, "open");
+  await page.waitForFunction(allInside, null, { timeout: 10_000, polling: 100 });
   await page.screenshot({ path: picture("controllers-connected") });
 
   await page.getByRole("button", { name: "Run on all" }).click();

@@ -47,7 +47,11 @@ export function Controls({ wishes, world, document, interaction }: {
       const bounds = contentBounds(world.current, document), centre = bounds.getCenter(new Vector3());
       fly(centre.clone().addScaledVector(direction.clone().normalize(), -fitDistance(bounds, direction, camera)), centre, atOnce);
     };
-    wishes.fit = () => { const orbit = controls.current; if (orbit) towards(orbit.target.clone().sub(camera.position), false); };
+    // With the next frame: what has just come stands in its place only then.
+    wishes.fit = () => {
+      pending.current = () => { const orbit = controls.current; if (orbit) towards(orbit.target.clone().sub(camera.position), false); };
+      invalidate();
+    };
     wishes.look = direction => towards(direction, false);
     // Another cell is another place: look at all of it once.
     const place = `${document.name} ${document.robot.id} ${document.objects.length > 0}`;
