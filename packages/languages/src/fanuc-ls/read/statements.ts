@@ -46,8 +46,7 @@ class StatementReader extends ForgivingReader {
     return this.nested(opened, () => {
       const statements: Statement[] = [];
       for (;;) {
-        while (cursor.isAt("line-end")) if (this.guard(() => { cursor.advance(); return true; }) === undefined) break;
-        this.takeComments(statements);
+        this.toNextLine(statements);
         if (this.hasEnough || cursor.done) {
           if (cursor.done && ends.length > 0) throw new TextError(cursor.here, ends[0]!.toUpperCase(), `The block of line ${opened.line} is not closed.`);
           break;

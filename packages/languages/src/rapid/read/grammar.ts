@@ -1,6 +1,6 @@
 import type { TextFault, TextPlace } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
-import { TokenCursor, readExpression, type Argument, type Block, type Expression, type ExpressionRules, type Lexicon, type Parameter, type Routine, type Statement } from "../../text/structured/index.ts";
+import { ForgivingReader, readExpression, type Argument, type Block, type Expression, type ExpressionRules, type Lexicon, type Parameter, type Routine, type Statement, type TokenCursor } from "../../text/structured/index.ts";
 
 const LEXICON: Lexicon = {
   comment: "!", quotes: "\"", doubled: true, lineEnds: false,
@@ -19,9 +19,6 @@ const RULES: ExpressionRules = {
 };
 const NAME_LENGTH = 32;
 const STRING_LENGTH = 80;
-/** Deepest nesting of blocks: more than anybody writes, less than the stack holds. */
-const DEPTH = 50;
-const MOST_FAULTS = 50;
 
 /** A datum of a module or a routine. */
 export interface Datum extends TextPlace { readonly storage: string; readonly type: string; readonly name: string; readonly sizes: readonly Expression[]; readonly value?: Expression }
@@ -41,9 +38,7 @@ export type SourceAnswer = { readonly kind: "source"; readonly source: Source } 
 /** Reads RAPID modules. Goes on after a fault, so that all of them are told at once. */
 export const readSource = (text: string): SourceAnswer => new Reader(text).source();
 
-class Reader {
-  private readonly cursor: TokenCursor;
-  private readonly faults: TextFault[] = [];
+class Reader extends ForgivingReader {
   private readonly data: Datum[] = [];
   private readonly routines = new Map<string, Routine>();
   private readonly local = new Map<string, Datum[]>();
@@ -52,22 +47,23 @@ class Reader {
   private readonly remarks: string[] = [];
   private current: Datum[] | undefined;
   private title = "";
-  private depth = 0;
 
   constructor(text: string) {
     // The header of old save files is no RAPID.
-    this.cursor = new TokenCursor(text.replace(/^[ \t]*%%%[\s\S]*?%%%/, header => header.replace(/[^\r\n]/g, " ")), LEXICON, word => {
-      const name = word.toLowerCase();
-      if (!this.spelling.has(name)) this.spelling.set(name, word);
-      return name;
-    });
+    super(text.replace(/^[ \t]*%%%[\s\S]*?%%%/, header => header.replace(/[^\r\n]/g, " ")), LEXICON);
+  }
+
+  protected override folded(word: string): string {
+    const name = word.toLowerCase();
+    if (!this.spelling.has(name)) this.spelling.set(name, word);
+    return name;
   }
 
   source(): SourceAnswer {
     const { cursor } = this;
     this.guard(() => { cursor.advance(); });
     let modules = 0;
-    while (!cursor.done && this.faults.length < MOST_FAULTS) {
+    while (!cursor.done && !this.hasEnough) {
       this.guard(() => { cursor.expect("module"); modules++; this.module(); });
     }
     if (modules === 0 && this.faults.length === 0) this.faults.push(new TextError(cursor.here, "MODULE", "The text holds no module.").fault);
@@ -76,19 +72,15 @@ class Reader {
     return { kind: "source", source: { title, data, routines, local, forgiving, spelling } };
   }
 
-  private guard<T>(read: () => T): T | undefined {
-    const { depth, current } = this;
-    try {
-      return read();
-    } catch (cause) {
-      if (!(cause instanceof TextError)) throw cause;
-      this.faults.push(cause.fault);
-      this.depth = depth;
-      this.current = current;
-      this.cursor.skip(cursor => cursor.next === ";" || ENDS.has(cursor.next));
-      if (this.cursor.next === ";" && this.faults.length < MOST_FAULTS) this.guard(() => { this.cursor.advance(); });
-      return undefined;
-    }
+  /** What was read, or undefined after a fault; data then belong again to where they did before. */
+  protected override guard<T>(read: () => T): T | undefined {
+    const { current, faults: { length } } = this, got = super.guard(read);
+    if (this.faults.length > length) this.current = current;
+    return got;
+  }
+  protected override restOfLine(): void {
+    this.cursor.skip(cursor => cursor.next === ";" || ENDS.has(cursor.next));
+    if (this.cursor.next === ";" && !this.hasEnough) this.guard(() => { this.cursor.advance(); });
   }
 
   private declared(expected: string): { readonly name: string; readonly at: TextPlace } {
@@ -106,7 +98,7 @@ class Reader {
     while (cursor.next !== "endmodule") {
       this.takeRemarks();
       if (cursor.done) throw cursor.unexpected("ENDMODULE");
-      if (this.faults.length >= MOST_FAULTS) return;
+      if (this.hasEnough) return;
       const before = cursor.here;
       this.guard(() => { this.member(); });
       // What is left where a fault was is left behind.
@@ -193,19 +185,20 @@ class Reader {
   }
 
   private body(opened: TextPlace, ends: readonly string[]): Block {
-    const { cursor } = this, statements: Statement[] = [];
-    if (++this.depth > DEPTH) throw new TextError(opened, "a simpler program", `Blocks are nested more than ${DEPTH} deep.`);
-    for (;;) {
-      for (let comment = cursor.comment(); comment !== undefined; comment = cursor.comment()) statements.push({ kind: "comment", ...comment });
-      if (ends.includes(cursor.next) && cursor.kind === "word") break;
-      if (cursor.done || ROUTINE_ENDS.has(cursor.next)) throw new TextError(cursor.here, ends[0]!.toUpperCase(), `The block of line ${opened.line} is not closed.`);
-      if (this.faults.length >= MOST_FAULTS) break;
-      const before = cursor.here, statement = this.guard(() => this.statement());
-      if (statement !== undefined) statements.push(statement);
-      else if (before.line === cursor.here.line && before.column === cursor.here.column && !cursor.done && !ends.includes(cursor.next)) this.guard(() => { cursor.advance(); });
-    }
-    this.depth--;
-    return statements;
+    const { cursor } = this;
+    return this.nested(opened, () => {
+      const statements: Statement[] = [];
+      for (;;) {
+        this.takeComments(statements);
+        if (ends.includes(cursor.next) && cursor.kind === "word") break;
+        if (cursor.done || ROUTINE_ENDS.has(cursor.next)) throw new TextError(cursor.here, ends[0]!.toUpperCase(), `The block of line ${opened.line} is not closed.`);
+        if (this.hasEnough) break;
+        const before = cursor.here, statement = this.guard(() => this.statement());
+        if (statement !== undefined) statements.push(statement);
+        else if (before.line === cursor.here.line && before.column === cursor.here.column && !cursor.done && !ends.includes(cursor.next)) this.guard(() => { cursor.advance(); });
+      }
+      return statements;
+    });
   }
 
   private statement(): Statement | undefined {

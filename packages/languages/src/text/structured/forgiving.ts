@@ -52,4 +52,10 @@ export abstract class ForgivingReader {
   protected takeComments(into: Statement[]): void {
     for (let comment = this.cursor.comment(); comment !== undefined; comment = this.cursor.comment()) into.push({ kind: "comment", ...comment });
   }
+
+  /** Up to the next statement of a language of lines: empty lines are left behind, comments taken. */
+  protected toNextLine(into: Statement[]): void {
+    while (this.cursor.isAt("line-end")) if (this.guard(() => { this.cursor.advance(); return true; }) === undefined) break;
+    this.takeComments(into);
+  }
 }

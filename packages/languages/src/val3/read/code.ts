@@ -71,8 +71,7 @@ class CodeReader extends ForgivingReader {
     return this.nested(opened, () => {
       const statements: Statement[] = [];
       for (;;) {
-        while (cursor.isAt("line-end")) if (this.guard(() => { cursor.advance(); return true; }) === undefined) break;
-        this.takeComments(statements);
+        this.toNextLine(statements);
         if (cursor.done || this.hasEnough) throw new TextError(cursor.here, ends[0]!, `The block of line ${opened.line} is not closed.`);
         if (cursor.isAt("word") && ends.includes(cursor.next)) break;
         if (cursor.isAt("line-end")) continue;
