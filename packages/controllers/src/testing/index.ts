@@ -4,6 +4,6 @@ export * from "./ended.ts";
 export * from "./network.ts";
 export * from "./near-face.ts";
 export * from "./numeric.ts";
-export * from "./silent.ts";
+export * from "./rows.ts";
 export * from "./spoiled.ts";
 export { createVirtualController } from "../virtual/index.ts";

@@ -1,6 +1,6 @@
 import { type EmittedFile, type Executed, type Interpreted, type JointSample, type Step } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { AROUND, endsWhereCommanded, errorEndsTheMotion, followsThePendant, guidedBench, HOST, irb120, keepsToTheLine, NOTHING, turned } from "../testing/guided.ts";
+import { AROUND, endsWhereCommanded, errorEndsTheMotion, followsThePendant, guidedBench, HOST, irb120, keepsToTheLine, NOTHING, stopsWhenCutOff, turned } from "../testing/guided.ts";
 import type { VirtualAbbOptions } from "../virtual/index.ts";
 import { abbFace, type AbbFaceOptions } from "./index.ts";
 
@@ -272,22 +272,7 @@ describe("what is handed over in two", () => {
 
 describe("X-41 when a line is lost", () => {
   test("T-46, T-47 everything cut: noticed within 100 ms, the robot stops by itself within its time-out and braking time, and stays", async () => {
-    const { real, network, virtual, scheduler } = await bench(), moving = real.moveJoints(AROUND);
-    await scheduler.elapse(0.3);
-    network.weather.frozen = true;
-    const from_s = scheduler.now_s(), clock_ms = performance.now();
-    real.stop();
-    real.jointAngles();
-    expect(performance.now() - clock_ms).toBeLessThan(20);
-    while (real.isConnected && scheduler.now_s() - from_s < 1) await scheduler.elapse(0.002);
-    expect(scheduler.now_s() - from_s).toBeLessThanOrEqual(0.1);
-    expect((await moving).kind).toBe("stopped");
-    await scheduler.elapse(1 + virtual.brakingTime_s);
-    const rest = virtual.neutral.jointAngles();
-    network.weather.frozen = false;
-    await scheduler.elapse(10);
-    expect(real.isConnected).toBe(true);
-    expect(virtual.neutral.jointAngles()).toEqual(rest);
+    await stopsWhenCutOff(await bench());
   });
 
   test("EGM alone: the program is stopped over Robot Web Services within 100 ms, the link is lost, both are said", async () => {

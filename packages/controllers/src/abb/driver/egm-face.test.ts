@@ -1,6 +1,6 @@
 import { flangePose } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { AROUND, beside, endsWhereCommanded, errorEndsTheMotion, followsThePendant, guidedBench, HOST, irb120, keepsToTheLine, NOTHING, turned } from "../testing/guided.ts";
+import { AROUND, beside, endsWhereCommanded, errorEndsTheMotion, followsThePendant, guidedBench, HOST, irb120, keepsToTheLine, NOTHING, stopsWhenCutOff, turned } from "../testing/guided.ts";
 import type { VirtualAbbOptions } from "../virtual/index.ts";
 import { abbEgmFace, type AbbEgmFaceOptions } from "./index.ts";
 
@@ -78,23 +78,7 @@ describe("the driver of ABB's externally guided motion alone", () => {
   });
 
   test("T-46, T-47, X-41 a cut line: noticed within 100 ms, and the robot stops by itself within its time-out and braking time", async () => {
-    const { real, network, virtual, scheduler } = await bench();
-    const moving = real.moveJoints(AROUND);
-    await scheduler.elapse(0.3);
-    network.weather.frozen = true;
-    const from_s = scheduler.now_s(), clock_ms = performance.now();
-    real.stop();
-    real.jointAngles();
-    expect(performance.now() - clock_ms).toBeLessThan(20);
-    while (real.isConnected && scheduler.now_s() - from_s < 1) await scheduler.elapse(0.002);
-    expect(scheduler.now_s() - from_s).toBeLessThanOrEqual(0.1);
-    expect((await moving).kind).toBe("stopped");
-    await scheduler.elapse(1 + virtual.brakingTime_s);
-    const rest = virtual.neutral.jointAngles();
-    network.weather.frozen = false;
-    await scheduler.elapse(10);
-    expect(real.isConnected).toBe(true);
-    expect(virtual.neutral.jointAngles()).toEqual(rest);
+    await stopsWhenCutOff(await bench());
   });
 
   test("loss, late and doubled datagrams leave the path what it was; damaged ones are logged once", async () => {

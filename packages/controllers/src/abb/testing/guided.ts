@@ -86,3 +86,23 @@ export async function keepsToTheLine({ real, carryOut, scheduler, heard }: Guide
     expect(Math.hypot(x - at.position[0], (y - at.position[1] + (z - at.position[2])) / Math.SQRT2)).toBeLessThan(1e-3);
   }
 }
+
+/** Rows T-46, T-47 and X-41: everything cut, noticed within 100 ms; the robot stops by itself within its time-out and braking time, and stays. */
+export async function stopsWhenCutOff({ real, network, virtual, scheduler }: GuidedBench): Promise<void> {
+  const moving = real.moveJoints(AROUND);
+  await scheduler.elapse(0.3);
+  network.weather.frozen = true;
+  const from_s = scheduler.now_s(), clock_ms = performance.now();
+  real.stop();
+  real.jointAngles();
+  expect(performance.now() - clock_ms).toBeLessThan(20);
+  while (real.isConnected && scheduler.now_s() - from_s < 1) await scheduler.elapse(0.002);
+  expect(scheduler.now_s() - from_s).toBeLessThanOrEqual(0.1);
+  expect((await moving).kind).toBe("stopped");
+  await scheduler.elapse(1 + virtual.brakingTime_s);
+  const rest = virtual.neutral.jointAngles();
+  network.weather.frozen = false;
+  await scheduler.elapse(10);
+  expect(real.isConnected).toBe(true);
+  expect(virtual.neutral.jointAngles()).toEqual(rest);
+}
