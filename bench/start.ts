@@ -1,7 +1,7 @@
 import { brandById, createSharedCell, openStation, startTogether, type BrandStation, type Seat } from "@twincell/controllers";
 import { emptyProgram, pose, robotById, seededRandom, type Program } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
-import { nodeNetwork, nodeScheduler } from "@twincell/server";
+import { layOutElsewhere, nodeNetwork, nodeScheduler } from "@twincell/server";
 import { setTimeout as pause } from "node:timers/promises";
 import { figure, settled, type Bench, type Figure } from "./figure.ts";
 
@@ -20,14 +20,14 @@ function program(id: string): Program {
 }
 
 async function spread(): Promise<Figure[]> {
-  const network = nodeNetwork(), closes: (() => void)[] = [], members: { station: BrandStation; seat: Seat; program: Program }[] = [];
+  const network = nodeNetwork(), programs = layOutElsewhere(), closes: (() => void)[] = [], members: { station: BrandStation; seat: Seat; program: Program }[] = [];
   try {
     for (const [id, robotId, host] of OF) {
       const brand = brandById(id)!, robot = robotById(robotId)!, dialect = dialectById(brand.dialect)!;
       const started = await brand.virtual({ robot, scheduler: nodeScheduler, network, host, interpret: text => dialect.interpret(text, robot) });
       if (started.kind === "taken") throw new Error(started.sentence);
       closes.push(() => { started.virtual.close(); });
-      const opened = await openStation({ id, brand, robot, scheduler: nodeScheduler, dialect, deadMan: false, at: { network, host, ports: started.virtual.ports } });
+      const opened = await openStation({ id, brand, robot, scheduler: nodeScheduler, dialect, deadMan: false, layOut: programs.layOut, at: { network, host, ports: started.virtual.ports } });
       if (opened.kind === "refused") throw new Error(opened.why.sentence);
       closes.push(() => { opened.station.close(); });
       const seat = opened.station.seat("bench"), connected = await opened.station.connect();
@@ -48,6 +48,7 @@ async function spread(): Promise<Figure[]> {
     return [figure("start/spread", "ms", spreads_ms, "UR, KUKA and Yaskawa on loopback sockets, from the first to the last seen moving; bound 50")];
   } finally {
     for (const close of closes.reverse()) close();
+    programs.close();
   }
 }
 

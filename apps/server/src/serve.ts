@@ -8,6 +8,7 @@ import { certificate, lanAddresses } from "./lan.ts";
 import { nodeScheduler } from "./clock.ts";
 import { isServed, LOOPBACK, studioListener } from "./pages.ts";
 import { stationHost } from "./stations/host.ts";
+import { layOutElsewhere } from "./stations/lay-out.ts";
 import { recordHost } from "./stations/record-host.ts";
 import { openDoors } from "./sockets/doors.ts";
 import { stationDoor } from "./stations/socket.ts";
@@ -47,7 +48,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     server.once("error", reject);
     server.listen(options.port, options.host ?? (options.lan ? "0.0.0.0" : "127.0.0.1"), resolve);
   });
-  const stations = stationHost(nodeScheduler, options.version ?? "");
+  const programs = layOutElsewhere(), stations = stationHost(nodeScheduler, options.version ?? "", programs.layOut);
   const recorder = options.data === undefined ? null : await recordHost(stations, join(options.data, "recordings"), nodeScheduler, sentence => { console.error(sentence); });
   const port = (server.address() as AddressInfo).port, scheme = options.lan ? "https" : "http", query = access ? `?code=${access.code}` : "";
   const relay = createVideoRelay(nodeScheduler.now_s, addresses.map(address => `${scheme}://${address}:${port}/camera/${query}`));
@@ -56,6 +57,6 @@ export async function serve(options: ServeOptions): Promise<Served> {
     url: `${scheme}://127.0.0.1:${port}/${query}`,
     lanUrls: addresses.map(address => `${scheme}://${address}:${port}/${query}`),
     code: access?.code ?? null,
-    close: () => new Promise(resolve => { recorder?.close(); stations.close(); socket.close(); server.closeAllConnections(); server.close(() => { resolve(); }); }),
+    close: () => new Promise(resolve => { recorder?.close(); stations.close(); programs.close(); socket.close(); server.closeAllConnections(); server.close(() => { resolve(); }); }),
   };
 }

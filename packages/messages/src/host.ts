@@ -27,7 +27,7 @@ export interface HostedStation<Seat extends HostedSeat = HostedSeat> {
   /** Only to watch it from now on, or to command it again: the connection is opened anew, as one or the other. */
   watch(seat: Seat, on: boolean): Promise<CommandOutcome>;
   readonly ahead: { horizon_s: number; onChange(listen: (words: { readonly q_rad: Float64Array; readonly in_s: number; readonly problem: { readonly code: string; readonly sentence: string; readonly in_s: number } | null } | null) => void): () => void };
-  preview(program: Program): CommandOutcome;
+  preview(program: Program): Promise<CommandOutcome>;
   run(seat: Seat, program: Program, asText: boolean): Promise<CommandOutcome>;
   /** Makes a program ready to be started: what may be refused is told before anything moves. */
   prepare(seat: Seat, program: Program, asText: boolean): Promise<HostedArmed>;

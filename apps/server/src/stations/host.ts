@@ -1,4 +1,4 @@
-import { brandById, BRANDS, createSharedCell, openStation, startTogether } from "@twincell/controllers";
+import { brandById, BRANDS, createSharedCell, openStation, startTogether, type LayOut } from "@twincell/controllers";
 import { robotById, type Refusal, type Scheduler } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
 import { createHost, PLUG_IN, type AskOf, type Host, type OpenedStation } from "@twincell/messages";
@@ -10,8 +10,12 @@ const noRobot = (id: string): OpenedStation => refused({ code: "station.no-robot
 /** Of the one who commands: without a sign of life for this long the robot is stopped (row X-41 with the watch's own period). */
 const HEARTBEAT_S = 0.08;
 
-/** Stations of this machine: drivers on the network, and virtual controllers beside them where no address is given. */
-export function stationHost(scheduler: Scheduler, version: string): Host {
+/**
+ * Stations of this machine: drivers on the network, and virtual controllers beside them where no address is given.
+ *
+ * @param layOut  plans, checks and writes programs; where links run on real time, another thread does.
+ */
+export function stationHost(scheduler: Scheduler, version: string, layOut?: LayOut): Host {
   const network = nodeNetwork(), cell = createSharedCell();
   return createHost({
     scheduler, version,
@@ -24,7 +28,7 @@ export function stationHost(scheduler: Scheduler, version: string): Host {
       if (!brand || !dialect) return refused({ code: "station.no-brand", sentence: `There is no driver for “${ask.brand}”.`, hint: `There are: ${BRANDS.map(({ id }) => id).join(", ")}, ${PLUG_IN}.` });
       if (!robot) return noRobot(ask.robot);
       return openStation({
-        id: ask.station, brand, robot, scheduler, dialect, heartbeat_s: HEARTBEAT_S, ...(ask.stand ? { shared: { cell, stand: ask.stand } } : {}), ...(ask.watch === undefined ? {} : { watching: ask.watch }),
+        id: ask.station, brand, robot, scheduler, dialect, heartbeat_s: HEARTBEAT_S, ...(layOut ? { layOut } : {}), ...(ask.stand ? { shared: { cell, stand: ask.stand } } : {}), ...(ask.watch === undefined ? {} : { watching: ask.watch }),
         ...(ask.name === undefined ? {} : { name: ask.name }), ...(ask.worldFromBase ? { worldFromBase: ask.worldFromBase } : {}),
         ...(ask.address ? { at: { network, host: ask.address.host, ...(ask.address.ports ? { ports: ask.address.ports } : {}), ...(ask.address.data ? { data: ask.address.data } : {}) } } : {}),
       });

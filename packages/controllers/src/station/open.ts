@@ -1,6 +1,4 @@
-import {
-  checkProgram, identity, linkSolids, planProgram, unrolled, type CellGeometry, type CommandOutcome, type Dialect, type Finding, type Pose, type Program, type Refusal, type Robot, type Scheduler, type Signals, type Step,
-} from "@twincell/core";
+import { unrolled, type CommandOutcome, type Dialect, type Pose, type Program, type Refusal, type Robot, type Scheduler, type Signals, type Step } from "@twincell/core";
 import { createRealController, type Brand, type ControllerData, type PortNumbers } from "../real/index.ts";
 import { memoryNetwork, type Network } from "../transport/index.ts";
 import { withLines } from "../runner/index.ts";
@@ -8,8 +6,10 @@ import type { SharedCell } from "../cell/index.ts";
 import type { Seat } from "../guard/index.ts";
 import { LookAhead, wayBlocked } from "../twin/index.ts";
 import { DONE, refused } from "../outcomes.ts";
+import { layOut, type LayOut } from "./lay-out.ts";
 import { openCabinet, type Cabinet, type CabinetOpened } from "./cabinet.ts";
 import { createStation, type Armed, type Station, type StationJob } from "./station.ts";
+import { movedMeanwhile } from "./words.ts";
 
 export interface OpenOptions {
   readonly id: string;
@@ -28,10 +28,12 @@ export interface OpenOptions {
   readonly heartbeat_s?: number;
   /** Opened to watch: whoever moves the robot is left alone, and from here it is not commanded. */
   readonly watching?: boolean;
+  /** Who lays programs out; here and at once when left out, which keeps every link of this thread waiting. */
+  readonly layOut?: LayOut;
 }
 
-/** Programs of more motions are not checked where they are sent: it would keep the clock of the host waiting. */
-const MOST_CHECKED = 500;
+/** A robot that turned no more than this meanwhile stands where its program was laid out from [rad]. */
+const STANDS_RAD = 1e-3;
 
 /** A station of a brand, and what a person can do at its cabinet where that is virtual. */
 export interface BrandStation extends Station {
@@ -44,7 +46,7 @@ export interface BrandStation extends Station {
   /** Runs a program from that seat, compared with its plan all the way; as text where wanted and taken. */
   run(seat: Seat, program: Program, asText: boolean): Promise<CommandOutcome>;
   /** Shows where it would take the robot, without a word to it; refused with the first thing in the way. */
-  preview(program: Program): CommandOutcome;
+  preview(program: Program): Promise<CommandOutcome>;
   /** The same in two, for a start together with others: what may be refused is told before anything moves. */
   prepare(seat: Seat, program: Program, asText: boolean): Promise<Armed>;
   stop(emergency: boolean): void;
@@ -83,14 +85,14 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
     ...(options.heartbeat_s === undefined ? {} : { heartbeat_s: options.heartbeat_s }),
     deadMan: options.deadMan ?? near === null,
   });
-  /** The program with its plan from where the robot stands, and what the check finds on it; why there is no plan, else. */
-  function jobOf(program: Program, asText: boolean): StationJob & { readonly findings: readonly Finding[]; readonly stuck: Refusal | null } {
-    const from = { start_rad: controller.jointAngles(), ...(worldFromBase ? { worldFromBase } : {}) }, answer = planProgram(program, robot, from);
-    const own: CellGeometry = { worldFromBase: worldFromBase ?? identity(), links: linkSolids(robot), objects: [], allowedPairs: [], shapeError_m: robot.shapeError_m };
-    const small = answer.plan.segments.length <= MOST_CHECKED;
-    const findings = small ? checkProgram(program, robot, { ...from, cell: own }).verdict.steps.flatMap(step => step.findings).sort((a, b) => a.at_s - b.at_s) : [];
-    const job = { program, steps: () => atTerminals(program, brand, controller.signals), findings, ...(asText ? { dialect } : {}) };
-    return answer.kind === "planned" ? { ...job, plan: answer.plan, stuck: null } : { ...job, stuck: { code: answer.stuck.code, sentence: answer.stuck.sentence, hint: answer.stuck.hint } };
+  /** The program with its plan from where the robot stands, what the check finds on it, and its text; or why it is not sent. */
+  async function jobOf(program: Program, asText: boolean): Promise<{ readonly kind: "job"; readonly job: StationJob; readonly stuck: Refusal | null } | { readonly kind: "refused"; readonly why: Refusal }> {
+    const start_rad = controller.jointAngles().slice();
+    const laid = await (options.layOut ?? (question => Promise.resolve(layOut(question))))({ program, robot, start_rad, ...(worldFromBase ? { worldFromBase } : {}), ...(asText && controller.runText ? { dialect } : {}) });
+    if (laid.unwritten) return { kind: "refused", why: laid.unwritten };
+    if (controller.jointAngles().some((q, i) => Math.abs(q - start_rad[i]!) > STANDS_RAD)) return { kind: "refused", why: movedMeanwhile(name) };
+    const job: StationJob = { program, steps: () => atTerminals(program, brand, controller.signals), findings: laid.findings, ...(laid.plan ? { plan: laid.plan } : {}), ...(laid.files ? { files: laid.files } : {}) };
+    return { kind: "job", job, stuck: laid.stuck };
   }
   return {
     kind: "opened",
@@ -116,18 +118,23 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
         return on ? rejoined : rejoined.kind === "done" ? seat.watch(false) : rejoined;
       },
       async run(seat, program, asText) {
-        const job = jobOf(program, asText), blocked = job.plan && new LookAhead({ name, plan: job.plan, findings: job.findings, place: place ?? null, joints: robot.arm.joints.length }).preview().blocked;
+        const answer = await jobOf(program, asText);
+        if (answer.kind === "refused") return answer;
+        const { job } = answer, blocked = job.plan && new LookAhead({ name, plan: job.plan, findings: job.findings ?? [], place: place ?? null, joints: robot.arm.joints.length }).preview().blocked;
         return blocked ? refused(wayBlocked(blocked)) : station.carryOut(seat, job);
       },
-      preview(program) {
-        const { plan, findings, stuck } = jobOf(program, false);
+      async preview(program) {
+        const answer = await jobOf(program, false);
+        if (answer.kind === "refused") return answer;
+        const { job: { plan, findings = [] }, stuck } = answer;
         if (!plan) return refused(stuck!);
         const { blocked, told } = station.ahead.preview(plan, findings), first = blocked ?? told;
         return first ? refused({ ...wayBlocked(first), hint: blocked ? "It would not be sent. Clear the way, or change the program." : "It would be sent all the same; this is only told." }) : DONE;
       },
       async prepare(seat, program, asText) {
-        const job = jobOf(program, asText);
-        return job.stuck ? { kind: "refused", why: job.stuck } : station.arm(seat, job);
+        const answer = await jobOf(program, asText);
+        if (answer.kind === "refused") return answer;
+        return answer.stuck ? { kind: "refused", why: answer.stuck } : station.arm(seat, answer.job);
       },
       close() {
         station.close();

@@ -1,10 +1,10 @@
-import { samplePlan, withBranches, type CommandOutcome, type Dialect, type EmittedFile, type Finding, type JointSample, type LinkReport, type Plan, type Pose, type Program, type RealController, type Refusal, type RobotController, type Scheduler, type Step } from "@twincell/core";
+import { samplePlan, type CommandOutcome, type EmittedFile, type Finding, type JointSample, type LinkReport, type Plan, type Pose, type Program, type RealController, type Refusal, type RobotController, type Scheduler, type Step } from "@twincell/core";
 import type { Place } from "../cell/index.ts";
 import { createGuard, type Guard, type GuardState, type Seat } from "../guard/index.ts";
 import { listeners } from "../listeners.ts";
 import { createTwin, PlanFollower, type Deviation, type Twin } from "../twin/index.ts";
 import { createAhead, type Ahead } from "./ahead.ts";
-import { deviates, notEmitted } from "./words.ts";
+import { deviates } from "./words.ts";
 import { DONE } from "../outcomes.ts";
 
 export interface StationOptions {
@@ -28,10 +28,10 @@ export interface StationOptions {
   readonly alarm_rad?: number;
 }
 
-/** What a program is handed over with: its text where the controller takes texts, else its steps; the plan is what it is compared with. */
+/** What a program is handed over with: its text where there is one and the controller takes texts, else its steps; the plan is what it is compared with. */
 export interface StationJob {
   readonly program: Program;
-  readonly dialect?: Dialect;
+  readonly files?: readonly EmittedFile[];
   readonly steps: () => Iterable<Step>;
   readonly plan?: Plan;
   /** What the check found on the plan. */
@@ -116,15 +116,10 @@ export function createStation(options: StationOptions): Station {
   const unlink = real?.onLink(({ state }) => { if (state === "lost") guard.linkLost(); });
   const unnotice = guard.onNotice(why => { notices.call(why); });
 
-  type Said = { readonly kind: "said"; readonly program: Program; readonly files: readonly EmittedFile[] | null } | { readonly kind: "refused"; readonly why: Refusal };
-  /** The program with its postures, and its text where the controller takes texts. */
-  function say(job: StationJob): Said {
-    const program = withBranches(job.program, robot, { where: "needed", ...(options.worldFromBase ? { worldFromBase: options.worldFromBase } : {}) });
-    const written = real?.runText && job.dialect ? job.dialect.emit(program, robot, options.worldFromBase) : null;
-    return written?.kind === "cannot" ? { kind: "refused", why: notEmitted(job.dialect!.name, written.sentence, written.hint) } : { kind: "said", program, files: written?.files ?? null };
-  }
+  /** Its text, where there is one and the controller takes texts. */
+  const textOf = ({ files }: StationJob): readonly EmittedFile[] | null => (real?.runText && files ? files : null);
   /** Lets the robot do it, compared with its plan all the way. */
-  async function follow(seat: Seat, steps: Iterable<Step>, program: Program, { plan, findings = [] }: StationJob): Promise<CommandOutcome> {
+  async function follow(seat: Seat, steps: Iterable<Step>, { program, plan, findings = [] }: StationJob): Promise<CommandOutcome> {
     const following = plan ? new PlanFollower(plan, n) : null;
     follower = following;
     if (options.place && plan && following) {
@@ -155,26 +150,23 @@ export function createStation(options: StationOptions): Station {
     connect: () => real?.connect() ?? Promise.resolve(DONE),
     disconnect() { real?.disconnect(); },
     async carryOut(seat, job) {
-      const said = say(job);
-      if (said.kind === "refused") return said;
-      const { program, files } = said;
-      return follow(seat, files ? new TextOnItsWay(() => real!.runText!(files)) : job.steps(), program, job);
+      const files = textOf(job);
+      return follow(seat, files ? new TextOnItsWay(() => real!.runText!(files)) : job.steps(), job);
     },
     async arm(seat, job) {
-      const why = seat.readiness(), said = say(job);
+      const why = seat.readiness();
       if (why) return { kind: "refused", why };
-      if (said.kind === "refused") return said;
-      const { program, files } = said, handed = files ? await real?.handText?.(files) : undefined;
+      const files = textOf(job), handed = files ? await real?.handText?.(files) : undefined;
       if (handed?.kind === "refused") return handed;
       if (!handed) {
         // No step of it is carried out: it only says whether one would be.
-        const unfit = await controller.run([], program);
+        const unfit = await controller.run([], job.program);
         if (unfit.kind !== "done") return { kind: "refused", why: unfit.why };
       }
       const start = handed ? handed.start : files ? () => real!.runText!(files) : null;
       return {
         kind: "armed", movesAtOnce: job.plan?.segments.some(({ kind, start_s, duration_s }) => kind === "motion" && start_s < SOON_S && duration_s > SOON_S) ?? false, readiness: () => seat.readiness(), drop() { handed?.drop(); },
-        start: () => follow(seat, start ? new TextOnItsWay(start) : job.steps(), program, job),
+        start: () => follow(seat, start ? new TextOnItsWay(start) : job.steps(), job),
       };
     },
     onSample: listen => twin.onSample(listen),

@@ -12,3 +12,4 @@ export const didNotBegin = (name: string, within_s: number): Refusal => ({
 export const stoppedWith = (name: string, other: string, why: Refusal): Refusal => ({
   code: "group.stopped", sentence: `${name} was stopped with ${other}, with which it was started: ${why.sentence}`, hint: why.hint,
 });
+export const movedMeanwhile = (name: string): Refusal => ({ code: "station.moved", sentence: `${name} was moved while its program was being planned.`, hint: "Let it stand, then send the program again." });
