@@ -12,7 +12,8 @@ export default [
       "@typescript-eslint/no-unused-vars": ["error", { argsIgnorePattern: "^_" }],
       "@typescript-eslint/unified-signatures": "off",
       "no-empty": ["error", { allowEmptyCatch: false }],
-      "eqeqeq": ["error", "always", { null: "ignore" }],
+      "one-var": ["error", "never"],
+      eqeqeq: ["error", "always", { null: "ignore" }],
     },
   },
   {
@@ -21,10 +22,18 @@ export default [
     rules: { "react-hooks/rules-of-hooks": "error", "react-hooks/exhaustive-deps": "error" },
   },
   {
-    files: ["packages/*/src/**/*.ts"], ignores: ["**/*.test.ts", "**/testing/**"],
+    files: ["packages/*/src/**/*.ts"],
+    ignores: ["**/*.test.ts", "**/testing/**"],
     rules: {
       "no-restricted-globals": ["error", { name: "Date", message: "Time is an argument below the roof." }],
-      "no-restricted-properties": ["error", { object: "Math", property: "random", message: "Randomness is an argument below the roof: pass a seeded generator." }],
+      "no-restricted-properties": [
+        "error",
+        {
+          object: "Math",
+          property: "random",
+          message: "Randomness is an argument below the roof: pass a seeded generator.",
+        },
+      ],
     },
   },
 ];

@@ -8,11 +8,23 @@ install();
 const out = outFolder();
 const browser = chromium();
 const bin = name => `node_modules/${name}`;
-const vitest = (config, report) => [bin("vitest/vitest.mjs"), "run", "--config", config, "--reporter=default", "--reporter=json", `--outputFile.json=${out}${report}`];
+const vitest = (config, report) => [
+  bin("vitest/vitest.mjs"),
+  "run",
+  "--config",
+  config,
+  "--reporter=default",
+  "--reporter=json",
+  `--outputFile.json=${out}${report}`,
+];
 
 const stages = [
+  ["format", [bin("@biomejs/biome/bin/biome"), "format", "."]],
   ["lint", [bin("eslint/bin/eslint.js"), ".", "--max-warnings", "0"]],
-  ["boundaries", [bin("dependency-cruiser/bin/dependency-cruiser.mjs"), "--config", "dependency-cruiser.mjs", "packages", "apps"]],
+  [
+    "boundaries",
+    [bin("dependency-cruiser/bin/dependency-cruiser.mjs"), "--config", "dependency-cruiser.mjs", "packages", "apps"],
+  ],
   ["types", ["scripts/types.mjs"]],
   ["unit tests", vitest("vitest.config.ts", "unit.json")],
   ["browser tests", browser ? vitest("vitest.browser.config.ts", "browser.json") : null],
@@ -21,19 +33,36 @@ const stages = [
 const failed = [];
 for (const [name, args] of stages) {
   console.log(`\n── ${name}`);
-  if (args === null) { failed.push(name); continue; }
+  if (args === null) {
+    failed.push(name);
+    continue;
+  }
   if (name === "browser tests") build();
   const began = Date.now();
-  const result = spawnSync(node, args, { cwd: root, stdio: "inherit", env: { ...process.env, PATH: `${root}node_modules/.bin:${process.env.PATH}`, ...(browser ? { TWINCELL_CHROMIUM: browser } : {}) } });
-  console.log(`── ${name}: ${result.status === 0 ? "passed" : "FAILED"} in ${((Date.now() - began) / 1000).toFixed(0)} s`);
+  const result = spawnSync(node, args, {
+    cwd: root,
+    stdio: "inherit",
+    env: {
+      ...process.env,
+      PATH: `${root}node_modules/.bin:${process.env.PATH}`,
+      ...(browser ? { TWINCELL_CHROMIUM: browser } : {}),
+    },
+  });
+  console.log(
+    `── ${name}: ${result.status === 0 ? "passed" : "FAILED"} in ${((Date.now() - began) / 1000).toFixed(0)} s`,
+  );
   if (result.status !== 0) failed.push(name);
 }
 
-let passedTests = 0, failedTests = 0, skippedTests = 0;
+let passedTests = 0,
+  failedTests = 0,
+  skippedTests = 0;
 for (const report of ["unit.json", "browser.json"]) {
   if (!existsSync(out + report)) continue;
   const { numPassedTests, numFailedTests, numPendingTests } = JSON.parse(readFileSync(out + report, "utf8"));
-  passedTests += numPassedTests; failedTests += numFailedTests; skippedTests += numPendingTests;
+  passedTests += numPassedTests;
+  failedTests += numFailedTests;
+  skippedTests += numPendingTests;
 }
 if (failed.length) console.log(`\nNot passed: ${failed.join(", ")}.`);
 console.log(`\n${passedTests} passed, ${failedTests} failed, ${skippedTests} skipped`);
