@@ -8,8 +8,32 @@ export default defineConfig({
   test: {
     projects: [
       // Virtual time: how busy the machine is does not matter to them.
-      { test: { name: "quick", include: ["packages/*/src/**/*.test.ts", "apps/*/src/**/*.test.ts", "apps/*/src/**/*.test.tsx", "scripts/**/*.test.ts", "examples/**/*.test.ts"], exclude: [...none, ...REAL_TIME], testTimeout: 30_000, maxWorkers: 2, sequence: { groupOrder: 0 } } },
-      { test: { name: "real time", include: REAL_TIME, exclude: none, testTimeout: 30_000, maxWorkers: 1, sequence: { groupOrder: 1 } } },
+      {
+        test: {
+          name: "quick",
+          include: [
+            "packages/*/src/**/*.test.ts",
+            "apps/*/src/**/*.test.ts",
+            "apps/*/src/**/*.test.tsx",
+            "scripts/**/*.test.ts",
+            "examples/**/*.test.ts",
+          ],
+          exclude: [...none, ...REAL_TIME],
+          testTimeout: 30_000,
+          maxWorkers: 2,
+          sequence: { groupOrder: 0 },
+        },
+      },
+      {
+        test: {
+          name: "real time",
+          include: REAL_TIME,
+          exclude: none,
+          testTimeout: 30_000,
+          maxWorkers: 1,
+          sequence: { groupOrder: 1 },
+        },
+      },
     ],
   },
 });

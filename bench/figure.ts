@@ -17,7 +17,15 @@ export type Bench = () => Promise<readonly Figure[]>;
 
 export function figure(name: string, unit: string, values: readonly number[], note?: string): Figure {
   const sorted = [...values].sort((a, b) => a - b);
-  return { name, unit, median: sorted[sorted.length >> 1]!, min: sorted[0]!, max: sorted.at(-1)!, n: sorted.length, ...(note === undefined ? {} : { note }) };
+  return {
+    name,
+    unit,
+    median: sorted[sorted.length >> 1]!,
+    min: sorted[0]!,
+    max: sorted.at(-1)!,
+    n: sorted.length,
+    ...(note === undefined ? {} : { note }),
+  };
 }
 
 /** Time of one call [µs], measured in `repeats` rounds of `calls` calls after a warm-up. */
@@ -40,16 +48,24 @@ export function settled(calls: number, repeats: number, warmUp: number, call: (i
 export async function collections(calls: number, call: (i: number) => void): Promise<number> {
   for (let round = 0; round < 4; round++) {
     for (let i = 0; i < calls / 4; i++) call(i);
-    await new Promise(resolve => { setTimeout(resolve, 100); });
+    await new Promise(resolve => {
+      setTimeout(resolve, 100);
+    });
   }
   let seen = 0;
-  const observer = new PerformanceObserver(list => { seen += list.getEntries().length; });
+  const observer = new PerformanceObserver(list => {
+    seen += list.getEntries().length;
+  });
   observer.observe({ entryTypes: ["gc"] });
   // What was collected before is told late: it is heard out and not counted.
-  await new Promise(resolve => { setTimeout(resolve, 50); });
+  await new Promise(resolve => {
+    setTimeout(resolve, 50);
+  });
   seen = 0;
   for (let i = 0; i < calls; i++) call(i);
-  await new Promise(resolve => { setTimeout(resolve, 50); });
+  await new Promise(resolve => {
+    setTimeout(resolve, 50);
+  });
   observer.disconnect();
   return seen;
 }

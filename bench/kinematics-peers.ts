@@ -3,11 +3,18 @@ import { figure, type Figure } from "./figure.ts";
 import { numbersOf, pythonPeer } from "./peer.ts";
 
 /** Axes and steps from axis to axis in the base, all angles 0; the flange last. What EAIK and pinocchio build the same arm from. */
-function linesOf(arm: SerialArm): { readonly axes: number[][]; readonly origins: number[][]; readonly flange: number[] } {
-  const links = Array.from({ length: arm.joints.length + 1 }, () => identity<"base", "link">()), zero = new Float64Array(arm.joints.length);
+function linesOf(arm: SerialArm): {
+  readonly axes: number[][];
+  readonly origins: number[][];
+  readonly flange: number[];
+} {
+  const links = Array.from({ length: arm.joints.length + 1 }, () => identity<"base", "link">());
+  const zero = new Float64Array(arm.joints.length);
   linkPoses(arm, zero, links);
   return {
-    axes: arm.joints.map(({ axis }, j) => [...rotate(links[j + 1]!.quaternion, axis)]), origins: arm.joints.map((_, j) => [...links[j + 1]!.position]), flange: [...flangePose(arm, zero).position],
+    axes: arm.joints.map(({ axis }, j) => [...rotate(links[j + 1]!.quaternion, axis)]),
+    origins: arm.joints.map((_, j) => [...links[j + 1]!.position]),
+    flange: [...flangePose(arm, zero).position],
   };
 }
 
@@ -53,17 +60,38 @@ json.dump({"fk": fk, "jacobian": jacobian, "place": [float(x) for x in (data.oMi
 /** The same arm and joint angles through EAIK, all branches, one thread, in its own batch call. Nothing where it does not install. */
 export function eaikFigures(name: string, arm: SerialArm, sets: readonly Float64Array[]): Figure[] {
   const answer = pythonPeer("eaik", ["eaik==1.2.2"], EAIK, { ...linesOf(arm), sets: sets.map(q => [...q]) });
-  return answer === undefined ? [] : [figure(`ik/${name}-eaik`, "us", numbersOf(answer, "times"), `EAIK 1.2.2 (C++, its own batch call from Python, one thread), ${numbersOf(answer, "solutions")[0]!.toFixed(2)} solutions per pose`)];
+  return answer === undefined
+    ? []
+    : [
+        figure(
+          `ik/${name}-eaik`,
+          "us",
+          numbersOf(answer, "times"),
+          `EAIK 1.2.2 (C++, its own batch call from Python, one thread), ${numbersOf(answer, "solutions")[0]!.toFixed(2)} solutions per pose`,
+        ),
+      ];
 }
 
 /** The same arm and joint angles through pinocchio, called from Python one by one. Nothing where it does not install. @throws {Error} when its flange stands elsewhere. */
 export function pinocchioFigures(name: string, arm: SerialArm, sets: readonly Float64Array[]): Figure[] {
   const answer = pythonPeer("pinocchio", ["pin==4.1.0"], PINOCCHIO, { ...linesOf(arm), sets: sets.map(q => [...q]) });
   if (answer === undefined) return [];
-  const ours = flangePose(arm, sets[0]!).position, theirs = numbersOf(answer, "place");
-  if (!ours.every((value, i) => Math.abs(value - theirs[i]!) < 1e-9)) throw new Error(`Pinocchio has the flange of ${name} elsewhere.`);
+  const ours = flangePose(arm, sets[0]!).position;
+  const theirs = numbersOf(answer, "place");
+  if (!ours.every((value, i) => Math.abs(value - theirs[i]!) < 1e-9))
+    throw new Error(`Pinocchio has the flange of ${name} elsewhere.`);
   return [
-    figure(`fk/${name}-pinocchio`, "us", numbersOf(answer, "fk"), "pinocchio 4.1.0 (C++), all joint frames, called from Python one by one"),
-    figure(`fkjac/${name}-pinocchio`, "us", numbersOf(answer, "jacobian"), "pinocchio 4.1.0 (C++), all frames and joint Jacobian, called from Python one by one"),
+    figure(
+      `fk/${name}-pinocchio`,
+      "us",
+      numbersOf(answer, "fk"),
+      "pinocchio 4.1.0 (C++), all joint frames, called from Python one by one",
+    ),
+    figure(
+      `fkjac/${name}-pinocchio`,
+      "us",
+      numbersOf(answer, "jacobian"),
+      "pinocchio 4.1.0 (C++), all frames and joint Jacobian, called from Python one by one",
+    ),
   ];
 }

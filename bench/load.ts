@@ -10,25 +10,47 @@ const ROUNDS = 5;
  * program is there) and until the cell is drawn, and what has been loaded by then, gzipped. Nothing is cached between rounds.
  */
 export const run: Bench = async () => {
-  const studio = await Studio.start(), usable_ms: number[] = [], picture_ms: number[] = [], usable_bytes: number[] = [], picture_bytes: number[] = [];
+  const studio = await Studio.start();
+  const usable_ms: number[] = [];
+  const picture_ms: number[] = [];
+  const usable_bytes: number[] = [];
+  const picture_bytes: number[] = [];
   try {
     for (let round = 0; round < ROUNDS; round++) {
       const bodies = new Map<string, Promise<number>>();
       const { page, context } = await studio.open({
         script: WATCH,
-        before: fresh => { fresh.on("response", response => { if (!bodies.has(response.url())) bodies.set(response.url(), zipped(response)); }); },
+        before: fresh => {
+          fresh.on("response", response => {
+            if (!bodies.has(response.url())) bodies.set(response.url(), zipped(response));
+          });
+        },
       });
       const loaded = async (until_ms: number): Promise<number> => {
-        const before = new Set(await page.evaluate(limit => performance.getEntriesByType("resource").filter(({ startTime }) => startTime <= limit).map(({ name }) => name), until_ms));
-        const sizes = await Promise.all([...bodies].filter(([url]) => url === page.url() || before.has(url)).map(([, size]) => size));
+        const before = new Set(
+          await page.evaluate(
+            limit =>
+              performance
+                .getEntriesByType("resource")
+                .filter(({ startTime }) => startTime <= limit)
+                .map(({ name }) => name),
+            until_ms,
+          ),
+        );
+        const sizes = await Promise.all(
+          [...bodies].filter(([url]) => url === page.url() || before.has(url)).map(([, size]) => size),
+        );
         return sizes.reduce((sum, size) => sum + size, 0);
       };
       await drawn(page);
-      const { usable, picture } = await page.evaluate(() => ({ usable: window.twincellUsable_ms, picture: performance.now() }));
+      const { usable, picture } = await page.evaluate(() => ({
+        usable: window.twincellUsable_ms,
+        picture: performance.now(),
+      }));
       usable_ms.push(usable);
       picture_ms.push(picture);
-      usable_bytes.push(await loaded(usable) / 1e6);
-      picture_bytes.push(await loaded(picture) / 1e6);
+      usable_bytes.push((await loaded(usable)) / 1e6);
+      picture_bytes.push((await loaded(picture)) / 1e6);
       await context.close();
     }
   } finally {
@@ -42,7 +64,11 @@ export const run: Bench = async () => {
   ];
 };
 
-declare global { interface Window { twincellUsable_ms: number } }
+declare global {
+  interface Window {
+    twincellUsable_ms: number;
+  }
+}
 /** Runs in the page: notes when a person could do the first thing. */
 const WATCH = `{
   const look = () => {

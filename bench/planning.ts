@@ -2,14 +2,20 @@ import { findWay, WayChecker, type CellCollider, type SerialArm, type Vector3 } 
 import { figure, microseconds, type Figure } from "./figure.ts";
 import { numbersOf, pythonPeer } from "./peer.ts";
 
-const QUESTIONS = 200, WARM_UP = 1200;
+const QUESTIONS = 200;
+const WARM_UP = 1200;
 
 export interface PlanningCell {
   readonly collider: CellCollider;
   readonly arm: SerialArm;
   readonly free: readonly (readonly number[])[];
   /** Where the peer reads the same robot and objects. */
-  readonly peer: { readonly urdf: string; readonly folder: string; readonly jig: string; readonly boxes: readonly { readonly center_m: Vector3; readonly half_size_m: Vector3 }[] };
+  readonly peer: {
+    readonly urdf: string;
+    readonly folder: string;
+    readonly jig: string;
+    readonly boxes: readonly { readonly center_m: Vector3; readonly half_size_m: Vector3 }[];
+  };
 }
 
 /**
@@ -68,25 +74,58 @@ json.dump({"times": times, "found": [found]}, sys.stdout)
 
 /** Ways between random free postures of the KR 6 cell, each line of them proven; the same questions to OMPL with coal. */
 export function planningFigures({ collider, arm, free, peer }: PlanningCell): Figure[] {
-  const inside = free.filter(q => q.every((angle, k) => angle >= arm.joints[k]!.limits.lower_rad && angle <= arm.joints[k]!.limits.upper_rad));
-  const checker = new WayChecker(collider, arm), questions = Array.from({ length: QUESTIONS }, (_, i) => [inside[2 * i]!, inside[2 * i + 1]!] as const);
+  const inside = free.filter(q =>
+    q.every((angle, k) => angle >= arm.joints[k]!.limits.lower_rad && angle <= arm.joints[k]!.limits.upper_rad),
+  );
+  const checker = new WayChecker(collider, arm);
+  const questions = Array.from({ length: QUESTIONS }, (_, i) => [inside[2 * i]!, inside[2 * i + 1]!] as const);
   const began_ms = performance.now();
-  const first = findWay(checker, ...questions[0]!, { seed: 1 }), first_ms = performance.now() - began_ms;
+  const first = findWay(checker, ...questions[0]!, { seed: 1 });
+  const first_ms = performance.now() - began_ms;
   if (first.kind !== "found") throw new Error(`No way for the first question: ${first.kind}.`);
   // Other questions than those that count: the compiler settles and what was proven is kept, as for a cell that has been open for a while.
-  for (let i = 0; i < WARM_UP; i++) findWay(checker, inside[i % inside.length]!, inside[(i + 3 + 2 * Math.floor(i / inside.length)) % inside.length]!, { seed: i });
-  let found = 0, straight = 0;
+  for (let i = 0; i < WARM_UP; i++)
+    findWay(checker, inside[i % inside.length]!, inside[(i + 3 + 2 * Math.floor(i / inside.length)) % inside.length]!, {
+      seed: i,
+    });
+  let found = 0;
+  let straight = 0;
   const times = questions.map(([from, to], i) => {
-    const begun_ms = performance.now(), answer = findWay(checker, from, to, { seed: i + 1 });
-    if (answer.kind === "found") { found++; if (answer.way.length === 2) straight++; }
+    const begun_ms = performance.now();
+    const answer = findWay(checker, from, to, { seed: i + 1 });
+    if (answer.kind === "found") {
+      found++;
+      if (answer.way.length === 2) straight++;
+    }
     return performance.now() - begun_ms;
   });
-  const filtered = microseconds(inside.length, 15, i => { checker.free(inside[i]!); });
+  const filtered = microseconds(inside.length, 15, i => {
+    checker.free(inside[i]!);
+  });
   const answer = pythonPeer("ompl-coal", ["ompl==2.0.1", "pin==4.1.0"], OMPL, { ...peer, questions });
   return [
-    figure("plan/kr6", "ms", times, `budget 2; ${found} of ${QUESTIONS} found, ${straight} straight, every line proven free between samples too; new questions to a checker that answered ${WARM_UP} others`),
+    figure(
+      "plan/kr6",
+      "ms",
+      times,
+      `budget 2; ${found} of ${QUESTIONS} found, ${straight} straight, every line proven free between samples too; new questions to a checker that answered ${WARM_UP} others`,
+    ),
     figure("plan/kr6-first", "ms", [first_ms], "the first question of all, nothing compiled or kept yet"),
-    ...(answer === undefined ? [] : [figure("plan/kr6-ompl", "ms", numbersOf(answer, "times"), `OMPL 2.0.1 RRTConnect, coal meshes through pinocchio 4.1.0 (one call from Python a posture), sampled and not proven, not shortened; ${numbersOf(answer, "found")[0]!} of ${QUESTIONS} found`)]),
-    figure("collision/kr6-filtered", "us", filtered, "budget 10; free postures, pairs that are known to be clear there only looked up"),
+    ...(answer === undefined
+      ? []
+      : [
+          figure(
+            "plan/kr6-ompl",
+            "ms",
+            numbersOf(answer, "times"),
+            `OMPL 2.0.1 RRTConnect, coal meshes through pinocchio 4.1.0 (one call from Python a posture), sampled and not proven, not shortened; ${numbersOf(answer, "found")[0]!} of ${QUESTIONS} found`,
+          ),
+        ]),
+    figure(
+      "collision/kr6-filtered",
+      "us",
+      filtered,
+      "budget 10; free postures, pairs that are known to be clear there only looked up",
+    ),
   ];
 }

@@ -2,39 +2,78 @@ import { JerkMotion, JerkPlanner, seededRandom, type JerkLimits, type JerkState 
 import { figure, settled, type Bench, type Figure } from "./figure.ts";
 import { numbersOf, pythonPeer } from "./peer.ts";
 
-const AXES = 6, CASES = 2048, CALLS = 2000, ROUNDS = 101, WARM_UP = 60;
+const AXES = 6;
+const CASES = 2048;
+const CALLS = 2000;
+const ROUNDS = 101;
+const WARM_UP = 60;
 
-interface Case { readonly from: JerkState; readonly to: JerkState }
+interface Case {
+  readonly from: JerkState;
+  readonly to: JerkState;
+}
 
 /**
  * Jerk-limited motions of six axes that arrive together: rest to rest, and from any speed and acceleration to any other.
  * Limits are those of a medium-sized arm, states are seeded. Ruckig plans the very same cases in the same run.
  */
 export const run: Bench = () => {
-  const limits: JerkLimits[] = [3, 2.5, 3, 6, 6, 8].map(speed => ({ speed, acceleration: speed * 4, jerk: speed * 40 }));
+  const limits: JerkLimits[] = [3, 2.5, 3, 6, 6, 8].map(speed => ({
+    speed,
+    acceleration: speed * 4,
+    jerk: speed * 40,
+  }));
   const figures: Figure[] = [];
-  for (const [name, budget, cases] of [["rest", 2, restCases()], ["any", 6, anyCases(limits)]] as const) {
-    const planner = new JerkPlanner(limits), motion = new JerkMotion(AXES), durations = new Float64Array(CASES);
+  for (const [name, budget, cases] of [
+    ["rest", 2, restCases()],
+    ["any", 6, anyCases(limits)],
+  ] as const) {
+    const planner = new JerkPlanner(limits);
+    const motion = new JerkMotion(AXES);
+    const durations = new Float64Array(CASES);
     for (let k = 0; k < CASES; k++) {
       const answer = planner.plan(cases[k]!.from, cases[k]!.to, motion);
       if (answer.kind !== "planned") throw new Error(`Case ${k} of ${name} is not planned: ${answer.kind}.`);
       durations[k] = motion.duration_s;
     }
-    const times = settled(CALLS, ROUNDS, WARM_UP, i => { const one = cases[i % CASES]!; planner.plan(one.from, one.to, motion); });
+    const times = settled(CALLS, ROUNDS, WARM_UP, i => {
+      const one = cases[i % CASES]!;
+      planner.plan(one.from, one.to, motion);
+    });
     figures.push(figure(`profile/${name}`, "us", times, `${AXES} axes, ${CASES} seeded cases; budget ${budget}`));
     const peer = pythonPeer("ruckig", ["ruckig==0.19.4"], RUCKIG, { limits, cases, calls: CALLS, rounds: 21 });
     if (peer === undefined) continue;
     const theirs = numbersOf(peer, "durations");
-    let slower = 0, faster = 0;
-    for (let k = 0; k < CASES; k++) { const by = durations[k]! / theirs[k]! - 1; slower = Math.max(slower, by); faster = Math.min(faster, by); }
-    figures.push(figure(`profile/${name}-ruckig`, "us", numbersOf(peer, "times"), "Ruckig 0.19.4 (C++), same cases, called from Python"));
-    figures.push(figure(`profile/${name}-slower-than-ruckig`, "1", [slower], `largest relative excess of a duration over Ruckig's; the largest saving is ${(-faster).toExponential(1)}; must be below 1e-6`));
+    let slower = 0;
+    let faster = 0;
+    for (let k = 0; k < CASES; k++) {
+      const by = durations[k]! / theirs[k]! - 1;
+      slower = Math.max(slower, by);
+      faster = Math.min(faster, by);
+    }
+    figures.push(
+      figure(
+        `profile/${name}-ruckig`,
+        "us",
+        numbersOf(peer, "times"),
+        "Ruckig 0.19.4 (C++), same cases, called from Python",
+      ),
+    );
+    figures.push(
+      figure(
+        `profile/${name}-slower-than-ruckig`,
+        "1",
+        [slower],
+        `largest relative excess of a duration over Ruckig's; the largest saving is ${(-faster).toExponential(1)}; must be below 1e-6`,
+      ),
+    );
   }
   return Promise.resolve(figures);
 };
 
 function restCases(): Case[] {
-  const random = seededRandom(31), place = (): number[] => Array.from({ length: AXES }, () => random() * 4 - 2);
+  const random = seededRandom(31);
+  const place = (): number[] => Array.from({ length: AXES }, () => random() * 4 - 2);
   return Array.from({ length: CASES }, () => ({ from: { place: place() }, to: { place: place() } }));
 }
 
@@ -42,9 +81,13 @@ function restCases(): Case[] {
 function anyCases(limits: readonly JerkLimits[]): Case[] {
   const random = seededRandom(32);
   const state = (): JerkState => {
-    const place: number[] = [], speed: number[] = [], acceleration: number[] = [];
+    const place: number[] = [];
+    const speed: number[] = [];
+    const acceleration: number[] = [];
     for (const { speed: v, acceleration: a } of limits) {
-      place.push(random() * 4 - 2); speed.push((random() * 1.4 - 0.7) * v); acceleration.push((random() * 1.4 - 0.7) * a);
+      place.push(random() * 4 - 2);
+      speed.push((random() * 1.4 - 0.7) * v);
+      acceleration.push((random() * 1.4 - 0.7) * a);
     }
     return { place, speed, acceleration };
   };

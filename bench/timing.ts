@@ -2,15 +2,23 @@ import { JointSpline, seededRandom, timeOptimal } from "@twincell/core";
 import { figure, settled, type Bench, type Figure } from "./figure.ts";
 import { numbersOf, pythonPeer } from "./peer.ts";
 
-const WAYPOINTS = 100, PLACES = 1001, JOINTS = 6, PATHS = 8, CALLS = 24, ROUNDS = 31, WARM_UP = 20;
-const SPEED = [3, 2.5, 3, 6, 6, 8], ACCELERATION = SPEED.map(v => v * 4);
+const WAYPOINTS = 100;
+const PLACES = 1001;
+const JOINTS = 6;
+const PATHS = 8;
+const CALLS = 24;
+const ROUNDS = 31;
+const WARM_UP = 20;
+const SPEED = [3, 2.5, 3, 6, 6, 8];
+const ACCELERATION = SPEED.map(v => v * 4);
 
 /**
  * Time-optimal timing of a cubic spline through 100 seeded waypoints of six joints, within joint speeds and accelerations,
  * on 1,001 places; the spline is made and sampled inside the measured time. TOPP-RA times the same waypoints.
  */
 export const run: Bench = () => {
-  const random = seededRandom(51), limits = { speed_rad_s: Float64Array.from(SPEED), acceleration_rad_s2: Float64Array.from(ACCELERATION) };
+  const random = seededRandom(51);
+  const limits = { speed_rad_s: Float64Array.from(SPEED), acceleration_rad_s2: Float64Array.from(ACCELERATION) };
   const paths = Array.from({ length: PATHS }, () => walk(random));
   const knots = Array.from({ length: WAYPOINTS }, (_, i) => i / (WAYPOINTS - 1));
   const durationOf = (waypoints: readonly number[][]): number => {
@@ -18,23 +26,58 @@ export const run: Bench = () => {
     if (answer.kind !== "timed") throw new Error(`A path is not timed: ${answer.kind}.`);
     return answer.timing.duration_s;
   };
-  const durations = paths.map(durationOf), figures: Figure[] = [];
-  const times = settled(CALLS, ROUNDS, WARM_UP, i => { durationOf(paths[i % PATHS]!); }).map(us => us / 1000);
-  figures.push(figure("timing/1001", "ms", times, `${WAYPOINTS} waypoints, ${JOINTS} joints, ${PLACES} places, spline included; budget 3`));
-  const peer = pythonPeer("toppra", ["toppra==0.6.10"], TOPPRA, { paths, knots, places: PLACES, speed: SPEED, acceleration: ACCELERATION });
+  const durations = paths.map(durationOf);
+  const figures: Figure[] = [];
+  const times = settled(CALLS, ROUNDS, WARM_UP, i => {
+    durationOf(paths[i % PATHS]!);
+  }).map(us => us / 1000);
+  figures.push(
+    figure(
+      "timing/1001",
+      "ms",
+      times,
+      `${WAYPOINTS} waypoints, ${JOINTS} joints, ${PLACES} places, spline included; budget 3`,
+    ),
+  );
+  const peer = pythonPeer("toppra", ["toppra==0.6.10"], TOPPRA, {
+    paths,
+    knots,
+    places: PLACES,
+    speed: SPEED,
+    acceleration: ACCELERATION,
+  });
   if (peer !== undefined) {
-    const theirs = numbersOf(peer, "durations"), slower = Math.max(...durations.map((mine, k) => mine / theirs[k]! - 1));
-    figures.push(figure("timing/1001-toppra", "ms", numbersOf(peer, "times"), "TOPP-RA 0.6.10 (Python, own seidel solver), same waypoints and places; instance and parameterisation, spline made before"));
-    figures.push(figure("timing/slower-than-toppra", "1", [slower], "largest relative excess of a duration over TOPP-RA's; both hold the limits at both ends of every interval"));
+    const theirs = numbersOf(peer, "durations");
+    const slower = Math.max(...durations.map((mine, k) => mine / theirs[k]! - 1));
+    figures.push(
+      figure(
+        "timing/1001-toppra",
+        "ms",
+        numbersOf(peer, "times"),
+        "TOPP-RA 0.6.10 (Python, own seidel solver), same waypoints and places; instance and parameterisation, spline made before",
+      ),
+    );
+    figures.push(
+      figure(
+        "timing/slower-than-toppra",
+        "1",
+        [slower],
+        "largest relative excess of a duration over TOPP-RA's; both hold the limits at both ends of every interval",
+      ),
+    );
   }
   return Promise.resolve(figures);
 };
 
 /** Waypoints of a walk that turns gently, so that speeds as well as accelerations bind. */
 function walk(random: () => number): number[][] {
-  const q = Array.from({ length: JOINTS }, () => random() - 0.5), heading = q.map(() => random() - 0.5);
+  const q = Array.from({ length: JOINTS }, () => random() - 0.5);
+  const heading = q.map(() => random() - 0.5);
   return Array.from({ length: WAYPOINTS }, () => {
-    for (let j = 0; j < JOINTS; j++) { heading[j] = 0.9 * heading[j]! + 0.2 * (random() - 0.5); q[j]! += 0.1 * heading[j]!; }
+    for (let j = 0; j < JOINTS; j++) {
+      heading[j] = 0.9 * heading[j]! + 0.2 * (random() - 0.5);
+      q[j]! += 0.1 * heading[j]!;
+    }
     return [...q];
   });
 }

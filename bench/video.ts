@@ -1,8 +1,10 @@
 import { CAMERA_FLAGS, drawn, type Page, Studio } from "../apps/studio/browser-tests/support/studio.ts";
 import { figure, type Bench, type Figure } from "./figure.ts";
 
-const ROUNDS = 3, COUNTED = 25;
-const FILMS_THE_STUDIO = "navigator.mediaDevices.getUserMedia = () => navigator.mediaDevices.getDisplayMedia({ video: { frameRate: 30 } });";
+const ROUNDS = 3;
+const COUNTED = 25;
+const FILMS_THE_STUDIO =
+  "navigator.mediaDevices.getUserMedia = () => navigator.mediaDevices.getDisplayMedia({ video: { frameRate: 30 } });";
 
 /**
  * Glass to glass through a real server: the studio shows its time code, a page as a phone opens it films the studio's page, and
@@ -13,7 +15,9 @@ export const run: Bench = async () => {
   try {
     const { page, context } = await studio.open({ width: 1000, height: 640 });
     await drawn(page);
-    await page.evaluate(() => { window.twincell.stores.viewStore.setState({ coachDone: true }); });
+    await page.evaluate(() => {
+      window.twincell.stores.viewStore.setState({ coachDone: true });
+    });
     const phone = await context.newPage();
     await phone.addInitScript({ content: FILMS_THE_STUDIO });
     await phone.goto(`${studio.url}camera/?name=Phone`);
@@ -22,9 +26,19 @@ export const run: Bench = async () => {
     await page.getByRole("button", { name: "Show: Phone" }).click();
     const rounds: Record<string, number>[] = [];
     for (let round = 0; round < ROUNDS; round++) rounds.push(await measured(page));
-    const of = (name: string, what: string, note: string): Figure => figure(`video/${name}`, "ms", rounds.map(each => each[what]!), note);
+    const of = (name: string, what: string, note: string): Figure =>
+      figure(
+        `video/${name}`,
+        "ms",
+        rounds.map(each => each[what]!),
+        note,
+      );
     return [
-      of("glass-median", "median", `a change on the screen to the first picture that shows it; ${COUNTED} codes a round, everything drawn by the processor`),
+      of(
+        "glass-median",
+        "median",
+        `a change on the screen to the first picture that shows it; ${COUNTED} codes a round, everything drawn by the processor`,
+      ),
       of("glass-p95", "p95", "95 % of the codes are within"),
       of("estimate", "estimate", "from the time stamps of every picture, without display and half a picture's period"),
       of("to-server", "to the server", "of it: camera's page to relay, the last picture of the round"),
@@ -39,9 +53,22 @@ export const run: Bench = async () => {
 async function measured(page: Page): Promise<Record<string, number>> {
   await page.getByRole("button", { name: "Measure the latency" }).click();
   const dialog = page.getByRole("dialog", { name: /Measure the latency/ });
-  await page.waitForFunction(least => Number(document.querySelector("[data-figure=n]")?.textContent) >= least, COUNTED, { timeout: 120_000, polling: 200 });
-  const figures = await dialog.locator("[data-figure]").evaluateAll(all => all.map(each => [(each as HTMLElement).dataset["figure"]!, Number.parseFloat(each.textContent ?? "")] as const));
+  await page.waitForFunction(
+    least => Number(document.querySelector("[data-figure=n]")?.textContent) >= least,
+    COUNTED,
+    { timeout: 120_000, polling: 200 },
+  );
+  const figures = await dialog
+    .locator("[data-figure]")
+    .evaluateAll(all =>
+      all.map(each => [(each as HTMLElement).dataset["figure"]!, Number.parseFloat(each.textContent ?? "")] as const),
+    );
   await dialog.getByRole("button", { name: "Close", exact: true }).click();
-  const stages = await page.locator(".video-age").getAttribute("title") ?? "";
-  return Object.fromEntries([...figures, ...[...stages.matchAll(/(to the server|to here|unpacked) (\d+) ms/g)].map(([, name, ms]) => [name!, Number(ms)] as const)]);
+  const stages = (await page.locator(".video-age").getAttribute("title")) ?? "";
+  return Object.fromEntries([
+    ...figures,
+    ...[...stages.matchAll(/(to the server|to here|unpacked) (\d+) ms/g)].map(
+      ([, name, ms]) => [name!, Number(ms)] as const,
+    ),
+  ]);
 }

@@ -10,7 +10,10 @@ export const root = fileURLToPath(new URL("..", import.meta.url));
 export const node = `${root}node_modules/node/bin/node`;
 
 const stamp = `${root}node_modules/.twincell-installed`;
-const lockHash = () => createHash("sha256").update(readFileSync(`${root}package-lock.json`)).digest("hex");
+const lockHash = () =>
+  createHash("sha256")
+    .update(readFileSync(`${root}package-lock.json`))
+    .digest("hex");
 
 /** Installs what the lock file names, unless that was done before. Works offline from then on. */
 export function install() {
@@ -24,7 +27,9 @@ export function install() {
   console.log("Installing packages (once) …");
   run("npm", ["ci", "--no-audit", "--no-fund"]);
   if (!existsSync(node)) {
-    console.error("The packages are installed but node_modules/node/bin/node is missing: npm was told to skip install scripts. Run `npm ci --ignore-scripts=false`.");
+    console.error(
+      "The packages are installed but node_modules/node/bin/node is missing: npm was told to skip install scripts. Run `npm ci --ignore-scripts=false`.",
+    );
     process.exit(2);
   }
   writeFileSync(stamp, wanted);
@@ -35,8 +40,24 @@ export function build() {
   const built = `${root}apps/studio/dist/index.html`;
   if (existsSync(built)) {
     const since = statSync(built).mtimeMs;
-    const sources = spawnSync("find", ["packages", "apps/studio/src", "apps/studio/index.html", "apps/studio/vite.config.ts", "package-lock.json",
-      "-newermt", new Date(since).toISOString(), "-type", "f", "-not", "-name", "*.test.ts"], { cwd: root, encoding: "utf8" });
+    const sources = spawnSync(
+      "find",
+      [
+        "packages",
+        "apps/studio/src",
+        "apps/studio/index.html",
+        "apps/studio/vite.config.ts",
+        "package-lock.json",
+        "-newermt",
+        new Date(since).toISOString(),
+        "-type",
+        "f",
+        "-not",
+        "-name",
+        "*.test.ts",
+      ],
+      { cwd: root, encoding: "utf8" },
+    );
     if (sources.status === 0 && sources.stdout.trim() === "") return;
   }
   console.log("Building the studio …");
@@ -45,7 +66,10 @@ export function build() {
 
 export function run(command, args, options = {}) {
   const result = spawnSync(command, args, { cwd: root, stdio: "inherit", ...options });
-  if (result.error) { console.error(`${command}: ${result.error.message}`); process.exit(2); }
+  if (result.error) {
+    console.error(`${command}: ${result.error.message}`);
+    process.exit(2);
+  }
   if (result.status !== 0) process.exit(result.status ?? 1);
 }
 

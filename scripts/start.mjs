@@ -4,6 +4,9 @@ import { build, install, node, root } from "./prepare.mjs";
 
 install();
 build();
-const child = spawn(node, ["apps/cli/src/main.ts", "serve", "--open", ...process.argv.slice(2)], { cwd: root, stdio: "inherit" });
+const child = spawn(node, ["apps/cli/src/main.ts", "serve", "--open", ...process.argv.slice(2)], {
+  cwd: root,
+  stdio: "inherit",
+});
 for (const signal of ["SIGINT", "SIGTERM"]) process.on(signal, () => child.kill(signal));
 child.on("exit", code => process.exit(code ?? 0));

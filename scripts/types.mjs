@@ -11,8 +11,14 @@ const projects = ["packages", "apps"]
 
 let bad = 0;
 for (const project of projects) {
-  const run = spawnSync(process.execPath, ["node_modules/typescript/bin/tsc", "-p", project], { cwd: root, stdio: "inherit" });
-  if (run.status !== 0) { bad++; console.error(`types: ${project} does not compile.`); }
+  const run = spawnSync(process.execPath, ["node_modules/typescript/bin/tsc", "-p", project], {
+    cwd: root,
+    stdio: "inherit",
+  });
+  if (run.status !== 0) {
+    bad++;
+    console.error(`types: ${project} does not compile.`);
+  }
 }
 console.log(`types: ${projects.length - bad} of ${projects.length} projects compile.`);
 process.exit(bad ? 1 : 0);

@@ -5,5 +5,9 @@ import { TOPICS } from "@twincell/recording";
 const folder = new URL("../docs/recording/", import.meta.url);
 mkdirSync(folder, { recursive: true });
 for (const { schema } of TOPICS) {
-  if (schema.encoding === "jsonschema") writeFileSync(new URL(`${schema.name}.schema.json`, folder), `${JSON.stringify(JSON.parse(schema.text), null, 2)}\n`);
+  if (schema.encoding === "jsonschema")
+    writeFileSync(
+      new URL(`${schema.name}.schema.json`, folder),
+      `${JSON.stringify(JSON.parse(schema.text), null, 2)}\n`,
+    );
 }

@@ -5,12 +5,26 @@ import { dirname, join, normalize, resolve } from "node:path";
 import type { Plugin } from "vite";
 
 /** Controllers and hands that are drawn as themselves; every other one falls back to the generic models. */
-const PROFILES = ["generic-trigger", "generic-trigger-squeeze-thumbstick", "generic-hand", "oculus-touch-v3", "meta-quest-touch-plus", "pico-4"];
-const TYPES: Readonly<Record<string, string>> = { ".json": "application/json", ".glb": "model/gltf-binary", ".png": "image/png" };
+const PROFILES = [
+  "generic-trigger",
+  "generic-trigger-squeeze-thumbstick",
+  "generic-hand",
+  "oculus-touch-v3",
+  "meta-quest-touch-plus",
+  "pico-4",
+];
+const TYPES: Readonly<Record<string, string>> = {
+  ".json": "application/json",
+  ".glb": "model/gltf-binary",
+  ".png": "image/png",
+};
 
 /** Serves the models of headset controllers from the studio's own address, in development and in the build. */
 export function controllerProfiles(): Plugin {
-  const source = join(dirname(createRequire(import.meta.url).resolve("@webxr-input-profiles/assets/package.json")), "dist/profiles");
+  const source = join(
+    dirname(createRequire(import.meta.url).resolve("@webxr-input-profiles/assets/package.json")),
+    "dist/profiles",
+  );
   const kept = async (): Promise<string> => {
     const list: Record<string, unknown> = JSON.parse(await readFile(join(source, "profilesList.json"), "utf8"));
     return JSON.stringify(Object.fromEntries(Object.entries(list).filter(([name]) => PROFILES.includes(name))));
@@ -18,13 +32,25 @@ export function controllerProfiles(): Plugin {
   let outDir = "dist";
   return {
     name: "twincell-controller-profiles",
-    configResolved(config) { outDir = resolve(config.root, config.build.outDir); },
+    configResolved(config) {
+      outDir = resolve(config.root, config.build.outDir);
+    },
     configureServer(server) {
       server.middlewares.use("/profiles", (request, response, next) => {
-        const path = normalize(decodeURIComponent((request.url ?? "/").split("?")[0]!)), file = join(source, path);
-        if (path === "/profilesList.json") { void kept().then(text => { response.setHeader("content-type", TYPES[".json"]!); response.end(text); }); return; }
+        const path = normalize(decodeURIComponent((request.url ?? "/").split("?")[0]!));
+        const file = join(source, path);
+        if (path === "/profilesList.json") {
+          void kept().then(text => {
+            response.setHeader("content-type", TYPES[".json"]!);
+            response.end(text);
+          });
+          return;
+        }
         const type = TYPES[file.slice(file.lastIndexOf("."))];
-        if (!file.startsWith(source) || type === undefined || !existsSync(file)) { next(); return; }
+        if (!file.startsWith(source) || type === undefined || !existsSync(file)) {
+          next();
+          return;
+        }
         response.setHeader("content-type", type);
         createReadStream(file).pipe(response);
       });

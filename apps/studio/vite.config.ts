@@ -13,7 +13,12 @@ export default defineConfig({
   base: "./",
   plugins: [react(), controllerProfiles()],
   worker: { format: "es" },
-  build: { target: "es2022", outDir: "dist", chunkSizeWarningLimit: 2000, rolldownOptions: { input: [page("index.html"), page("camera/index.html"), page("pendant/index.html")] } },
+  build: {
+    target: "es2022",
+    outDir: "dist",
+    chunkSizeWarningLimit: 2000,
+    rolldownOptions: { input: [page("index.html"), page("camera/index.html"), page("pendant/index.html")] },
+  },
   resolve: {
     // The headset emulator's rooms weigh 4.6 MB and are never used: tests bring their own emulator.
     alias: { "@iwer/devui": empty, "@iwer/sem": empty },

@@ -1,7 +1,27 @@
-import { fromAxisAngle, pose, radians, type Joint, type OrthoParallelGeometry, type SerialArm, type Vector3 } from "@twincell/core";
+import {
+  fromAxisAngle,
+  pose,
+  radians,
+  type Joint,
+  type OrthoParallelGeometry,
+  type SerialArm,
+  type Vector3,
+} from "@twincell/core";
 
-function joint(name: string, origin_m: Vector3, axis: Vector3, lower_deg: number, upper_deg: number, speed_deg_s: number): Joint {
-  const limits = { lower_rad: radians(lower_deg), upper_rad: radians(upper_deg), speed_rad_s: radians(speed_deg_s), acceleration_rad_s2: 4 * radians(speed_deg_s) };
+function joint(
+  name: string,
+  origin_m: Vector3,
+  axis: Vector3,
+  lower_deg: number,
+  upper_deg: number,
+  speed_deg_s: number,
+): Joint {
+  const limits = {
+    lower_rad: radians(lower_deg),
+    upper_rad: radians(upper_deg),
+    speed_rad_s: radians(speed_deg_s),
+    acceleration_rad_s2: 4 * radians(speed_deg_s),
+  };
   return { name, axis, parentFromJoint: pose(origin_m), limits };
 }
 
@@ -22,7 +42,13 @@ export const KR6_ARM: SerialArm = {
 /** The same arm as the closed form wants it. */
 export const KR6_GEOMETRY: OrthoParallelGeometry = {
   kind: "ortho-parallel",
-  a1_m: 0.025, a2_m: -0.035, b_m: 0, c1_m: 0.4, c2_m: 0.455, c3_m: 0.42, c4_m: 0.08,
+  a1_m: 0.025,
+  a2_m: -0.035,
+  b_m: 0,
+  c1_m: 0.4,
+  c2_m: 0.455,
+  c3_m: 0.42,
+  c4_m: 0.08,
   offsets_rad: [0, -Math.PI / 2, 0, 0, 0, 0],
   signs: [-1, 1, 1, -1, 1, -1],
   formulaFromFlange: pose(),

@@ -3,7 +3,8 @@ import { describe, expect, test } from "vitest";
 import { FAULTS } from "./faults/kinds.ts";
 import { soak } from "./faults/soak.ts";
 
-const SEED = 41, names = Object.keys(FAULTS);
+const SEED = 41;
+const names = Object.keys(FAULTS);
 
 /** Each fault once, with one seed; by the thousand it is `npm run soak -- faults`. */
 describe.each(BRANDS.map(brand => [brand.name, brand] as const))("%s, every fault once", (_, brand) => {
@@ -18,7 +19,11 @@ describe.each(BRANDS.map(brand => [brand.name, brand] as const))("%s, every faul
 });
 
 test("the laws can be broken: a driver whose stop goes nowhere is found out", async () => {
-  const brand = BRANDS[0]!, deaf = { ...brand, face: (options: Parameters<typeof brand.face>[0]) => ({ ...brand.face(options), stop: () => undefined }) };
+  const brand = BRANDS[0]!;
+  const deaf = {
+    ...brand,
+    face: (options: Parameters<typeof brand.face>[0]) => ({ ...brand.face(options), stop: () => undefined }),
+  };
   const { broken } = await soak(deaf, 20, SEED, () => 0, ["stop"]);
   expect(broken.map(({ law }) => law.split(":")[0])).toContain("it stood late after a stop");
 });

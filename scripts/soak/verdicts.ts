@@ -7,12 +7,30 @@ import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { cpus } from "node:os";
 import { fileURLToPath } from "node:url";
 import {
-  between, buildSolid, fromAxisAngle, identity, linkPoses, normalize, pairScratch, pose, rigid, rigidFromPose, seededRandom, solidDistance, solidsTouch, surfacesTouch, type SerialArm, type TriangleMesh,
+  between,
+  buildSolid,
+  fromAxisAngle,
+  identity,
+  linkPoses,
+  normalize,
+  pairScratch,
+  pose,
+  rigid,
+  rigidFromPose,
+  seededRandom,
+  solidDistance,
+  solidsTouch,
+  surfacesTouch,
+  type SerialArm,
+  type TriangleMesh,
 } from "@twincell/core";
 import { armFromUrdf, readDae, readStl, readUrdf, urdfSolids } from "@twincell/formats";
 import { pythonPeer } from "../../bench/peer.ts";
 
-const SEED = 4004, COAL = "coal==3.0.3", count = Number(process.argv[2] ?? 2000), only = process.argv.slice(3);
+const SEED = 4004;
+const COAL = "coal==3.0.3";
+const count = Number(process.argv[2] ?? 2000);
+const only = process.argv.slice(3);
 const robots = new URL("../../../shared/robots/", import.meta.url);
 
 const PYTHON = `
@@ -51,15 +69,26 @@ for motion, ours in zip(task["motions"], task["ours"]):
 json.dump({"touch": touch, "far": far, "held": held}, sys.stdout)
 `;
 
-interface PairResult { readonly pair: string; readonly touching: number; readonly contained: number; readonly disagreements: readonly { readonly ours: boolean; readonly distance_m: number }[] }
+interface PairResult {
+  readonly pair: string;
+  readonly touching: number;
+  readonly contained: number;
+  readonly disagreements: readonly { readonly ours: boolean; readonly distance_m: number }[];
+}
 
-function meshesOf(id: string): { readonly arm: SerialArm; readonly links: readonly { readonly link: number; readonly mesh: TriangleMesh }[] } | string {
+function meshesOf(
+  id: string,
+):
+  | { readonly arm: SerialArm; readonly links: readonly { readonly link: number; readonly mesh: TriangleMesh }[] }
+  | string {
   const folder = new URL(`${id}/`, robots);
   if (!existsSync(new URL("robot.urdf", folder))) return "has no URDF beside the checkout";
-  const urdf = readUrdf(readFileSync(new URL("robot.urdf", folder), "utf8")), chain = urdf.kind === "read" ? armFromUrdf(urdf.robot) : urdf;
+  const urdf = readUrdf(readFileSync(new URL("robot.urdf", folder), "utf8"));
+  const chain = urdf.kind === "read" ? armFromUrdf(urdf.robot) : urdf;
   if (chain.kind !== "chain") return chain.sentence;
   const { solids } = urdfSolids(chain, reference => {
-    const place = new URL(reference, folder), bytes = readFileSync(fileURLToPath(place));
+    const place = new URL(reference, folder);
+    const bytes = readFileSync(fileURLToPath(place));
     const answer = reference.toLowerCase().endsWith(".dae") ? readDae(bytes) : readStl(bytes);
     if (answer.kind !== "read") throw new Error(`${reference}: ${answer.sentence}`);
     return answer.mesh;
@@ -67,19 +96,46 @@ function meshesOf(id: string): { readonly arm: SerialArm; readonly links: readon
   return { arm: chain.arm, links: solids };
 }
 
-function comparePair(arm: SerialArm, i: { readonly link: number; readonly mesh: TriangleMesh }, j: typeof i, seed: number): PairResult | undefined {
-  const random = seededRandom(seed), a = buildSolid(i.mesh), b = buildSolid(j.mesh), scratch = pairScratch(), nearest = new Float64Array(6), relative = rigid();
-  const links = Array.from({ length: arm.joints.length + 1 }, () => identity<"base", "link">()), motions: number[][] = [], ours: number[] = [], surfaces: boolean[] = [], far_m: number[] = [];
-  const centre = (s: typeof a): number[] => [...s.bvh.boxes.slice(0, 3)], half = (s: typeof a): number => Math.hypot(...s.bvh.boxes.slice(3, 6));
+function comparePair(
+  arm: SerialArm,
+  i: { readonly link: number; readonly mesh: TriangleMesh },
+  j: typeof i,
+  seed: number,
+): PairResult | undefined {
+  const random = seededRandom(seed);
+  const a = buildSolid(i.mesh);
+  const b = buildSolid(j.mesh);
+  const scratch = pairScratch();
+  const nearest = new Float64Array(6);
+  const relative = rigid();
+  const links = Array.from({ length: arm.joints.length + 1 }, () => identity<"base", "link">());
+  const motions: number[][] = [];
+  const ours: number[] = [];
+  const surfaces: boolean[] = [];
+  const far_m: number[] = [];
+  const centre = (s: typeof a): number[] => [...s.bvh.boxes.slice(0, 3)];
+  const half = (s: typeof a): number => Math.hypot(...s.bvh.boxes.slice(3, 6));
   for (let n = 0; n < count; n++) {
     if (n % 2 === 0) {
-      linkPoses(arm, arm.joints.map(({ limits: { lower_rad, upper_rad } }) => lower_rad + random() * (upper_rad - lower_rad)), links);
+      linkPoses(
+        arm,
+        arm.joints.map(({ limits: { lower_rad, upper_rad } }) => lower_rad + random() * (upper_rad - lower_rad)),
+        links,
+      );
       between(rigidFromPose(links[i.link]!), rigidFromPose(links[j.link]!), relative);
     } else {
-      const unit = (): number => 2 * random() - 1, turn = fromAxisAngle(normalize([unit(), unit(), unit()]), Math.PI * unit());
-      const reach = 0.6 * (half(a) + half(b)), [ca, cb] = [centre(a), centre(b)];
+      const unit = (): number => 2 * random() - 1;
+      const turn = fromAxisAngle(normalize([unit(), unit(), unit()]), Math.PI * unit());
+      const reach = 0.6 * (half(a) + half(b));
+      const [ca, cb] = [centre(a), centre(b)];
       rigidFromPose(pose([0, 0, 0], turn), relative);
-      for (let k = 0; k < 3; k++) relative[9 + k] = ca[k]! + reach * unit() - relative[3 * k]! * cb[0]! - relative[3 * k + 1]! * cb[1]! - relative[3 * k + 2]! * cb[2]!;
+      for (let k = 0; k < 3; k++)
+        relative[9 + k] =
+          ca[k]! +
+          reach * unit() -
+          relative[3 * k]! * cb[0]! -
+          relative[3 * k + 1]! * cb[1]! -
+          relative[3 * k + 2]! * cb[2]!;
     }
     motions.push([...relative]);
     ours.push(solidsTouch(a, b, relative, scratch) ? 1 : 0);
@@ -87,46 +143,93 @@ function comparePair(arm: SerialArm, i: { readonly link: number; readonly mesh: 
     scratch.witness.fill(-1);
     far_m.push(ours.at(-1) === 1 ? 0 : solidDistance(a, b, relative, 0.001, scratch, nearest));
   }
-  const plain = ({ positions, indices }: TriangleMesh): object => ({ positions: [...positions], indices: [...indices] });
-  const answer = pythonPeer("coal", [COAL, "numpy"], PYTHON, { a: plain(i.mesh), b: plain(j.mesh), motions, ours }) as { touch: number[]; far: number[]; held: number[] } | undefined;
+  const plain = ({ positions, indices }: TriangleMesh): object => ({
+    positions: [...positions],
+    indices: [...indices],
+  });
+  const answer = pythonPeer("coal", [COAL, "numpy"], PYTHON, { a: plain(i.mesh), b: plain(j.mesh), motions, ours }) as
+    | { touch: number[]; far: number[]; held: number[] }
+    | undefined;
   if (answer === undefined) return undefined;
   const disagreements: { ours: boolean; distance_m: number }[] = [];
-  let contained = 0, at = 0;
+  let contained = 0;
+  let at = 0;
   answer.touch.forEach((said, n) => {
     if (said === ours[n]) return;
     const k = at++;
-    if (ours[n] === 1 && !surfaces[n]! && answer.held[k] === 1) { contained++; return; }
+    if (ours[n] === 1 && !surfaces[n]! && answer.held[k] === 1) {
+      contained++;
+      return;
+    }
     disagreements.push({ ours: ours[n] === 1, distance_m: said === 1 ? far_m[n]! : answer.far[k]! });
   });
-  return { pair: `link ${i.link}, link ${j.link}`, touching: ours.filter(says => says === 1).length, contained, disagreements };
+  return {
+    pair: `link ${i.link}, link ${j.link}`,
+    touching: ours.filter(says => says === 1).length,
+    contained,
+    disagreements,
+  };
 }
 
 const results: object[] = [];
-let worst_m = 0, disagreeing = 0, contained = 0, compared = 0;
+let worst_m = 0;
+let disagreeing = 0;
+let contained = 0;
+let compared = 0;
 const began = performance.now();
-for (const id of ["kuka_kr6r900sixx", "ur10e", "kuka_lbr_iiwa_14_r820", "yaskawa_gp8", "staubli_rx160", "abb_irb120", "fanuc_lrmate200id"]) {
+for (const id of [
+  "kuka_kr6r900sixx",
+  "ur10e",
+  "kuka_lbr_iiwa_14_r820",
+  "yaskawa_gp8",
+  "staubli_rx160",
+  "abb_irb120",
+  "fanuc_lrmate200id",
+]) {
   if (only.length > 0 && !only.includes(id)) continue;
   const made = meshesOf(id);
-  if (typeof made === "string") { process.stderr.write(`${id} is left out: ${made}\n`); continue; }
-  const pairs: PairResult[] = [];
-  for (let x = 0; x < made.links.length; x++) for (let y = x + 1; y < made.links.length; y++) {
-    const result = comparePair(made.arm, made.links[x]!, made.links[y]!, SEED + 100 * x + y);
-    if (result === undefined) throw new Error("coal does not run here.");
-    pairs.push(result);
+  if (typeof made === "string") {
+    process.stderr.write(`${id} is left out: ${made}\n`);
+    continue;
   }
+  const pairs: PairResult[] = [];
+  for (let x = 0; x < made.links.length; x++)
+    for (let y = x + 1; y < made.links.length; y++) {
+      const result = comparePair(made.arm, made.links[x]!, made.links[y]!, SEED + 100 * x + y);
+      if (result === undefined) throw new Error("coal does not run here.");
+      pairs.push(result);
+    }
   const all = pairs.flatMap(({ disagreements }) => disagreements);
   const held = pairs.reduce((sum, pair) => sum + pair.contained, 0);
-  worst_m = Math.max(worst_m, ...all.map(({ distance_m }) => distance_m)); disagreeing += all.length; contained += held; compared += pairs.length * count;
+  worst_m = Math.max(worst_m, ...all.map(({ distance_m }) => distance_m));
+  disagreeing += all.length;
+  contained += held;
+  compared += pairs.length * count;
   results.push({
-    robot: id, triangles: made.links.reduce((sum, { mesh }) => sum + mesh.indices.length / 3, 0), pairs: pairs.length, configurations: pairs.length * count, touching: pairs.reduce((sum, { touching }) => sum + touching, 0),
-    contained: held, disagreements: pairs.filter(({ disagreements }) => disagreements.length > 0).map(({ pair, disagreements }) => ({ pair, disagreements })),
+    robot: id,
+    triangles: made.links.reduce((sum, { mesh }) => sum + mesh.indices.length / 3, 0),
+    pairs: pairs.length,
+    configurations: pairs.length * count,
+    touching: pairs.reduce((sum, { touching }) => sum + touching, 0),
+    contained: held,
+    disagreements: pairs
+      .filter(({ disagreements }) => disagreements.length > 0)
+      .map(({ pair, disagreements }) => ({ pair, disagreements })),
   });
   process.stderr.write(`${JSON.stringify(results.at(-1)).slice(0, 400)}\n`);
 }
 const result = {
   what: "contact verdicts of pairs of link meshes beside coal 3.0.3 on the same triangles; contained: one inside the other, which a test of surfaces does not see, decided by a sum of solid angles; disagreements with the distance the other side measures",
-  date: new Date().toISOString().slice(0, 10), machine: `${cpus()[0]?.model ?? "unknown"}, Node ${process.versions.node}`, seed: SEED, configurationsPerPair: count, seconds: Math.round((performance.now() - began) / 1000),
-  configurations: compared, contained, disagreements: disagreeing, worst_m, robots: results,
+  date: new Date().toISOString().slice(0, 10),
+  machine: `${cpus()[0]?.model ?? "unknown"}, Node ${process.versions.node}`,
+  seed: SEED,
+  configurationsPerPair: count,
+  seconds: Math.round((performance.now() - began) / 1000),
+  configurations: compared,
+  contained,
+  disagreements: disagreeing,
+  worst_m,
+  robots: results,
 };
 if (only.length === 0) writeFileSync(new URL("verdicts.json", import.meta.url), `${JSON.stringify(result, null, 1)}\n`);
 process.stdout.write(`${JSON.stringify({ ...result, robots: undefined })}\n`);

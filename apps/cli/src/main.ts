@@ -14,10 +14,17 @@ Twincell is not a certified safety device.
 
 async function main(argv: readonly string[]): Promise<number> {
   const [name, ...rest] = argv;
-  if (name === undefined || name === "--help" || name === "-h" || name === "help") { process.stdout.write(help()); return name === undefined ? 2 : 0; }
+  if (name === undefined || name === "--help" || name === "-h" || name === "help") {
+    process.stdout.write(help());
+    return name === undefined ? 2 : 0;
+  }
   const command = COMMANDS.find(each => each.name === name);
-  if (!command) throw new UseFault(`There is no command "${name}".`, `Commands: ${COMMANDS.map(each => each.name).join(", ")}.`);
-  if (rest.includes("--help") || rest.includes("-h")) { process.stdout.write(`${command.usage}\n`); return 0; }
+  if (!command)
+    throw new UseFault(`There is no command "${name}".`, `Commands: ${COMMANDS.map(each => each.name).join(", ")}.`);
+  if (rest.includes("--help") || rest.includes("-h")) {
+    process.stdout.write(`${command.usage}\n`);
+    return 0;
+  }
   return command.run(rest);
 }
 

@@ -6,22 +6,51 @@ import { fileURLToPath } from "node:url";
 import { afterAll, describe, expect, test } from "vitest";
 
 const root = fileURLToPath(new URL("../../../", import.meta.url));
-const PROGRAM = "examples/01-edge-trace/program.json", CELL = "examples/01-edge-trace/cell.json", IN_CELL = ["--cell", CELL];
+const PROGRAM = "examples/01-edge-trace/program.json";
+const CELL = "examples/01-edge-trace/cell.json";
+const IN_CELL = ["--cell", CELL];
 const folder = mkdtempSync(join(tmpdir(), "twincell-cli-"));
-afterAll(() => { rmSync(folder, { recursive: true, force: true }); });
+afterAll(() => {
+  rmSync(folder, { recursive: true, force: true });
+});
 
-interface Moment { readonly t: number; readonly position: readonly number[]; readonly step: string; readonly line?: number }
-interface Taught { name: string; steps: { id: string; type: string; path?: string; target?: Record<string, unknown> }[] }
+interface Moment {
+  readonly t: number;
+  readonly position: readonly number[];
+  readonly step: string;
+  readonly line?: number;
+}
+interface Taught {
+  name: string;
+  steps: { id: string; type: string; path?: string; target?: Record<string, unknown> }[];
+}
 
 /** The command as users run it. */
 function twincell(...args: readonly string[]) {
-  const run = spawnSync(process.execPath, ["apps/cli/src/main.ts", ...args], { cwd: root, encoding: "utf8", maxBuffer: 1 << 28 });
-  return { code: run.status ?? -1, out: run.stdout, err: run.stderr, sentences: run.stderr.trim().split("\n").filter(line => line !== "") };
+  const run = spawnSync(process.execPath, ["apps/cli/src/main.ts", ...args], {
+    cwd: root,
+    encoding: "utf8",
+    maxBuffer: 1 << 28,
+  });
+  return {
+    code: run.status ?? -1,
+    out: run.stdout,
+    err: run.stderr,
+    sentences: run.stderr
+      .trim()
+      .split("\n")
+      .filter(line => line !== ""),
+  };
 }
-const moments = (text: string): Moment[] => text.trim().split("\n").map(line => JSON.parse(line) as Moment);
+const moments = (text: string): Moment[] =>
+  text
+    .trim()
+    .split("\n")
+    .map(line => JSON.parse(line) as Moment);
 /** The taught example with something changed, as a file. */
 function changed(name: string, change: (program: Taught) => void): string {
-  const program = JSON.parse(readFileSync(`${root}${PROGRAM}`, "utf8")) as Taught, path = join(folder, `${name}.json`);
+  const program = JSON.parse(readFileSync(`${root}${PROGRAM}`, "utf8")) as Taught;
+  const path = join(folder, `${name}.json`);
   change(program);
   writeFileSync(path, JSON.stringify(program));
   return path;
@@ -32,14 +61,23 @@ const pointed = (program: Taught, id: string, position: readonly number[]): void
 
 describe("check", () => {
   test("a good program is judged step by step, exit 0", () => {
-    const { code, out, err } = twincell("check", PROGRAM, ...IN_CELL), verdict = JSON.parse(out) as { ok: boolean; steps: { id: string; verdict: string }[] };
+    const { code, out, err } = twincell("check", PROGRAM, ...IN_CELL);
+    const verdict = JSON.parse(out) as { ok: boolean; steps: { id: string; verdict: string }[] };
     expect({ code, err, ok: verdict.ok }).toEqual({ code: 0, err: "", ok: true });
-    expect(verdict.steps.map(step => step.id)).toEqual((JSON.parse(readFileSync(`${root}${PROGRAM}`, "utf8")) as Taught).steps.map(step => step.id));
+    expect(verdict.steps.map(step => step.id)).toEqual(
+      (JSON.parse(readFileSync(`${root}${PROGRAM}`, "utf8")) as Taught).steps.map(step => step.id),
+    );
   });
   test("a step out of reach is named, exit 1, and is a failure in the JUnit report", () => {
-    const path = changed("too-far", program => { pointed(program, "s4", [4, 0, 1]); }), report = join(folder, "deep", "report.xml");
-    const { code, out } = twincell("check", path, ...IN_CELL, "--junit", report), xml = readFileSync(report, "utf8");
-    const bad = (JSON.parse(out) as { steps: { id: string; verdict: string; findings: { sentence: string }[] }[] }).steps.filter(step => step.verdict === "bad");
+    const path = changed("too-far", program => {
+      pointed(program, "s4", [4, 0, 1]);
+    });
+    const report = join(folder, "deep", "report.xml");
+    const { code, out } = twincell("check", path, ...IN_CELL, "--junit", report);
+    const xml = readFileSync(report, "utf8");
+    const bad = (
+      JSON.parse(out) as { steps: { id: string; verdict: string; findings: { sentence: string }[] }[] }
+    ).steps.filter(step => step.verdict === "bad");
     expect(code).toBe(1);
     expect(bad.map(step => step.id)).toContain("s4");
     expect(bad[0]!.findings[0]!.sentence).toMatch(/\d.*\.$/);
@@ -48,20 +86,32 @@ describe("check", () => {
     expect(readdirSync(join(folder, "deep"))).toEqual(["report.xml"]);
   });
   test("M-49 a certificate is written, proven again, and refuted for a cell that has changed", () => {
-    const file = join(folder, "certificate.json"), crowded = join(folder, "crowded.json");
+    const file = join(folder, "certificate.json");
+    const crowded = join(folder, "crowded.json");
     expect(twincell("check", PROGRAM, ...IN_CELL, "--certificate", file).code).toBe(0);
-    expect(twincell("check", PROGRAM, ...IN_CELL, "--verify", file)).toMatchObject({ code: 0, sentences: [expect.stringMatching(/^All [0-9]+ motions are proven clear a second time, in [0-9]+ looks\.$/)] });
-    const cell = JSON.parse(readFileSync(`${root}${CELL}`, "utf8")) as { objects: { id: string; worldFromObject: { position: number[] } }[] };
+    expect(twincell("check", PROGRAM, ...IN_CELL, "--verify", file)).toMatchObject({
+      code: 0,
+      sentences: [expect.stringMatching(/^All [0-9]+ motions are proven clear a second time, in [0-9]+ looks\.$/)],
+    });
+    const cell = JSON.parse(readFileSync(`${root}${CELL}`, "utf8")) as {
+      objects: { id: string; worldFromObject: { position: number[] } }[];
+    };
     cell.objects.find(({ id }) => id === "carton")!.worldFromObject.position[2]! += 0.05;
     writeFileSync(crowded, JSON.stringify(cell));
     const refuted = twincell("check", PROGRAM, "--cell", crowded, "--verify", file);
     expect(refuted.code).toBe(1);
     expect(refuted.sentences[0]).toMatch(/^The certificate does not hold for step /);
-    expect(twincell("check", PROGRAM, "--certificate", file)).toMatchObject({ code: 2, sentences: [expect.stringContaining("A certificate is about a cell.")] });
+    expect(twincell("check", PROGRAM, "--certificate", file)).toMatchObject({
+      code: 2,
+      sentences: [expect.stringContaining("A certificate is about a cell.")],
+    });
     expect(twincell("check", PROGRAM, ...IN_CELL, "--verify", PROGRAM)).toMatchObject({ code: 2 });
   });
   test("names with marks of XML do not break the report", () => {
-    const path = changed("marks", program => { program.name = `a<b & "c"`; }), report = join(folder, "marks.xml");
+    const path = changed("marks", program => {
+      program.name = `a<b & "c"`;
+    });
+    const report = join(folder, "marks.xml");
     expect(twincell("check", path, "--junit", report).code).toBe(0);
     expect(readFileSync(report, "utf8")).not.toMatch(/<b |& /);
   });
@@ -71,12 +121,29 @@ describe("post, run, parse", () => {
   test("the posted text says at the end of every step what simulate says, within 0.01 mm", () => {
     const posted = twincell("post", PROGRAM, "--to", "v-plus", "-o", join(folder, "post"), ...IN_CELL);
     expect(posted.code, posted.err).toBe(0);
-    const { files } = JSON.parse(posted.out) as { files: string[] }, text = files.find(file => file.endsWith(".v2"))!;
-    expect(readdirSync(join(folder, "post")).sort()).toEqual(files.map(file => file.slice(folder.length + "/post/".length)).sort());
-    const planned = moments(twincell("simulate", PROGRAM, ...IN_CELL, "--period", "0.001").out), ran = twincell("run", text, "--robot", "staubli_rx90l", "--dialect", "v-plus", ...IN_CELL, "--period", "0.001");
+    const { files } = JSON.parse(posted.out) as { files: string[] };
+    const text = files.find(file => file.endsWith(".v2"))!;
+    expect(readdirSync(join(folder, "post")).sort()).toEqual(
+      files.map(file => file.slice(folder.length + "/post/".length)).sort(),
+    );
+    const planned = moments(twincell("simulate", PROGRAM, ...IN_CELL, "--period", "0.001").out);
+    const ran = twincell(
+      "run",
+      text,
+      "--robot",
+      "staubli_rx90l",
+      "--dialect",
+      "v-plus",
+      ...IN_CELL,
+      "--period",
+      "0.001",
+    );
     expect(ran.code, ran.err).toBe(0);
-    const plannedEnds = ends(planned, each => each.step), ranEnds = ends(moments(ran.out), each => String(each.line));
-    const moves = (JSON.parse(readFileSync(`${root}${PROGRAM}`, "utf8")) as Taught).steps.filter(step => step.type === "move").length;
+    const plannedEnds = ends(planned, each => each.step);
+    const ranEnds = ends(moments(ran.out), each => String(each.line));
+    const moves = (JSON.parse(readFileSync(`${root}${PROGRAM}`, "utf8")) as Taught).steps.filter(
+      step => step.type === "move",
+    ).length;
     expect(plannedEnds.length).toBeGreaterThanOrEqual(moves - 1);
     // In their order: the end of each step is an end in the text, after that of the step before it.
     let at = 0;
@@ -87,11 +154,13 @@ describe("post, run, parse", () => {
     }
   });
   test("parse gives a program that simulates to the same end", () => {
-    const text = join(folder, "post", "edge_trace.v2"), parsed = twincell("parse", text, "--robot", "staubli_rx90l", "--dialect", "v-plus");
+    const text = join(folder, "post", "edge_trace.v2");
+    const parsed = twincell("parse", text, "--robot", "staubli_rx90l", "--dialect", "v-plus");
     expect(parsed.code, parsed.err).toBe(0);
     const path = join(folder, "parsed.json");
     writeFileSync(path, parsed.out);
-    const was = moments(twincell("simulate", PROGRAM).out).at(-1)!, is = moments(twincell("simulate", path).out).at(-1)!;
+    const was = moments(twincell("simulate", PROGRAM).out).at(-1)!;
+    const is = moments(twincell("simulate", path).out).at(-1)!;
     expect(distance(was.position, is.position)).toBeLessThan(0.00001);
   });
   test("text that cannot be read is named with line and column, exit 2", () => {
@@ -105,19 +174,39 @@ describe("post, run, parse", () => {
   });
   test("--skip-unknown leaves out what is not understood and names it, motions above all", () => {
     const path = join(folder, "unknown.v2");
-    writeFileSync(path, ".PROGRAM a()\n  MOVE #PPOINT(10,-90,90,0,45,0)\n  BREAK\n  FROBNICATE 5\n  MOVES nowhere\n  DELAY 1\n.END\n");
+    writeFileSync(
+      path,
+      ".PROGRAM a()\n  MOVE #PPOINT(10,-90,90,0,45,0)\n  BREAK\n  FROBNICATE 5\n  MOVES nowhere\n  DELAY 1\n.END\n",
+    );
     expect(twincell("parse", path, "--robot", "staubli_rx90l").code).toBe(2);
     for (const command of ["parse", "run"]) {
-      const { code, out, err } = twincell(command, path, "--robot", "staubli_rx90l", "--dialect", "v-plus", "--skip-unknown");
+      const { code, out, err } = twincell(
+        command,
+        path,
+        "--robot",
+        "staubli_rx90l",
+        "--dialect",
+        "v-plus",
+        "--skip-unknown",
+      );
       expect(code, err).toBe(0);
       expect(err).toMatch(/line 4, column 3: Line 4 is left out\. /);
       expect(err).toMatch(/line 5, column \d+: The motion in line 5 is left out: /);
-      expect(err).toContain("1 of 2 places left out is a motion or a branch: the robot does not do what the text says.");
-      if (command === "parse") expect((JSON.parse(out) as { steps: { type: string }[] }).steps.map(({ type }) => type)).toEqual(["move", "wait"]);
+      expect(err).toContain(
+        "1 of 2 places left out is a motion or a branch: the robot does not do what the text says.",
+      );
+      if (command === "parse")
+        expect((JSON.parse(out) as { steps: { type: string }[] }).steps.map(({ type }) => type)).toEqual([
+          "move",
+          "wait",
+        ]);
     }
   });
   test("a program that cannot be carried out is not written, exit 1 with the step", () => {
-    const path = changed("post-too-far", program => { pointed(program, "s4", [4, 0, 1]); }), target = join(folder, "none");
+    const path = changed("post-too-far", program => {
+      pointed(program, "s4", [4, 0, 1]);
+    });
+    const target = join(folder, "none");
     const { code, sentences } = twincell("post", path, "--to", "v-plus", "-o", target);
     expect(code).toBe(1);
     expect(sentences[0]).toContain("s4");
@@ -128,39 +217,79 @@ describe("post, run, parse", () => {
     writeFileSync(file, "mine");
     for (const target of [file, join(file, "below")]) {
       const { code, sentences } = twincell("post", PROGRAM, "--to", "v-plus", "-o", target);
-      expect({ code, sentences }).toEqual({ code: 2, sentences: [expect.stringContaining("is a file, not a folder") as string] });
+      expect({ code, sentences }).toEqual({
+        code: 2,
+        sentences: [expect.stringContaining("is a file, not a folder") as string],
+      });
     }
     expect(readFileSync(file, "utf8")).toBe("mine");
     const taken = join(folder, "taken");
     mkdirSync(join(taken, "edge_trace.v2"), { recursive: true });
-    expect(twincell("post", PROGRAM, "--to", "v-plus", "-o", taken)).toMatchObject({ code: 2, sentences: [expect.stringContaining("it is a folder") as string] });
+    expect(twincell("post", PROGRAM, "--to", "v-plus", "-o", taken)).toMatchObject({
+      code: 2,
+      sentences: [expect.stringContaining("it is a folder") as string],
+    });
     expect(readdirSync(taken)).toEqual(["edge_trace.v2"]);
-    expect(twincell("check", PROGRAM, "--junit", join(file, "report.xml"))).toMatchObject({ code: 2, sentences: [expect.stringContaining("is a file, not a folder") as string] });
+    expect(twincell("check", PROGRAM, "--junit", join(file, "report.xml"))).toMatchObject({
+      code: 2,
+      sentences: [expect.stringContaining("is a file, not a folder") as string],
+    });
   });
   test.skipIf(process.getuid?.() === 0)("a folder of somebody else's is one sentence, exit 2 (not as root)", () => {
     const closed = join(folder, "closed");
     mkdirSync(closed);
     chmodSync(closed, 0o555);
-    expect(twincell("post", PROGRAM, "--to", "v-plus", "-o", closed)).toMatchObject({ code: 2, sentences: [expect.stringContaining("may not write there") as string] });
+    expect(twincell("post", PROGRAM, "--to", "v-plus", "-o", closed)).toMatchObject({
+      code: 2,
+      sentences: [expect.stringContaining("may not write there") as string],
+    });
     expect(readdirSync(closed)).toEqual([]);
   });
 });
 
 test("X-10 torques of a UR10e with 10 kg: check names joint and torque, simulate writes them and slows down when asked", () => {
-  const q = (shoulder: number): number[] => [0.2, shoulder, 0.4, -1.5, -1.5, 0], move = (id: string, shoulder: number): object => ({ id, type: "move", path: "ptp", target: { q: q(shoulder) }, speed: { ratio: 1 }, blend_m: 0 });
+  const q = (shoulder: number): number[] => [0.2, shoulder, 0.4, -1.5, -1.5, 0];
+  const move = (id: string, shoulder: number): object => ({
+    id,
+    type: "move",
+    path: "ptp",
+    target: { q: q(shoulder) },
+    speed: { ratio: 1 },
+    blend_m: 0,
+  });
   const path = join(folder, "heavy.json");
-  writeFileSync(path, JSON.stringify({ format: "twincell.program", version: 1, robot: "ur10e", tools: {}, frames: {}, steps: [{ id: "load", type: "payload", mass_kg: 10, center_m: [0, 0, 0.1] }, move("up", -1.6), move("out", -0.2)] }));
+  writeFileSync(
+    path,
+    JSON.stringify({
+      format: "twincell.program",
+      version: 1,
+      robot: "ur10e",
+      tools: {},
+      frames: {},
+      steps: [{ id: "load", type: "payload", mass_kg: 10, center_m: [0, 0, 0.1] }, move("up", -1.6), move("out", -0.2)],
+    }),
+  );
   const judged = twincell("check", path);
   expect(judged.code).toBe(1);
   expect(judged.err).toMatch(/^Joint 2 is asked most: [\d.]+ of 330\.0 N m at [\d.]+ s\.$/m);
   expect(judged.out).toContain("with 10 kg; its limit is");
-  const lines = twincell("simulate", path, "--torque", "--period", "0.01"), torques = lines.out.trim().split("\n").map(line => (JSON.parse(line) as { torque: number[] }).torque);
+  const lines = twincell("simulate", path, "--torque", "--period", "0.01");
+  const torques = lines.out
+    .trim()
+    .split("\n")
+    .map(line => (JSON.parse(line) as { torque: number[] }).torque);
   expect(torques.every(torque => torque.length === 6)).toBe(true);
   const held = twincell("simulate", path, "--torque", "--within-torque", "--period", "0.01");
-  expect(held.err).toMatch(/^Step out runs at \d\d % of its speed: joint 2 would need [\d.]+ N m; its limit is 330\.0 N m\.$/m);
+  expect(held.err).toMatch(
+    /^Step out runs at \d\d % of its speed: joint 2 would need [\d.]+ N m; its limit is 330\.0 N m\.$/m,
+  );
   expect(moments(held.out).at(-1)!.t).toBeGreaterThan(moments(lines.out).at(-1)!.t);
-  for (const line of held.out.trim().split("\n")) expect(Math.abs((JSON.parse(line) as { torque: number[] }).torque[1]!)).toBeLessThan(330);
-  const off = twincell("simulate", path, "--accuracy", "0.2,0.4").out.trim().split("\n").map(line => JSON.parse(line) as { override: number; worst_m: number });
+  for (const line of held.out.trim().split("\n"))
+    expect(Math.abs((JSON.parse(line) as { torque: number[] }).torque[1]!)).toBeLessThan(330);
+  const off = twincell("simulate", path, "--accuracy", "0.2,0.4")
+    .out.trim()
+    .split("\n")
+    .map(line => JSON.parse(line) as { override: number; worst_m: number });
   expect(off.map(({ override }) => override)).toEqual([0.2, 0.4]);
   expect(off[1]!.worst_m).toBeGreaterThan(off[0]!.worst_m);
   const unknown = twincell("simulate", PROGRAM, "--torque");
@@ -169,7 +298,10 @@ test("X-10 torques of a UR10e with 10 kg: check names joint and torque, simulate
 });
 
 test("simulate stops at the step that cannot be carried out and names it, exit 1", () => {
-  const path = changed("simulate-too-far", program => { pointed(program, "s4", [4, 0, 1]); }), { code, out, sentences } = twincell("simulate", path);
+  const path = changed("simulate-too-far", program => {
+    pointed(program, "s4", [4, 0, 1]);
+  });
+  const { code, out, sentences } = twincell("simulate", path);
   expect(code).toBe(1);
   expect(sentences).toEqual([expect.stringMatching(/^twincell: Step s4: /) as string]);
   expect(moments(out).length).toBeGreaterThan(10);
@@ -177,20 +309,42 @@ test("simulate stops at the step that cannot be carried out and names it, exit 1
 });
 
 test("dialects says of each what it cannot", () => {
-  const { code, out } = twincell("dialects"), [first] = moments(out);
+  const { code, out } = twincell("dialects");
+  const [first] = moments(out);
   expect(code).toBe(0);
   expect(first).toMatchObject({ id: "v-plus", emits: true, parses: true, interprets: true });
 });
 
 const withNaN = (): string => {
   const path = join(folder, "nan.json");
-  writeFileSync(path, readFileSync(`${root}${PROGRAM}`, "utf8").replace('"speed":{"ratio":0.3}', '"speed":{"ratio":NaN}'));
+  writeFileSync(
+    path,
+    readFileSync(`${root}${PROGRAM}`, "utf8").replace('"speed":{"ratio":0.3}', '"speed":{"ratio":NaN}'),
+  );
   return path;
 };
 test.each([
   ["a number that is none", () => ["check", withNaN()], /nan\.json/],
-  ["an angle that is none", () => ["check", changed("null", program => { program.steps[1]!.target = { q: [0, null, 0, 0, 0, 0], tool: "torch" }; })], /steps.*1/],
-  ["a robot nobody knows", () => ["simulate", changed("robot", program => { Object.assign(program, { robot: "nobody" }); })], /no robot "nobody"/],
+  [
+    "an angle that is none",
+    () => [
+      "check",
+      changed("null", program => {
+        program.steps[1]!.target = { q: [0, null, 0, 0, 0, 0], tool: "torch" };
+      }),
+    ],
+    /steps.*1/,
+  ],
+  [
+    "a robot nobody knows",
+    () => [
+      "simulate",
+      changed("robot", program => {
+        Object.assign(program, { robot: "nobody" });
+      }),
+    ],
+    /no robot "nobody"/,
+  ],
   ["a file that is not there", () => ["check", "nowhere.json"], /no file nowhere\.json/],
   ["a cell that is not there", () => ["check", PROGRAM, "--cell", "nowhere.json"], /no file nowhere\.json/],
   ["a program in place of a cell", () => ["check", PROGRAM, "--cell", PROGRAM], /program\.json/],
@@ -206,6 +360,9 @@ test.each([
 
 /** The last moment of each stretch that belongs to one step or line. */
 function ends(all: readonly Moment[], of: (moment: Moment) => string): Moment[] {
-  return all.filter((moment, i) => of(moment) !== (i + 1 < all.length ? of(all[i + 1]!) : undefined) && moment.step !== "");
+  return all.filter(
+    (moment, i) => of(moment) !== (i + 1 < all.length ? of(all[i + 1]!) : undefined) && moment.step !== "",
+  );
 }
-const distance = (a: readonly number[], b: readonly number[]): number => Math.hypot(...a.map((value, i) => value - b[i]!));
+const distance = (a: readonly number[], b: readonly number[]): number =>
+  Math.hypot(...a.map((value, i) => value - b[i]!));

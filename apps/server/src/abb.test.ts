@@ -14,26 +14,49 @@ import { nodeScheduler } from "./clock.ts";
 import { nodeNetwork } from "./sockets/node-network.ts";
 import { freeDatagramPort } from "./testing/free-port.ts";
 
-const robot = robotById("abb_irb120")!, rapid = dialectById("rapid")!, network = nodeNetwork(), scheduler = nodeScheduler, ACCURACY_RAD = 0.001 * Math.PI / 180;
+const robot = robotById("abb_irb120")!;
+const rapid = dialectById("rapid")!;
+const network = nodeNetwork();
+const scheduler = nodeScheduler;
+const ACCURACY_RAD = (0.001 * Math.PI) / 180;
 /** On a machine that runs other tests beside this one a state may be late; how soon silence is noticed is shown in virtual time. */
 const BUSY_S = 3;
 const open: { close(): void }[] = [];
-afterEach(() => { for (const each of open.splice(0).reverse()) each.close(); });
+afterEach(() => {
+  for (const each of open.splice(0).reverse()) each.close();
+});
 
 async function virtualAbb(host: string, port: number): Promise<VirtualAbb> {
-  const started = await createVirtualAbb({ robot, scheduler, network, host, sensor: { host, port }, rws: 0, interpret: text => rapid.interpret(text, robot), commTimeout_s: BUSY_S });
+  const started = await createVirtualAbb({
+    robot,
+    scheduler,
+    network,
+    host,
+    sensor: { host, port },
+    rws: 0,
+    interpret: text => rapid.interpret(text, robot),
+    commTimeout_s: BUSY_S,
+  });
   if (started.kind === "taken") throw new Error(started.sentence);
   open.push(started.controller);
   return started.controller;
 }
 
 test("T-22 T-23 the driver guides the virtual controller over the loopback, on the vendor's own port", async () => {
-  const host = "127.0.0.51", virtual = await virtualAbb(host, 6510), real = createRealController({ face: abbFace({ robot, scheduler, network, host, ports: { rws: virtual.rws!.port }, stale_s: BUSY_S }), scheduler });
+  const host = "127.0.0.51";
+  const virtual = await virtualAbb(host, 6510);
+  const real = createRealController({
+    face: abbFace({ robot, scheduler, network, host, ports: { rws: virtual.rws!.port }, stale_s: BUSY_S }),
+    scheduler,
+  });
   open.push(real);
   expect(await real.connect()).toEqual({ kind: "done" });
   let samples = 0;
-  real.onSample(() => { samples++; });
-  const target = Float64Array.from(robot.home_rad, q => q + 0.3), begun_s = scheduler.now_s();
+  real.onSample(() => {
+    samples++;
+  });
+  const target = Float64Array.from(robot.home_rad, q => q + 0.3);
+  const begun_s = scheduler.now_s();
   expect(await real.moveJoints(target)).toEqual({ kind: "done" });
   expect(samples / (scheduler.now_s() - begun_s)).toBeGreaterThan(20);
   target.forEach((q, i) => {
@@ -45,10 +68,19 @@ test("T-22 T-23 the driver guides the virtual controller over the loopback, on t
   real.stop();
   expect((await moving).kind).toBe("stopped");
   // The rest goes over Robot Web Services: a program of the studio as RAPID, motors off and on.
-  const q = Array.from(robot.home_rad, angle => angle + 0.1), emitted = rapid.emit({ ...emptyProgram(robot.id, "job"), steps: [{ id: "a", type: "move", path: "ptp", target: { q }, speed: { ratio: 1 }, blend_m: 0 }] }, robot);
+  const q = Array.from(robot.home_rad, angle => angle + 0.1);
+  const emitted = rapid.emit(
+    {
+      ...emptyProgram(robot.id, "job"),
+      steps: [{ id: "a", type: "move", path: "ptp", target: { q }, speed: { ratio: 1 }, blend_m: 0 }],
+    },
+    robot,
+  );
   if (emitted.kind === "cannot") throw new Error(emitted.sentence);
   expect(await real.runText!(emitted.files)).toEqual({ kind: "done" });
-  q.forEach((angle, i) => { expect(virtual.neutral.jointAngle(i + 1)).toBeCloseTo(angle, 4); });
+  q.forEach((angle, i) => {
+    expect(virtual.neutral.jointAngle(i + 1)).toBeCloseTo(angle, 4);
+  });
   real.stop(true);
   for (let i = 0; i < 100 && virtual.cabinet.motorsOn; i++) await pause(20);
   expect(virtual.cabinet.state).toBe("motoroff");
@@ -57,14 +89,23 @@ test("T-22 T-23 the driver guides the virtual controller over the loopback, on t
   expect([virtual.cabinet.state, virtual.programs.isRunning]).toEqual(["motoron", true]);
 }, 60_000);
 
-const PYTHON = process.env["TWINCELL_PYTHON"] ?? "python3", hasClient = spawnSync(PYTHON, ["-c", "import abb_robot_client.egm, abb_robot_client.rws"]).status === 0;
-const python = (program: string, ...args: string[]): Promise<{ code: number; out: string }> => new Promise(resolve => {
-  const child = spawn(PYTHON, ["-c", program, ...args], { stdio: ["ignore", "pipe", "pipe"], timeout: 60_000 });
-  let said = "";
-  for (const stream of [child.stdout, child.stderr]) stream.on("data", (chunk: Buffer) => { said += chunk.toString(); });
-  child.once("error", problem => { resolve({ code: -1, out: problem.message }); });
-  child.once("close", ended => { resolve({ code: ended ?? -1, out: said }); });
-});
+const PYTHON = process.env["TWINCELL_PYTHON"] ?? "python3";
+const hasClient = spawnSync(PYTHON, ["-c", "import abb_robot_client.egm, abb_robot_client.rws"]).status === 0;
+const python = (program: string, ...args: string[]): Promise<{ code: number; out: string }> =>
+  new Promise(resolve => {
+    const child = spawn(PYTHON, ["-c", program, ...args], { stdio: ["ignore", "pipe", "pipe"], timeout: 60_000 });
+    let said = "";
+    for (const stream of [child.stdout, child.stderr])
+      stream.on("data", (chunk: Buffer) => {
+        said += chunk.toString();
+      });
+    child.once("error", problem => {
+      resolve({ code: -1, out: problem.message });
+    });
+    child.once("close", ended => {
+      resolve({ code: ended ?? -1, out: said });
+    });
+  });
 const GUIDE = `
 import json, sys, time
 import numpy as np
@@ -82,18 +123,32 @@ while time.perf_counter() - begun < 20.0:
 print(json.dumps({"first": list(first.joint_angles), "last": list(state.joint_angles), "motors": bool(state.motors_on), "rapid": bool(state.rapid_running), "rate": seen / (time.perf_counter() - begun)}))
 egm.close()
 `;
-test.skipIf(!hasClient)(`abb-robot-client, a client that nobody here wrote, guides the virtual controller${hasClient ? "" : " (skipped: no Python with abb-robot-client; name one by TWINCELL_PYTHON)"}`, async () => {
-  const host = "127.0.0.52", port = await freeDatagramPort(host), virtual = await virtualAbb(host, port);
-  const { code, out } = await python(GUIDE, String(port));
-  expect(code, out).toBe(0);
-  const said = JSON.parse(out.trim().split("\n").at(-1)!) as { first: number[]; last: number[]; motors: boolean; rapid: boolean; rate: number };
-  said.first.forEach((angle, i) => { expect(angle).toBeCloseTo(degrees(robot.home_rad[i]!), 9); });
-  expect(said).toMatchObject({ motors: true, rapid: true });
-  expect(said.last[0]! - said.first[0]!).toBeCloseTo(20, 2);
-  expect(degrees(virtual.neutral.jointAngle(1)) - said.first[0]!).toBeCloseTo(20, 2);
-  expect(said.rate).toBeGreaterThan(20);
-  if (process.env["TWINCELL_SHOW"]) process.stdout.write(`abb-robot-client: ${Math.round(said.rate)} messages/s\n`);
-}, 90_000);
+test.skipIf(!hasClient)(
+  `abb-robot-client, a client that nobody here wrote, guides the virtual controller${hasClient ? "" : " (skipped: no Python with abb-robot-client; name one by TWINCELL_PYTHON)"}`,
+  async () => {
+    const host = "127.0.0.52";
+    const port = await freeDatagramPort(host);
+    const virtual = await virtualAbb(host, port);
+    const { code, out } = await python(GUIDE, String(port));
+    expect(code, out).toBe(0);
+    const said = JSON.parse(out.trim().split("\n").at(-1)!) as {
+      first: number[];
+      last: number[];
+      motors: boolean;
+      rapid: boolean;
+      rate: number;
+    };
+    said.first.forEach((angle, i) => {
+      expect(angle).toBeCloseTo(degrees(robot.home_rad[i]!), 9);
+    });
+    expect(said).toMatchObject({ motors: true, rapid: true });
+    expect(said.last[0]! - said.first[0]!).toBeCloseTo(20, 2);
+    expect(degrees(virtual.neutral.jointAngle(1)) - said.first[0]!).toBeCloseTo(20, 2);
+    expect(said.rate).toBeGreaterThan(20);
+    if (process.env["TWINCELL_SHOW"]) process.stdout.write(`abb-robot-client: ${Math.round(said.rate)} messages/s\n`);
+  },
+  90_000,
+);
 
 const SERVICES = `
 import json, sys, time
@@ -132,21 +187,63 @@ said["left"], said["log"], said["disk"] = rws.list_files("$home"), [[entry.code,
 rws.close()
 print(json.dumps(said))
 `;
-test.skipIf(!hasClient)(`abb-robot-client reads and drives the virtual controller over Robot Web Services: states, signals, data, files, a program from start to end${hasClient ? "" : " (skipped: no Python with abb-robot-client; name one by TWINCELL_PYTHON)"}`, async () => {
-  const host = "127.0.0.53", virtual = await virtualAbb(host, await freeDatagramPort(host)), folder = mkdtempSync(`${tmpdir()}/twincell-abb-`), file = `${folder}/job.mod`;
-  open.push({ close() { rmSync(folder, { recursive: true }); } });
-  const goal = Array.from(robot.home_rad, (angle, i) => degrees(angle) + (i === 0 ? 25 : 0));
-  writeFileSync(file, `MODULE job\n  PERS num parts:=3;\n  PROC main()\n    SetDO lamp,1;\n    MoveAbsJ [[${goal.map(angle => angle.toFixed(4)).join(",")}],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\n  ENDPROC\nENDMODULE\n`);
-  virtual.pendant.setInput("DI4", true);
-  const { code, out } = await python(SERVICES, `http://${host}:${virtual.rws!.port}`, file);
-  expect(code, out).toBe(0);
-  const said = JSON.parse(out.trim().split("\n").at(-1)!) as { joints: number[]; end: number[]; trans: number[]; off: string };
-  expect(said).toMatchObject({
-    state: "motoron", mode: "AUTO", speed: 100, running: "running", tasks: { T_ROB1: ["norm", true, true] }, io: [1, 1], analogue: 1.5, same: true, files: ["TwincellEGM.mod", "job.mod"],
-    number: 12.5, variables: ["parts"], started: "running", lamp: 1, off: "motoroff", refused: [-1073445859, "The controller is in the state motoroff."], left: ["TwincellEGM.mod"], disk: "$RAMDISK",
-    log: [[10011, "Motors ON state"], [10010, "Motors OFF state"], [10123, "Program stopped"]],
-  });
-  said.joints.forEach((angle, i) => { expect(angle).toBeCloseTo(degrees(robot.home_rad[i]!), 6); });
-  said.end.forEach((angle, i) => { expect(angle).toBeCloseTo(goal[i]!, 3); });
-  expect(Math.hypot(...said.trans)).toBeGreaterThan(100);
-}, 90_000);
+test.skipIf(!hasClient)(
+  `abb-robot-client reads and drives the virtual controller over Robot Web Services: states, signals, data, files, a program from start to end${hasClient ? "" : " (skipped: no Python with abb-robot-client; name one by TWINCELL_PYTHON)"}`,
+  async () => {
+    const host = "127.0.0.53";
+    const virtual = await virtualAbb(host, await freeDatagramPort(host));
+    const folder = mkdtempSync(`${tmpdir()}/twincell-abb-`);
+    const file = `${folder}/job.mod`;
+    open.push({
+      close() {
+        rmSync(folder, { recursive: true });
+      },
+    });
+    const goal = Array.from(robot.home_rad, (angle, i) => degrees(angle) + (i === 0 ? 25 : 0));
+    writeFileSync(
+      file,
+      `MODULE job\n  PERS num parts:=3;\n  PROC main()\n    SetDO lamp,1;\n    MoveAbsJ [[${goal.map(angle => angle.toFixed(4)).join(",")}],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\n  ENDPROC\nENDMODULE\n`,
+    );
+    virtual.pendant.setInput("DI4", true);
+    const { code, out } = await python(SERVICES, `http://${host}:${virtual.rws!.port}`, file);
+    expect(code, out).toBe(0);
+    const said = JSON.parse(out.trim().split("\n").at(-1)!) as {
+      joints: number[];
+      end: number[];
+      trans: number[];
+      off: string;
+    };
+    expect(said).toMatchObject({
+      state: "motoron",
+      mode: "AUTO",
+      speed: 100,
+      running: "running",
+      tasks: { T_ROB1: ["norm", true, true] },
+      io: [1, 1],
+      analogue: 1.5,
+      same: true,
+      files: ["TwincellEGM.mod", "job.mod"],
+      number: 12.5,
+      variables: ["parts"],
+      started: "running",
+      lamp: 1,
+      off: "motoroff",
+      refused: [-1073445859, "The controller is in the state motoroff."],
+      left: ["TwincellEGM.mod"],
+      disk: "$RAMDISK",
+      log: [
+        [10011, "Motors ON state"],
+        [10010, "Motors OFF state"],
+        [10123, "Program stopped"],
+      ],
+    });
+    said.joints.forEach((angle, i) => {
+      expect(angle).toBeCloseTo(degrees(robot.home_rad[i]!), 6);
+    });
+    said.end.forEach((angle, i) => {
+      expect(angle).toBeCloseTo(goal[i]!, 3);
+    });
+    expect(Math.hypot(...said.trans)).toBeGreaterThan(100);
+  },
+  90_000,
+);

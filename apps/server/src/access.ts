@@ -3,10 +3,17 @@ import { randomBytes, randomInt, timingSafeEqual } from "node:crypto";
 const COOKIE = "twincell_access";
 const TRIES = 20;
 
-export type Entry = { readonly kind: "welcome" } | { readonly kind: "welcome-with-cookie"; readonly cookie: string } | { readonly kind: "ask" } | { readonly kind: "too-many-tries" };
+export type Entry =
+  | { readonly kind: "welcome" }
+  | { readonly kind: "welcome-with-cookie"; readonly cookie: string }
+  | { readonly kind: "ask" }
+  | { readonly kind: "too-many-tries" };
 
 /** Six digits stand between the local network and the studio: typed once, or carried by the QR code's address. */
-export interface AccessCode { readonly code: string; enter(cookies: string | undefined, given: string | null): Entry }
+export interface AccessCode {
+  readonly code: string;
+  enter(cookies: string | undefined, given: string | null): Entry;
+}
 
 export function accessCode(): AccessCode {
   const code = String(randomInt(0, 1_000_000)).padStart(6, "0");
@@ -16,11 +23,16 @@ export function accessCode(): AccessCode {
   return {
     code,
     enter(cookies, given) {
-      const carried = cookies?.split(";").map(part => part.trim()).find(part => part.startsWith(`${COOKIE}=`))?.slice(COOKIE.length + 1);
+      const carried = cookies
+        ?.split(";")
+        .map(part => part.trim())
+        .find(part => part.startsWith(`${COOKIE}=`))
+        ?.slice(COOKIE.length + 1);
       if (carried !== undefined && same(carried, token)) return { kind: "welcome" };
       if (wrong >= TRIES) return { kind: "too-many-tries" };
       if (given === null) return { kind: "ask" };
-      if (same(given, code)) return { kind: "welcome-with-cookie", cookie: `${COOKIE}=${token}; Path=/; HttpOnly; Secure; SameSite=Strict` };
+      if (same(given, code))
+        return { kind: "welcome-with-cookie", cookie: `${COOKIE}=${token}; Path=/; HttpOnly; Secure; SameSite=Strict` };
       wrong++;
       return wrong >= TRIES ? { kind: "too-many-tries" } : { kind: "ask" };
     },

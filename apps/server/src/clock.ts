@@ -5,6 +5,8 @@ export const nodeScheduler: Scheduler = {
   now_s: () => performance.now() / 1000,
   every(period_s, tick) {
     const timer = setInterval(tick, period_s * 1000);
-    return () => { clearInterval(timer); };
+    return () => {
+      clearInterval(timer);
+    };
   },
 };

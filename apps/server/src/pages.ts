@@ -4,9 +4,12 @@ import type { staticFiles } from "./static-files.ts";
 
 /** Cross-origin isolation gives the studio precise clocks and shared memory; nothing is ever loaded from elsewhere. */
 const HEADERS: Readonly<Record<string, string>> = {
-  "content-security-policy": "default-src 'self'; script-src 'self' 'wasm-unsafe-eval' blob:; worker-src 'self' blob:; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' data: blob:; frame-ancestors 'none'; base-uri 'self'; form-action 'self'",
-  "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp",
-  "x-content-type-options": "nosniff", "referrer-policy": "no-referrer",
+  "content-security-policy":
+    "default-src 'self'; script-src 'self' 'wasm-unsafe-eval' blob:; worker-src 'self' blob:; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' data: blob:; frame-ancestors 'none'; base-uri 'self'; form-action 'self'",
+  "cross-origin-opener-policy": "same-origin",
+  "cross-origin-embedder-policy": "require-corp",
+  "x-content-type-options": "nosniff",
+  "referrer-policy": "no-referrer",
   // The camera of a phone or of this computer may be asked for; nothing here listens.
   "permissions-policy": "camera=(self), microphone=()",
 };
@@ -16,7 +19,11 @@ const HEADERS: Readonly<Record<string, string>> = {
  * change and nobody but this origin to talk to; everything else stays without.
  */
 const WRITES_CODE = /^\/assets\/physics\.worker-[\w-]+\.js$/;
-const WRITER_HEADERS: Readonly<Record<string, string>> = { ...HEADERS, "content-security-policy": "default-src 'none'; script-src 'self' 'wasm-unsafe-eval' 'unsafe-eval'; connect-src 'self'" };
+const WRITER_HEADERS: Readonly<Record<string, string>> = {
+  ...HEADERS,
+  "content-security-policy":
+    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval' 'unsafe-eval'; connect-src 'self'",
+};
 
 /** The same page, without the code in its address. Two slashes in front would name another machine. */
 function withoutCode(url: URL): string {
@@ -27,10 +34,15 @@ function withoutCode(url: URL): string {
 
 /** Names that a browser may have used for this machine. */
 export const LOOPBACK: readonly string[] = ["localhost", "127.0.0.1", "[::1]"];
-export const isServed = (hosts: ReadonlySet<string>, request: IncomingMessage): boolean => hosts.has((request.headers.host ?? "").replace(/:\d+$/, ""));
+export const isServed = (hosts: ReadonlySet<string>, request: IncomingMessage): boolean =>
+  hosts.has((request.headers.host ?? "").replace(/:\d+$/, ""));
 
 /** Hands out files of the built studio to whoever asked for one of these hosts and knows the code, where there is one. */
-export function studioListener(files: ReturnType<typeof staticFiles>, hosts: ReadonlySet<string>, access: AccessCode | null): RequestListener {
+export function studioListener(
+  files: ReturnType<typeof staticFiles>,
+  hosts: ReadonlySet<string>,
+  access: AccessCode | null,
+): RequestListener {
   return (request, response) => {
     answer(request, response).catch((problem: unknown) => {
       if (!response.headersSent) response.writeHead(500, { "content-type": "text/plain; charset=utf-8" });
@@ -45,9 +57,16 @@ export function studioListener(files: ReturnType<typeof staticFiles>, hosts: Rea
       response.end(request.method === "HEAD" ? undefined : text);
     };
     // A page elsewhere that points its own name at this machine must not be served.
-    if (!isServed(hosts, request)) { say(421, "This address is not served here.\n"); return; }
-    if (request.method !== "GET" && request.method !== "HEAD") { say(405, "Only reading is possible here.\n", { allow: "GET, HEAD" }); return; }
-    let url: URL, path: string;
+    if (!isServed(hosts, request)) {
+      say(421, "This address is not served here.\n");
+      return;
+    }
+    if (request.method !== "GET" && request.method !== "HEAD") {
+      say(405, "Only reading is possible here.\n", { allow: "GET, HEAD" });
+      return;
+    }
+    let url: URL;
+    let path: string;
     try {
       url = new URL(request.url ?? "/", "http://here");
       path = decodeURIComponent(url.pathname);
@@ -57,12 +76,25 @@ export function studioListener(files: ReturnType<typeof staticFiles>, hosts: Rea
     }
     if (access) {
       const entry = access.enter(request.headers.cookie, url.searchParams.get("code"));
-      if (entry.kind === "too-many-tries") { say(429, "Too many wrong codes. Start Twincell again for a new one.\n"); return; }
-      if (entry.kind === "ask") { say(401, askForCode, { "content-type": "text/html; charset=utf-8" }); return; }
-      if (entry.kind === "welcome-with-cookie") { say(303, "", { "set-cookie": entry.cookie, location: withoutCode(url) }); return; }
+      if (entry.kind === "too-many-tries") {
+        say(429, "Too many wrong codes. Start Twincell again for a new one.\n");
+        return;
+      }
+      if (entry.kind === "ask") {
+        say(401, askForCode, { "content-type": "text/html; charset=utf-8" });
+        return;
+      }
+      if (entry.kind === "welcome-with-cookie") {
+        say(303, "", { "set-cookie": entry.cookie, location: withoutCode(url) });
+        return;
+      }
     }
     const found = await files(path, String(request.headers["accept-encoding"] ?? ""), request.headers["if-none-match"]);
-    response.writeHead(found.status, { ...(WRITES_CODE.test(path) ? WRITER_HEADERS : HEADERS), ...found.headers, ...(found.status === 200 ? { "content-length": String(found.body.length) } : {}) });
+    response.writeHead(found.status, {
+      ...(WRITES_CODE.test(path) ? WRITER_HEADERS : HEADERS),
+      ...found.headers,
+      ...(found.status === 200 ? { "content-length": String(found.body.length) } : {}),
+    });
     response.end(request.method === "HEAD" ? undefined : found.body);
   }
 }

@@ -15,49 +15,124 @@ writeFileSync(join(studio, "pendant", "index.html"), "<title>pendant</title>");
 
 /** A virtual UR on a clock of the test's own, its pendant on a real socket. */
 async function bench() {
-  const scheduler = manualScheduler(), robot = robotById("ur10e")!, brand = brandById("ur")!;
-  const opened = await openCabinet({ brand, robot, scheduler, network: memoryNetwork(scheduler), host: "127.0.0.1", interpret: () => ({ kind: "not-understood", faults: [] }) });
+  const scheduler = manualScheduler();
+  const robot = robotById("ur10e")!;
+  const brand = brandById("ur")!;
+  const opened = await openCabinet({
+    brand,
+    robot,
+    scheduler,
+    network: memoryNetwork(scheduler),
+    host: "127.0.0.1",
+    interpret: () => ({ kind: "not-understood", faults: [] }),
+  });
   if (opened.kind === "taken") throw new Error(opened.sentence);
-  const served = await servePendant({ studio, host: "127.0.0.1", port: 0, version: "test", scheduler, pendant: opened.cabinet, words: { id: "pendant", name: "Virtual UR10e", brand: "ur", robot: "ur10e", virtual: true, watchdog: "" } });
+  const served = await servePendant({
+    studio,
+    host: "127.0.0.1",
+    port: 0,
+    version: "test",
+    scheduler,
+    pendant: opened.cabinet,
+    words: { id: "pendant", name: "Virtual UR10e", brand: "ur", robot: "ur10e", virtual: true, watchdog: "" },
+  });
   if (served.kind === "taken") throw new Error(served.sentence);
-  return { scheduler, served, opened, url: new URL(served.url), close() { served.close(); opened.close(); } };
+  return {
+    scheduler,
+    served,
+    opened,
+    url: new URL(served.url),
+    close() {
+      served.close();
+      opened.close();
+    },
+  };
 }
 let here: Awaited<ReturnType<typeof bench>>;
-beforeEach(async () => { here = await bench(); });
-afterEach(() => { here.close(); });
+beforeEach(async () => {
+  here = await bench();
+});
+afterEach(() => {
+  here.close();
+});
 
-const dial = (origin?: string): WebSocket => new WebSocket(`ws://${here.url.host}/stations`, origin === undefined ? {} : { origin });
-const opening = (socket: WebSocket): Promise<"open" | "refused"> => new Promise(resolve => { socket.once("open", () => { resolve("open"); }); socket.once("error", () => { resolve("refused"); }); });
+const dial = (origin?: string): WebSocket =>
+  new WebSocket(`ws://${here.url.host}/stations`, origin === undefined ? {} : { origin });
+const opening = (socket: WebSocket): Promise<"open" | "refused"> =>
+  new Promise(resolve => {
+    socket.once("open", () => {
+      resolve("open");
+    });
+    socket.once("error", () => {
+      resolve("refused");
+    });
+  });
 /** A page at the pendant. */
 async function visit() {
-  const socket = dial(), told: Tell[] = [];
-  const client = createClient({ send: text => { socket.send(text); }, close: () => { socket.close(); } }, () => here.scheduler.now_s(), message => { told.push(message); });
-  socket.on("message", data => { client.hear(String(data as Buffer)); });
+  const socket = dial();
+  const told: Tell[] = [];
+  const client = createClient(
+    {
+      send: text => {
+        socket.send(text);
+      },
+      close: () => {
+        socket.close();
+      },
+    },
+    () => here.scheduler.now_s(),
+    message => {
+      told.push(message);
+    },
+  );
+  socket.on("message", data => {
+    client.hear(String(data as Buffer));
+  });
   expect(await opening(socket)).toBe("open");
-  const ask = (act: Extract<Ask, { type: "pendant" }>["act"]) => client.ask({ type: "pendant", station: "pendant", act });
+  const ask = (act: Extract<Ask, { type: "pendant" }>["act"]) =>
+    client.ask({ type: "pendant", station: "pendant", act });
   return { socket, client, told, ask };
 }
 const until = async (so: () => boolean, what: string): Promise<void> => {
-  for (const end_ms = performance.now() + 10_000; !so();) { if (performance.now() > end_ms) throw new Error(`Never ${what}.`); await pause(2); }
+  for (const end_ms = performance.now() + 10_000; !so(); ) {
+    if (performance.now() > end_ms) throw new Error(`Never ${what}.`);
+    await pause(2);
+  }
 };
 
 test("the page is served at /pendant/; pages of another origin and of another name are not let in", async () => {
   expect(await fetch(here.served.url).then(answer => answer.text())).toContain("pendant");
   expect(await opening(dial(`http://${here.url.host}`))).toBe("open");
-  for (const origin of ["http://evil.example", "null", `https://${here.url.host}.evil.example`]) expect(await opening(dial(origin)), origin).toBe("refused");
-  const again: ServedPendant = await servePendant({ studio, host: "127.0.0.1", port: Number(here.url.port), version: "", scheduler: here.scheduler, pendant: here.opened.cabinet, words: { id: "p", name: "p", brand: "ur", robot: "ur10e", virtual: true, watchdog: "" } });
+  for (const origin of ["http://evil.example", "null", `https://${here.url.host}.evil.example`])
+    expect(await opening(dial(origin)), origin).toBe("refused");
+  const again: ServedPendant = await servePendant({
+    studio,
+    host: "127.0.0.1",
+    port: Number(here.url.port),
+    version: "",
+    scheduler: here.scheduler,
+    pendant: here.opened.cabinet,
+    words: { id: "p", name: "p", brand: "ur", robot: "ur10e", virtual: true, watchdog: "" },
+  });
   expect(again).toMatchObject({ kind: "taken", sentence: expect.stringContaining(here.url.port) as string });
 });
 
 test("X-41 T-26 whoever's connection ends while a jog key is held has let it go: the arm stands within 100 ms of the controller's time", async () => {
-  const { socket, ask, client, told } = await visit(), { virtual, cabinet } = here.opened, { scheduler } = here;
+  const { socket, ask, client, told } = await visit();
+  const { virtual, cabinet } = here.opened;
+  const { scheduler } = here;
   expect(await client.ask({ type: "visit", station: "pendant", on: true })).toEqual({ kind: "done" });
-  expect(told.find(message => message.type === "pendant")).toMatchObject({ words: { brandName: "Universal Robots", keys: [{ id: "manual" }, { id: "automatic" }, { id: "remote" }] } });
+  expect(told.find(message => message.type === "pendant")).toMatchObject({
+    words: { brandName: "Universal Robots", keys: [{ id: "manual" }, { id: "automatic" }, { id: "remote" }] },
+  });
   await ask({ do: "key", position: "manual" });
   await ask({ do: "enable", pressed: true });
   const jog = ask({ do: "jog", joint: 1, direction: 1 });
   await until(() => cabinet.shown.jog !== null, "jogging");
-  for (let i = 0; i < 60; i++) { cabinet.alive("studio 1"); await scheduler.elapse(0.01); }
+  for (let i = 0; i < 60; i++) {
+    cabinet.alive("studio 1");
+    await scheduler.elapse(0.01);
+  }
   expect(cabinet.shown.moving).toBe(true);
   socket.terminate();
   await until(() => !cabinet.shown.enabled, "let go");
@@ -70,27 +145,54 @@ test("X-41 T-26 whoever's connection ends while a jog key is held has let it go:
 });
 
 test("any bytes on the socket: a sentence and the end of that connection, never a crash, nothing moves (400 sockets)", async () => {
-  const random = seededRandom(60), whole: Ask[] = [
-    { type: "visit", id: 0, station: "pendant", on: true }, { type: "pendant", id: 1, station: "pendant", act: { do: "key", position: "manual" } }, { type: "alive", station: "pendant" },
-    { type: "pendant", id: 2, station: "pendant", act: { do: "trouble", delay_s: 0.1 } }, { type: "stop", emergency: false },
+  const random = seededRandom(60);
+  const whole: Ask[] = [
+    { type: "visit", id: 0, station: "pendant", on: true },
+    { type: "pendant", id: 1, station: "pendant", act: { do: "key", position: "manual" } },
+    { type: "alive", station: "pendant" },
+    { type: "pendant", id: 2, station: "pendant", act: { do: "trouble", delay_s: 0.1 } },
+    { type: "stop", emergency: false },
   ];
-  const before = here.opened.virtual.jointAngles().slice(), said: string[] = [];
+  const before = here.opened.virtual.jointAngles().slice();
+  const said: string[] = [];
   for (let round = 0; round < 400; round++) {
-    const socket = dial(), ended = new Promise<void>(resolve => { socket.once("close", () => { resolve(); }); });
-    socket.on("error", () => { socket.terminate(); });
-    socket.on("message", data => { const heard = readTell(String(data as Buffer)); if (heard.kind === "fault") said.push(heard.sentence); });
+    const socket = dial();
+    const ended = new Promise<void>(resolve => {
+      socket.once("close", () => {
+        resolve();
+      });
+    });
+    socket.on("error", () => {
+      socket.terminate();
+    });
+    socket.on("message", data => {
+      const heard = readTell(String(data as Buffer));
+      if (heard.kind === "fault") said.push(heard.sentence);
+    });
     expect(await opening(socket)).toBe("open");
-    const text = write(whole[Math.floor(random() * whole.length)]!), bytes = new TextEncoder().encode(text);
-    if (random() < 0.3) socket.send(Buffer.from(Array.from({ length: 1 + Math.floor(random() * 64) }, () => Math.floor(random() * 256))));
+    const text = write(whole[Math.floor(random() * whole.length)]!);
+    const bytes = new TextEncoder().encode(text);
+    if (random() < 0.3)
+      socket.send(Buffer.from(Array.from({ length: 1 + Math.floor(random() * 64) }, () => Math.floor(random() * 256))));
     else {
       for (let k = 0; k < 3; k++) bytes[Math.floor(random() * bytes.length)] = 32 + Math.floor(random() * 95);
       socket.send(new TextDecoder().decode(bytes));
     }
-    if (random() < 0.5) socket.terminate(); else socket.close();
+    if (random() < 0.5) socket.terminate();
+    else socket.close();
     await ended;
   }
-  const last = dial(), sentences: string[] = [], over = new Promise<void>(resolve => { last.once("close", () => { resolve(); }); });
-  last.on("message", data => { const heard = readTell(String(data as Buffer)); if (heard.kind === "read" && heard.message.type === "fault") sentences.push(heard.message.sentence); });
+  const last = dial();
+  const sentences: string[] = [];
+  const over = new Promise<void>(resolve => {
+    last.once("close", () => {
+      resolve();
+    });
+  });
+  last.on("message", data => {
+    const heard = readTell(String(data as Buffer));
+    if (heard.kind === "read" && heard.message.type === "fault") sentences.push(heard.message.sentence);
+  });
   expect(await opening(last)).toBe("open");
   last.send('{"type":"dance"}');
   await over;
@@ -101,5 +203,8 @@ test("any bytes on the socket: a sentence and the end of that connection, never 
   expect([...here.opened.virtual.jointAngles()]).toEqual([...before]);
   const { ask, client } = await visit();
   expect(await ask({ do: "reset" })).toHaveProperty("kind");
-  expect(await client.ask({ type: "zero", station: "pendant" })).toMatchObject({ kind: "refused", why: { code: "pendant.only" } });
+  expect(await client.ask({ type: "zero", station: "pendant" })).toMatchObject({
+    kind: "refused",
+    why: { code: "pendant.only" },
+  });
 }, 60_000);

@@ -19,19 +19,30 @@ export interface ServePendantOptions {
   readonly words: StationWords;
   readonly pendant: HostedPendant;
 }
-export type ServedPendant = { readonly kind: "served"; readonly url: string; close(): void } | { readonly kind: "taken"; readonly sentence: string };
+export type ServedPendant =
+  | { readonly kind: "served"; readonly url: string; close(): void }
+  | { readonly kind: "taken"; readonly sentence: string };
 
 /** Serves the web pendant of one virtual controller. */
 export async function servePendant({ studio, host, port, ...options }: ServePendantOptions): Promise<ServedPendant> {
-  const hosts = new Set([...LOOPBACK, host]), server = createServer(studioListener(staticFiles(studio), hosts, null));
+  const hosts = new Set([...LOOPBACK, host]);
+  const server = createServer(studioListener(staticFiles(studio), hosts, null));
   const problem = await new Promise<Error | null>(resolve => {
     server.once("error", resolve);
-    server.listen(port, host, () => { resolve(null); });
+    server.listen(port, host, () => {
+      resolve(null);
+    });
   });
-  if (problem) return { kind: "taken", sentence: `The pendant's page cannot be served at ${host}:${port}: ${problem.message}.` };
+  if (problem)
+    return { kind: "taken", sentence: `The pendant's page cannot be served at ${host}:${port}: ${problem.message}.` };
   const socket = openDoors(server, [stationDoor(createPendantHost(options))], request => isServed(hosts, request));
   return {
-    kind: "served", url: `http://${host}:${(server.address() as AddressInfo).port}/pendant/`,
-    close() { socket.close(); server.closeAllConnections(); server.close(); },
+    kind: "served",
+    url: `http://${host}:${(server.address() as AddressInfo).port}/pendant/`,
+    close() {
+      socket.close();
+      server.closeAllConnections();
+      server.close();
+    },
   };
 }

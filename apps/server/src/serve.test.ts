@@ -14,18 +14,36 @@ writeFileSync(join(studio, "assets", "physics.worker-Ab_1-2.js"), "1;");
 writeFileSync(join(studio, "..", "secret.txt"), "secret");
 
 let served: Served | undefined;
-afterEach(async () => { await served?.close(); served = undefined; });
+afterEach(async () => {
+  await served?.close();
+  served = undefined;
+});
 
-function get(path: string, headers: Record<string, string> = {}, method = "GET"): Promise<{ status: number; headers: Record<string, string | string[] | undefined>; body: string }> {
+function get(
+  path: string,
+  headers: Record<string, string> = {},
+  method = "GET",
+): Promise<{ status: number; headers: Record<string, string | string[] | undefined>; body: string }> {
   const url = new URL(served!.url);
   return new Promise((resolve, reject) => {
     const options = { host: "127.0.0.1", port: url.port, path, headers, method, rejectUnauthorized: false };
     const listen = (response: import("node:http").IncomingMessage) => {
       const parts: Buffer[] = [];
       response.on("data", (part: Buffer) => parts.push(part));
-      response.on("end", () => { resolve({ status: response.statusCode ?? 0, headers: response.headers, body: Buffer.concat(parts).toString("latin1") }); });
+      response.on("end", () => {
+        resolve({
+          status: response.statusCode ?? 0,
+          headers: response.headers,
+          body: Buffer.concat(parts).toString("latin1"),
+        });
+      });
     };
-    const asked = url.protocol === "https:" ? httpsGet(options, listen) : method === "GET" ? httpGet(options, listen) : httpRequest(options, listen).end();
+    const asked =
+      url.protocol === "https:"
+        ? httpsGet(options, listen)
+        : method === "GET"
+          ? httpGet(options, listen)
+          : httpRequest(options, listen).end();
     asked.on("error", reject);
   });
 }
@@ -46,16 +64,25 @@ test("only the worker that holds the physics engine may write code; the page and
   served = await serve({ studio, port: 0 });
   const policy = async (path: string): Promise<string> => String((await get(path)).headers["content-security-policy"]);
   expect(await policy("/assets/physics.worker-Ab_1-2.js")).toContain("'unsafe-eval'");
-  for (const path of ["/", "/assets/a-1234.js", "/assets/physics.worker.js", "/assets/x/physics.worker-a.js", "/physics.worker-a.js"]) expect((await policy(path)).replace("'wasm-unsafe-eval'", ""), path).not.toContain("unsafe-eval");
+  for (const path of [
+    "/",
+    "/assets/a-1234.js",
+    "/assets/physics.worker.js",
+    "/assets/x/physics.worker-a.js",
+    "/physics.worker-a.js",
+  ])
+    expect((await policy(path)).replace("'wasm-unsafe-eval'", ""), path).not.toContain("unsafe-eval");
 });
 
 test.each(["/../secret.txt", "/%2e%2e/secret.txt", "/..%2fsecret.txt", "/assets/../../secret.txt", "/%00", "/nothing"])(
-  "nothing outside the folder exists: %s", async path => {
+  "nothing outside the folder exists: %s",
+  async path => {
     served = await serve({ studio, port: 0 });
     const answer = await get(path);
     expect(answer.status).toBe(404);
     expect(answer.body).not.toContain("secret");
-  });
+  },
+);
 
 test("an unreadable address, a foreign name and a write are answered with one sentence", async () => {
   served = await serve({ studio, port: 0 });
@@ -80,8 +107,15 @@ test("on the local network: HTTPS, and no page without the access code", async (
   const cookie = String(entered.headers["set-cookie"]).split(";")[0]!;
   expect((await get("/", { cookie })).body).toContain("studio");
   // The code opens the page it was put behind, and never one elsewhere.
-  for (const [path, location] of [["/", "/"], ["/camera/", "/camera/"], ["/camera/?name=Phone", "/camera/?name=Phone"], ["/.//evil.example/", "/evil.example/"]] as const) {
-    expect((await get(`${path}${path.includes("?") ? "&" : "?"}code=${served.code}`)).headers["location"]).toBe(location);
+  for (const [path, location] of [
+    ["/", "/"],
+    ["/camera/", "/camera/"],
+    ["/camera/?name=Phone", "/camera/?name=Phone"],
+    ["/.//evil.example/", "/evil.example/"],
+  ] as const) {
+    expect((await get(`${path}${path.includes("?") ? "&" : "?"}code=${served.code}`)).headers["location"]).toBe(
+      location,
+    );
   }
 }, 30_000);
 

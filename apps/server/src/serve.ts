@@ -43,20 +43,48 @@ export async function serve(options: ServeOptions): Promise<Served> {
   const access = options.lan ? accessCode() : null;
   const hosts = new Set([...LOOPBACK, ...addresses]);
   const listener = studioListener(staticFiles(options.studio), hosts, access);
-  const server = options.lan ? createHttps({ ...await certificate(options.data, addresses) }, listener) : createHttp(listener);
+  const server = options.lan
+    ? createHttps({ ...(await certificate(options.data, addresses)) }, listener)
+    : createHttp(listener);
   await new Promise<void>((resolve, reject) => {
     server.once("error", reject);
     server.listen(options.port, options.host ?? (options.lan ? "0.0.0.0" : "127.0.0.1"), resolve);
   });
-  const programs = layOutElsewhere(), stations = stationHost(nodeScheduler, options.version ?? "", programs.layOut);
-  const recorder = options.data === undefined ? null : await recordHost(stations, join(options.data, "recordings"), nodeScheduler, sentence => { console.error(sentence); });
-  const port = (server.address() as AddressInfo).port, scheme = options.lan ? "https" : "http", query = access ? `?code=${access.code}` : "";
-  const relay = createVideoRelay(nodeScheduler.now_s, addresses.map(address => `${scheme}://${address}:${port}/camera/${query}`));
-  const socket = openDoors(server, [stationDoor(stations), videoDoor(relay)], request => isServed(hosts, request) && (access === null || access.enter(request.headers.cookie, null).kind === "welcome"));
+  const programs = layOutElsewhere();
+  const stations = stationHost(nodeScheduler, options.version ?? "", programs.layOut);
+  const recorder =
+    options.data === undefined
+      ? null
+      : await recordHost(stations, join(options.data, "recordings"), nodeScheduler, sentence => {
+          console.error(sentence);
+        });
+  const port = (server.address() as AddressInfo).port;
+  const scheme = options.lan ? "https" : "http";
+  const query = access ? `?code=${access.code}` : "";
+  const relay = createVideoRelay(
+    nodeScheduler.now_s,
+    addresses.map(address => `${scheme}://${address}:${port}/camera/${query}`),
+  );
+  const socket = openDoors(
+    server,
+    [stationDoor(stations), videoDoor(relay)],
+    request =>
+      isServed(hosts, request) && (access === null || access.enter(request.headers.cookie, null).kind === "welcome"),
+  );
   return {
     url: `${scheme}://127.0.0.1:${port}/${query}`,
     lanUrls: addresses.map(address => `${scheme}://${address}:${port}/${query}`),
     code: access?.code ?? null,
-    close: () => new Promise(resolve => { recorder?.close(); stations.close(); programs.close(); socket.close(); server.closeAllConnections(); server.close(() => { resolve(); }); }),
+    close: () =>
+      new Promise(resolve => {
+        recorder?.close();
+        stations.close();
+        programs.close();
+        socket.close();
+        server.closeAllConnections();
+        server.close(() => {
+          resolve();
+        });
+      }),
   };
 }

@@ -13,16 +13,33 @@ import { afterEach, describe, expect, test } from "vitest";
 import { nodeScheduler } from "./clock.ts";
 import { nodeNetwork } from "./sockets/node-network.ts";
 
-const robot = robotById("ur10e")!, network = nodeNetwork(), scheduler = nodeScheduler, ACCURACY_RAD = 0.001 * Math.PI / 180;
-const python = process.env["TWINCELL_PYTHON"] ?? "python3", has = (module: string): boolean => spawnSync(python, ["-c", `import ${module}`]).status === 0;
-const noUrRtde = !has("rtde_control"), noRtde = !has("rtde.rtde"), noUrx = !has("urx.urrtmon");
+const robot = robotById("ur10e")!;
+const network = nodeNetwork();
+const scheduler = nodeScheduler;
+const ACCURACY_RAD = (0.001 * Math.PI) / 180;
+const python = process.env["TWINCELL_PYTHON"] ?? "python3";
+const has = (module: string): boolean => spawnSync(python, ["-c", `import ${module}`]).status === 0;
+const noUrRtde = !has("rtde_control");
+const noRtde = !has("rtde.rtde");
+const noUrx = !has("urx.urrtmon");
 const open: { close(): void }[] = [];
-afterEach(() => { for (const each of open.splice(0).reverse()) each.close(); });
+afterEach(() => {
+  for (const each of open.splice(0).reverse()) each.close();
+});
 
 /** Foreign clients know the vendor's ports only: several controllers stand on one machine by address. */
 async function virtualUr(host: string): Promise<{ ur: VirtualUr; log: string[] }> {
   const log: string[] = [];
-  const started = await createVirtualUr({ robot, scheduler, network, host, interpret: text => urScript.interpret(text, robot), log: sentence => { log.push(sentence); } });
+  const started = await createVirtualUr({
+    robot,
+    scheduler,
+    network,
+    host,
+    interpret: text => urScript.interpret(text, robot),
+    log: sentence => {
+      log.push(sentence);
+    },
+  });
   if (started.kind === "taken") throw new Error(started.sentence);
   open.push(started.virtual);
   return { ur: started.virtual, log };
@@ -33,29 +50,43 @@ async function driver(host: string) {
   expect(await real.connect()).toEqual({ kind: "done" });
   return real;
 }
-const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number => Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
+const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number =>
+  Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
 const near = (by_rad: number): number[] => Array.from(robot.home_rad, q => q + by_rad);
 
 /** Runs a Python client while the controller goes on here; what it prints last is JSON. */
 function client(host: string, text: string): Promise<Record<string, unknown>> {
   return new Promise((resolve, reject) => {
     const child = spawn(python, ["-c", text, host], { stdio: ["ignore", "pipe", "pipe"] });
-    let out = "", err = "";
-    open.push({ close() { child.kill("SIGKILL"); } });
-    child.stdout.on("data", (chunk: Buffer) => { out += chunk.toString(); });
-    child.stderr.on("data", (chunk: Buffer) => { err += chunk.toString(); });
+    let out = "";
+    let err = "";
+    open.push({
+      close() {
+        child.kill("SIGKILL");
+      },
+    });
+    child.stdout.on("data", (chunk: Buffer) => {
+      out += chunk.toString();
+    });
+    child.stderr.on("data", (chunk: Buffer) => {
+      err += chunk.toString();
+    });
     child.on("close", code => {
       const last = out.trim().split("\n").at(-1) ?? "";
-      if (code === 0 && last.startsWith("{")) resolve(JSON.parse(last) as Record<string, unknown>); else reject(new Error(`The client ended with ${code}: ${err}${out}`));
+      if (code === 0 && last.startsWith("{")) resolve(JSON.parse(last) as Record<string, unknown>);
+      else reject(new Error(`The client ended with ${code}: ${err}${out}`));
     });
   });
 }
 
 describe("Universal Robots on real sockets", () => {
   test("T-22 T-23 the driver moves the virtual controller over the loopback on the vendor's own ports", async () => {
-    const { ur } = await virtualUr("127.0.0.41"), real = await driver("127.0.0.41");
+    const { ur } = await virtualUr("127.0.0.41");
+    const real = await driver("127.0.0.41");
     let samples = 0;
-    real.onSample(() => { samples++; });
+    real.onSample(() => {
+      samples++;
+    });
     // A machine that does much else may stall this process past the watchdog of the robot: then it stops, as it should, and is told again.
     let outcome = await real.moveJoints(near(0.3));
     for (let tries = 1; tries < 5 && outcome.kind !== "done"; tries++) {
@@ -65,7 +96,8 @@ describe("Universal Robots on real sockets", () => {
     expect(outcome).toEqual({ kind: "done" });
     await pause(50);
     expect(samples).toBeGreaterThan(100);
-    for (const is of [real.jointAngles(), ur.jointAngles()]) expect(farthest(is, near(0.3))).toBeLessThanOrEqual(ACCURACY_RAD);
+    for (const is of [real.jointAngles(), ur.jointAngles()])
+      expect(farthest(is, near(0.3))).toBeLessThanOrEqual(ACCURACY_RAD);
     const moving = real.moveJoints(near(-0.3));
     await pause(200);
     real.stop();
@@ -75,8 +107,10 @@ describe("Universal Robots on real sockets", () => {
   });
 
   test("a program as it is exported runs on the controller through the language's own interpreter", async () => {
-    const { ur } = await virtualUr("127.0.0.42"), real = await driver("127.0.0.42");
-    const text = "def exported():\n  set_standard_digital_out(1, True)\n  movej([0.2, -1.4, 1.4, -1.5, -1.5, 0.1], v=2)\n  sleep(0.1)\n  set_standard_digital_out(1, False)\nend\n";
+    const { ur } = await virtualUr("127.0.0.42");
+    const real = await driver("127.0.0.42");
+    const text =
+      "def exported():\n  set_standard_digital_out(1, True)\n  movej([0.2, -1.4, 1.4, -1.5, -1.5, 0.1], v=2)\n  sleep(0.1)\n  set_standard_digital_out(1, False)\nend\n";
     const running = real.runText!([{ name: "exported.script", text, lines: [] }]);
     await pause(300);
     expect(ur.digitalOut(1)).toBe(true);
@@ -88,12 +122,20 @@ describe("Universal Robots on real sockets", () => {
   test("any bytes on any port end that connection, and the next one is served", async () => {
     const { ur, log } = await virtualUr("127.0.0.43");
     // The read-only copies do not even look at what comes.
-    for (const port of Object.entries(ur.ports).filter(([name]) => !name.endsWith("Copy")).map(([, number]) => number)) {
+    for (const port of Object.entries(ur.ports)
+      .filter(([name]) => !name.endsWith("Copy"))
+      .map(([, number]) => number)) {
       await new Promise<void>(resolve => {
-        const socket = connect({ host: "127.0.0.43", port }, () => { socket.write(Buffer.alloc(1 << 20, "\u0000\u0001x")); });
+        const socket = connect({ host: "127.0.0.43", port }, () => {
+          socket.write(Buffer.alloc(1 << 20, "\u0000\u0001x"));
+        });
         socket.resume();
-        socket.on("error", () => { /* The other side hung up, as it should. */ });
-        socket.on("close", () => { resolve(); });
+        socket.on("error", () => {
+          /* The other side hung up, as it should. */
+        });
+        socket.on("close", () => {
+          resolve();
+        });
       });
     }
     expect(log).toHaveLength(5);
@@ -101,23 +143,45 @@ describe("Universal Robots on real sockets", () => {
     expect(real.isConnected).toBe(true);
   });
 
-  test.skipIf(noUrRtde)(`ur_rtde receives, sets outputs and the slider, and moves the robot with its own control script${noUrRtde ? " (skipped: it is not installed)" : ""}`, async () => {
-    const { ur, log } = await virtualUr("127.0.0.44");
-    const told = await client("127.0.0.44", UR_RTDE);
-    expect(told).toMatchObject({ connected: true, robotMode: 7, safetyMode: 1, output: true, slider: 0.5, ready: true, moveJ: true, moveL: true, speedJ: true, servo: true, stopped: 0, program: true });
-    // The controller's own clock: 2 ms from one state to the next, however late they are read.
-    expect(told["step_s"]).toBeCloseTo(0.002, 9);
-    for (const key of ["joint_error", "pose_error", "ik_error", "fk_error", "servo_error"]) expect(told[key], key).toBeLessThan(1e-5);
-    expect(told["speed"]).toBeCloseTo(0.2, 6);
-    expect(told["offset"]).toEqual([0, 0, 0.1, 0, 0, 0]);
-    expect(told["protective"]).toEqual({ stopped: true, moveJ: false });
-    expect(ur.digitalOut(3)).toBe(true);
-    expect(log.filter(sentence => sentence.startsWith("RTDE: "))).toEqual([]);
-  }, 60_000);
+  test.skipIf(noUrRtde)(
+    `ur_rtde receives, sets outputs and the slider, and moves the robot with its own control script${noUrRtde ? " (skipped: it is not installed)" : ""}`,
+    async () => {
+      const { ur, log } = await virtualUr("127.0.0.44");
+      const told = await client("127.0.0.44", UR_RTDE);
+      expect(told).toMatchObject({
+        connected: true,
+        robotMode: 7,
+        safetyMode: 1,
+        output: true,
+        slider: 0.5,
+        ready: true,
+        moveJ: true,
+        moveL: true,
+        speedJ: true,
+        servo: true,
+        stopped: 0,
+        program: true,
+      });
+      // The controller's own clock: 2 ms from one state to the next, however late they are read.
+      expect(told["step_s"]).toBeCloseTo(0.002, 9);
+      for (const key of ["joint_error", "pose_error", "ik_error", "fk_error", "servo_error"])
+        expect(told[key], key).toBeLessThan(1e-5);
+      expect(told["speed"]).toBeCloseTo(0.2, 6);
+      expect(told["offset"]).toEqual([0, 0, 0.1, 0, 0, 0]);
+      expect(told["protective"]).toEqual({ stopped: true, moveJ: false });
+      expect(ur.digitalOut(3)).toBe(true);
+      expect(log.filter(sentence => sentence.startsWith("RTDE: "))).toEqual([]);
+    },
+    60_000,
+  );
 
-  test.skipIf(noUrx)(`urx reads joints and the tool from the real-time interface${noUrx ? " (skipped: it is not installed)" : ""}`, async () => {
-    const { ur } = await virtualUr("127.0.0.47");
-    const told = await client("127.0.0.47", `
+  test.skipIf(noUrx)(
+    `urx reads joints and the tool from the real-time interface${noUrx ? " (skipped: it is not installed)" : ""}`,
+    async () => {
+      const { ur } = await virtualUr("127.0.0.47");
+      const told = await client(
+        "127.0.0.47",
+        `
 import json, sys, time
 from urx.urrtmon import URRTMonitor
 monitor = URRTMonitor(sys.argv[1])
@@ -125,20 +189,33 @@ monitor.daemon = True
 monitor.start()
 time.sleep(1)
 print(json.dumps({"q": list(monitor.q_actual()), "tcp": list(monitor.tcf_pose())}))
-`);
-    expect(farthest(told["q"] as number[], ur.jointAngles())).toBeLessThan(1e-12);
-    const slot = ur.memory.slotOf("actual_TCP_pose");
-    expect(farthest(told["tcp"] as number[], ur.memory.slots.subarray(slot, slot + 6))).toBeLessThan(1e-12);
-  }, 30_000);
+`,
+      );
+      expect(farthest(told["q"] as number[], ur.jointAngles())).toBeLessThan(1e-12);
+      const slot = ur.memory.slotOf("actual_TCP_pose");
+      expect(farthest(told["tcp"] as number[], ur.memory.slots.subarray(slot, slot + 6))).toBeLessThan(1e-12);
+    },
+    30_000,
+  );
 
-  test.skipIf(noRtde)(`UR's own RTDE client receives 125 states a second and writes registers${noRtde ? " (skipped: it is not installed)" : ""}`, async () => {
-    const { ur } = await virtualUr("127.0.0.45");
-    const told = await client("127.0.0.45", UR_CLIENT);
-    expect(told).toMatchObject({ version: [5, 12, 0, 1_101_319], started: true, mode: 7, q: Array.from(robot.home_rad), types: "INT32,DOUBLE" });
-    // It leaves out states that were overtaken by newer ones; what it keeps is on the raster of 8 ms.
-    expect(told["off_raster_s"]).toBeLessThan(1e-6);
-    expect([ur.memory.get("input_int_register_24"), ur.memory.get("input_double_register_24")]).toEqual([42, -0.5]);
-  }, 60_000);
+  test.skipIf(noRtde)(
+    `UR's own RTDE client receives 125 states a second and writes registers${noRtde ? " (skipped: it is not installed)" : ""}`,
+    async () => {
+      const { ur } = await virtualUr("127.0.0.45");
+      const told = await client("127.0.0.45", UR_CLIENT);
+      expect(told).toMatchObject({
+        version: [5, 12, 0, 1_101_319],
+        started: true,
+        mode: 7,
+        q: Array.from(robot.home_rad),
+        types: "INT32,DOUBLE",
+      });
+      // It leaves out states that were overtaken by newer ones; what it keeps is on the raster of 8 ms.
+      expect(told["off_raster_s"]).toBeLessThan(1e-6);
+      expect([ur.memory.get("input_int_register_24"), ur.memory.get("input_double_register_24")]).toEqual([42, -0.5]);
+    },
+    60_000,
+  );
 });
 
 const UR_RTDE = `

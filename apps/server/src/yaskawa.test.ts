@@ -3,7 +3,14 @@
  * TWINCELL_FS100 is the path of fs100.py (github.com/hsinkoyu/fs100), TWINCELL_MOTO_HSES the folder of the built programs of
  * moto-hses 0.4 (cargo build --release --bins --examples), which has `server` and `examples/` in it.
  */
-import { createRealController, createVirtualYaskawa, YASKAWA_EXAMPLE_SCALE, yaskawaFace, type VirtualYaskawa, type YaskawaFaceOptions } from "@twincell/controllers";
+import {
+  createRealController,
+  createVirtualYaskawa,
+  YASKAWA_EXAMPLE_SCALE,
+  yaskawaFace,
+  type VirtualYaskawa,
+  type YaskawaFaceOptions,
+} from "@twincell/controllers";
 import { emptyProgram, robotById, type EmittedFile, type Program } from "@twincell/core";
 import { inform } from "@twincell/languages";
 import { spawn, spawnSync } from "node:child_process";
@@ -16,34 +23,67 @@ import { afterEach, describe, expect, test } from "vitest";
 import { nodeScheduler } from "./clock.ts";
 import { nodeNetwork } from "./sockets/node-network.ts";
 
-const robot = robotById("yaskawa_gp8")!, network = nodeNetwork(), scheduler = nodeScheduler, ACCURACY_RAD = 0.001 * Math.PI / 180;
+const robot = robotById("yaskawa_gp8")!;
+const network = nodeNetwork();
+const scheduler = nodeScheduler;
+const ACCURACY_RAD = (0.001 * Math.PI) / 180;
 /** On a machine that runs other tests beside this one a state may be late; how soon silence is noticed is shown in virtual time. */
 const BUSY_S = 3;
 async function until(so: () => boolean, most_s = 10): Promise<void> {
-  for (const end_s = scheduler.now_s() + most_s; !so() && scheduler.now_s() < end_s;) await pause(10);
+  for (const end_s = scheduler.now_s() + most_s; !so() && scheduler.now_s() < end_s; ) await pause(10);
   expect(so()).toBe(true);
 }
 const open: { close(): void }[] = [];
-afterEach(() => { for (const each of open.splice(0).reverse()) each.close(); });
+afterEach(() => {
+  for (const each of open.splice(0).reverse()) each.close();
+});
 
-async function virtualYaskawa(host: string, ports = { robot: 0, files: 0 }): Promise<{ virtual: VirtualYaskawa; log: string[] }> {
+async function virtualYaskawa(
+  host: string,
+  ports = { robot: 0, files: 0 },
+): Promise<{ virtual: VirtualYaskawa; log: string[] }> {
   const log: string[] = [];
-  const started = await createVirtualYaskawa({ robot, scheduler, network, host, ports, servoOn_s: 0.1, interpret: text => inform.interpret(text, robot), log: line => { log.push(line); } });
+  const started = await createVirtualYaskawa({
+    robot,
+    scheduler,
+    network,
+    host,
+    ports,
+    servoOn_s: 0.1,
+    interpret: text => inform.interpret(text, robot),
+    log: line => {
+      log.push(line);
+    },
+  });
   if (started.kind === "taken") throw new Error(started.sentence);
   open.push(started.controller);
   return { virtual: started.controller, log };
 }
 async function driver(host: string, ports: VirtualYaskawa["ports"], options: Partial<YaskawaFaceOptions> = {}) {
-  const real = createRealController({ face: yaskawaFace({ robot, scheduler, network, host, ports, scale: YASKAWA_EXAMPLE_SCALE, stale_s: BUSY_S, ...options }), scheduler });
+  const real = createRealController({
+    face: yaskawaFace({
+      robot,
+      scheduler,
+      network,
+      host,
+      ports,
+      scale: YASKAWA_EXAMPLE_SCALE,
+      stale_s: BUSY_S,
+      ...options,
+    }),
+    scheduler,
+  });
   open.push(real);
   expect(await real.connect()).toEqual({ kind: "done" });
   return real;
 }
 const shifted = (by_rad: number): number[] => Array.from(robot.home_rad, q => q + by_rad);
-const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number => Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
+const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number =>
+  Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
 function written(): readonly EmittedFile[] {
   const program: Program = {
-    ...emptyProgram(robot.id, "Pick"), signals: { lamp: { kind: "digital-out", address: 2 } },
+    ...emptyProgram(robot.id, "Pick"),
+    signals: { lamp: { kind: "digital-out", address: 2 } },
     steps: [
       { id: "a", type: "move", path: "ptp", target: { q: shifted(0.2) }, speed: { ratio: 0.8 }, blend_m: 0 },
       { id: "s", type: "set", signal: "lamp", to: true },
@@ -57,9 +97,12 @@ function written(): readonly EmittedFile[] {
 
 describe("Yaskawa on real sockets", () => {
   test("T-22 T-23 the driver moves the virtual controller over the loopback, on the vendor's own ports", async () => {
-    const { virtual } = await virtualYaskawa("127.0.0.41", { robot: 10_040, files: 10_041 }), real = await driver("127.0.0.41", virtual.ports);
+    const { virtual } = await virtualYaskawa("127.0.0.41", { robot: 10_040, files: 10_041 });
+    const real = await driver("127.0.0.41", virtual.ports);
     let samples = 0;
-    real.onSample(() => { samples++; });
+    real.onSample(() => {
+      samples++;
+    });
     const begun_s = scheduler.now_s();
     expect(await real.moveJoints(shifted(0.3))).toEqual({ kind: "done" });
     expect(samples / (scheduler.now_s() - begun_s)).toBeGreaterThan(5);
@@ -71,7 +114,9 @@ describe("Yaskawa on real sockets", () => {
     real.stop();
     expect((await moving).kind).toBe("stopped");
     let safety = "";
-    real.onSample(lent => { safety = lent.safety; });
+    real.onSample(lent => {
+      safety = lent.safety;
+    });
     real.stop(true);
     await until(() => safety === "emergency-stop");
     expect(await real.moveToZero()).toMatchObject({ kind: "refused", why: { code: "safety.emergency-stop" } });
@@ -80,7 +125,8 @@ describe("Yaskawa on real sockets", () => {
   });
 
   test("an INFORM job goes over block by block, is started and watched to its end", async () => {
-    const { virtual } = await virtualYaskawa("127.0.0.42"), real = await driver("127.0.0.42", virtual.ports);
+    const { virtual } = await virtualYaskawa("127.0.0.42");
+    const real = await driver("127.0.0.42", virtual.ports);
     expect(await real.runText!(written())).toEqual({ kind: "done" });
     expect(farthest(real.jointAngles(), shifted(0.1))).toBeLessThanOrEqual(3 * ACCURACY_RAD);
     expect(virtual.neutral.signals.read("ot_2")).toBe(true);
@@ -88,8 +134,15 @@ describe("Yaskawa on real sockets", () => {
   });
 
   test("garbage on both ports is logged once and changes nothing", async () => {
-    const { virtual, log } = await virtualYaskawa("127.0.0.43"), socket = createSocket("udp4");
-    for (let i = 0; i < 200; i++) for (const port of [virtual.ports.robot, virtual.ports.files]) socket.send(Uint8Array.from({ length: i }, (_, k) => (k * 37 + i) & 255), port, "127.0.0.43");
+    const { virtual, log } = await virtualYaskawa("127.0.0.43");
+    const socket = createSocket("udp4");
+    for (let i = 0; i < 200; i++)
+      for (const port of [virtual.ports.robot, virtual.ports.files])
+        socket.send(
+          Uint8Array.from({ length: i }, (_, k) => (k * 37 + i) & 255),
+          port,
+          "127.0.0.43",
+        );
     await until(() => log.length > 0);
     await pause(100);
     socket.close();
@@ -99,16 +152,26 @@ describe("Yaskawa on real sockets", () => {
 });
 
 /** What a program printed, and how it ended. */
-const run = (program: string, args: readonly string[], within_s: number): Promise<{ code: number; out: string }> => new Promise(resolve => {
-  const child = spawn(program, args, { stdio: ["ignore", "pipe", "pipe"], timeout: within_s * 1000 });
-  let out = "";
-  child.stdout.on("data", (chunk: Buffer) => { out += chunk.toString(); });
-  child.stderr.on("data", (chunk: Buffer) => { out += chunk.toString(); });
-  child.once("error", problem => { resolve({ code: -1, out: problem.message }); });
-  child.once("close", code => { resolve({ code: code ?? -1, out }); });
-});
+const run = (program: string, args: readonly string[], within_s: number): Promise<{ code: number; out: string }> =>
+  new Promise(resolve => {
+    const child = spawn(program, args, { stdio: ["ignore", "pipe", "pipe"], timeout: within_s * 1000 });
+    let out = "";
+    child.stdout.on("data", (chunk: Buffer) => {
+      out += chunk.toString();
+    });
+    child.stderr.on("data", (chunk: Buffer) => {
+      out += chunk.toString();
+    });
+    child.once("error", problem => {
+      resolve({ code: -1, out: problem.message });
+    });
+    child.once("close", code => {
+      resolve({ code: code ?? -1, out });
+    });
+  });
 
-const PYTHON = process.env["TWINCELL_PYTHON"] ?? "python3", FS100 = process.env["TWINCELL_FS100"] ?? "";
+const PYTHON = process.env["TWINCELL_PYTHON"] ?? "python3";
+const FS100 = process.env["TWINCELL_FS100"] ?? "";
 const hasFs100 = existsSync(FS100) && spawnSync(PYTHON, ["--version"]).status === 0;
 const CHECKS = `
 import importlib.util, json, os, sys, tempfile, time
@@ -179,72 +242,160 @@ said["delete"] = [robot.delete_file("PICK.JBI"), robot.delete_file("PICK.JBI"), 
 print(json.dumps(said))
 `;
 
-test.skipIf(!hasFs100)(`fs100, a client that nobody here wrote, reads, writes, moves, transfers and plays on the virtual controller${hasFs100 ? "" : " (skipped: TWINCELL_FS100 names no fs100.py)"}`, async () => {
-  const { virtual, log } = await virtualYaskawa("127.0.0.44"), folder = mkdtempSync(join(tmpdir(), "twincell-hses-"));
-  try {
-    // Longer than one block on the wire.
-    const file = join(folder, "PICK.JBI"), text = written()[0]!.text.replace("NOP", `NOP\r\n${"'a line that says nothing\r\n".repeat(40)}`);
-    writeFileSync(file, text);
-    const { code, out } = await run(PYTHON, ["-c", CHECKS, FS100, "127.0.0.44", String(virtual.ports.robot), String(virtual.ports.files), file], 60);
-    expect(code, out).toBe(0);
-    const said = JSON.parse(out.trim().split("\n").at(-1)!) as Record<string, unknown>;
-    const pos = (name: string): number[] => (said[name] as [number, number, { pos: number[] }])[2].pos;
-    for (const name of ["alarm", "history", "status", "job", "axes", "pulses", "place", "error", "torque", "system", "hours", "there", "lower", "list", "after"]) expect((said[name] as number[])[0], name).toBe(0);
-    expect(said["status"]).toMatchObject([0, 0, { running: false, cmd_remote: true, servo_on: true, alarming: false }]);
-    expect(said["axes"]).toMatchObject([0, 0, { "1st_axis": "S", "6th_axis": "T" }]);
-    expect(pos("pulses")).toEqual([0, 0, 0, 0, -90_000, 0, 0, 0]);
-    expect(pos("place")).toEqual([380_000, 0, 305_000, 1_800_000, 0, 0, 0, 0]);
-    for (const [kind, value] of [["IO", 129], ["REGISTER", 4660], ["BYTE", 200], ["INTEGER", -2], ["DOUBLE", -70_000], ["REAL", 12.5], ["STRING", "HELLO"]] as const) expect(said[kind], kind).toEqual([0, 0, value]);
-    expect(said["ROBOT_POSITION"]).toMatchObject([0, 0, { data_type: 16, pos: [1, -2, 3, 4, 5, 6, 0, 0] }]);
-    expect(said["BASE_POSITION"]).toMatchObject([0, 0, { "8th_axis": 7 }]);
-    expect(said["EXTERNAL_AXIS"]).toMatchObject([0, 0, { "3rd_axis": 2 }]);
-    expect(said["many"]).toEqual([0, [0, -2, 0]]);
-    expect(said["unwritable"]).toEqual([0x1F, 0x2110]);
-    expect(said["servo"]).toEqual([0, 0x1F, 0x2070, 0]);
-    expect([said["text"], said["cycle"], said["pmov"], said["mov"], said["send"], said["recv"], said["same"], said["play"]]).toEqual([0, 0, 0, 0, 0, 0, true, 0]);
-    expect(pos("there").slice(0, 6)).toEqual([13_400, 0, 0, 0, -90_000, 0]);
-    (said["aim"] as number[]).forEach((aim, i) => { expect(Math.abs(pos("lower")[i]! - aim), `element ${i + 1}`).toBeLessThanOrEqual(2); });
-    expect(said["hold"]).toEqual([0, 0x1F, 0x2050, 0]);
-    expect(said["reset"]).toEqual([0, 0]);
-    expect(said["list"]).toEqual([0, 0, ["PICK.JBI"]]);
-    expect(said["select"]).toEqual([0x1F, 0x4040, 0]);
-    expect(farthest(virtual.neutral.jointAngles(), shifted(0.1))).toBeLessThanOrEqual(3 * ACCURACY_RAD);
-    expect(said["delete"]).toEqual([0, 0x1F, 0xE2B3]);
-    expect([virtual.pendant.text, log]).toEqual(["hello", []]);
-  } finally { rmSync(folder, { recursive: true }); }
-}, 90_000);
+test.skipIf(!hasFs100)(
+  `fs100, a client that nobody here wrote, reads, writes, moves, transfers and plays on the virtual controller${hasFs100 ? "" : " (skipped: TWINCELL_FS100 names no fs100.py)"}`,
+  async () => {
+    const { virtual, log } = await virtualYaskawa("127.0.0.44");
+    const folder = mkdtempSync(join(tmpdir(), "twincell-hses-"));
+    try {
+      // Longer than one block on the wire.
+      const file = join(folder, "PICK.JBI");
+      const text = written()[0]!.text.replace("NOP", `NOP\r\n${"'a line that says nothing\r\n".repeat(40)}`);
+      writeFileSync(file, text);
+      const { code, out } = await run(
+        PYTHON,
+        ["-c", CHECKS, FS100, "127.0.0.44", String(virtual.ports.robot), String(virtual.ports.files), file],
+        60,
+      );
+      expect(code, out).toBe(0);
+      const said = JSON.parse(out.trim().split("\n").at(-1)!) as Record<string, unknown>;
+      const pos = (name: string): number[] => (said[name] as [number, number, { pos: number[] }])[2].pos;
+      for (const name of [
+        "alarm",
+        "history",
+        "status",
+        "job",
+        "axes",
+        "pulses",
+        "place",
+        "error",
+        "torque",
+        "system",
+        "hours",
+        "there",
+        "lower",
+        "list",
+        "after",
+      ])
+        expect((said[name] as number[])[0], name).toBe(0);
+      expect(said["status"]).toMatchObject([
+        0,
+        0,
+        { running: false, cmd_remote: true, servo_on: true, alarming: false },
+      ]);
+      expect(said["axes"]).toMatchObject([0, 0, { "1st_axis": "S", "6th_axis": "T" }]);
+      expect(pos("pulses")).toEqual([0, 0, 0, 0, -90_000, 0, 0, 0]);
+      expect(pos("place")).toEqual([380_000, 0, 305_000, 1_800_000, 0, 0, 0, 0]);
+      for (const [kind, value] of [
+        ["IO", 129],
+        ["REGISTER", 4660],
+        ["BYTE", 200],
+        ["INTEGER", -2],
+        ["DOUBLE", -70_000],
+        ["REAL", 12.5],
+        ["STRING", "HELLO"],
+      ] as const)
+        expect(said[kind], kind).toEqual([0, 0, value]);
+      expect(said["ROBOT_POSITION"]).toMatchObject([0, 0, { data_type: 16, pos: [1, -2, 3, 4, 5, 6, 0, 0] }]);
+      expect(said["BASE_POSITION"]).toMatchObject([0, 0, { "8th_axis": 7 }]);
+      expect(said["EXTERNAL_AXIS"]).toMatchObject([0, 0, { "3rd_axis": 2 }]);
+      expect(said["many"]).toEqual([0, [0, -2, 0]]);
+      expect(said["unwritable"]).toEqual([0x1f, 0x2110]);
+      expect(said["servo"]).toEqual([0, 0x1f, 0x2070, 0]);
+      expect([
+        said["text"],
+        said["cycle"],
+        said["pmov"],
+        said["mov"],
+        said["send"],
+        said["recv"],
+        said["same"],
+        said["play"],
+      ]).toEqual([0, 0, 0, 0, 0, 0, true, 0]);
+      expect(pos("there").slice(0, 6)).toEqual([13_400, 0, 0, 0, -90_000, 0]);
+      (said["aim"] as number[]).forEach((aim, i) => {
+        expect(Math.abs(pos("lower")[i]! - aim), `element ${i + 1}`).toBeLessThanOrEqual(2);
+      });
+      expect(said["hold"]).toEqual([0, 0x1f, 0x2050, 0]);
+      expect(said["reset"]).toEqual([0, 0]);
+      expect(said["list"]).toEqual([0, 0, ["PICK.JBI"]]);
+      expect(said["select"]).toEqual([0x1f, 0x4040, 0]);
+      expect(farthest(virtual.neutral.jointAngles(), shifted(0.1))).toBeLessThanOrEqual(3 * ACCURACY_RAD);
+      expect(said["delete"]).toEqual([0, 0x1f, 0xe2b3]);
+      expect([virtual.pendant.text, log]).toEqual(["hello", []]);
+    } finally {
+      rmSync(folder, { recursive: true });
+    }
+  },
+  90_000,
+);
 
-const MOTO = process.env["TWINCELL_MOTO_HSES"] ?? "", hasMoto = existsSync(join(MOTO, "server"));
+const MOTO = process.env["TWINCELL_MOTO_HSES"] ?? "";
+const hasMoto = existsSync(join(MOTO, "server"));
 const WITHOUT_MOTO = hasMoto ? "" : " (skipped: TWINCELL_MOTO_HSES names no folder of built programs)";
 
-test.skipIf(!hasMoto)(`the example clients of moto-hses run on the virtual controller${WITHOUT_MOTO}`, async () => {
-  const { virtual, log } = await virtualYaskawa("127.0.0.45");
-  const examples = ["read_status", "read_executing_job_info", "position_operations", "byte_variable_operations", "integer_variable_operations", "double_variable_operations", "real_variable_operations",
-    "string_variable_operations", "register_operations", "io_operations", "cycle_mode_control", "hold_servo_control", "alarm_operations"];
-  for (const example of examples) {
-    process.env["RUST_LOG"] = "info";
-    const { code, out } = await run(join(MOTO, "examples", example), ["127.0.0.45", String(virtual.ports.robot)], 30);
-    expect(code, `${example}: ${out}`).toBe(0);
-    expect(out, example).not.toMatch(/✗|panicked/);
-  }
-  expect(log).toEqual([]);
-}, 120_000);
+test.skipIf(!hasMoto)(
+  `the example clients of moto-hses run on the virtual controller${WITHOUT_MOTO}`,
+  async () => {
+    const { virtual, log } = await virtualYaskawa("127.0.0.45");
+    const examples = [
+      "read_status",
+      "read_executing_job_info",
+      "position_operations",
+      "byte_variable_operations",
+      "integer_variable_operations",
+      "double_variable_operations",
+      "real_variable_operations",
+      "string_variable_operations",
+      "register_operations",
+      "io_operations",
+      "cycle_mode_control",
+      "hold_servo_control",
+      "alarm_operations",
+    ];
+    for (const example of examples) {
+      process.env["RUST_LOG"] = "info";
+      const { code, out } = await run(join(MOTO, "examples", example), ["127.0.0.45", String(virtual.ports.robot)], 30);
+      expect(code, `${example}: ${out}`).toBe(0);
+      expect(out, example).not.toMatch(/✗|panicked/);
+    }
+    expect(log).toEqual([]);
+  },
+  120_000,
+);
 
-test.skipIf(!hasMoto)(`our driver reads the mock server of moto-hses, writes a line, takes its servo off and puts it on again${WITHOUT_MOTO}`, async () => {
-  const ports = { robot: 20_140, files: 20_141 }, server = spawn(join(MOTO, "server"), ["127.0.0.46", String(ports.robot), String(ports.files)], { stdio: "ignore" });
-  open.push({ close() { server.kill(); } });
-  await pause(1000);
-  const real = await driver("127.0.0.46", ports, { model: "", signals: { start: 27_013 } });
-  let safety = "", message = "";
-  real.onSample(lent => { safety = lent.safety; message = lent.message; });
-  await until(() => safety === "normal" && real.link.rate_Hz > 5);
-  expect(message).toBe("");
-  expect([...real.jointAngles()]).toEqual([0, 0, 0, 0, 0, 0]);
-  expect(await real.run([{ id: "s", type: "set", signal: "start", to: true }], { tools: {}, frames: {} })).toEqual({ kind: "done" });
-  await until(() => real.signals?.read("start") === true);
-  // Hold and servo off, then the alarm reset, the hold let go and the servo on: the server says what it was told.
-  real.stop(true);
-  await until(() => safety === "emergency-stop");
-  real.reset();
-  await until(() => safety === "normal");
-}, 30_000);
+test.skipIf(!hasMoto)(
+  `our driver reads the mock server of moto-hses, writes a line, takes its servo off and puts it on again${WITHOUT_MOTO}`,
+  async () => {
+    const ports = { robot: 20_140, files: 20_141 };
+    const server = spawn(join(MOTO, "server"), ["127.0.0.46", String(ports.robot), String(ports.files)], {
+      stdio: "ignore",
+    });
+    open.push({
+      close() {
+        server.kill();
+      },
+    });
+    await pause(1000);
+    const real = await driver("127.0.0.46", ports, { model: "", signals: { start: 27_013 } });
+    let safety = "";
+    let message = "";
+    real.onSample(lent => {
+      safety = lent.safety;
+      message = lent.message;
+    });
+    await until(() => safety === "normal" && real.link.rate_Hz > 5);
+    expect(message).toBe("");
+    expect([...real.jointAngles()]).toEqual([0, 0, 0, 0, 0, 0]);
+    expect(await real.run([{ id: "s", type: "set", signal: "start", to: true }], { tools: {}, frames: {} })).toEqual({
+      kind: "done",
+    });
+    await until(() => real.signals?.read("start") === true);
+    // Hold and servo off, then the alarm reset, the hold let go and the servo on: the server says what it was told.
+    real.stop(true);
+    await until(() => safety === "emergency-stop");
+    real.reset();
+    await until(() => safety === "normal");
+  },
+  30_000,
+);

@@ -14,22 +14,54 @@ const MODES: readonly StudioMode[] = ["teach", "check", "run", "history"];
 const DIALOGS = ["palette", "shortcuts", "controls", "export", "import", "robots"] as const;
 /** The picture costs most where the processor draws it. */
 const SMALL = { width: 1000, height: 600 };
-declare global { interface Window { axe: { run(root: Document, options: object): Promise<AxeResults> } } }
+declare global {
+  interface Window {
+    axe: { run(root: Document, options: object): Promise<AxeResults> };
+  }
+}
 
 let studio: Studio;
-beforeAll(async () => { studio = await Studio.start(); });
-afterAll(async () => { await studio?.stop(); });
+beforeAll(async () => {
+  studio = await Studio.start();
+});
+afterAll(async () => {
+  await studio?.stop();
+});
 
 async function ready(page: Page): Promise<void> {
-  await page.waitForFunction(() => window.twincell !== undefined && window.twincell.stores.cellStore.getState().document !== null && (window.twincellScene?.frames ?? 0) > 0);
+  await page.waitForFunction(
+    () =>
+      window.twincell !== undefined &&
+      window.twincell.stores.cellStore.getState().document !== null &&
+      (window.twincellScene?.frames ?? 0) > 0,
+  );
 }
-const frames = (page: Page, count: number): Promise<void> => page.evaluate(left => new Promise<void>(done => { const next = (): void => { if (left-- <= 0) done(); else requestAnimationFrame(next); }; next(); }), count);
+const frames = (page: Page, count: number): Promise<void> =>
+  page.evaluate(
+    left =>
+      new Promise<void>(done => {
+        const next = (): void => {
+          if (left-- <= 0) done();
+          else requestAnimationFrame(next);
+        };
+        next();
+      }),
+    count,
+  );
 /** Serious and critical findings, each with the places it is found at. Colours are judged at rest. */
 async function findings(page: Page): Promise<readonly string[]> {
   await frames(page, 2);
   await page.evaluate(() => Promise.allSettled(document.getAnimations().map(each => each.finished)));
   const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
-  return violations.filter(({ impact }) => impact === "serious" || impact === "critical").map(({ id, help, nodes }) => `${id}: ${help} ${nodes.slice(0, 6).map(node => `${node.target.join(" ")} ${node.any[0]?.message ?? ""}`).join(" | ")}`);
+  return violations
+    .filter(({ impact }) => impact === "serious" || impact === "critical")
+    .map(
+      ({ id, help, nodes }) =>
+        `${id}: ${help} ${nodes
+          .slice(0, 6)
+          .map(node => `${node.target.join(" ")} ${node.any[0]?.message ?? ""}`)
+          .join(" | ")}`,
+    );
 }
 
 describe.each([{ theme: "dark" }, { theme: "light" }] as const)("axe finds nothing serious, $theme", ({ theme }) => {
@@ -40,14 +72,20 @@ describe.each([{ theme: "dark" }, { theme: "light" }] as const)("axe finds nothi
     await open.page.evaluate(text => window.twincell.document.open(text, "traced-carton.json"), TRACED);
     await open.page.waitForFunction(() => window.twincell.stores.playStore.getState().verdict !== null);
   });
-  afterAll(async () => { await open?.context.close(); });
+  afterAll(async () => {
+    await open?.context.close();
+  });
 
   test.each(MODES)("in %s", async mode => {
     await open.page.evaluate(to => window.twincell.run(`view.${to}`), mode);
     expect(await findings(open.page)).toEqual([]);
   });
   test("in Teach while tracing, with a step selected", async () => {
-    await open.page.evaluate(() => { window.twincell.run("view.teach"); window.twincell.run("trace.toggle"); window.twincell.stores.selectionStore.setState({ selected: { kind: "step", id: "s1" } }); });
+    await open.page.evaluate(() => {
+      window.twincell.run("view.teach");
+      window.twincell.run("trace.toggle");
+      window.twincell.stores.selectionStore.setState({ selected: { kind: "step", id: "s1" } });
+    });
     expect(await findings(open.page)).toEqual([]);
     await open.page.evaluate(() => window.twincell.run("trace.toggle"));
   });
@@ -82,7 +120,8 @@ describe("by keyboard alone", () => {
       await page.waitForFunction(from => window.twincell.live.now().revision > from + 4, before);
       await page.keyboard.up(key);
     };
-    const steps = (): Promise<number> => page.evaluate(() => window.twincell.stores.cellStore.getState().document!.programs[0]!.steps.length);
+    const steps = (): Promise<number> =>
+      page.evaluate(() => window.twincell.stores.cellStore.getState().document!.programs[0]!.steps.length);
 
     await page.keyboard.press("t");
     await page.getByRole("region", { name: "Trace edges" }).waitFor();
@@ -102,20 +141,34 @@ describe("by keyboard alone", () => {
     expect(await steps()).toBe(2);
 
     await page.keyboard.press("2");
-    await page.waitForFunction(() => window.twincell.stores.playStore.getState().verdict?.steps.length === 2 && window.twincell.stores.playStore.getState().checking === null);
+    await page.waitForFunction(
+      () =>
+        window.twincell.stores.playStore.getState().verdict?.steps.length === 2 &&
+        window.twincell.stores.playStore.getState().checking === null,
+    );
     await page.keyboard.press("Space");
-    await page.waitForFunction(() => window.twincell.stores.playStore.getState().playing || window.twincell.stores.playStore.getState().t_s > 0);
+    await page.waitForFunction(
+      () => window.twincell.stores.playStore.getState().playing || window.twincell.stores.playStore.getState().t_s > 0,
+    );
     await page.keyboard.press("Control+e");
     await page.getByRole("region", { name: /edge_trace/ }).waitFor();
     expect(await page.evaluate(() => document.activeElement?.closest("[role=dialog]") !== null)).toBe(true);
     await page.keyboard.press("Escape");
     await page.getByRole("dialog").waitFor({ state: "detached" });
     await command("Run on the virtual controller");
-    await page.waitForFunction(() => window.twincell.stores.historyStore.getState().runs.length === 1 && !window.twincell.stores.controlStore.getState().running);
+    await page.waitForFunction(
+      () =>
+        window.twincell.stores.historyStore.getState().runs.length === 1 &&
+        !window.twincell.stores.controlStore.getState().running,
+    );
     await page.keyboard.press("4");
     expect(await page.evaluate(() => window.twincell.stores.viewStore.getState().mode)).toBe("history");
     await page.keyboard.press("Pause");
-    await page.waitForFunction(() => window.twincell.stores.noticeStore.getState().notices.some(notice => notice.sentence === "Everything was stopped."));
+    await page.waitForFunction(() =>
+      window.twincell.stores.noticeStore
+        .getState()
+        .notices.some(notice => notice.sentence === "Everything was stopped."),
+    );
     expect(problems).toEqual([]);
     await page.context().close();
   });
@@ -123,27 +176,49 @@ describe("by keyboard alone", () => {
   test("whatever has the focus shows it, and Tab comes round to everything on the page", async () => {
     const { page } = await studio.open(SMALL);
     await ready(page);
-    const seen = new Set<string>(), unseen: string[] = [];
+    const seen = new Set<string>();
+    const unseen: string[] = [];
     for (let i = 0; i < 90; i++) {
       await page.keyboard.press("Tab");
       const stop = await page.evaluate(() => {
         const element = document.activeElement;
         if (!(element instanceof HTMLElement) || element === document.body) return null;
-        const look = (): string => [element, element.parentElement, element.parentElement?.parentElement].map(each => { if (!each) return ""; const { outlineStyle, outlineWidth, outlineColor, borderColor, boxShadow, backgroundColor } = getComputedStyle(each); return outlineStyle === "none" ? [borderColor, boxShadow, backgroundColor].join() : [outlineStyle, outlineWidth, outlineColor].join(); }).join(" / ");
+        const look = (): string =>
+          [element, element.parentElement, element.parentElement?.parentElement]
+            .map(each => {
+              if (!each) return "";
+              const { outlineStyle, outlineWidth, outlineColor, borderColor, boxShadow, backgroundColor } =
+                getComputedStyle(each);
+              return outlineStyle === "none"
+                ? [borderColor, boxShadow, backgroundColor].join()
+                : [outlineStyle, outlineWidth, outlineColor].join();
+            })
+            .join(" / ");
         for (const each of element.ownerDocument.getAnimations()) each.finish();
         const focused = look();
         element.blur();
         for (const each of element.ownerDocument.getAnimations()) each.finish();
         const plain = look();
         element.focus();
-        return { name: (element.getAttribute("aria-label") ?? element.textContent ?? "").trim().slice(0, 40), shows: focused !== plain };
+        return {
+          name: (element.getAttribute("aria-label") ?? element.textContent ?? "").trim().slice(0, 40),
+          shows: focused !== plain,
+        };
       });
       if (stop === null) continue;
       if (!stop.shows) unseen.push(stop.name);
       seen.add(stop.name);
     }
     expect(unseen).toEqual([]);
-    for (const name of ["Skip to the program", "Twincell: Cell menu", "Name of the cell", "STOP", "Export V+", "Jog X up"]) expect([...seen]).toContain(name);
+    for (const name of [
+      "Skip to the program",
+      "Twincell: Cell menu",
+      "Name of the cell",
+      "STOP",
+      "Export V+",
+      "Jog X up",
+    ])
+      expect([...seen]).toContain(name);
     await page.context().close();
   });
 });
@@ -154,7 +229,11 @@ test("who asked for less motion gets none: dialogs appear at once, and the camer
   await ready(page);
   await page.keyboard.press("Control+k");
   await page.getByRole("dialog").waitFor();
-  expect(await page.evaluate(() => document.getAnimations().filter(each => Number(each.effect?.getComputedTiming().duration ?? 0) > 0).length)).toBe(0);
+  expect(
+    await page.evaluate(
+      () => document.getAnimations().filter(each => Number(each.effect?.getComputedTiming().duration ?? 0) > 0).length,
+    ),
+  ).toBe(0);
   await page.keyboard.press("Escape");
   const camera = (): Promise<readonly number[]> => page.evaluate(() => window.twincellScene!.camera.position.toArray());
   const before = await camera();

@@ -5,27 +5,49 @@ import { afterAll, beforeAll, expect, test } from "vitest";
 import { drawn, picture, Studio } from "./support/studio.ts";
 
 let studio: Studio;
-beforeAll(async () => { studio = await Studio.start(); });
-afterAll(async () => { await studio.stop(); });
+beforeAll(async () => {
+  studio = await Studio.start();
+});
+afterAll(async () => {
+  await studio.stop();
+});
 
-const robot = robotById("staubli_rx90l")!, cell = edgeTraceCell();
+const robot = robotById("staubli_rx90l")!;
+const cell = edgeTraceCell();
 /** Joint angles with the tool straight down and its tip there. */
 function toolDownAt(position: Vector3): number[] {
   const worldFromTcp: Pose<"world", "tcp"> = { position, quaternion: [0, 1, 0, 0] };
-  const reach = solveAll(robot, flangeOfTcp(cell.robot.worldFromBase, worldFromTcp, cell.tools[0]!.flangeFromTcp), { near: [0, -0.5, 2, 0, 1, 0] });
+  const reach = solveAll(robot, flangeOfTcp(cell.robot.worldFromBase, worldFromTcp, cell.tools[0]!.flangeFromTcp), {
+    near: [0, -0.5, 2, 0, 1, 0],
+  });
   if (reach.kind !== "reached") throw new Error(reach.kind);
   return Array.from(reach.solutions[0]!.q_rad);
 }
-const tcp = (page: Page): Promise<number[]> => page.evaluate(() => Array.from(window.twincell.live.now().worldFromTcp.position));
+const tcp = (page: Page): Promise<number[]> =>
+  page.evaluate(() => Array.from(window.twincell.live.now().worldFromTcp.position));
 const stand = async (page: Page, position: Vector3): Promise<void> => {
-  await page.evaluate(q => { window.twincell.stores.viewStore.setState({ coachDone: true }); window.twincell.live.showJoints(q); }, toolDownAt(position));
+  await page.evaluate(q => {
+    window.twincell.stores.viewStore.setState({ coachDone: true });
+    window.twincell.live.showJoints(q);
+  }, toolDownAt(position));
   await frames(page, 3);
 };
 /** So many more frames of the page have passed. */
-const frames = (page: Page, count: number) => page.evaluate(wanted => new Promise<void>(resolve => {
-  const next = (left: number): void => { if (left === 0) resolve(); else requestAnimationFrame(() => { next(left - 1); }); };
-  next(wanted);
-}), count);
+const frames = (page: Page, count: number) =>
+  page.evaluate(
+    wanted =>
+      new Promise<void>(resolve => {
+        const next = (left: number): void => {
+          if (left === 0) resolve();
+          else
+            requestAnimationFrame(() => {
+              next(left - 1);
+            });
+        };
+        next(wanted);
+      }),
+    count,
+  );
 /** Keeps a pendant button pressed until something holds, then lets go. */
 async function hold(page: Page, button: string, until: () => boolean): Promise<void> {
   const box = (await page.getByRole("button", { name: button, exact: true }).boundingBox())!;
@@ -78,11 +100,15 @@ test("points are recorded where the robot stands, touched up, and taken back one
   expect((await steps()).map(step => step.type === "move" && step.path)).toEqual(["ptp", "lin"]);
   await stand(page, [0.65, -0.1, 0.8]);
   await page.getByRole("button", { name: "Touch up" }).first().click();
-  const touched = (await steps())[1]!, shown = await page.evaluate(() => Array.from(window.twincell.live.now().q_rad));
+  const touched = (await steps())[1]!;
+  const shown = await page.evaluate(() => Array.from(window.twincell.live.now().q_rad));
   expect(touched.type === "move" && "q" in touched.target && touched.target.q).toEqual(shown);
   for (const left of [2, 1, 0]) {
     await page.keyboard.press("Control+z");
-    await page.waitForFunction(count => window.twincell.stores.cellStore.getState().document!.programs[0]!.steps.length === count, left);
+    await page.waitForFunction(
+      count => window.twincell.stores.cellStore.getState().document!.programs[0]!.steps.length === count,
+      left,
+    );
   }
   expect(problems).toEqual([]);
 });
@@ -91,15 +117,22 @@ test("the ring at the tool is dragged with the mouse; the tool follows and lets 
   const { page, problems } = await studio.open();
   await drawn(page);
   await stand(page, [0.6, 0, 0.8]);
-  await page.evaluate(() => { window.twincell.run("view.fit"); });
+  await page.evaluate(() => {
+    window.twincell.run("view.fit");
+  });
   await frames(page, 30);
-  const before = await tcp(page) as Vector3, at = await page.evaluate(point => window.twincellScene!.project(point), before);
+  const before = (await tcp(page)) as Vector3;
+  const at = await page.evaluate(point => window.twincellScene!.project(point), before);
   await page.mouse.move(at.x, at.y);
   await frames(page, 3);
   await page.mouse.down();
-  for (let i = 1; i <= 8; i++) { await page.mouse.move(at.x + 4 * i, at.y - 3 * i); await frames(page, 2); }
+  for (let i = 1; i <= 8; i++) {
+    await page.mouse.move(at.x + 4 * i, at.y - 3 * i);
+    await frames(page, 2);
+  }
   await page.mouse.up();
-  const after = await tcp(page) as Vector3, now = await page.evaluate(point => window.twincellScene!.project(point), after);
+  const after = (await tcp(page)) as Vector3;
+  const now = await page.evaluate(point => window.twincellScene!.project(point), after);
   expect(Math.hypot(...after.map((value, i) => value - before[i]!))).toBeGreaterThan(0.01);
   expect(Math.hypot(now.x - (at.x + 32), now.y - (at.y - 24))).toBeLessThan(3);
   await page.mouse.move(at.x + 120, at.y + 80);

@@ -5,26 +5,59 @@ import { afterAll, beforeAll, expect, test } from "vitest";
 import { drawn, picture, Studio } from "./support/studio.ts";
 
 let studio: Studio;
-beforeAll(async () => { studio = await Studio.start(); });
-afterAll(async () => { await studio.stop(); });
+beforeAll(async () => {
+  studio = await Studio.start();
+});
+afterAll(async () => {
+  await studio.stop();
+});
 
 /** Far in front of the robot, the flange looking down: two robots that face each other at 1.4 m meet there. */
 const to = (id: string, y: number): MoveStep => ({
-  id, type: "move", path: "ptp", speed: { ratio: 0.3 }, blend_m: 0,
-  target: { pose: { position: [0.65, y, 0.4], quaternion: [0, 1, 0, 0] } as unknown as Pose<"frame", "tcp">, frame: "world", tool: "flange" },
+  id,
+  type: "move",
+  path: "ptp",
+  speed: { ratio: 0.3 },
+  blend_m: 0,
+  target: {
+    pose: { position: [0.65, y, 0.4], quaternion: [0, 1, 0, 0] } as unknown as Pose<"frame", "tcp">,
+    frame: "world",
+    tool: "flange",
+  },
 });
 const carton = tracedCartonCell();
 const cell: CellDocument = {
-  ...carton, name: "Face to face", robot: { ...carton.robot, worldFromBase: identity() }, objects: [], program: "To and fro",
-  programs: [{ ...carton.programs[0]!, name: "To and fro", tools: {}, frames: {}, groups: {}, steps: Array.from({ length: 16 }, (_, i) => to(`p${i}`, i % 2 ? 0.12 : -0.12)) }],
+  ...carton,
+  name: "Face to face",
+  robot: { ...carton.robot, worldFromBase: identity() },
+  objects: [],
+  program: "To and fro",
+  programs: [
+    {
+      ...carton.programs[0]!,
+      name: "To and fro",
+      tools: {},
+      frames: {},
+      groups: {},
+      steps: Array.from({ length: 16 }, (_, i) => to(`p${i}`, i % 2 ? 0.12 : -0.12)),
+    },
+  ],
 };
 
-async function add(page: Page, brand: string, at: { readonly x: number; readonly turned: number; readonly watch?: boolean }): Promise<void> {
+async function add(
+  page: Page,
+  brand: string,
+  at: { readonly x: number; readonly turned: number; readonly watch?: boolean },
+): Promise<void> {
   await page.getByRole("button", { name: "Add a controller" }).first().click();
   const dialog = page.getByRole("dialog", { name: "Add a controller to the cell" });
   await dialog.getByRole("combobox", { name: "Maker" }).click();
   await page.getByRole("option", { name: brand }).click();
-  for (const [label, value] of [["x", at.x], ["y", 1600], ["Turned", at.turned]] as const) {
+  for (const [label, value] of [
+    ["x", at.x],
+    ["y", 1600],
+    ["Turned", at.turned],
+  ] as const) {
     const field = dialog.getByRole("textbox", { name: new RegExp(`^${label}, `) });
     await field.fill(String(value));
     await field.blur();
@@ -33,23 +66,43 @@ async function add(page: Page, brand: string, at: { readonly x: number; readonly
   await dialog.getByRole("button", { name: "Add and connect" }).click();
   await dialog.waitFor({ state: "detached", timeout: 30_000 });
 }
-const state = (page: Page, brand: string) => page.evaluate(of => window.twincell.stores.stationStore.getState().stations.find(station => station.brand === of), brand);
-const until = (page: Page, brand: string, so: string): Promise<unknown> => page.waitForFunction(([of, what]) => {
-  const station = window.twincell.stores.stationStore.getState().stations.find(each => each.brand === of);
-  if (!station) return false;
-  switch (what) {
-    case "told why": return !station.running && !station.moving && station.notice !== "";
-    case "ghost": return station.ghost !== "none";
-    case "no ghost": return station.ghost === "none";
-    default: return station.link.state === what;
-  }
-}, [brand, so] as const, { timeout: 30_000, polling: 50 }).catch(async () => { throw new Error(`${brand} is not ${so}: ${JSON.stringify(await state(page, brand))}`); });
+const state = (page: Page, brand: string) =>
+  page.evaluate(
+    of => window.twincell.stores.stationStore.getState().stations.find(station => station.brand === of),
+    brand,
+  );
+const until = (page: Page, brand: string, so: string): Promise<unknown> =>
+  page
+    .waitForFunction(
+      ([of, what]) => {
+        const station = window.twincell.stores.stationStore.getState().stations.find(each => each.brand === of);
+        if (!station) return false;
+        switch (what) {
+          case "told why":
+            return !station.running && !station.moving && station.notice !== "";
+          case "ghost":
+            return station.ghost !== "none";
+          case "no ghost":
+            return station.ghost === "none";
+          default:
+            return station.link.state === what;
+        }
+      },
+      [brand, so] as const,
+      { timeout: 30_000, polling: 50 },
+    )
+    .catch(async () => {
+      throw new Error(`${brand} is not ${so}: ${JSON.stringify(await state(page, brand))}`);
+    });
 const card = (page: Page, name: RegExp) => page.getByRole("article", { name });
 
 test("T-24 T-26 T-63 two robots that face each other: the ghost runs ahead, a blocked way is not sent, a common start is stopped before contact, and watched only nothing is commanded", async () => {
   const { page, problems } = await studio.open();
   await drawn(page);
-  await page.evaluate(text => { window.twincell.stores.viewStore.setState({ coachDone: true }); return window.twincell.document.open(text, "cell.json"); }, saveDocument(cell));
+  await page.evaluate(text => {
+    window.twincell.stores.viewStore.setState({ coachDone: true });
+    return window.twincell.document.open(text, "cell.json");
+  }, saveDocument(cell));
   await page.getByRole("radio", { name: "Run" }).click();
   await add(page, "Universal Robots", { x: 0, turned: 0 });
   await add(page, "KUKA", { x: 1400, turned: 180 });
@@ -60,10 +113,15 @@ test("T-24 T-26 T-63 two robots that face each other: the ghost runs ahead, a bl
   await ur.getByRole("button", { name: "Look ahead" }).click();
   await until(page, "ur", "ghost");
   // Until it can be told from the robot in the picture.
-  await page.waitForFunction(() => {
-    const station = window.twincell.stores.stationStore.getState().stations.find(({ brand }) => brand === "ur"), live = station && window.twincell.live.station(station.id);
-    return live !== undefined && live.q_rad.some((q, i) => Math.abs(q - live.ahead.q_rad[i]!) > 0.2);
-  }, null, { timeout: 30_000, polling: 50 });
+  await page.waitForFunction(
+    () => {
+      const station = window.twincell.stores.stationStore.getState().stations.find(({ brand }) => brand === "ur");
+      const live = station && window.twincell.live.station(station.id);
+      return live !== undefined && live.q_rad.some((q, i) => Math.abs(q - live.ahead.q_rad[i]!) > 0.2);
+    },
+    null,
+    { timeout: 30_000, polling: 50 },
+  );
   await page.screenshot({ path: picture("twin-ghost") });
   expect((await state(page, "ur"))?.moving).toBe(false);
   await until(page, "ur", "no ghost");

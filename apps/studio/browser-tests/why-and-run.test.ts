@@ -7,36 +7,73 @@ import { afterAll, beforeAll, expect, test } from "vitest";
 import { drawn, picture, Studio } from "./support/studio.ts";
 
 let studio: Studio;
-beforeAll(async () => { studio = await Studio.start(); });
-afterAll(async () => { await studio.stop(); });
+beforeAll(async () => {
+  studio = await Studio.start();
+});
+afterAll(async () => {
+  await studio.stop();
+});
 
-const cell = tracedCartonCell(), program = cell.programs[0]!;
+const cell = tracedCartonCell();
+const program = cell.programs[0]!;
 const withSteps = (change: (steps: Step[]) => Step[]): CellDocument => {
   const changed: Program = { ...program, steps: change([...program.steps]) };
   return { ...cell, programs: [changed] };
 };
 const opened = async (page: Page, document: CellDocument): Promise<void> => {
   await drawn(page);
-  await page.evaluate(text => { window.twincell.stores.viewStore.setState({ coachDone: true }); return window.twincell.document.open(text, "cell.json"); }, saveDocument(document));
+  await page.evaluate(text => {
+    window.twincell.stores.viewStore.setState({ coachDone: true });
+    return window.twincell.document.open(text, "cell.json");
+  }, saveDocument(document));
   await judged(page);
 };
-const judged = (page: Page) => page.waitForFunction(() => window.twincell.stores.playStore.getState().verdict !== null && window.twincell.stores.playStore.getState().checking === null, null, { timeout: 60_000, polling: 100 });
+const judged = (page: Page) =>
+  page.waitForFunction(
+    () =>
+      window.twincell.stores.playStore.getState().verdict !== null &&
+      window.twincell.stores.playStore.getState().checking === null,
+    null,
+    { timeout: 60_000, polling: 100 },
+  );
 /** Waits until the checker finds so many points out of reach. */
-const reachFindings = (page: Page, count: number) => page.waitForFunction(
-  wanted => window.twincell.stores.playStore.getState().verdict?.steps.flatMap(step => step.findings).filter(finding => finding.code.startsWith("reach")).length === wanted,
-  count, { timeout: 60_000, polling: 100 },
-);
+const reachFindings = (page: Page, count: number) =>
+  page.waitForFunction(
+    wanted =>
+      window.twincell.stores.playStore
+        .getState()
+        .verdict?.steps.flatMap(step => step.findings)
+        .filter(finding => finding.code.startsWith("reach")).length === wanted,
+    count,
+    { timeout: 60_000, polling: 100 },
+  );
 const to = (id: string, name: string, x: number, y: number, z: number): MoveStep => ({
-  id, name, type: "move", path: "ptp", speed: { ratio: 0.3 }, blend_m: 0,
+  id,
+  name,
+  type: "move",
+  path: "ptp",
+  speed: { ratio: 0.3 },
+  blend_m: 0,
   target: { pose: { position: [x, y, z], quaternion: [0, 1, 0, 0] }, frame: "world", tool: "torch" },
 });
 
 test("Why cards name step, fact and way out; one click repairs, one key takes it back", async () => {
   const { page, problems } = await studio.open();
-  const broken = withSteps(steps => [...steps.slice(0, 1), to("far", "Far point", 1.9, 0, 0.5), to("in", "Inside", 0.6, 0, 0.45), ...steps.slice(1)]);
+  const broken = withSteps(steps => [
+    ...steps.slice(0, 1),
+    to("far", "Far point", 1.9, 0, 0.5),
+    to("in", "Inside", 0.6, 0, 0.45),
+    ...steps.slice(1),
+  ]);
   await opened(page, broken);
-  await page.getByRole("radio", { name: "Check" }).or(page.getByRole("tab", { name: "Check" })).or(page.getByRole("button", { name: "Check", exact: true })).first().click();
-  const far = page.locator("article.why", { hasText: "Far point" }), inside = page.locator("article.why", { hasText: "Inside" });
+  await page
+    .getByRole("radio", { name: "Check" })
+    .or(page.getByRole("tab", { name: "Check" }))
+    .or(page.getByRole("button", { name: "Check", exact: true }))
+    .first()
+    .click();
+  const far = page.locator("article.why", { hasText: "Far point" });
+  const inside = page.locator("article.why", { hasText: "Inside" });
   expect(await far.innerText()).toMatch(/The wrist would be \d+ mm from the shoulder; the arm is 1100 mm long\./);
   expect(await inside.innerText()).toMatch(/touches “Carton”/);
   await page.screenshot({ path: picture("why-cards") });
@@ -48,13 +85,24 @@ test("Why cards name step, fact and way out; one click repairs, one key takes it
   await reachFindings(page, 1);
   await page.locator("article.why").first().waitFor();
   // A repaired step may bring its neighbour into view: a few rounds, as a person would.
-  for (let round = 0; round < 4 && !(await page.evaluate(() => window.twincell.stores.playStore.getState().verdict?.ok)); round++) {
+  for (
+    let round = 0;
+    round < 4 && !(await page.evaluate(() => window.twincell.stores.playStore.getState().verdict?.ok));
+    round++
+  ) {
     const before = await page.evaluateHandle(() => window.twincell.stores.playStore.getState().verdict);
-    await page.getByRole("button", { name: /Repair all|Apply/ }).first().click();
-    await page.waitForFunction(old => {
-      const { verdict, checking } = window.twincell.stores.playStore.getState();
-      return checking === null && verdict !== null && verdict !== old;
-    }, before, { timeout: 60_000, polling: 100 });
+    await page
+      .getByRole("button", { name: /Repair all|Apply/ })
+      .first()
+      .click();
+    await page.waitForFunction(
+      old => {
+        const { verdict, checking } = window.twincell.stores.playStore.getState();
+        return checking === null && verdict !== null && verdict !== old;
+      },
+      before,
+      { timeout: 60_000, polling: 100 },
+    );
   }
   expect(await page.evaluate(() => window.twincell.stores.playStore.getState().verdict)).toMatchObject({ ok: true });
   expect(problems).toEqual([]);
@@ -64,60 +112,107 @@ test("the timeline plays at any speed, holds at 0 %, and the robot stands where 
   const { page, problems } = await studio.open();
   await opened(page, cell);
   const playhead = () => page.evaluate(() => window.twincell.live.playhead());
-  await page.evaluate(() => { window.twincell.seek(5); });
+  await page.evaluate(() => {
+    window.twincell.seek(5);
+  });
   await page.getByRole("button", { name: "Play", exact: true }).click();
   await page.waitForFunction(() => window.twincell.live.playhead() > 5.5, null, { polling: 50 });
-  await page.evaluate(() => { window.twincell.stores.playStore.setState({ speed: 0 }); });
+  await page.evaluate(() => {
+    window.twincell.stores.playStore.setState({ speed: 0 });
+  });
   const held = await playhead();
-  await page.waitForFunction(before => (window.twincellScene?.meter.frames ?? 0) >= before, await page.evaluate(() => window.twincellScene!.frames));
+  await page.waitForFunction(
+    before => (window.twincellScene?.meter.frames ?? 0) >= before,
+    await page.evaluate(() => window.twincellScene!.frames),
+  );
   expect(await playhead()).toBeCloseTo(held, 9);
-  await page.evaluate(() => { window.twincell.stores.playStore.setState({ speed: 1 }); });
+  await page.evaluate(() => {
+    window.twincell.stores.playStore.setState({ speed: 1 });
+  });
   await page.waitForFunction(before => window.twincell.live.playhead() > before, held, { polling: 50 });
   await page.getByRole("button", { name: "Pause", exact: true }).click();
-  await page.evaluate(() => { window.twincell.seek(0); });
+  await page.evaluate(() => {
+    window.twincell.seek(0);
+  });
   const home = await page.evaluate(() => Array.from(window.twincell.live.now().q_rad));
-  [0, -Math.PI / 2, Math.PI / 2, 0, 0, 0].forEach((angle, joint) => { expect(home[joint]).toBeCloseTo(angle, 9); });
+  [0, -Math.PI / 2, Math.PI / 2, 0, 0, 0].forEach((angle, joint) => {
+    expect(home[joint]).toBeCloseTo(angle, 9);
+  });
   expect(problems).toEqual([]);
 });
 
 test("T-54 a run on the virtual controller is mirrored within 0.001°, stopped by STOP, recorded, and any moment of it comes back", async () => {
   const { page, problems } = await studio.open();
-  await opened(page, withSteps(steps => steps.slice(0, 6)));
-  await page.getByRole("radio", { name: "Run" }).or(page.getByRole("tab", { name: "Run" })).or(page.getByRole("button", { name: "Run", exact: true })).first().click();
+  await opened(
+    page,
+    withSteps(steps => steps.slice(0, 6)),
+  );
+  await page
+    .getByRole("radio", { name: "Run" })
+    .or(page.getByRole("tab", { name: "Run" }))
+    .or(page.getByRole("button", { name: "Run", exact: true }))
+    .first()
+    .click();
   await page.locator("section, div").getByRole("button", { name: "Run", exact: true }).last().click();
-  await page.waitForFunction(() => window.twincell.stores.controlStore.getState().running && window.twincell.stores.controlStore.getState().line > 0, null, { timeout: 30_000, polling: 100 });
+  await page.waitForFunction(
+    () =>
+      window.twincell.stores.controlStore.getState().running && window.twincell.stores.controlStore.getState().line > 0,
+    null,
+    { timeout: 30_000, polling: 100 },
+  );
   await page.screenshot({ path: picture("run") });
-  await page.waitForFunction(() => !window.twincell.stores.controlStore.getState().running, null, { timeout: 90_000, polling: 200 });
+  await page.waitForFunction(() => !window.twincell.stores.controlStore.getState().running, null, {
+    timeout: 90_000,
+    polling: 200,
+  });
   const { twinError_rad } = await page.evaluate(() => window.twincell.stores.controlStore.getState());
   expect((twinError_rad * 180) / Math.PI).toBeLessThan(0.001);
   const ending = await page.evaluate(() => window.twincell.stores.historyStore.getState().runs[0]);
   expect(ending).toMatchObject({ ending: "done" });
 
   // A second run is ended by hand; nothing goes on by itself.
-  await page.evaluate(() => { window.twincell.run("run.start"); });
+  await page.evaluate(() => {
+    window.twincell.run("run.start");
+  });
   await page.waitForFunction(() => window.twincell.stores.controlStore.getState().running, null, { polling: 50 });
   await page.getByRole("button", { name: "STOP", exact: true }).click();
-  await page.waitForFunction(() => window.twincell.stores.historyStore.getState().runs.length === 2, null, { timeout: 30_000, polling: 100 });
+  await page.waitForFunction(() => window.twincell.stores.historyStore.getState().runs.length === 2, null, {
+    timeout: 30_000,
+    polling: 100,
+  });
   expect(await page.evaluate(() => window.twincell.stores.controlStore.getState().running)).toBe(false);
 
   // Look back: the file that is kept, and the robot on screen.
-  await page.getByRole("radio", { name: "History" }).or(page.getByRole("tab", { name: "History" })).or(page.getByRole("button", { name: "History", exact: true })).first().click();
+  await page
+    .getByRole("radio", { name: "History" })
+    .or(page.getByRole("tab", { name: "History" }))
+    .or(page.getByRole("button", { name: "History", exact: true }))
+    .first()
+    .click();
   const rows = page.getByRole("listitem").filter({ has: page.getByRole("button", { name: /Download/ }) });
   const waiting = page.waitForEvent("download");
-  await rows.last().getByRole("button", { name: /Download/ }).click();
+  await rows
+    .last()
+    .getByRole("button", { name: /Download/ })
+    .click();
   const file = readFileSync(await (await waiting).path());
   const recorded = openRecording(new Uint8Array(file), { scheduler: manualScheduler() });
   if (recorded.kind !== "recording") throw new Error(recorded.sentence);
   await rows.last().getByRole("button").first().click();
-  await page.waitForFunction(() => window.twincell.stores.historyStore.getState().duration_s > 0, null, { polling: 100 });
+  await page.waitForFunction(() => window.twincell.stores.historyStore.getState().duration_s > 0, null, {
+    polling: 100,
+  });
   const slider = page.getByRole("slider", { name: "Moment of the run" });
   await slider.focus();
   for (const key of ["End", "PageDown", "PageDown", "PageDown"]) await slider.press(key);
   const { t_s } = await page.evaluate(() => window.twincell.stores.historyStore.getState());
   expect(t_s).toBeGreaterThan(0);
   expect(t_s).toBeLessThan(recorded.recording.duration_s);
-  const wanted = recorded.recording.anglesAt(t_s, new Float64Array(6)), shown = await page.evaluate(() => Array.from(window.twincell.live.now().q_rad));
-  wanted.forEach((angle, joint) => { expect(shown[joint]).toBeCloseTo(angle, 9); });
+  const wanted = recorded.recording.anglesAt(t_s, new Float64Array(6));
+  const shown = await page.evaluate(() => Array.from(window.twincell.live.now().q_rad));
+  wanted.forEach((angle, joint) => {
+    expect(shown[joint]).toBeCloseTo(angle, 9);
+  });
   await page.screenshot({ path: picture("history") });
   expect(problems).toEqual([]);
 }, 240_000);

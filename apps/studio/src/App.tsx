@@ -41,35 +41,77 @@ const Rewind = lazy(() => import("./features/history/Rewind.tsx"));
 
 /** The shell: four modes around one scene. Nothing here changes many times a second. */
 export function App() {
-  const phone = useMedia(PHONE), theme = useStore(viewStore, state => state.theme);
-  useEffect(() => { document.documentElement.dataset.theme = theme; }, [theme]);
+  const phone = useMedia(PHONE);
+  const theme = useStore(viewStore, state => state.theme);
+  useEffect(() => {
+    document.documentElement.dataset.theme = theme;
+  }, [theme]);
   return (
     <Tooltip.Provider delayDuration={500}>
       <div className="app" data-layout={phone ? "phone" : "desk"}>
-        <a className="skip-link" href="#program">{words.app.skip}</a>
+        <a className="skip-link" href="#program">
+          {words.app.skip}
+        </a>
         <TopBar key="top" phone={phone} />
-        {!phone && <nav key="left" className="panel area-left" aria-label={words.app.region.cell}><Tree /><Honest /></nav>}
+        {!phone && (
+          <nav key="left" className="panel area-left" aria-label={words.app.region.cell}>
+            <Tree />
+            <Honest />
+          </nav>
+        )}
         <main key="view" className="area-view" aria-label={words.app.region.view}>
-          <SceneGuard><Suspense fallback={<p className="scene-note" role="status">{words.app.loadingScene}</p>}><Viewport /></Suspense></SceneGuard>
+          <SceneGuard>
+            <Suspense
+              fallback={
+                <p className="scene-note" role="status">
+                  {words.app.loadingScene}
+                </p>
+              }
+            >
+              <Viewport />
+            </Suspense>
+          </SceneGuard>
           <Overlay phone={phone} />
           <Physics />
-          <Suspense><VideoPanels /></Suspense>
+          <Suspense>
+            <VideoPanels />
+          </Suspense>
           {!phone && <Coach />}
           <Welcome />
           <Notices />
-          <span className="visually-hidden" id="reorder-hint">{words.tree.reorderHint}</span>
+          <span className="visually-hidden" id="reorder-hint">
+            {words.tree.reorderHint}
+          </span>
         </main>
-        {phone
-          ? <Sheet key="sheet" />
-          : <><aside key="right" className="panel area-right" aria-label={words.app.region.side}><div className="scroll"><RightSide /></div></aside>
-            <BottomSide key="bottom" /></>}
+        {phone ? (
+          <Sheet key="sheet" />
+        ) : (
+          <>
+            <aside key="right" className="panel area-right" aria-label={words.app.region.side}>
+              <div className="scroll">
+                <RightSide />
+              </div>
+            </aside>
+            <BottomSide key="bottom" />
+          </>
+        )}
         <Palette />
         <ControlsDialog />
-        <Suspense><Export /></Suspense>
-        <Suspense><Robots /></Suspense>
-        <Suspense><AddStation /></Suspense>
-        <Suspense><CollisionDialog /></Suspense>
-        <Suspense><Cameras /></Suspense>
+        <Suspense>
+          <Export />
+        </Suspense>
+        <Suspense>
+          <Robots />
+        </Suspense>
+        <Suspense>
+          <AddStation />
+        </Suspense>
+        <Suspense>
+          <CollisionDialog />
+        </Suspense>
+        <Suspense>
+          <Cameras />
+        </Suspense>
         <Files />
         <Shortcuts />
         <GamepadWatch />
@@ -78,19 +120,59 @@ export function App() {
   );
 }
 
-const Honest = () => <p className="honest" title={words.app.notSafetyHint}>{words.app.notSafety}</p>;
+const Honest = () => (
+  <p className="honest" title={words.app.notSafetyHint}>
+    {words.app.notSafety}
+  </p>
+);
 
 function RightSide() {
-  const mode = useStore(viewStore, state => state.mode), tracing = useStore(traceStore, state => state.active);
+  const mode = useStore(viewStore, state => state.mode);
+  const tracing = useStore(traceStore, state => state.active);
   switch (mode) {
-    case "teach": return <>{tracing && <TracePanel />}<Pendant /><SavedPoses /><Inspector /></>;
-    case "check": return <><Check /><Inspector /></>;
-    case "run": return <Suspense><Run /><Stations /></Suspense>;
-    case "history": return <Suspense><History /></Suspense>;
+    case "teach":
+      return (
+        <>
+          {tracing && <TracePanel />}
+          <Pendant />
+          <SavedPoses />
+          <Inspector />
+        </>
+      );
+    case "check":
+      return (
+        <>
+          <Check />
+          <Inspector />
+        </>
+      );
+    case "run":
+      return (
+        <Suspense>
+          <Run />
+          <Stations />
+        </Suspense>
+      );
+    case "history":
+      return (
+        <Suspense>
+          <History />
+        </Suspense>
+      );
   }
 }
 /** In History the time is that of the open run. */
 function BottomSide() {
   const history = useStore(viewStore, state => state.mode === "history");
-  return <footer className="area-bottom" aria-label={words.app.region.time}>{history ? <Suspense><Rewind /></Suspense> : <Timeline />}</footer>;
+  return (
+    <footer className="area-bottom" aria-label={words.app.region.time}>
+      {history ? (
+        <Suspense>
+          <Rewind />
+        </Suspense>
+      ) : (
+        <Timeline />
+      )}
+    </footer>
+  );
 }

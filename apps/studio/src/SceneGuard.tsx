@@ -9,6 +9,13 @@ export class SceneGuard extends Component<{ readonly children: ReactNode }, { re
   }
   override render(): ReactNode {
     if (this.state.trouble === null) return this.props.children;
-    return <div className="scene-note" role="alert"><p><b>{words.app.sceneTrouble}</b> {this.state.trouble}</p><p>{words.app.sceneHint}</p></div>;
+    return (
+      <div className="scene-note" role="alert">
+        <p>
+          <b>{words.app.sceneTrouble}</b> {this.state.trouble}
+        </p>
+        <p>{words.app.sceneHint}</p>
+      </div>
+    );
   }
 }

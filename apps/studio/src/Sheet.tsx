@@ -23,14 +23,68 @@ const isTab = (value: string): value is SheetTab => TABS.some(tab => tab === val
 
 /** The phone's bottom sheet: jog, program, why, run. */
 export function Sheet() {
-  const tab = useStore(viewStore, state => state.sheet), tracing = useStore(traceStore, state => state.active), mode = useStore(viewStore, state => state.mode);
+  const tab = useStore(viewStore, state => state.sheet);
+  const tracing = useStore(traceStore, state => state.active);
+  const mode = useStore(viewStore, state => state.mode);
   return (
-    <Tabs.Root className="area-sheet" value={tab} onValueChange={value => { if (isTab(value)) { viewStore.setState({ sheet: value }); showMode(MODE[value]); } }}>
-      <Tabs.List className="sheet-tabs" aria-label={words.sheet.label}>{TABS.map(each => <Tabs.Trigger key={each} className="sheet-tab" value={each}>{words.sheet[each]}</Tabs.Trigger>)}</Tabs.List>
-      <Tabs.Content value="jog" className="scroll sheet-body" tabIndex={-1}>{tracing && <TracePanel />}<Pendant /><SavedPoses /></Tabs.Content>
-      <Tabs.Content value="program" className="sheet-body sheet-program" tabIndex={-1}><Tree /><div className="scroll"><Inspector /></div></Tabs.Content>
-      <Tabs.Content value="why" className="scroll sheet-body" tabIndex={-1}><Check /><Timeline /></Tabs.Content>
-      <Tabs.Content value="run" className="scroll sheet-body" tabIndex={-1}><Suspense><Segments label={words.mode.label} value={mode === "history" ? "history" : "run"} onChange={showMode} options={[{ value: "run", words: words.mode.run }, { value: "history", words: words.mode.history }]} className="seg fill sheet-seg" />{mode === "history" ? <><Rewind /><History /></> : <><Run /><Stations /><Timeline /></>}</Suspense></Tabs.Content>
+    <Tabs.Root
+      className="area-sheet"
+      value={tab}
+      onValueChange={value => {
+        if (isTab(value)) {
+          viewStore.setState({ sheet: value });
+          showMode(MODE[value]);
+        }
+      }}
+    >
+      <Tabs.List className="sheet-tabs" aria-label={words.sheet.label}>
+        {TABS.map(each => (
+          <Tabs.Trigger key={each} className="sheet-tab" value={each}>
+            {words.sheet[each]}
+          </Tabs.Trigger>
+        ))}
+      </Tabs.List>
+      <Tabs.Content value="jog" className="scroll sheet-body" tabIndex={-1}>
+        {tracing && <TracePanel />}
+        <Pendant />
+        <SavedPoses />
+      </Tabs.Content>
+      <Tabs.Content value="program" className="sheet-body sheet-program" tabIndex={-1}>
+        <Tree />
+        <div className="scroll">
+          <Inspector />
+        </div>
+      </Tabs.Content>
+      <Tabs.Content value="why" className="scroll sheet-body" tabIndex={-1}>
+        <Check />
+        <Timeline />
+      </Tabs.Content>
+      <Tabs.Content value="run" className="scroll sheet-body" tabIndex={-1}>
+        <Suspense>
+          <Segments
+            label={words.mode.label}
+            value={mode === "history" ? "history" : "run"}
+            onChange={showMode}
+            options={[
+              { value: "run", words: words.mode.run },
+              { value: "history", words: words.mode.history },
+            ]}
+            className="seg fill sheet-seg"
+          />
+          {mode === "history" ? (
+            <>
+              <Rewind />
+              <History />
+            </>
+          ) : (
+            <>
+              <Run />
+              <Stations />
+              <Timeline />
+            </>
+          )}
+        </Suspense>
+      </Tabs.Content>
     </Tabs.Root>
   );
 }

@@ -29,12 +29,24 @@ export function boot(): void {
   startPreview();
   startSounds();
   for (const bringToRest of [releaseAll, endGlide, pause, hold]) onStop(bringToRest);
-  keepDocument(browserKeeper, { after: (ms, act) => { const timer = setTimeout(act, ms); return () => clearTimeout(timer); } });
+  keepDocument(browserKeeper, {
+    after: (ms, act) => {
+      const timer = setTimeout(act, ms);
+      return () => clearTimeout(timer);
+    },
+  });
   // Languages, controllers and recording are a part of the page that the first sight of it does not wait for.
-  void openKept(browserKeeper).then(() => import("./live/cell-control.ts")).then(({ startCellControl }) => { startCellControl(); });
+  void openKept(browserKeeper)
+    .then(() => import("./live/cell-control.ts"))
+    .then(({ startCellControl }) => {
+      startCellControl();
+    });
   watchCollisions();
   const checking = startChecking();
   startCommands(checking);
-  const beat = (now_ms: number): void => { tick(now_ms); requestAnimationFrame(beat); };
+  const beat = (now_ms: number): void => {
+    tick(now_ms);
+    requestAnimationFrame(beat);
+  };
   requestAnimationFrame(beat);
 }

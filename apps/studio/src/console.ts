@@ -34,11 +34,54 @@ import { watchStore } from "./stores/watch.ts";
 
 /** What the browser's console and tests can reach: every store, the live state, and the commands by name. */
 const twincell = {
-  stores: { aidStore, bindingStore, cellStore, commandStore, controlStore, dialogStore, foreignStore, gamepadStore, historyStore, jogStore, languageStore, noticeStore, physicsStore, playStore, postStore, roomStore, selectionStore, soundStore, stationStore, traceStore, videoStore, viewStore, watchStore },
-  live: { now: theLive, shown: shownRobot, touching: touchingNow, showJoints, hold, release, releaseAll, playhead: playheadNow, physics: physicsNow, link: linkMeter, station: stationLive },
+  stores: {
+    aidStore,
+    bindingStore,
+    cellStore,
+    commandStore,
+    controlStore,
+    dialogStore,
+    foreignStore,
+    gamepadStore,
+    historyStore,
+    jogStore,
+    languageStore,
+    noticeStore,
+    physicsStore,
+    playStore,
+    postStore,
+    roomStore,
+    selectionStore,
+    soundStore,
+    stationStore,
+    traceStore,
+    videoStore,
+    viewStore,
+    watchStore,
+  },
+  live: {
+    now: theLive,
+    shown: shownRobot,
+    touching: touchingNow,
+    showJoints,
+    hold,
+    release,
+    releaseAll,
+    playhead: playheadNow,
+    physics: physicsNow,
+    link: linkMeter,
+    station: stationLive,
+  },
   document: { commit, undo, redo, show: showDocument, open: openCellText },
-  run: runCommand, seek,
+  run: runCommand,
+  seek,
 };
 export type Twincell = typeof twincell;
-declare global { interface Window { twincell: Twincell } }
-export const exposeStores = (): void => { window.twincell = twincell; };
+declare global {
+  interface Window {
+    twincell: Twincell;
+  }
+}
+export const exposeStores = (): void => {
+  window.twincell = twincell;
+};

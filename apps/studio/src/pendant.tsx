@@ -10,26 +10,55 @@ import "./app.css";
  * The pendant of one virtual controller on a page of its own. Whoever served the page is its host: `twincell virtual`, or a server
  * with stations, one of which `?station=` names.
  */
-const wanted = new URL(location.href).searchParams.get("station"), root = createRoot(document.getElementById("root")!);
+const wanted = new URL(location.href).searchParams.get("station");
+const root = createRoot(document.getElementById("root")!);
 const address = new URL("/stations", location.href);
 address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
 const socket = new WebSocket(address);
 let link: CabinetLink | null = null;
-const show = (sentence: string | null): void => { root.render(<PendantPage link={link} sentence={sentence} />); };
-const client = createClient({ send: text => { if (socket.readyState === WebSocket.OPEN) socket.send(text); }, close: () => { socket.close(); } }, () => performance.now() / 1000, message => {
-  switch (message.type) {
-    case "hello": {
-      const station = wanted === null ? message.stations.find(({ virtual }) => virtual) : message.stations.find(({ id }) => id === wanted);
-      if (station) link = createCabinetLink(station.id, client);
-      show(station ? null : "");
-      break;
+const show = (sentence: string | null): void => {
+  root.render(<PendantPage link={link} sentence={sentence} />);
+};
+const client = createClient(
+  {
+    send: text => {
+      if (socket.readyState === WebSocket.OPEN) socket.send(text);
+    },
+    close: () => {
+      socket.close();
+    },
+  },
+  () => performance.now() / 1000,
+  message => {
+    switch (message.type) {
+      case "hello": {
+        const station =
+          wanted === null
+            ? message.stations.find(({ virtual }) => virtual)
+            : message.stations.find(({ id }) => id === wanted);
+        if (station) link = createCabinetLink(station.id, client);
+        show(station ? null : "");
+        break;
+      }
+      case "pendant":
+        link?.take(message);
+        break;
+      case "closed":
+        if (link && message.station === link.station) link.gone();
+        break;
+      case "fault":
+        link?.gone();
+        show(message.sentence);
+        break;
+      default:
     }
-    case "pendant": link?.take(message); break;
-    case "closed": if (link && message.station === link.station) link.gone(); break;
-    case "fault": link?.gone(); show(message.sentence); break;
-    default:
-  }
+  },
+);
+socket.addEventListener("message", ({ data }: MessageEvent<string>) => {
+  client.hear(data);
 });
-socket.addEventListener("message", ({ data }: MessageEvent<string>) => { client.hear(data); });
-socket.addEventListener("close", () => { client.gone(); link?.gone(); });
+socket.addEventListener("close", () => {
+  client.gone();
+  link?.gone();
+});
 show(null);

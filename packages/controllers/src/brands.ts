@@ -14,4 +14,5 @@ export const brandById = (id: string): Brand | undefined => BRANDS.find(brand =>
 /** Brands whose robots that one is. */
 export const brandsFor = (vendor: string): readonly Brand[] => BRANDS.filter(brand => brand.vendor === vendor);
 /** Robots of the library that a brand drives. */
-export const robotsOf = ({ vendor, drives }: Pick<Brand, "vendor" | "drives">): readonly Robot[] => LIBRARY.filter(robot => robot.vendor === vendor && (drives?.(robot) ?? true));
+export const robotsOf = ({ vendor, drives }: Pick<Brand, "vendor" | "drives">): readonly Robot[] =>
+  LIBRARY.filter(robot => robot.vendor === vendor && (drives?.(robot) ?? true));

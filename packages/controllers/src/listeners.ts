@@ -10,9 +10,15 @@ export function listeners<T>(): Listeners<T> {
     add(listen) {
       const entry = { listen };
       all.add(entry);
-      return () => { all.delete(entry); };
+      return () => {
+        all.delete(entry);
+      };
     },
-    call(value) { for (const entry of all) entry.listen(value); },
-    clear() { all.clear(); },
+    call(value) {
+      for (const entry of all) entry.listen(value);
+    },
+    clear() {
+      all.clear();
+    },
   };
 }

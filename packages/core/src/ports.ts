@@ -77,7 +77,10 @@ export interface Refusal {
   readonly value?: number;
   readonly limit?: number;
 }
-export type CommandOutcome = { readonly kind: "done" } | { readonly kind: "refused"; readonly why: Refusal } | { readonly kind: "stopped"; readonly why: Refusal };
+export type CommandOutcome =
+  | { readonly kind: "done" }
+  | { readonly kind: "refused"; readonly why: Refusal }
+  | { readonly kind: "stopped"; readonly why: Refusal };
 
 /** One interface for virtual, real and twin robots (rows T-01 … T-18). Joints count from 1. */
 export interface RobotController extends StateSource {
@@ -123,7 +126,9 @@ export interface LinkReport {
   readonly missing: number;
 }
 /** What stops the robot when nobody commands it any more: its own controller, or nothing on its side. */
-export type Watchdog = { readonly kind: "robot"; readonly within_s: number } | { readonly kind: "none"; readonly because: string };
+export type Watchdog =
+  | { readonly kind: "robot"; readonly within_s: number }
+  | { readonly kind: "none"; readonly because: string };
 
 /** A robot on a wire (rows T-19 … T-22). Its commands are refused while the link is not open; nothing here waits for the wire. */
 export interface RealController extends RobotController {
@@ -142,12 +147,18 @@ export interface RealController extends RobotController {
 }
 /** A program text that a controller has taken and not yet begun. */
 export type HandedText =
-  | { readonly kind: "handed"; start(): Promise<CommandOutcome>; /** It is not started after all. */ drop(): void }
+  | { readonly kind: "handed"; start(): Promise<CommandOutcome> /** It is not started after all. */; drop(): void }
   | { readonly kind: "refused"; readonly why: Refusal };
 
 /** A place in a text, counted from 1. */
-export interface TextPlace { readonly line: number; readonly column: number }
-export interface TextFault extends TextPlace { readonly expected: string; readonly sentence: string }
+export interface TextPlace {
+  readonly line: number;
+  readonly column: number;
+}
+export interface TextFault extends TextPlace {
+  readonly expected: string;
+  readonly sentence: string;
+}
 
 export interface EmittedFile {
   readonly name: string;
@@ -172,17 +183,30 @@ export interface ReadOptions {
   readonly skipUnknown?: boolean;
 }
 export type Parsed =
-  | { readonly kind: "parsed"; readonly program: Program; readonly warnings: readonly TextFault[]; readonly skipped?: readonly Skipped[] }
+  | {
+      readonly kind: "parsed";
+      readonly program: Program;
+      readonly warnings: readonly TextFault[];
+      readonly skipped?: readonly Skipped[];
+    }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 /**
  * Statement by statement: the line being executed and the neutral step it amounts to, if any. Steps are primitive:
  * loops, calls and decisions have been carried out. A decision reads `signals` when it is reached.
  */
-export interface Executed { readonly line: number; readonly step?: Step }
+export interface Executed {
+  readonly line: number;
+  readonly step?: Step;
+}
 /** What the steps of a text refer to. Signals are named as the text names them, with the controller's numbers as addresses. */
 export type TextContext = Pick<Program, "tools" | "frames"> & Partial<Pick<Program, "signals">>;
 export type Interpreted =
-  | { readonly kind: "ready"; readonly run: (signals?: Signals) => Iterator<Executed, void>; readonly context: TextContext; readonly skipped?: readonly Skipped[] }
+  | {
+      readonly kind: "ready";
+      readonly run: (signals?: Signals) => Iterator<Executed, void>;
+      readonly context: TextContext;
+      readonly skipped?: readonly Skipped[];
+    }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 /** Half a step of what a language can say of a number, and the most it can say. */

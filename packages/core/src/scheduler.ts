@@ -8,7 +8,12 @@ export interface ManualScheduler extends Scheduler {
   elapse(seconds: number): Promise<void>;
 }
 
-interface Timer { readonly from_s: number; readonly period_s: number; readonly tick: () => void; ticks: number }
+interface Timer {
+  readonly from_s: number;
+  readonly period_s: number;
+  readonly tick: () => void;
+  ticks: number;
+}
 
 /** Turns of the microtask queue after a tick: enough for this many nested `await`s to return. */
 const TURNS = 16;
@@ -21,8 +26,13 @@ export function manualScheduler(start_s = 0): ManualScheduler {
 
   /** Runs the earliest tick that is due by then; the first that was asked for goes first among equals. */
   function runNext(end_s: number): boolean {
-    let next: Timer | undefined, at_s = Infinity;
-    for (const timer of timers) if (due_s(timer) < at_s) { next = timer; at_s = due_s(timer); }
+    let next: Timer | undefined;
+    let at_s = Infinity;
+    for (const timer of timers)
+      if (due_s(timer) < at_s) {
+        next = timer;
+        at_s = due_s(timer);
+      }
     if (!next || at_s > end_s + 1e-12) return false;
     next.ticks++;
     now_s = Math.max(now_s, at_s);
@@ -35,7 +45,9 @@ export function manualScheduler(start_s = 0): ManualScheduler {
     every(period_s, tick) {
       const timer: Timer = { from_s: now_s, period_s, tick, ticks: 0 };
       timers.add(timer);
-      return () => { timers.delete(timer); };
+      return () => {
+        timers.delete(timer);
+      };
     },
     advance(seconds) {
       const end_s = now_s + seconds;
@@ -44,7 +56,9 @@ export function manualScheduler(start_s = 0): ManualScheduler {
     },
     async elapse(seconds) {
       const end_s = now_s + seconds;
-      const letOthersRun = async () => { for (let turn = 0; turn < TURNS; turn++) await Promise.resolve(); };
+      const letOthersRun = async () => {
+        for (let turn = 0; turn < TURNS; turn++) await Promise.resolve();
+      };
       await letOthersRun();
       while (runNext(end_s)) await letOthersRun();
       now_s = Math.max(now_s, end_s);

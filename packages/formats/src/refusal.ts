@@ -1,5 +1,10 @@
 /** Why a file was not read: one sentence, and the line when there is one; the file where one draws in others. */
-export interface NotUnderstood { readonly kind: "not-understood"; readonly sentence: string; readonly line?: number; readonly file?: string }
+export interface NotUnderstood {
+  readonly kind: "not-understood";
+  readonly sentence: string;
+  readonly line?: number;
+  readonly file?: string;
+}
 
 /** Thrown inside a reader and caught at its door; never seen outside this package. */
 export class Refusal extends Error {
@@ -19,7 +24,12 @@ export function answering<T>(read: () => T): T | NotUnderstood {
   } catch (error) {
     if (!(error instanceof Refusal)) throw error;
     const { message, line, file } = error;
-    return { kind: "not-understood", sentence: message, ...(line === undefined ? {} : { line }), ...(file === undefined ? {} : { file }) };
+    return {
+      kind: "not-understood",
+      sentence: message,
+      ...(line === undefined ? {} : { line }),
+      ...(file === undefined ? {} : { file }),
+    };
   }
 }
 

@@ -1,10 +1,13 @@
 /** The text of UTF-8 bytes; a byte order mark is dropped, bytes that are no UTF-8 are taken as Latin-1 letters. */
 export function utf8(bytes: Uint8Array): string {
-  const parts: string[] = [], units: number[] = [];
+  const parts: string[] = [];
+  const units: number[] = [];
   let at = bytes[0] === 0xef && bytes[1] === 0xbb && bytes[2] === 0xbf ? 3 : 0;
   while (at < bytes.length) {
-    const first = bytes[at]!, length = first < 0x80 ? 1 : first >= 0xf0 && first < 0xf5 ? 4 : first >= 0xe0 ? 3 : first >= 0xc2 ? 2 : 0;
-    let code = length === 1 ? first : first & (0x7f >> length), whole = length > 0 && at + length <= bytes.length;
+    const first = bytes[at]!;
+    const length = first < 0x80 ? 1 : first >= 0xf0 && first < 0xf5 ? 4 : first >= 0xe0 ? 3 : first >= 0xc2 ? 2 : 0;
+    let code = length === 1 ? first : first & (0x7f >> length);
+    let whole = length > 0 && at + length <= bytes.length;
     for (let i = 1; i < length && whole; i++) {
       whole = (bytes[at + i]! & 0xc0) === 0x80;
       code = (code << 6) | (bytes[at + i]! & 0x3f);

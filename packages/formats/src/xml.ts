@@ -15,14 +15,21 @@ export interface Element {
 }
 
 /** An element while it is being made. */
-export interface OpenElement extends Element { text: string; readonly attributes: Record<string, string>; readonly children: OpenElement[] }
+export interface OpenElement extends Element {
+  text: string;
+  readonly attributes: Record<string, string>;
+  readonly children: OpenElement[];
+}
 
 const LONGEST_TEXT = 32_000_000;
 const MOST_ELEMENTS = 200_000;
 const DEEPEST = 64;
 
 /** What a reader of XML will take at most. */
-export interface XmlBounds { readonly characters: number; readonly elements: number }
+export interface XmlBounds {
+  readonly characters: number;
+  readonly elements: number;
+}
 const USUAL: XmlBounds = { characters: LONGEST_TEXT, elements: MOST_ELEMENTS };
 
 /**
@@ -30,26 +37,45 @@ const USUAL: XmlBounds = { characters: LONGEST_TEXT, elements: MOST_ELEMENTS };
  * that defines its own is refused before one is used, so no text can grow.
  */
 export function parseXml(text: string, file?: string, bounds = USUAL): OpenElement {
-  if (text.length > bounds.characters) throw new Refusal(`The file has ${text.length} characters; at most ${bounds.characters} are read.`);
+  if (text.length > bounds.characters)
+    throw new Refusal(`The file has ${text.length} characters; at most ${bounds.characters} are read.`);
   const parser = new SaxesParser<{ xmlns: false; position: true }>({ position: true, xmlns: false });
-  const open: OpenElement[] = [], origin = file === undefined ? {} : { file };
-  let root: OpenElement | undefined, count = 0;
-  parser.on("error", error => { throw new Refusal(`The file is not XML: ${error.message.replace(/^\d+:\d+: |[.]$/g, "")}.`, parser.line); });
+  const open: OpenElement[] = [];
+  const origin = file === undefined ? {} : { file };
+  let root: OpenElement | undefined;
+  let count = 0;
+  parser.on("error", error => {
+    throw new Refusal(`The file is not XML: ${error.message.replace(/^\d+:\d+: |[.]$/g, "")}.`, parser.line);
+  });
   parser.on("doctype", doctype => {
-    if (doctype.includes("<!ENTITY")) throw new Refusal("The file defines XML entities of its own, which are not read.", parser.line);
+    if (doctype.includes("<!ENTITY"))
+      throw new Refusal("The file defines XML entities of its own, which are not read.", parser.line);
   });
   parser.on("opentag", ({ name, attributes }) => {
-    if (++count > bounds.elements) throw new Refusal(`The file has more than ${bounds.elements} elements.`, parser.line);
+    if (++count > bounds.elements)
+      throw new Refusal(`The file has more than ${bounds.elements} elements.`, parser.line);
     if (open.length >= DEEPEST) throw new Refusal(`Elements are nested more than ${DEEPEST} deep.`, parser.line);
-    const element: OpenElement = { name, attributes: { ...attributes }, children: [], text: "", line: parser.line, ...origin };
+    const element: OpenElement = {
+      name,
+      attributes: { ...attributes },
+      children: [],
+      text: "",
+      line: parser.line,
+      ...origin,
+    };
     open.at(-1)?.children.push(element);
     root ??= element;
     open.push(element);
   });
-  const keep = (piece: string): void => { const top = open.at(-1); if (top && (top.text !== "" || piece.trim() !== "")) top.text += piece; };
+  const keep = (piece: string): void => {
+    const top = open.at(-1);
+    if (top && (top.text !== "" || piece.trim() !== "")) top.text += piece;
+  };
   parser.on("text", keep);
   parser.on("cdata", keep);
-  parser.on("closetag", () => { open.pop(); });
+  parser.on("closetag", () => {
+    open.pop();
+  });
   try {
     parser.write(text).close();
   } catch (problem) {
@@ -60,8 +86,10 @@ export function parseXml(text: string, file?: string, bounds = USUAL): OpenEleme
   return root;
 }
 
-export const childrenOf = (element: Element, name: string): readonly Element[] => element.children.filter(child => child.name === name);
-export const childOf = (element: Element, name: string): Element | undefined => element.children.find(child => child.name === name);
+export const childrenOf = (element: Element, name: string): readonly Element[] =>
+  element.children.filter(child => child.name === name);
+export const childOf = (element: Element, name: string): Element | undefined =>
+  element.children.find(child => child.name === name);
 
 /** The attribute, or a refusal that names the element. */
 export function attributeOf(element: Element, name: string, of: string): string {
@@ -77,10 +105,12 @@ const LARGEST = 1e9;
 /** `count` numbers separated by spaces. NaN, infinity and anything above 10⁹ are refused. */
 export function numbersIn(text: string, count: number, of: string, line: number): number[] {
   const words = text.trim().split(/\s+/, count + 1);
-  if (words.length !== count || words[0] === "") throw new Refusal(`${of} needs ${count === 1 ? "one number" : `${count} numbers`}, not “${shorten(text)}”.`, line);
+  if (words.length !== count || words[0] === "")
+    throw new Refusal(`${of} needs ${count === 1 ? "one number" : `${count} numbers`}, not “${shorten(text)}”.`, line);
   return words.map(word => {
     const value = NUMBER.test(word) ? Number(word) : NaN;
-    if (!(Math.abs(value) <= LARGEST)) throw new Refusal(`${of} holds “${shorten(word)}”, which is not a usable number.`, line);
+    if (!(Math.abs(value) <= LARGEST))
+      throw new Refusal(`${of} holds “${shorten(word)}”, which is not a usable number.`, line);
     return value;
   });
 }

@@ -12,7 +12,14 @@ import { urScript } from "./urscript/index.ts";
 import { val3 } from "./val3/index.ts";
 import { vPlus } from "./v-plus/index.ts";
 
-export { EXAMPLE_PULSES, inform, informDialect, informExamplePulses, type InformOptions, type PulseData } from "./inform/index.ts";
+export {
+  EXAMPLE_PULSES,
+  inform,
+  informDialect,
+  informExamplePulses,
+  type InformOptions,
+  type PulseData,
+} from "./inform/index.ts";
 export { fanucLs } from "./fanuc-ls/index.ts";
 export { kawasakiAs } from "./kawasaki-as/index.ts";
 export { melfaBasic } from "./melfa-basic/index.ts";
@@ -27,11 +34,25 @@ export { vPlus } from "./v-plus/index.ts";
 export * from "./prove.ts";
 
 /** Every dialect. A new one is a folder and one line here. */
-export const DIALECTS: readonly Dialect[] = [vPlus, krl, inform, urScript, rapid, fanucLs, val3, kawasakiAs, spel, melfaBasic, pacScript, poseList];
+export const DIALECTS: readonly Dialect[] = [
+  vPlus,
+  krl,
+  inform,
+  urScript,
+  rapid,
+  fanucLs,
+  val3,
+  kawasakiAs,
+  spel,
+  melfaBasic,
+  pacScript,
+  poseList,
+];
 
 /** The dialect of that id, or undefined. */
 export const dialectById = (id: string): Dialect | undefined => DIALECTS.find(dialect => dialect.id === id);
 export { vendorTables } from "./vendors.ts";
 
 /** The dialects that a robot's controller understands: those that do not refuse even an empty program for it. */
-export const dialectsFor = (robot: Robot): readonly Dialect[] => DIALECTS.filter(dialect => dialect.emit(emptyProgram(robot.id), robot).kind === "emitted");
+export const dialectsFor = (robot: Robot): readonly Dialect[] =>
+  DIALECTS.filter(dialect => dialect.emit(emptyProgram(robot.id), robot).kind === "emitted");

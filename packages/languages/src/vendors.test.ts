@@ -3,7 +3,9 @@ import { expect, test } from "vitest";
 import { DIALECTS, vendorTables } from "./index.ts";
 
 test("docs/vendors.md says what the dialects declare; after a change run scripts/write-vendors.mjs", () => {
-  expect(readFileSync(new URL("../../../docs/vendors.md", import.meta.url), "utf8")).toContain(`<!-- tables -->\n\n${vendorTables(DIALECTS)}\n\n<!-- end of tables -->`);
+  expect(readFileSync(new URL("../../../docs/vendors.md", import.meta.url), "utf8")).toContain(
+    `<!-- tables -->\n\n${vendorTables(DIALECTS)}\n\n<!-- end of tables -->`,
+  );
 });
 
 test("ids are unique, and every refusal has its reason", () => {

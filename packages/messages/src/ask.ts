@@ -3,7 +3,11 @@ import { z } from "zod";
 
 const text = z.string().min(1).max(200);
 const angles = z.array(z.number()).max(16);
-const pose = z.strictObject({ position: z.tuple([z.number(), z.number(), z.number()]), quaternion: z.tuple([z.number(), z.number(), z.number(), z.number()]) })
+const pose = z
+  .strictObject({
+    position: z.tuple([z.number(), z.number(), z.number()]),
+    quaternion: z.tuple([z.number(), z.number(), z.number(), z.number()]),
+  })
   .transform((value): Pose<"world", "base"> => value);
 const port = z.int().min(1).max(65_535);
 const station = { station: text } as const;
@@ -18,7 +22,11 @@ export const pendantSchema = z.discriminatedUnion("do", [
   /** The enabling switch: counts as let go when whoever holds it is not heard of (`alive`). */
   z.strictObject({ do: z.literal("enable"), pressed: z.boolean() }),
   /** A jog key goes down, or with 0 up. Answered when the jog has ended. */
-  z.strictObject({ do: z.literal("jog"), joint: z.int().min(1).max(16), direction: z.union([z.literal(-1), z.literal(0), z.literal(1)]) }),
+  z.strictObject({
+    do: z.literal("jog"),
+    joint: z.int().min(1).max(16),
+    direction: z.union([z.literal(-1), z.literal(0), z.literal(1)]),
+  }),
   z.strictObject({ do: z.literal("servo"), on: z.boolean() }),
   z.strictObject({ do: z.literal("override"), percent: z.number() }),
   z.strictObject({ do: z.literal("reset") }),
@@ -29,8 +37,11 @@ export const pendantSchema = z.discriminatedUnion("do", [
   z.strictObject({ do: z.literal("protective-stop"), because: text }),
   z.strictObject({ do: z.literal("input"), signal: text, value: z.union([z.boolean(), z.number()]) }),
   z.strictObject({
-    do: z.literal("trouble"), delay_s: z.exactOptional(z.number().min(0).max(10)), loss: z.exactOptional(z.number().min(0).max(1)),
-    hangs: z.exactOptional(z.boolean()), unplugged: z.exactOptional(z.boolean()),
+    do: z.literal("trouble"),
+    delay_s: z.exactOptional(z.number().min(0).max(10)),
+    loss: z.exactOptional(z.number().min(0).max(1)),
+    hangs: z.exactOptional(z.boolean()),
+    unplugged: z.exactOptional(z.boolean()),
   }),
   z.strictObject({ do: z.literal("reboot") }),
 ]);
@@ -38,17 +49,33 @@ export const pendantSchema = z.discriminatedUnion("do", [
 /** What one who commands may say to a host of stations. Lengths and counts are bounded; a program has its own door in core. */
 export const askSchema = z.discriminatedUnion("type", [
   z.strictObject({
-    type: z.literal("open"), ...asked, ...station, brand: text, robot: text, name: z.exactOptional(text),
+    type: z.literal("open"),
+    ...asked,
+    ...station,
+    brand: text,
+    robot: text,
+    name: z.exactOptional(text),
     /** Where its programs take it to stand; and where it does stand among the other robots of the cell, to which it is an obstacle then. */
-    worldFromBase: z.exactOptional(pose), stand: z.exactOptional(pose),
+    worldFromBase: z.exactOptional(pose),
+    stand: z.exactOptional(pose),
     /** Where the controller is; left out, a virtual one is started where the host is. */
-    address: z.exactOptional(z.strictObject({ host: text, ports: z.exactOptional(z.record(text, port)), data: z.exactOptional(z.record(text, angles)) })),
+    address: z.exactOptional(
+      z.strictObject({
+        host: text,
+        ports: z.exactOptional(z.record(text, port)),
+        data: z.exactOptional(z.record(text, angles)),
+      }),
+    ),
     /** Opened to watch: nothing is commanded until somebody takes it to command. */
     watch: z.exactOptional(z.boolean()),
   }),
   /** Only to watch it from now on, or to command it again. */
   z.strictObject({ type: z.literal("watch"), ...asked, ...station, on: z.boolean() }),
-  z.strictObject({ type: z.enum(["close", "connect", "disconnect", "take", "release", "confirm", "reset"]), ...asked, ...station }),
+  z.strictObject({
+    type: z.enum(["close", "connect", "disconnect", "take", "release", "confirm", "reset"]),
+    ...asked,
+    ...station,
+  }),
   z.strictObject({ type: z.literal("hold"), ...asked, ...station, pressed: z.boolean() }),
   z.strictObject({ type: z.literal("speed"), ...asked, ...station, percent: z.number() }),
   z.strictObject({ type: z.literal("move"), ...asked, ...station, q_rad: angles }),
@@ -59,7 +86,14 @@ export const askSchema = z.discriminatedUnion("type", [
   /** Shows where a program would take the robot; nothing is sent to it. */
   z.strictObject({ type: z.literal("preview"), ...asked, ...station, program: z.unknown() }),
   /** All or none: every one is made ready first, then all start on one clock, and whoever is stopped stops all. */
-  z.strictObject({ type: z.literal("together"), ...asked, members: z.array(z.strictObject({ station: text, program: z.unknown(), asText: z.boolean() })).min(2).max(16) }),
+  z.strictObject({
+    type: z.literal("together"),
+    ...asked,
+    members: z
+      .array(z.strictObject({ station: text, program: z.unknown(), asText: z.boolean() }))
+      .min(2)
+      .max(16),
+  }),
   /** Anyone may. Without a station it is all of them. */
   z.strictObject({ type: z.literal("stop"), station: z.exactOptional(text), emergency: z.boolean() }),
   z.strictObject({ type: z.literal("pendant"), ...asked, ...station, act: pendantSchema }),

@@ -6,7 +6,7 @@ import type { Tell, TellOf } from "./tell.ts";
 
 type Numbered = Extract<Ask, { readonly id: number }>;
 /** A request without its number. */
-export type Request = Numbered extends infer One ? One extends Numbered ? Omit<One, "id"> : never : never;
+export type Request = Numbered extends infer One ? (One extends Numbered ? Omit<One, "id"> : never) : never;
 
 export interface Client {
   /** Resolves with the host's answer; as refused when the connection ends before it. */
@@ -22,11 +22,26 @@ export interface Client {
 }
 
 /** One end of a channel to a host: numbers requests, finds their answers, hands on everything else. */
-export function createClient(channel: Channel, now_s: () => number, onTell: (message: Exclude<Tell, TellOf<"answer" | "pong">>) => void): Client {
-  const asked = new Map<number, (outcome: CommandOutcome) => void>(), pings = new Map<number, (seconds: number) => void>();
-  let count = 0, over = false;
-  const lost: CommandOutcome = { kind: "refused", why: { code: "host.gone", sentence: "The connection to the host of the stations is gone.", hint: "Connect again; motion goes on only when you command it." } };
-  const send = (ask: Ask): void => { if (!over) channel.send(write(ask)); };
+export function createClient(
+  channel: Channel,
+  now_s: () => number,
+  onTell: (message: Exclude<Tell, TellOf<"answer" | "pong">>) => void,
+): Client {
+  const asked = new Map<number, (outcome: CommandOutcome) => void>();
+  const pings = new Map<number, (seconds: number) => void>();
+  let count = 0;
+  let over = false;
+  const lost: CommandOutcome = {
+    kind: "refused",
+    why: {
+      code: "host.gone",
+      sentence: "The connection to the host of the stations is gone.",
+      hint: "Connect again; motion goes on only when you command it.",
+    },
+  };
+  const send = (ask: Ask): void => {
+    if (!over) channel.send(write(ask));
+  };
   const end = (): void => {
     over = true;
     for (const settle of asked.values()) settle(lost);
@@ -38,24 +53,50 @@ export function createClient(channel: Channel, now_s: () => number, onTell: (mes
     ask(request) {
       if (over) return Promise.resolve(lost);
       const id = count++;
-      return new Promise(resolve => { asked.set(id, resolve); send({ ...request, id } as Numbered); });
+      return new Promise(resolve => {
+        asked.set(id, resolve);
+        send({ ...request, id } as Numbered);
+      });
     },
-    stop(station, emergency = false) { send({ type: "stop", emergency, ...(station === undefined ? {} : { station }) } satisfies AskOf<"stop">); },
-    alive(station) { send({ type: "alive", station }); },
+    stop(station, emergency = false) {
+      send({ type: "stop", emergency, ...(station === undefined ? {} : { station }) } satisfies AskOf<"stop">);
+    },
+    alive(station) {
+      send({ type: "alive", station });
+    },
     ping() {
       if (over) return Promise.resolve(NaN);
       const sent_s = now_s();
-      return new Promise(resolve => { pings.set(sent_s, resolve); send({ type: "ping", sent_s }); });
+      return new Promise(resolve => {
+        pings.set(sent_s, resolve);
+        send({ type: "ping", sent_s });
+      });
     },
     hear(text) {
       if (over) return;
       const heard = readTell(text);
-      if (heard.kind === "fault") { onTell({ type: "fault", sentence: heard.sentence }); end(); channel.close(); return; }
+      if (heard.kind === "fault") {
+        onTell({ type: "fault", sentence: heard.sentence });
+        end();
+        channel.close();
+        return;
+      }
       const { message } = heard;
-      if (message.type === "answer") { asked.get(message.id)?.(message.outcome); asked.delete(message.id); return; }
-      if (message.type === "pong") { pings.get(message.sent_s)?.(now_s() - message.sent_s); pings.delete(message.sent_s); return; }
+      if (message.type === "answer") {
+        asked.get(message.id)?.(message.outcome);
+        asked.delete(message.id);
+        return;
+      }
+      if (message.type === "pong") {
+        pings.get(message.sent_s)?.(now_s() - message.sent_s);
+        pings.delete(message.sent_s);
+        return;
+      }
       if (message.type === "hello" && (message.protocol > PROTOCOL || message.protocol < OLDEST_HOST)) {
-        onTell({ type: "fault", sentence: `The host speaks version ${message.protocol} of the protocol, this studio version ${PROTOCOL}: use the same release of both.` });
+        onTell({
+          type: "fault",
+          sentence: `The host speaks version ${message.protocol} of the protocol, this studio version ${PROTOCOL}: use the same release of both.`,
+        });
         end();
         channel.close();
         return;

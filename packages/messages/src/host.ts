@@ -1,4 +1,13 @@
-import { parseProgram, type CommandOutcome, type JointSample, type LinkReport, type Program, type Refusal, type RobotController, type Scheduler } from "@twincell/core";
+import {
+  parseProgram,
+  type CommandOutcome,
+  type JointSample,
+  type LinkReport,
+  type Program,
+  type Refusal,
+  type RobotController,
+  type Scheduler,
+} from "@twincell/core";
 import { actWords, type Act } from "./acts.ts";
 import type { Ask, AskOf } from "./ask.ts";
 import { visitPendant, type HostedPendant, type PendantVisit } from "./pendant.ts";
@@ -26,7 +35,18 @@ export interface HostedStation<Seat extends HostedSeat = HostedSeat> {
   disconnect(): void;
   /** Only to watch it from now on, or to command it again: the connection is opened anew, as one or the other. */
   watch(seat: Seat, on: boolean): Promise<CommandOutcome>;
-  readonly ahead: { horizon_s: number; onChange(listen: (words: { readonly q_rad: Float64Array; readonly in_s: number; readonly problem: { readonly code: string; readonly sentence: string; readonly in_s: number } | null } | null) => void): () => void };
+  readonly ahead: {
+    horizon_s: number;
+    onChange(
+      listen: (
+        words: {
+          readonly q_rad: Float64Array;
+          readonly in_s: number;
+          readonly problem: { readonly code: string; readonly sentence: string; readonly in_s: number } | null;
+        } | null,
+      ) => void,
+    ): () => void;
+  };
   preview(program: Program): Promise<CommandOutcome>;
   run(seat: Seat, program: Program, asText: boolean): Promise<CommandOutcome>;
   /** Makes a program ready to be started: what may be refused is told before anything moves. */
@@ -43,11 +63,25 @@ export interface HostedStation<Seat extends HostedSeat = HostedSeat> {
 }
 /** A program that a station has and is ready for. */
 export type HostedArmed =
-  | { readonly kind: "armed"; readonly movesAtOnce: boolean; readiness(): Refusal | null; start(): Promise<CommandOutcome>; drop(): void }
+  | {
+      readonly kind: "armed";
+      readonly movesAtOnce: boolean;
+      readiness(): Refusal | null;
+      start(): Promise<CommandOutcome>;
+      drop(): void;
+    }
   | { readonly kind: "refused"; readonly why: Refusal };
-export interface HostedMember { readonly station: HostedStation; readonly prepare: () => Promise<HostedArmed> }
-export interface HostedGroup { readonly outcome: CommandOutcome; readonly each: ReadonlyMap<string, CommandOutcome> }
-export type OpenedStation = { readonly kind: "opened"; readonly station: HostedStation } | { readonly kind: "refused"; readonly why: Refusal };
+export interface HostedMember {
+  readonly station: HostedStation;
+  readonly prepare: () => Promise<HostedArmed>;
+}
+export interface HostedGroup {
+  readonly outcome: CommandOutcome;
+  readonly each: ReadonlyMap<string, CommandOutcome>;
+}
+export type OpenedStation =
+  | { readonly kind: "opened"; readonly station: HostedStation }
+  | { readonly kind: "refused"; readonly why: Refusal };
 
 /** What an app brings to its host. */
 export interface HostOptions {
@@ -56,7 +90,10 @@ export interface HostOptions {
   readonly brands: TellOf<"hello">["brands"];
   open(ask: AskOf<"open">): Promise<OpenedStation>;
   /** Starts several at once, all or none. */
-  together(members: readonly HostedMember[], onStarted: (words: { readonly spread_s: number }) => void): Promise<HostedGroup>;
+  together(
+    members: readonly HostedMember[],
+    onStarted: (words: { readonly spread_s: number }) => void,
+  ): Promise<HostedGroup>;
 }
 export interface Host {
   /** Somebody new; what comes from them goes into `hear`. Leaving gives back every lease they hold. */
@@ -69,16 +106,24 @@ const DONE: CommandOutcome = { kind: "done" };
 const MOST_STATIONS = 32;
 /** Link figures are told this often, and at every change of state [s]. */
 const FIGURES_S = 0.5;
-const refuse = (code: string, sentence: string, hint: string): CommandOutcome => ({ kind: "refused", why: { code, sentence, hint } });
-const known = (value: number): number | null => Number.isFinite(value) ? value : null;
+const refuse = (code: string, sentence: string, hint: string): CommandOutcome => ({
+  kind: "refused",
+  why: { code, sentence, hint },
+});
+const known = (value: number): number | null => (Number.isFinite(value) ? value : null);
 
-const noStation = (id: string): CommandOutcome => refuse("station.none", `There is no station “${id}”.`, "Open it first.");
-const unreadable = (why = "it is empty"): CommandOutcome => refuse("station.program", `The program cannot be read: ${why}`, "Export it again.");
-const noPendant = ({ words }: HostedStation): CommandOutcome => refuse("station.no-pendant", `${words.name} is a real controller: its pendant is at the robot.`, "Go there.");
+const noStation = (id: string): CommandOutcome =>
+  refuse("station.none", `There is no station “${id}”.`, "Open it first.");
+const unreadable = (why = "it is empty"): CommandOutcome =>
+  refuse("station.program", `The program cannot be read: ${why}`, "Export it again.");
+const noPendant = ({ words }: HostedStation): CommandOutcome =>
+  refuse("station.no-pendant", `${words.name} is a real controller: its pendant is at the robot.`, "Go there.");
 
 /** Stations that any number of people look at, and each of which one commands. The same in a worker of the page and on a server. */
 export function createHost(options: HostOptions): Host {
-  const stations = new Map<string, { readonly station: HostedStation; readonly forget: () => void }>(), channels = new Set<Channel>(), closing = new Set<(station: HostedStation) => void>();
+  const stations = new Map<string, { readonly station: HostedStation; readonly forget: () => void }>();
+  const channels = new Set<Channel>();
+  const closing = new Set<(station: HostedStation) => void>();
   let people = 0;
   let acts = 0;
   const all = (message: Tell): void => {
@@ -87,52 +132,112 @@ export function createHost(options: HostOptions): Host {
   };
   const linkWords = (station: HostedStation): TellOf<"link"> | null => {
     const { link } = station;
-    return link && {
-      type: "link", station: station.words.id, state: link.state, sentence: link.sentence, attempts: link.attempts,
-      rate_Hz: link.rate_Hz, late_s: link.late_s, roundTrip_s: known(link.roundTrip_s), missing: link.missing,
-    };
+    return (
+      link && {
+        type: "link",
+        station: station.words.id,
+        state: link.state,
+        sentence: link.sentence,
+        attempts: link.attempts,
+        rate_Hz: link.rate_Hz,
+        late_s: link.late_s,
+        roundTrip_s: known(link.roundTrip_s),
+        missing: link.missing,
+      }
+    );
   };
-  const guardWords = (station: HostedStation): TellOf<"guard"> => ({ type: "guard", station: station.words.id, ...station.guard.state });
-  const tellLink = (station: HostedStation): void => { const says = linkWords(station); if (says) all(says); };
+  const guardWords = (station: HostedStation): TellOf<"guard"> => ({
+    type: "guard",
+    station: station.words.id,
+    ...station.guard.state,
+  });
+  const tellLink = (station: HostedStation): void => {
+    const says = linkWords(station);
+    if (says) all(says);
+  };
 
   /** Everything that people do at a station is told to all who look at it, the recorders among them: who, what, and what became of it. */
   function tellAct(who: string, act: Act, station: string): (outcome: CommandOutcome) => void {
-    const { target, ...words } = actWords(act), said = { type: "act" as const, station, number: acts++, who, ...words, target: [...target] };
+    const { target, ...words } = actWords(act);
+    const said = { type: "act" as const, station, number: acts++, who, ...words, target: [...target] };
     all({ ...said, outcome: null });
-    return outcome => { all({ ...said, outcome }); };
+    return outcome => {
+      all({ ...said, outcome });
+    };
   }
 
   function watch(station: HostedStation): () => void {
     const { id } = station.words;
-    let signals: ReadonlyMap<string, boolean | number> | undefined, said = "";
+    let signals: ReadonlyMap<string, boolean | number> | undefined;
+    let said = "";
     const offs = [
       station.onSample(sample => {
         // Lines are told when they change: most samples only move.
         const lines = sample.signals === undefined ? "" : JSON.stringify([...sample.signals]);
-        if (lines !== said) { said = lines; signals = sample.signals; } else signals = undefined;
+        if (lines !== said) {
+          said = lines;
+          signals = sample.signals;
+        } else signals = undefined;
         all({
-          type: "sample", station: id, sequence: sample.sequence, time_s: sample.time_s, sent_s: options.scheduler.now_s(), q_rad: Array.from(sample.q_rad),
-          moving: sample.moving, mode: sample.mode, safety: sample.safety, override: sample.override, gripperClosed: sample.gripperClosed, step: sample.step, message: sample.message,
-          plan_rad: known(station.deviation.plan_rad), command_rad: known(station.deviation.command_rad),
+          type: "sample",
+          station: id,
+          sequence: sample.sequence,
+          time_s: sample.time_s,
+          sent_s: options.scheduler.now_s(),
+          q_rad: Array.from(sample.q_rad),
+          moving: sample.moving,
+          mode: sample.mode,
+          safety: sample.safety,
+          override: sample.override,
+          gripperClosed: sample.gripperClosed,
+          step: sample.step,
+          message: sample.message,
+          plan_rad: known(station.deviation.plan_rad),
+          command_rad: known(station.deviation.command_rad),
           ...(signals ? { signals: Object.fromEntries(signals) } : {}),
         });
       }),
-      station.ahead.onChange(words => { all({ type: "ahead", station: id, ahead: words && { q_rad: Array.from(words.q_rad), in_s: words.in_s, problem: words.problem } }); }),
-      station.onLink(() => { tellLink(station); }),
-      station.onGuard(() => { all(guardWords(station)); }),
-      station.onNotice(why => { all({ type: "notice", station: id, why }); }),
-      options.scheduler.every(FIGURES_S, () => { tellLink(station); }),
+      station.ahead.onChange(words => {
+        all({
+          type: "ahead",
+          station: id,
+          ahead: words && { q_rad: Array.from(words.q_rad), in_s: words.in_s, problem: words.problem },
+        });
+      }),
+      station.onLink(() => {
+        tellLink(station);
+      }),
+      station.onGuard(() => {
+        all(guardWords(station));
+      }),
+      station.onNotice(why => {
+        all({ type: "notice", station: id, why });
+      }),
+      options.scheduler.every(FIGURES_S, () => {
+        tellLink(station);
+      }),
     ];
-    return () => { for (const off of offs) off(); };
+    return () => {
+      for (const off of offs) off();
+    };
   }
 
   async function open(ask: AskOf<"open">): Promise<CommandOutcome> {
-    if (stations.has(ask.station)) return refuse("station.exists", `There is a station “${ask.station}” already.`, "Close it first, or give the new one another name.");
-    if (stations.size >= MOST_STATIONS) return refuse("station.too-many", `${MOST_STATIONS} stations are open, which is the most.`, "Close one first.");
+    if (stations.has(ask.station))
+      return refuse(
+        "station.exists",
+        `There is a station “${ask.station}” already.`,
+        "Close it first, or give the new one another name.",
+      );
+    if (stations.size >= MOST_STATIONS)
+      return refuse("station.too-many", `${MOST_STATIONS} stations are open, which is the most.`, "Close one first.");
     const opened = await options.open(ask);
     if (opened.kind === "refused") return opened;
     // Somebody may have been faster while this one was being opened.
-    if (stations.has(ask.station)) { opened.station.close(); return refuse("station.exists", `There is a station “${ask.station}” already.`, "Give the new one another name."); }
+    if (stations.has(ask.station)) {
+      opened.station.close();
+      return refuse("station.exists", `There is a station “${ask.station}” already.`, "Give the new one another name.");
+    }
     stations.set(ask.station, { station: opened.station, forget: watch(opened.station) });
     all({ type: "opened", ...opened.station.words });
     all(guardWords(opened.station));
@@ -149,19 +254,26 @@ export function createHost(options: HostOptions): Host {
   }
 
   return {
-    get stations() { return [...stations.values()].map(({ station }) => station); },
+    get stations() {
+      return [...stations.values()].map(({ station }) => station);
+    },
     join(who, channel) {
-      const seats = new Map<HostedStation, HostedSeat>(), visits = new Map<HostedStation, PendantVisit>(), me = `${who} ${++people}`;
+      const seats = new Map<HostedStation, HostedSeat>();
+      const visits = new Map<HostedStation, PendantVisit>();
+      const me = `${who} ${++people}`;
       let gone = false;
-      const tell = (message: Tell): void => { if (!gone) channel.send(write(message)); };
+      const tell = (message: Tell): void => {
+        if (!gone) channel.send(write(message));
+      };
       const seatAt = (station: HostedStation): HostedSeat => {
         let seat = seats.get(station);
-        if (!seat) seats.set(station, seat = station.seat(who));
+        if (!seat) seats.set(station, (seat = station.seat(who)));
         return seat;
       };
       const visitTo = (station: HostedStation): PendantVisit | null => {
         let visit = visits.get(station);
-        if (!visit && station.pendant) visits.set(station, visit = visitPendant(me, station.words.id, station.pendant, options.scheduler, tell));
+        if (!visit && station.pendant)
+          visits.set(station, (visit = visitPendant(me, station.words.id, station.pendant, options.scheduler, tell)));
         return visit ?? null;
       };
 
@@ -183,64 +295,113 @@ export function createHost(options: HostOptions): Host {
         const station = stations.get(ask.station)?.station;
         if (!station) return noStation(ask.station);
         switch (ask.type) {
-          case "visit": return visitTo(station)?.watch(ask.on) ?? noPendant(station);
-          case "look-ahead": station.ahead.horizon_s = ask.seconds; return DONE;
+          case "visit":
+            return visitTo(station)?.watch(ask.on) ?? noPendant(station);
+          case "look-ahead":
+            station.ahead.horizon_s = ask.seconds;
+            return DONE;
           case "preview": {
             const parsed = parseProgram(ask.program);
             return parsed.kind === "program" ? station.preview(parsed.program) : unreadable(parsed.faults[0]?.sentence);
           }
         }
       }
-      async function command(station: HostedStation, ask: Exclude<Act, { readonly type: "stop" | "together" }>): Promise<CommandOutcome> {
+      async function command(
+        station: HostedStation,
+        ask: Exclude<Act, { readonly type: "stop" | "together" }>,
+      ): Promise<CommandOutcome> {
         const seat = seatAt(station);
         switch (ask.type) {
-          case "close": close(ask.station); return DONE;
-          case "connect": return station.connect();
-          case "disconnect": station.disconnect(); return DONE;
-          case "take": return seat.take();
-          case "release": return seat.release();
-          case "confirm": return seat.confirm();
-          case "reset": return seat.robot.reset();
-          case "watch": return station.watch(seat, ask.on);
-          case "hold": return seat.hold(ask.pressed);
-          case "speed": return seat.robot.setSpeed(ask.percent);
-          case "move": return seat.robot.moveJoints(ask.q_rad);
-          case "zero": return seat.robot.moveToZero();
+          case "close":
+            close(ask.station);
+            return DONE;
+          case "connect":
+            return station.connect();
+          case "disconnect":
+            station.disconnect();
+            return DONE;
+          case "take":
+            return seat.take();
+          case "release":
+            return seat.release();
+          case "confirm":
+            return seat.confirm();
+          case "reset":
+            return seat.robot.reset();
+          case "watch":
+            return station.watch(seat, ask.on);
+          case "hold":
+            return seat.hold(ask.pressed);
+          case "speed":
+            return seat.robot.setSpeed(ask.percent);
+          case "move":
+            return seat.robot.moveJoints(ask.q_rad);
+          case "zero":
+            return seat.robot.moveToZero();
           case "run": {
             const parsed = parseProgram(ask.program);
             if (parsed.kind !== "program") return unreadable(parsed.faults[0]?.sentence);
             return station.run(seat, parsed.program, ask.asText);
           }
-          case "pendant": return visitTo(station)?.act(ask.act) ?? noPendant(station);
+          case "pendant":
+            return visitTo(station)?.act(ask.act) ?? noPendant(station);
           case "plug":
-            if (!station.plug) return refuse("station.no-plug", `${station.words.name} is a real controller: its plug is in the wall.`, "Disconnect it instead.");
+            if (!station.plug)
+              return refuse(
+                "station.no-plug",
+                `${station.words.name} is a real controller: its plug is in the wall.`,
+                "Disconnect it instead.",
+              );
             station.plug(ask.pulled);
             return DONE;
         }
       }
 
       async function together({ members }: AskOf<"together">): Promise<CommandOutcome> {
-        const ids = members.map(({ station }) => station), ready: HostedMember[] = [];
-        if (new Set(ids).size < ids.length) return refuse("group.twice", "A station is named twice in the group.", "Name each once.");
+        const ids = members.map(({ station }) => station);
+        const ready: HostedMember[] = [];
+        if (new Set(ids).size < ids.length)
+          return refuse("group.twice", "A station is named twice in the group.", "Name each once.");
         for (const { station: id, program, asText } of members) {
-          const station = stations.get(id)?.station, parsed = parseProgram(program);
+          const station = stations.get(id)?.station;
+          const parsed = parseProgram(program);
           if (!station) return noStation(id);
-          if (parsed.kind !== "program") return refuse("station.program", `The program of ${station.words.name} cannot be read: ${parsed.faults[0]?.sentence ?? "it is empty"}`, "Export it again.");
+          if (parsed.kind !== "program")
+            return refuse(
+              "station.program",
+              `The program of ${station.words.name} cannot be read: ${parsed.faults[0]?.sentence ?? "it is empty"}`,
+              "Export it again.",
+            );
           const seat = seatAt(station);
           ready.push({ station, prepare: () => station.prepare(seat, parsed.program, asText) });
         }
-        const told = members.map(({ station, program, asText }) => tellAct(who, { type: "together", program, asText, members: members.length }, station));
-        const { outcome, each } = await options.together(ready, ({ spread_s }) => { all({ type: "began", stations: ids, spread_s }); });
+        const told = members.map(({ station, program, asText }) =>
+          tellAct(who, { type: "together", program, asText, members: members.length }, station),
+        );
+        const { outcome, each } = await options.together(ready, ({ spread_s }) => {
+          all({ type: "began", stations: ids, spread_s });
+        });
         for (const tellEnd of told) tellEnd(outcome);
-        if (each.size > 0) all({ type: "ended", stations: [...each].map(([station, ended]) => ({ station, outcome: ended })) });
+        if (each.size > 0)
+          all({ type: "ended", stations: [...each].map(([station, ended]) => ({ station, outcome: ended })) });
         return outcome;
       }
 
       /** A station that is closed has no pendant any more that could be told of. */
-      const forget = (station: HostedStation): void => { visits.get(station)?.leave(); visits.delete(station); seats.delete(station); };
+      const forget = (station: HostedStation): void => {
+        visits.get(station)?.leave();
+        visits.delete(station);
+        seats.delete(station);
+      };
       channels.add(channel);
       closing.add(forget);
-      tell({ type: "hello", protocol: PROTOCOL, version: options.version, brands: options.brands, stations: [...stations.values()].map(({ station }) => station.words) });
+      tell({
+        type: "hello",
+        protocol: PROTOCOL,
+        version: options.version,
+        brands: options.brands,
+        stations: [...stations.values()].map(({ station }) => station.words),
+      });
       for (const { station } of stations.values()) {
         tell(guardWords(station));
         const link = linkWords(station);
@@ -258,11 +419,23 @@ export function createHost(options: HostOptions): Host {
         leave,
         hear(text) {
           if (gone) return;
-          const ask = askOrEnd(text, tell, () => { leave(); channel.close(); });
+          const ask = askOrEnd(text, tell, () => {
+            leave();
+            channel.close();
+          });
           if (!ask) return;
           switch (ask.type) {
-            case "ping": tell({ type: "pong", sent_s: ask.sent_s, host_s: options.scheduler.now_s() }); break;
-            case "alive": { const entry = stations.get(ask.station); if (entry) { seatAt(entry.station).alive(); visits.get(entry.station)?.alive(); } break; }
+            case "ping":
+              tell({ type: "pong", sent_s: ask.sent_s, host_s: options.scheduler.now_s() });
+              break;
+            case "alive": {
+              const entry = stations.get(ask.station);
+              if (entry) {
+                seatAt(entry.station).alive();
+                visits.get(entry.station)?.alive();
+              }
+              break;
+            }
             // The stops go out first; what is told of them comes after.
             case "stop": {
               const meant = [...stations].filter(([id]) => ask.station === undefined || ask.station === id);
@@ -272,12 +445,17 @@ export function createHost(options: HostOptions): Host {
             }
             default: {
               const { id } = ask;
-              void carryOut(ask).then(outcome => { tell({ type: "answer", id, outcome }); });
+              void carryOut(ask).then(outcome => {
+                tell({ type: "answer", id, outcome });
+              });
             }
           }
         },
       };
     },
-    close() { for (const id of [...stations.keys()]) close(id); channels.clear(); },
+    close() {
+      for (const id of [...stations.keys()]) close(id);
+      channels.clear();
+    },
   };
 }

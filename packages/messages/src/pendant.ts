@@ -24,19 +24,40 @@ export interface PendantVisit {
   alive(): void;
   leave(): void;
 }
-export function visitPendant(who: string, station: string, pendant: HostedPendant, scheduler: Scheduler, tell: (message: Tell) => void): PendantVisit {
+export function visitPendant(
+  who: string,
+  station: string,
+  pendant: HostedPendant,
+  scheduler: Scheduler,
+  tell: (message: Tell) => void,
+): PendantVisit {
   let stop: (() => void) | null = null;
-  const show = (words?: PendantWords): void => { tell({ type: "pendant", station, ...(words ? { words } : {}), shown: pendant.shown } as Tell); };
-  const end = (): void => { stop?.(); stop = null; };
+  const show = (words?: PendantWords): void => {
+    tell({ type: "pendant", station, ...(words ? { words } : {}), shown: pendant.shown } as Tell);
+  };
+  const end = (): void => {
+    stop?.();
+    stop = null;
+  };
   return {
     act: what => pendant.act(who, what),
     watch(on) {
       end();
-      if (on) { show(pendant.words); stop = scheduler.every(SHOWN_S, () => { show(); }); }
+      if (on) {
+        show(pendant.words);
+        stop = scheduler.every(SHOWN_S, () => {
+          show();
+        });
+      }
       return DONE;
     },
-    alive() { pendant.alive(who); },
-    leave() { end(); pendant.leave(who); },
+    alive() {
+      pendant.alive(who);
+    },
+    leave() {
+      end();
+      pendant.leave(who);
+    },
   };
 }
 
@@ -49,11 +70,16 @@ export interface PendantHostOptions {
 type Asked = Exclude<Ask, AskOf<"stop" | "alive" | "ping">>;
 
 /** The host of one pendant and nothing else: for a virtual controller that is commanded at its own ports. */
-export function createPendantHost({ scheduler, version, words, pendant }: PendantHostOptions): { join(who: string, channel: Channel): { hear(text: string): void; leave(): void } } {
+export function createPendantHost({ scheduler, version, words, pendant }: PendantHostOptions): {
+  join(who: string, channel: Channel): { hear(text: string): void; leave(): void };
+} {
   return {
     join(who, channel) {
       let gone = false;
-      const tell = (message: Tell): void => { if (!gone) channel.send(write(message)); }, visit = visitPendant(who, words.id, pendant, scheduler, tell);
+      const tell = (message: Tell): void => {
+        if (!gone) channel.send(write(message));
+      };
+      const visit = visitPendant(who, words.id, pendant, scheduler, tell);
       const leave = (): void => {
         if (gone) return;
         gone = true;
@@ -62,20 +88,35 @@ export function createPendantHost({ scheduler, version, words, pendant }: Pendan
       const carryOut = async (ask: Asked): Promise<CommandOutcome> => {
         if (ask.type === "pendant" && ask.station === words.id) return visit.act(ask.act);
         if (ask.type === "visit" && ask.station === words.id) return visit.watch(ask.on);
-        return { kind: "refused", why: { code: "pendant.only", sentence: `This is the pendant of ${words.name} and nothing else.`, hint: "Command the controller at its own ports, from a station." } };
+        return {
+          kind: "refused",
+          why: {
+            code: "pendant.only",
+            sentence: `This is the pendant of ${words.name} and nothing else.`,
+            hint: "Command the controller at its own ports, from a station.",
+          },
+        };
       };
       tell({ type: "hello", protocol: PROTOCOL, version, brands: [], stations: [words] });
       return {
         leave,
         hear(text) {
           if (gone) return;
-          const ask = askOrEnd(text, tell, () => { leave(); channel.close(); });
+          const ask = askOrEnd(text, tell, () => {
+            leave();
+            channel.close();
+          });
           if (!ask) return;
           if (ask.type === "ping") tell({ type: "pong", sent_s: ask.sent_s, host_s: scheduler.now_s() });
           else if (ask.type === "alive") visit.alive();
           // Anyone may stop: at a pendant that is its red button.
           else if (ask.type === "stop") void visit.act({ do: "emergency-stop", pressed: true });
-          else { const { id } = ask; void carryOut(ask).then(outcome => { tell({ type: "answer", id, outcome }); }); }
+          else {
+            const { id } = ask;
+            void carryOut(ask).then(outcome => {
+              tell({ type: "answer", id, outcome });
+            });
+          }
         },
       };
     },

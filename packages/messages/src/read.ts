@@ -9,7 +9,9 @@ export const OLDEST_HOST = 1;
 /** A message longer than this is not looked at: a program of a hundred thousand steps is shorter. */
 export const LONGEST_MESSAGE = 32 * 1024 * 1024;
 
-export type Read<T> = { readonly kind: "read"; readonly message: T } | { readonly kind: "fault"; readonly sentence: string };
+export type Read<T> =
+  | { readonly kind: "read"; readonly message: T }
+  | { readonly kind: "fault"; readonly sentence: string };
 
 export const readAsk = (text: string): Read<Ask> => read(text, askSchema, "request");
 /** The request that a text is; what is none is answered with its fault, ends the connection, and gives null. */
@@ -24,7 +26,11 @@ export const readTell = (text: string): Read<Tell> => read(text, tellSchema, "me
 export const write = (message: Ask | Tell): string => JSON.stringify(message);
 
 function read<T>(text: string, schema: z.ZodType<T>, what: string): Read<T> {
-  if (text.length > LONGEST_MESSAGE) return { kind: "fault", sentence: `A ${what} of ${text.length} characters is longer than ${LONGEST_MESSAGE} and was not read.` };
+  if (text.length > LONGEST_MESSAGE)
+    return {
+      kind: "fault",
+      sentence: `A ${what} of ${text.length} characters is longer than ${LONGEST_MESSAGE} and was not read.`,
+    };
   let value: unknown;
   try {
     value = JSON.parse(text);
@@ -34,5 +40,8 @@ function read<T>(text: string, schema: z.ZodType<T>, what: string): Read<T> {
   const parsed = schema.safeParse(value);
   if (parsed.success) return { kind: "read", message: parsed.data };
   const [issue] = parsed.error.issues;
-  return { kind: "fault", sentence: `A ${what} could not be understood${issue && issue.path.length > 0 ? ` at “${issue.path.join(".")}”` : ""}: ${issue?.message ?? "it has no type that is known"}.` };
+  return {
+    kind: "fault",
+    sentence: `A ${what} could not be understood${issue && issue.path.length > 0 ? ` at “${issue.path.join(".")}”` : ""}: ${issue?.message ?? "it has no type that is known"}.`,
+  };
 }

@@ -28,12 +28,23 @@ export class Grasps {
     for (let i = 0; i < parts; i++) {
       let touching = 0;
       for (let finger = 0; finger < 2; finger++) {
-        const at = TOUCH_SIZE * (finger * parts + i), found = sensordata[at]! > 0;
+        const at = TOUCH_SIZE * (finger * parts + i);
+        const found = sensordata[at]! > 0;
         if (found) touching++;
-        const x = sensordata[at + 1]!, y = sensordata[at + 2]!, z = sensordata[at + 3]!;
+        const x = sensordata[at + 1]!;
+        const y = sensordata[at + 2]!;
+        const z = sensordata[at + 3]!;
         this.forces_N[2 * i + finger] = found ? Math.sqrt(x * x + y * y + z * z) : 0;
       }
-      const next = this.filters[i]!.step(graspSignal({ bend: closed ? 1 : 0, distance_m: touching > 0 ? 0 : Number.POSITIVE_INFINITY, between: touching === 2, graspable: true }), dt_s);
+      const next = this.filters[i]!.step(
+        graspSignal({
+          bend: closed ? 1 : 0,
+          distance_m: touching > 0 ? 0 : Number.POSITIVE_INFINITY,
+          between: touching === 2,
+          graspable: true,
+        }),
+        dt_s,
+      );
       if ((next === "held") !== (this.signals[i] === "held")) changed = true;
       this.signals[i] = next;
     }
@@ -48,7 +59,14 @@ export class Grasps {
     }
     return -1;
   }
-  hardest_N(part: number): number { return Math.max(this.forces_N[2 * part]!, this.forces_N[2 * part + 1]!); }
+  hardest_N(part: number): number {
+    return Math.max(this.forces_N[2 * part]!, this.forces_N[2 * part + 1]!);
+  }
 
-  reset(): void { for (const filter of this.filters) filter.reset(); this.signals.fill("free"); this.forces_N.fill(0); this.pressed_s.fill(0); }
+  reset(): void {
+    for (const filter of this.filters) filter.reset();
+    this.signals.fill("free");
+    this.forces_N.fill(0);
+    this.pressed_s.fill(0);
+  }
 }

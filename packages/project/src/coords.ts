@@ -1,4 +1,17 @@
-import { compose, freshStepIds, identity, insertSteps, pose, withLists, type MoveStep, type Pose, type Program, type Speed, type Step, type Target } from "@twincell/core";
+import {
+  compose,
+  freshStepIds,
+  identity,
+  insertSteps,
+  pose,
+  withLists,
+  type MoveStep,
+  type Pose,
+  type Program,
+  type Speed,
+  type Step,
+  type Target,
+} from "@twincell/core";
 import type { CellDocument, FrameRecord } from "./document.ts";
 
 /*
@@ -8,11 +21,16 @@ import type { CellDocument, FrameRecord } from "./document.ts";
  */
 
 /** The poses that were saved, in their order. */
-export const savedCoords = (cell: CellDocument): readonly FrameRecord[] => cell.frames.filter(frame => frame.saved === true);
+export const savedCoords = (cell: CellDocument): readonly FrameRecord[] =>
+  cell.frames.filter(frame => frame.saved === true);
 
 /** Row L-44: a frame where the tool tip is, under a name that is free: the wanted one, with a number where it is taken. */
 export function addCoords(cell: CellDocument, worldFromTcp: Pose<"world", "tcp">, wanted = "Pose"): CellDocument {
-  const taken = new Set(["world", ...cell.frames.map(frame => frame.name), ...cell.programs.flatMap(program => [...Object.keys(program.pallets), ...Object.keys(program.frames)])]);
+  const taken = new Set([
+    "world",
+    ...cell.frames.map(frame => frame.name),
+    ...cell.programs.flatMap(program => [...Object.keys(program.pallets), ...Object.keys(program.frames)]),
+  ]);
   const plain = wanted.trim() === "" ? "Pose" : wanted.trim();
   let name = plain;
   for (let i = 2; taken.has(name); i++) name = `${plain} ${i}`;
@@ -24,8 +42,13 @@ export function editCoords(cell: CellDocument, name: string, worldFromTcp: Pose<
   if (!savedCoords(cell).some(frame => frame.name === name)) return cell;
   const worldFromFrame = placed(worldFromTcp);
   return {
-    ...cell, frames: cell.frames.map(frame => (frame.name === name ? { ...frame, worldFromFrame } : frame)),
-    programs: cell.programs.map(program => (Object.hasOwn(program.frames, name) ? { ...program, frames: { ...program.frames, [name]: worldFromFrame } } : program)),
+    ...cell,
+    frames: cell.frames.map(frame => (frame.name === name ? { ...frame, worldFromFrame } : frame)),
+    programs: cell.programs.map(program =>
+      Object.hasOwn(program.frames, name)
+        ? { ...program, frames: { ...program.frames, [name]: worldFromFrame } }
+        : program,
+    ),
   };
 }
 
@@ -33,13 +56,22 @@ export function editCoords(cell: CellDocument, name: string, worldFromTcp: Pose<
 export function removeCoords(cell: CellDocument): CellDocument {
   const gone = new Map(savedCoords(cell).map(frame => [frame.name, frame.worldFromFrame]));
   if (gone.size === 0) return cell;
-  return { ...cell, frames: cell.frames.filter(frame => !gone.has(frame.name)), programs: cell.programs.map(program => withoutFrames(program, gone)) };
+  return {
+    ...cell,
+    frames: cell.frames.filter(frame => !gone.has(frame.name)),
+    programs: cell.programs.map(program => withoutFrames(program, gone)),
+  };
 }
 
 /** Of joint speed, to the first pose. */
 const APPROACH: Speed = { ratio: 0.3 };
 
-export interface TrajectoryOptions { readonly path?: "ptp" | "lin" | "spline"; readonly speed?: Speed; readonly blend_m?: number; readonly tool?: string }
+export interface TrajectoryOptions {
+  readonly path?: "ptp" | "lin" | "spline";
+  readonly speed?: Speed;
+  readonly blend_m?: number;
+  readonly tool?: string;
+}
 
 /**
  * Row L-49: the selected program goes on through saved poses, in the order of their names here. The first is come to by a joint
@@ -47,19 +79,37 @@ export interface TrajectoryOptions { readonly path?: "ptp" | "lin" | "spline"; r
  *
  * @param names  a pose may come more than once; a name that is not saved is left out.
  */
-export function trajectoryThroughCoords(cell: CellDocument, names: readonly string[], options: TrajectoryOptions = {}): CellDocument {
-  const known = new Map(savedCoords(cell).map(frame => [frame.name, frame.worldFromFrame])), through = names.filter(name => known.has(name));
-  const { path = "lin", speed = { mps: 0.1 }, blend_m = 0, tool = cell.tool } = options, record = cell.tools.find(each => each.name === tool);
+export function trajectoryThroughCoords(
+  cell: CellDocument,
+  names: readonly string[],
+  options: TrajectoryOptions = {},
+): CellDocument {
+  const known = new Map(savedCoords(cell).map(frame => [frame.name, frame.worldFromFrame]));
+  const through = names.filter(name => known.has(name));
+  const { path = "lin", speed = { mps: 0.1 }, blend_m = 0, tool = cell.tool } = options;
+  const record = cell.tools.find(each => each.name === tool);
   if (through.length === 0) return cell;
   return {
-    ...cell, programs: cell.programs.map(program => {
+    ...cell,
+    programs: cell.programs.map(program => {
       if (program.name !== cell.program) return program;
       const ids = freshStepIds(program, through.length, "p");
-      const steps = through.map((name, i): MoveStep => ({
-        id: ids[i]!, name, type: "move", path: i === 0 ? "ptp" : path, speed: i === 0 ? APPROACH : speed, blend_m: i === through.length - 1 ? 0 : blend_m, target: { pose: pose(), frame: name, tool },
-      }));
+      const steps = through.map(
+        (name, i): MoveStep => ({
+          id: ids[i]!,
+          name,
+          type: "move",
+          path: i === 0 ? "ptp" : path,
+          speed: i === 0 ? APPROACH : speed,
+          blend_m: i === through.length - 1 ? 0 : blend_m,
+          target: { pose: pose(), frame: name, tool },
+        }),
+      );
       const frames = Object.fromEntries(through.map(name => [name, known.get(name)!]));
-      const tools = record === undefined || Object.hasOwn(program.tools, tool) ? program.tools : { ...program.tools, [tool]: record.flangeFromTcp };
+      const tools =
+        record === undefined || Object.hasOwn(program.tools, tool)
+          ? program.tools
+          : { ...program.tools, [tool]: record.flangeFromTcp };
       return insertSteps({ ...program, tools, frames: { ...program.frames, ...frames } }, program.steps.length, steps);
     }),
   };
@@ -69,17 +119,31 @@ function withoutFrames(program: Program, gone: ReadonlyMap<string, Pose<"world",
   const inWorld = (target: Target): Target => {
     if (!("frame" in target) || Object.hasOwn(program.pallets, target.frame)) return target;
     const worldFromFrame = gone.get(target.frame);
-    return worldFromFrame === undefined ? target : { ...target, frame: "world", pose: compose(compose(identity<"frame", "world">(), worldFromFrame), target.pose) };
+    return worldFromFrame === undefined
+      ? target
+      : {
+          ...target,
+          frame: "world",
+          pose: compose(compose(identity<"frame", "world">(), worldFromFrame), target.pose),
+        };
   };
-  const list = (steps: readonly Step[]): readonly Step[] => steps.map((step): Step => {
-    if (step.type !== "move") return withLists(step, list);
-    return step.via === undefined ? { ...step, target: inWorld(step.target) } : { ...step, target: inWorld(step.target), via: inWorld(step.via) };
-  });
+  const list = (steps: readonly Step[]): readonly Step[] =>
+    steps.map((step): Step => {
+      if (step.type !== "move") return withLists(step, list);
+      return step.via === undefined
+        ? { ...step, target: inWorld(step.target) }
+        : { ...step, target: inWorld(step.target), via: inWorld(step.via) };
+    });
   return {
-    ...program, frames: Object.fromEntries(Object.entries(program.frames).filter(([name]) => !gone.has(name))),
-    steps: list(program.steps), routines: Object.fromEntries(Object.entries(program.routines).map(([name, steps]) => [name, list(steps)])),
+    ...program,
+    frames: Object.fromEntries(Object.entries(program.frames).filter(([name]) => !gone.has(name))),
+    steps: list(program.steps),
+    routines: Object.fromEntries(Object.entries(program.routines).map(([name, steps]) => [name, list(steps)])),
   };
 }
 
 /** A pose of its own: what is lent while jogging changes. */
-const placed = ({ position: [x, y, z], quaternion: [qx, qy, qz, qw] }: Pose<"world", "tcp">): Pose<"world", "frame"> => ({ position: [x, y, z], quaternion: [qx, qy, qz, qw] });
+const placed = ({
+  position: [x, y, z],
+  quaternion: [qx, qy, qz, qw],
+}: Pose<"world", "tcp">): Pose<"world", "frame"> => ({ position: [x, y, z], quaternion: [qx, qy, qz, qw] });

@@ -40,10 +40,17 @@ export interface ObjectRecord {
 }
 
 /** A user frame; `saved`: a pose of the tool tip that a person saved, to go through it later (rows L-44 … L-49). */
-export interface FrameRecord { readonly name: string; readonly worldFromFrame: Pose<"world", "frame">; readonly saved?: true }
+export interface FrameRecord {
+  readonly name: string;
+  readonly worldFromFrame: Pose<"world", "frame">;
+  readonly saved?: true;
+}
 
 /** Which parts of the robot are checked against which, and the robot and tool it was learnt with. */
-export interface PairsRecord extends PairMatrix { readonly robot: string; readonly tool: string }
+export interface PairsRecord extends PairMatrix {
+  readonly robot: string;
+  readonly tool: string;
+}
 
 /** Everything a person saves: one robot, its tools, what stands around it, and the programs taught there. */
 export interface CellDocument {

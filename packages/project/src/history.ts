@@ -3,7 +3,10 @@ import type { CellDocument } from "./document.ts";
 /** Steps back that are kept. A cell shares what did not change with its predecessor, so they are cheap. */
 const DEPTH = 200;
 
-interface Entry { readonly label: string; readonly document: CellDocument }
+interface Entry {
+  readonly label: string;
+  readonly document: CellDocument;
+}
 
 /** A document with its past and future. Never changes: every method answers with a new history. */
 export interface History {
@@ -28,7 +31,13 @@ export function createHistory(document: CellDocument, depth = DEPTH): History {
 }
 
 /** past: newest last, each with the document before its change. future: next last, each with the document after. */
-function history(document: CellDocument, past: readonly Entry[], future: readonly Entry[], depth: number, gesture?: string): History {
+function history(
+  document: CellDocument,
+  past: readonly Entry[],
+  future: readonly Entry[],
+  depth: number,
+  gesture?: string,
+): History {
   const self: History = {
     document,
     undoLabels: past.map(entry => entry.label).reverse(),

@@ -4,14 +4,18 @@ import { describe, expect, test } from "vitest";
 import { cellGeometry, edgeTraceCell, emptyCell, openDocument, saveDocument, type CellDocument } from "./index.ts";
 import { NEWEST, STEPS, lift } from "./versions.ts";
 
-const kept = (version: number): string => readFileSync(new URL(`../../../fixtures/cells/v${version}.json`, import.meta.url), "utf8");
+const kept = (version: number): string =>
+  readFileSync(new URL(`../../../fixtures/cells/v${version}.json`, import.meta.url), "utf8");
 
 function why(text: string): readonly string[] {
   const opened = openDocument(text);
   return opened.kind === "not-a-cell" ? opened.why : [opened.kind];
 }
 
-interface Loose { objects: object[]; programs: object[] }
+interface Loose {
+  objects: object[];
+  programs: object[];
+}
 
 /** The example with one change made in its JSON. */
 function changed(change: (cell: Loose) => void): string {
@@ -31,8 +35,16 @@ describe("opening a cell", () => {
   });
 
   test("key order of the object in memory does not show in the file", () => {
-    const turned = (value: unknown): unknown => Array.isArray(value) ? value.map(turned)
-      : typeof value === "object" && value !== null ? Object.fromEntries(Object.entries(value).reverse().map(([k, v]) => [k, turned(v)])) : value;
+    const turned = (value: unknown): unknown =>
+      Array.isArray(value)
+        ? value.map(turned)
+        : typeof value === "object" && value !== null
+          ? Object.fromEntries(
+              Object.entries(value)
+                .reverse()
+                .map(([k, v]) => [k, turned(v)]),
+            )
+          : value;
     expect(saveDocument(turned(edgeTraceCell()) as CellDocument)).toBe(saveDocument(edgeTraceCell()));
   });
 
@@ -56,23 +68,65 @@ describe("opening a cell", () => {
   });
 
   test("a newer file is an answer of its own", () => {
-    expect(openDocument(changed(cell => { Object.assign(cell, { version: NEWEST + 4 }); }))).toEqual({ kind: "too-new", version: NEWEST + 4, newest: NEWEST });
+    expect(
+      openDocument(
+        changed(cell => {
+          Object.assign(cell, { version: NEWEST + 4 });
+        }),
+      ),
+    ).toEqual({ kind: "too-new", version: NEWEST + 4, newest: NEWEST });
   });
 
   test("what is not a cell says why and where", () => {
     expect(why("{")[0]).toMatch(/not JSON/);
     expect(why("[]")).toEqual(["The file holds no JSON object."]);
-    expect(why('{"format":"twincell.program"}')).toEqual(['A cell says "format": "twincell.cell"; this file says "twincell.program".']);
+    expect(why('{"format":"twincell.program"}')).toEqual([
+      'A cell says "format": "twincell.cell"; this file says "twincell.program".',
+    ]);
     expect(why('{"format":"twincell.cell","version":0.5}')[0]).toMatch(/^version: a whole number/);
     const said = (change: Parameters<typeof changed>[0]): string => why(changed(change)).join("\n");
-    expect(said(cell => { Object.assign(cell, { robot: { id: "nobody", worldFromBase: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] } } }); })).toBe('robot.id: the library has no robot called "nobody".');
-    expect(said(cell => { Object.assign(cell.objects[0]!, { worldFromObject: { position: [0, 0, null], quaternion: [0, 0, 0, 1] } }); })).toMatch(/^objects\[0\]\.worldFromObject\.position\[2\]: .*number/);
-    expect(said(cell => { Object.assign(cell.objects[1]!, { worldFromObject: { position: [0, 0, 0], quaternion: [0, 0, 0, 2] } }); })).toMatch(/^objects\[1\]\.worldFromObject\.quaternion: the length of a quaternion is 1, this one's is 2\.000\.$/);
-    expect(said(cell => { Object.assign(cell.objects[1]!, { id: "column" }); })).toBe('objects[1].id: "column" is already the id of objects[0].');
-    expect(said(cell => { Object.assign(cell, { tool: "gripper" }); })).toBe('tool: the cell has no tool called "gripper".');
-    expect(said(cell => { Object.assign(cell.programs[0]!, { steps: [{ id: "a", type: "move" }] }); })).toMatch(/^programs\[0\]\.steps\[0\]/);
-    expect(said(cell => { Object.assign(cell, { colour: 1 }); })).toMatch(/colour/);
-    expect(said(cell => { Object.assign(cell.objects[0]!, { shape: { kind: "mesh", file: "a.stl", positions: "AAAA", indices: "" } }); })).toMatch(/^objects\[0\]\.shape: The positions of the mesh are 3 bytes long; a vertex takes 12\.$/);
+    expect(
+      said(cell => {
+        Object.assign(cell, {
+          robot: { id: "nobody", worldFromBase: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] } },
+        });
+      }),
+    ).toBe('robot.id: the library has no robot called "nobody".');
+    expect(
+      said(cell => {
+        Object.assign(cell.objects[0]!, { worldFromObject: { position: [0, 0, null], quaternion: [0, 0, 0, 1] } });
+      }),
+    ).toMatch(/^objects\[0\]\.worldFromObject\.position\[2\]: .*number/);
+    expect(
+      said(cell => {
+        Object.assign(cell.objects[1]!, { worldFromObject: { position: [0, 0, 0], quaternion: [0, 0, 0, 2] } });
+      }),
+    ).toMatch(/^objects\[1\]\.worldFromObject\.quaternion: the length of a quaternion is 1, this one's is 2\.000\.$/);
+    expect(
+      said(cell => {
+        Object.assign(cell.objects[1]!, { id: "column" });
+      }),
+    ).toBe('objects[1].id: "column" is already the id of objects[0].');
+    expect(
+      said(cell => {
+        Object.assign(cell, { tool: "gripper" });
+      }),
+    ).toBe('tool: the cell has no tool called "gripper".');
+    expect(
+      said(cell => {
+        Object.assign(cell.programs[0]!, { steps: [{ id: "a", type: "move" }] });
+      }),
+    ).toMatch(/^programs\[0\]\.steps\[0\]/);
+    expect(
+      said(cell => {
+        Object.assign(cell, { colour: 1 });
+      }),
+    ).toMatch(/colour/);
+    expect(
+      said(cell => {
+        Object.assign(cell.objects[0]!, { shape: { kind: "mesh", file: "a.stl", positions: "AAAA", indices: "" } });
+      }),
+    ).toMatch(/^objects\[0\]\.shape: The positions of the mesh are 3 bytes long; a vertex takes 12\.$/);
   });
 
   test("NaN and infinity do not come in", () => {
@@ -83,16 +137,31 @@ describe("opening a cell", () => {
 
   test("damaged text never throws and never hangs", () => {
     const text = saveDocument(edgeTraceCell());
-    fc.assert(fc.property(fc.nat(text.length - 1), fc.nat(40), fc.string({ maxLength: 8 }), (at, cut, put) => {
-      const opened = openDocument(text.slice(0, at) + put + text.slice(at + cut));
-      if (opened.kind === "not-a-cell") expect(opened.why.length).toBeGreaterThan(0);
-    }), { seed: 7, numRuns: 300 });
-    fc.assert(fc.property(fc.jsonValue(), value => { openDocument(JSON.stringify({ format: "twincell.cell", version: 1, ...(typeof value === "object" ? value : {}) })); }), { seed: 8, numRuns: 200 });
+    fc.assert(
+      fc.property(fc.nat(text.length - 1), fc.nat(40), fc.string({ maxLength: 8 }), (at, cut, put) => {
+        const opened = openDocument(text.slice(0, at) + put + text.slice(at + cut));
+        if (opened.kind === "not-a-cell") expect(opened.why.length).toBeGreaterThan(0);
+      }),
+      { seed: 7, numRuns: 300 },
+    );
+    fc.assert(
+      fc.property(fc.jsonValue(), value => {
+        openDocument(
+          JSON.stringify({ format: "twincell.cell", version: 1, ...(typeof value === "object" ? value : {}) }),
+        );
+      }),
+      { seed: 8, numRuns: 200 },
+    );
   });
 });
 
 test("X-09 what an object carries is kept, and is more than nothing", () => {
-  const cell = edgeTraceCell(), carrying = (carries_kg: number): string => saveDocument({ ...cell, objects: cell.objects.map((object, i) => (i === 0 ? { ...object, carries_kg } : object)) });
+  const cell = edgeTraceCell();
+  const carrying = (carries_kg: number): string =>
+    saveDocument({
+      ...cell,
+      objects: cell.objects.map((object, i) => (i === 0 ? { ...object, carries_kg } : object)),
+    });
   const opened = openDocument(carrying(250));
   if (opened.kind !== "opened") throw new Error(JSON.stringify(opened));
   expect(opened.document.objects[0]!.carries_kg).toBe(250);

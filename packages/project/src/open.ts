@@ -20,15 +20,24 @@ export function openDocument(text: string): Opened {
   try {
     value = JSON.parse(text);
   } catch (cause) {
-    return { kind: "not-a-cell", why: [`The file is not JSON: ${cause instanceof Error ? cause.message : "it cannot be read"}.`] };
+    return {
+      kind: "not-a-cell",
+      why: [`The file is not JSON: ${cause instanceof Error ? cause.message : "it cannot be read"}.`],
+    };
   }
   if (!isRecord(value)) return { kind: "not-a-cell", why: ["The file holds no JSON object."] };
   if (value.format !== "twincell.cell") {
-    return { kind: "not-a-cell", why: [`A cell says "format": "twincell.cell"; this file says ${shown(value.format)}.`] };
+    return {
+      kind: "not-a-cell",
+      why: [`A cell says "format": "twincell.cell"; this file says ${shown(value.format)}.`],
+    };
   }
   const { version } = value;
   if (typeof version !== "number" || !Number.isInteger(version) || version < 1) {
-    return { kind: "not-a-cell", why: [`version: a whole number from 1 to ${NEWEST} is expected; this file says ${shown(version)}.`] };
+    return {
+      kind: "not-a-cell",
+      why: [`version: a whole number from 1 to ${NEWEST} is expected; this file says ${shown(version)}.`],
+    };
   }
   if (version > NEWEST) return { kind: "too-new", version, newest: NEWEST };
   const { cell, says } = lift(value, version);
@@ -43,30 +52,66 @@ function withPrograms(cell: z.infer<typeof cellSchema>, lifted: readonly string[
   for (const [i, source] of cell.programs.entries()) {
     const answer = parseProgram(source);
     if (answer.kind === "program") programs.push(answer.program);
-    else why.push(...answer.faults.map(fault => `programs[${i}]${fault.path === "" ? "" : `.${fault.path}`}: ${fault.sentence}`));
+    else
+      why.push(
+        ...answer.faults.map(fault => `programs[${i}]${fault.path === "" ? "" : `.${fault.path}`}: ${fault.sentence}`),
+      );
   }
-  if (robotById(cell.robot.id) === undefined) why.push(`robot.id: the library has no robot called ${shown(cell.robot.id)}.`);
+  if (robotById(cell.robot.id) === undefined)
+    why.push(`robot.id: the library has no robot called ${shown(cell.robot.id)}.`);
   why.push(
-    ...twice("objects", "id", cell.objects.map(object => object.id)),
-    ...twice("tools", "name", cell.tools.map(tool => tool.name)),
-    ...twice("frames", "name", cell.frames.map(frame => frame.name)),
+    ...twice(
+      "objects",
+      "id",
+      cell.objects.map(object => object.id),
+    ),
+    ...twice(
+      "tools",
+      "name",
+      cell.tools.map(tool => tool.name),
+    ),
+    ...twice(
+      "frames",
+      "name",
+      cell.frames.map(frame => frame.name),
+    ),
   );
   if (why.length === 0) {
-    why.push(...twice("programs", "name", programs.map(program => program.name)));
-    if (cell.tool !== "flange" && !cell.tools.some(tool => tool.name === cell.tool)) why.push(`tool: the cell has no tool called ${shown(cell.tool)}.`);
-    if (!programs.some(program => program.name === cell.program)) why.push(`program: the cell has no program called ${shown(cell.program)}.`);
+    why.push(
+      ...twice(
+        "programs",
+        "name",
+        programs.map(program => program.name),
+      ),
+    );
+    if (cell.tool !== "flange" && !cell.tools.some(tool => tool.name === cell.tool))
+      why.push(`tool: the cell has no tool called ${shown(cell.tool)}.`);
+    if (!programs.some(program => program.name === cell.program))
+      why.push(`program: the cell has no program called ${shown(cell.program)}.`);
   }
   if (why.length > 0) return { kind: "not-a-cell", why: why.slice(0, MOST_REASONS) };
   return { kind: "opened", document: { ...cell, programs }, lifted };
 }
 
 function twice(list: string, key: string, names: readonly string[]): string[] {
-  return names.flatMap((name, i) => names.indexOf(name) < i ? [`${list}[${i}].${key}: ${shown(name)} is already the ${key} of ${list}[${names.indexOf(name)}].`] : []);
+  return names.flatMap((name, i) =>
+    names.indexOf(name) < i
+      ? [`${list}[${i}].${key}: ${shown(name)} is already the ${key} of ${list}[${names.indexOf(name)}].`]
+      : [],
+  );
 }
 
 function sentence(issue: z.core.$ZodIssue): string {
-  const path = issue.path.reduce<string>((so, key) => typeof key === "number" ? `${so}[${key}]` : so === "" ? String(key) : `${so}.${String(key)}`, "");
-  const said = issue.message.replace(/[.]$/, "").replace(/^Invalid input: expected (.+), received (.+)$/, (_, wanted: string, found: string) => `expected ${wanted}, found ${found === "undefined" ? "nothing" : found}`);
+  const path = issue.path.reduce<string>(
+    (so, key) => (typeof key === "number" ? `${so}[${key}]` : so === "" ? String(key) : `${so}.${String(key)}`),
+    "",
+  );
+  const said = issue.message
+    .replace(/[.]$/, "")
+    .replace(
+      /^Invalid input: expected (.+), received (.+)$/,
+      (_, wanted: string, found: string) => `expected ${wanted}, found ${found === "undefined" ? "nothing" : found}`,
+    );
   return `${path === "" ? "The cell" : path}: ${said}.`;
 }
 
@@ -78,4 +123,5 @@ function shown(value: unknown): string {
   return text.length > 60 ? `${text.slice(0, 60)}…` : text;
 }
 
-const isRecord = (value: unknown): value is Record<string, unknown> => typeof value === "object" && value !== null && !Array.isArray(value);
+const isRecord = (value: unknown): value is Record<string, unknown> =>
+  typeof value === "object" && value !== null && !Array.isArray(value);

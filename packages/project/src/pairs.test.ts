@@ -2,8 +2,16 @@ import { learnPairs, linkSolids, robotById } from "@twincell/core";
 import { expect, test } from "vitest";
 import { cellGeometry, edgeTraceCell, openDocument, saveDocument, type CellDocument } from "./index.ts";
 
-const plain = edgeTraceCell(), robot = robotById(plain.robot.id)!;
-const learnt: CellDocument = { ...plain, pairs: { robot: robot.id, tool: plain.tool, ...learnPairs(cellGeometry(plain, linkSolids(robot)), robot.arm, 1, 200, robot.home_rad) } };
+const plain = edgeTraceCell();
+const robot = robotById(plain.robot.id)!;
+const learnt: CellDocument = {
+  ...plain,
+  pairs: {
+    robot: robot.id,
+    tool: plain.tool,
+    ...learnPairs(cellGeometry(plain, linkSolids(robot)), robot.arm, 1, 200, robot.home_rad),
+  },
+};
 
 test("the matrix of pairs is saved with the cell and opened as it was", () => {
   const opened = openDocument(saveDocument(learnt));
@@ -20,6 +28,7 @@ test("a matrix says nothing of another robot, and nothing of another tool", () =
 });
 
 test("a matrix that is not one is refused with its place", () => {
-  const spoilt = saveDocument(learnt).replace('"reason": "adjacent"', '"reason": "because"'), opened = openDocument(spoilt);
+  const spoilt = saveDocument(learnt).replace('"reason": "adjacent"', '"reason": "because"');
+  const opened = openDocument(spoilt);
   expect(opened.kind === "not-a-cell" && opened.why[0]).toMatch(/^pairs\.entries\[0\]\.reason: /);
 });

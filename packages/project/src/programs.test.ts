@@ -3,15 +3,34 @@ import { expect, test } from "vitest";
 import type { CellDocument } from "./document.ts";
 import { emptyCell } from "./example/index.ts";
 import { openDocument } from "./open.ts";
-import { addProgram, duplicateProgram, removeProgram, renameProgram, selectProgram, selectedProgram } from "./programs.ts";
+import {
+  addProgram,
+  duplicateProgram,
+  removeProgram,
+  renameProgram,
+  selectProgram,
+  selectedProgram,
+} from "./programs.ts";
 import { saveDocument } from "./save.ts";
 
 const robot = robotById("staubli_rx90l")!;
-const point = (id: string, by_rad: number): Step => ({ id, type: "move", path: "ptp", target: { q: robot.home_rad.map(q => q + by_rad) }, speed: { ratio: 1 }, blend_m: 0 });
-const taught = (name: string, by_rad: number): Program => [point("p1", by_rad), { id: "w1", type: "wait", s: 0.1 } as const, { id: "g1", type: "gripper", closed: true } as const]
-  .reduce<Program>(appendStep, emptyProgram(robot.id, name));
+const point = (id: string, by_rad: number): Step => ({
+  id,
+  type: "move",
+  path: "ptp",
+  target: { q: robot.home_rad.map(q => q + by_rad) },
+  speed: { ratio: 1 },
+  blend_m: 0,
+});
+const taught = (name: string, by_rad: number): Program =>
+  [
+    point("p1", by_rad),
+    { id: "w1", type: "wait", s: 0.1 } as const,
+    { id: "g1", type: "gripper", closed: true } as const,
+  ].reduce<Program>(appendStep, emptyProgram(robot.id, name));
 function run(program: Program): Float64Array {
-  const stepper = new Stepper(robot, program, unrolled(program), robot.home_rad), q = Float64Array.from(robot.home_rad);
+  const stepper = new Stepper(robot, program, unrolled(program), robot.home_rad);
+  const q = Float64Array.from(robot.home_rad);
   while (stepper.advance(0.01, 1, q).kind === "running");
   return q;
 }
@@ -30,7 +49,11 @@ test("T-28 a program is stored in the cell, saved, loaded again and runs", () =>
 
 test("T-29, T-33 a program is a list of actions, each a plain object in the file", () => {
   const cell = JSON.parse(saveDocument(addProgram(emptyCell(), taught("Weld", 0.2)))) as CellDocument;
-  expect(cell.programs.find(program => program.name === "Weld")!.steps).toEqual([point("p1", 0.2), { id: "w1", type: "wait", s: 0.1 }, { id: "g1", type: "gripper", closed: true }]);
+  expect(cell.programs.find(program => program.name === "Weld")!.steps).toEqual([
+    point("p1", 0.2),
+    { id: "w1", type: "wait", s: 0.1 },
+    { id: "g1", type: "gripper", closed: true },
+  ]);
 });
 
 test("T-71 three programs stored, the second selected: only the second runs, also after saving", () => {

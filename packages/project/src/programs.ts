@@ -7,7 +7,8 @@ import type { CellDocument } from "./document.ts";
  */
 
 /** The program being worked on, and the one that runs. */
-export const selectedProgram = (cell: CellDocument): Program | undefined => cell.programs.find(program => program.name === cell.program);
+export const selectedProgram = (cell: CellDocument): Program | undefined =>
+  cell.programs.find(program => program.name === cell.program);
 
 export const selectProgram = (cell: CellDocument, name: string): CellDocument =>
   name === cell.program || !cell.programs.some(program => program.name === name) ? cell : { ...cell, program: name };
@@ -25,18 +26,28 @@ export function duplicateProgram(cell: CellDocument, name: string): CellDocument
 }
 
 export function renameProgram(cell: CellDocument, name: string, wanted: string): CellDocument {
-  const plain = wanted.trim(), at = cell.programs.findIndex(program => program.name === name);
+  const plain = wanted.trim();
+  const at = cell.programs.findIndex(program => program.name === name);
   if (at < 0 || plain === "" || plain === name) return cell;
   const free = freeName(cell, plain);
-  return { ...cell, programs: cell.programs.with(at, { ...cell.programs[at]!, name: free }), program: cell.program === name ? free : cell.program };
+  return {
+    ...cell,
+    programs: cell.programs.with(at, { ...cell.programs[at]!, name: free }),
+    program: cell.program === name ? free : cell.program,
+  };
 }
 
 /** Takes a program out; its neighbour is selected. A cell keeps at least one: the last becomes an empty one. */
 export function removeProgram(cell: CellDocument, name: string): CellDocument {
   const at = cell.programs.findIndex(program => program.name === name);
   if (at < 0) return cell;
-  const left = cell.programs.toSpliced(at, 1), programs = left.length > 0 ? left : [emptyProgram(cell.robot.id)];
-  return { ...cell, programs, program: cell.program === name ? programs[Math.min(at, programs.length - 1)]!.name : cell.program };
+  const left = cell.programs.toSpliced(at, 1);
+  const programs = left.length > 0 ? left : [emptyProgram(cell.robot.id)];
+  return {
+    ...cell,
+    programs,
+    program: cell.program === name ? programs[Math.min(at, programs.length - 1)]!.name : cell.program,
+  };
 }
 
 function freeName(cell: CellDocument, wanted: string): string {

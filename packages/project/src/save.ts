@@ -2,8 +2,37 @@ import type { CellDocument } from "./document.ts";
 
 /** Keys in this order come first; the others follow by alphabet. So a saved cell reads from top to bottom and two versions differ only where they differ. */
 const FIRST = [
-  "format", "version", "id", "type", "name", "kind", "role", "group", "path", "robot", "worldFromBase", "flangeFromTcp", "worldFromObject", "worldFromFrame",
-  "position", "quaternion", "q", "pose", "frame", "tool", "target", "via", "speed", "blend_m", "tools", "objects", "frames", "allowedPairs", "pairs", "programs", "program",
+  "format",
+  "version",
+  "id",
+  "type",
+  "name",
+  "kind",
+  "role",
+  "group",
+  "path",
+  "robot",
+  "worldFromBase",
+  "flangeFromTcp",
+  "worldFromObject",
+  "worldFromFrame",
+  "position",
+  "quaternion",
+  "q",
+  "pose",
+  "frame",
+  "tool",
+  "target",
+  "via",
+  "speed",
+  "blend_m",
+  "tools",
+  "objects",
+  "frames",
+  "allowedPairs",
+  "pairs",
+  "programs",
+  "program",
 ];
 /** A list of numbers or words up to this long stays on one line. */
 const LINE = 140;
@@ -18,15 +47,23 @@ function written(value: unknown, indent: string): string {
   const deeper = `${indent}  `;
   const entries = Array.isArray(value)
     ? value.map((item: unknown) => written(item, deeper))
-    : Object.entries(value).filter(([, item]) => item !== undefined).sort(([a], [b]) => order(a, b)).map(([key, item]) => `${JSON.stringify(key)}: ${written(item, deeper)}`);
+    : Object.entries(value)
+        .filter(([, item]) => item !== undefined)
+        .sort(([a], [b]) => order(a, b))
+        .map(([key, item]) => `${JSON.stringify(key)}: ${written(item, deeper)}`);
   const [open, close] = Array.isArray(value) ? ["[", "]"] : ["{", "}"];
-  const line = Array.isArray(value) ? `${open}${entries.join(", ")}${close}` : entries.length === 0 ? "{}" : `${open} ${entries.join(", ")} ${close}`;
+  const line = Array.isArray(value)
+    ? `${open}${entries.join(", ")}${close}`
+    : entries.length === 0
+      ? "{}"
+      : `${open} ${entries.join(", ")} ${close}`;
   if (entries.length === 0 || (line.length <= LINE && !line.includes("\n"))) return line;
   return `${open}\n${entries.map(entry => deeper + entry).join(",\n")}\n${indent}${close}`;
 }
 
 function order(a: string, b: string): number {
-  const ia = FIRST.indexOf(a), ib = FIRST.indexOf(b);
+  const ia = FIRST.indexOf(a);
+  const ib = FIRST.indexOf(b);
   if (ia !== ib) return (ia < 0 ? FIRST.length : ia) - (ib < 0 ? FIRST.length : ib);
   return a < b ? -1 : a > b ? 1 : 0;
 }

@@ -9,46 +9,86 @@ const number = z.number();
 const length_m = z.number().positive();
 const text = z.string().min(1);
 
-const quaternion = z.tuple([number, number, number, number]).transform((q, context): [number, number, number, number] => {
-  const size = Math.hypot(...q);
-  if (!(Math.abs(size - 1) <= UNIT_TOLERANCE)) {
-    context.addIssue({ code: "custom", message: `the length of a quaternion is 1, this one's is ${size.toPrecision(4)}` });
-    return z.NEVER;
-  }
-  // A quaternion that is exact to rounding is kept bit for bit, so that open and save do not make it drift.
-  return Math.abs(size - 1) <= 1e-12 ? q : [q[0] / size, q[1] / size, q[2] / size, q[3] / size];
-});
+const quaternion = z
+  .tuple([number, number, number, number])
+  .transform((q, context): [number, number, number, number] => {
+    const size = Math.hypot(...q);
+    if (!(Math.abs(size - 1) <= UNIT_TOLERANCE)) {
+      context.addIssue({
+        code: "custom",
+        message: `the length of a quaternion is 1, this one's is ${size.toPrecision(4)}`,
+      });
+      return z.NEVER;
+    }
+    // A quaternion that is exact to rounding is kept bit for bit, so that open and save do not make it drift.
+    return Math.abs(size - 1) <= 1e-12 ? q : [q[0] / size, q[1] / size, q[2] / size, q[3] / size];
+  });
 
 /** The frames of a pose are known from where it stands in the file. */
 const poseOf = <Into extends string, From extends string>() =>
-  z.strictObject({ position: z.tuple([number, number, number]), quaternion }).transform((pose): Pose<Into, From> => pose);
+  z
+    .strictObject({ position: z.tuple([number, number, number]), quaternion })
+    .transform((pose): Pose<Into, From> => pose);
 
 const shape = z.discriminatedUnion("kind", [
   z.strictObject({ kind: z.literal("box"), size_m: z.tuple([length_m, length_m, length_m]) }),
   z.strictObject({ kind: z.literal("cylinder"), radius_m: length_m, height_m: length_m }),
-  z.strictObject({ kind: z.literal("revolved"), profile_m: z.array(z.tuple([z.number().nonnegative(), number])).min(2) }),
-  z.strictObject({ kind: z.literal("mesh"), file: z.string(), positions: z.string(), indices: z.string() }).superRefine((mesh, context) => {
-    const decoded = decodeMesh(mesh);
-    if (decoded.kind === "not-a-mesh") context.addIssue({ code: "custom", message: decoded.sentence });
+  z.strictObject({
+    kind: z.literal("revolved"),
+    profile_m: z.array(z.tuple([z.number().nonnegative(), number])).min(2),
   }),
+  z
+    .strictObject({ kind: z.literal("mesh"), file: z.string(), positions: z.string(), indices: z.string() })
+    .superRefine((mesh, context) => {
+      const decoded = decodeMesh(mesh);
+      if (decoded.kind === "not-a-mesh") context.addIssue({ code: "custom", message: decoded.sentence });
+    }),
 ]);
 
 const point = z.tuple([number, number, number]);
 const floor = z.array(z.tuple([number, number]));
-const belt = z.strictObject({ direction: point, speed_mps: number, runs: z.exactOptional(z.strictObject({ signal: text, is: z.boolean() })) });
-const gripper = z.strictObject({
-  open_m: length_m, closed_m: z.number().nonnegative(), force_N: z.number().positive(), finger_m: z.tuple([length_m, length_m, length_m]), beyond_m: z.number().nonnegative(),
-  speed_mps: z.number().positive(), friction: z.number().nonnegative().max(10), mass_kg: z.number().positive(),
+const belt = z.strictObject({
+  direction: point,
+  speed_mps: number,
+  runs: z.exactOptional(z.strictObject({ signal: text, is: z.boolean() })),
 });
-const sensed = { id: text, name: text, signal: text, sees: z.array(z.enum(["part", "robot", "person"])), stops: z.exactOptional(z.literal(true)) };
+const gripper = z.strictObject({
+  open_m: length_m,
+  closed_m: z.number().nonnegative(),
+  force_N: z.number().positive(),
+  finger_m: z.tuple([length_m, length_m, length_m]),
+  beyond_m: z.number().nonnegative(),
+  speed_mps: z.number().positive(),
+  friction: z.number().nonnegative().max(10),
+  mass_kg: z.number().positive(),
+});
+const sensed = {
+  id: text,
+  name: text,
+  signal: text,
+  sees: z.array(z.enum(["part", "robot", "person"])),
+  stops: z.exactOptional(z.literal(true)),
+};
 const sensor = z.discriminatedUnion("kind", [
   z.strictObject({ ...sensed, kind: z.literal("beam"), from_m: point, to_m: point }),
   z.strictObject({ ...sensed, kind: z.literal("proximity"), at_m: point, range_m: length_m }),
 ]);
-const person = z.strictObject({ id: text, name: text, path_m: floor.min(1), speed_mps: z.number().nonnegative(), starts_s: z.number().nonnegative(), height_m: length_m });
+const person = z.strictObject({
+  id: text,
+  name: text,
+  path_m: floor.min(1),
+  speed_mps: z.number().nonnegative(),
+  starts_s: z.number().nonnegative(),
+  height_m: length_m,
+});
 const zone = z.strictObject({
-  id: text, name: text, outline_m: floor.min(3),
-  reaction: z.discriminatedUnion("kind", [z.strictObject({ kind: z.literal("slow"), override: z.number().positive().max(1) }), z.strictObject({ kind: z.literal("stop") })]),
+  id: text,
+  name: text,
+  outline_m: floor.min(3),
+  reaction: z.discriminatedUnion("kind", [
+    z.strictObject({ kind: z.literal("slow"), override: z.number().positive().max(1) }),
+    z.strictObject({ kind: z.literal("stop") }),
+  ]),
 });
 
 /** Version 1 of the cell file. The programs inside have their own door: core's `parseProgram`. */
@@ -57,28 +97,56 @@ export const cellSchema = z.strictObject({
   version: z.literal(1),
   name: z.string(),
   robot: z.strictObject({ id: text, worldFromBase: poseOf<"world", "base">() }),
-  tools: z.array(z.strictObject({ name: text, flangeFromTcp: poseOf<"flange", "tcp">(), shape: z.exactOptional(shape), gripper: z.exactOptional(gripper) })),
+  tools: z.array(
+    z.strictObject({
+      name: text,
+      flangeFromTcp: poseOf<"flange", "tcp">(),
+      shape: z.exactOptional(shape),
+      gripper: z.exactOptional(gripper),
+    }),
+  ),
   tool: text,
-  objects: z.array(z.strictObject({
-    id: text, name: text,
-    role: z.enum(["workpiece", "fixture", "furniture", "wall"]),
-    worldFromObject: poseOf<"world", "object">(),
-    shape,
-    color: z.string().regex(/^#[0-9a-f]{6}$/i, "a colour is written #rrggbb"),
-    carries_kg: z.exactOptional(z.number().positive()),
-    mass_kg: z.exactOptional(z.number().positive()), friction: z.exactOptional(z.number().nonnegative().max(10)), softness_s: z.exactOptional(z.number().positive()),
-    belt: z.exactOptional(belt),
-  })),
-  frames: z.array(z.strictObject({ name: text, worldFromFrame: poseOf<"world", "frame">(), saved: z.exactOptional(z.literal(true)) })),
+  objects: z.array(
+    z.strictObject({
+      id: text,
+      name: text,
+      role: z.enum(["workpiece", "fixture", "furniture", "wall"]),
+      worldFromObject: poseOf<"world", "object">(),
+      shape,
+      color: z.string().regex(/^#[0-9a-f]{6}$/i, "a colour is written #rrggbb"),
+      carries_kg: z.exactOptional(z.number().positive()),
+      mass_kg: z.exactOptional(z.number().positive()),
+      friction: z.exactOptional(z.number().nonnegative().max(10)),
+      softness_s: z.exactOptional(z.number().positive()),
+      belt: z.exactOptional(belt),
+    }),
+  ),
+  frames: z.array(
+    z.strictObject({ name: text, worldFromFrame: poseOf<"world", "frame">(), saved: z.exactOptional(z.literal(true)) }),
+  ),
   allowedPairs: z.array(z.tuple([text, text])),
-  sensors: z.exactOptional(z.array(sensor)), people: z.exactOptional(z.array(person)), zones: z.exactOptional(z.array(zone)),
-  pairs: z.exactOptional(z.strictObject({
-    robot: text, tool: text, seed: number,
-    entries: z.array(z.strictObject({
-      a: text, b: text, reason: z.enum(["adjacent", "always", "at home", "allowed", "sometimes", "never seen"]),
-      samples: z.number().nonnegative(), touches: z.number().nonnegative(), watched: z.boolean(),
-    })).max(1000),
-  })),
+  sensors: z.exactOptional(z.array(sensor)),
+  people: z.exactOptional(z.array(person)),
+  zones: z.exactOptional(z.array(zone)),
+  pairs: z.exactOptional(
+    z.strictObject({
+      robot: text,
+      tool: text,
+      seed: number,
+      entries: z
+        .array(
+          z.strictObject({
+            a: text,
+            b: text,
+            reason: z.enum(["adjacent", "always", "at home", "allowed", "sometimes", "never seen"]),
+            samples: z.number().nonnegative(),
+            touches: z.number().nonnegative(),
+            watched: z.boolean(),
+          }),
+        )
+        .max(1000),
+    }),
+  ),
   programs: z.array(z.unknown()),
   program: z.string(),
 });

@@ -1,7 +1,10 @@
 /** The version this release writes. */
 export const NEWEST = 1;
 
-interface LiftStep { readonly says: string; readonly lift: (cell: Readonly<Record<string, unknown>>) => Record<string, unknown> }
+interface LiftStep {
+  readonly says: string;
+  readonly lift: (cell: Readonly<Record<string, unknown>>) => Record<string, unknown>;
+}
 
 /**
  * Step n lifts a cell of version n to n + 1. A shipped step is never edited; the file of every version that was ever
@@ -9,10 +12,18 @@ interface LiftStep { readonly says: string; readonly lift: (cell: Readonly<Recor
  */
 export const STEPS: Readonly<Record<number, LiftStep>> = {};
 
-export interface Lifted { readonly cell: Record<string, unknown>; readonly says: readonly string[] }
+export interface Lifted {
+  readonly cell: Record<string, unknown>;
+  readonly says: readonly string[];
+}
 
 /** The cell in version `to`, with a sentence for each step taken. */
-export function lift(cell: Readonly<Record<string, unknown>>, from: number, steps: Readonly<Record<number, LiftStep>> = STEPS, to: number = NEWEST): Lifted {
+export function lift(
+  cell: Readonly<Record<string, unknown>>,
+  from: number,
+  steps: Readonly<Record<number, LiftStep>> = STEPS,
+  to: number = NEWEST,
+): Lifted {
   let lifted: Record<string, unknown> = { ...cell };
   const says: string[] = [];
   for (let version = from; version < to; version++) {

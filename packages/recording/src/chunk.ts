@@ -10,7 +10,11 @@ const MESSAGE_HEAD = 1 + 8 + 2 + 4 + 8 + 8;
 const INDEX_HEAD = 1 + 8 + 2 + 4;
 
 /** The message index of one channel as the file wants it: a head, then pairs of time and offset, sixteen bytes each. */
-interface ChannelIndex { bytes: Uint8Array<ArrayBuffer>; view: DataView; count: number }
+interface ChannelIndex {
+  bytes: Uint8Array<ArrayBuffer>;
+  view: DataView;
+  count: number;
+}
 
 /**
  * The open chunk. Message records are written straight into one reused buffer: McapWriter's way through bigints, arrays
@@ -52,7 +56,8 @@ export class OpenChunk {
   /** Writes the head of a message of that many bytes. @returns where its data must now be written. */
   message(channel: number, sequence: number, at_ns: number, size: number): number {
     this.#reserve(MESSAGE_HEAD + size);
-    const { view } = this, at = this.length;
+    const { view } = this;
+    const at = this.length;
     view.setUint8(at, Opcode.MESSAGE);
     view.setUint32(at + 1, MESSAGE_HEAD - 9 + size, true);
     view.setUint32(at + 5, 0, true);
@@ -74,17 +79,31 @@ export class OpenChunk {
    * @param packing   packs the messages; left out, they stand as they are.
    */
   close(position: number, packing?: Packing): { readonly pieces: readonly Uint8Array[]; readonly index: ChunkIndex } {
-    const records = this.bytes.subarray(0, this.length), size = BigInt(this.length);
-    const times = { messageStartTime: this.#startedAt_ns + BigInt(this.first_ns), messageEndTime: this.#startedAt_ns + BigInt(this.last_ns) };
-    const builder = new McapRecordBuilder(), stored = packing ? packing.pack(records) : records, compression = packing?.name ?? "";
-    const chunkLength = builder.writeChunk({ ...times, uncompressedSize: size, uncompressedCrc: crc32(records), compression, records: stored });
+    const records = this.bytes.subarray(0, this.length);
+    const size = BigInt(this.length);
+    const times = {
+      messageStartTime: this.#startedAt_ns + BigInt(this.first_ns),
+      messageEndTime: this.#startedAt_ns + BigInt(this.last_ns),
+    };
+    const builder = new McapRecordBuilder();
+    const stored = packing ? packing.pack(records) : records;
+    const compression = packing?.name ?? "";
+    const chunkLength = builder.writeChunk({
+      ...times,
+      uncompressedSize: size,
+      uncompressedCrc: crc32(records),
+      compression,
+      records: stored,
+    });
     const pieces: Uint8Array[] = [builder.buffer];
-    const messageIndexOffsets = new Map<number, bigint>(), indexStart = position + builder.length;
+    const messageIndexOffsets = new Map<number, bigint>();
+    const indexStart = position + builder.length;
     let indexLength = 0;
     this.#indexes.forEach((index, channel) => {
       if (index.count === 0) return;
       messageIndexOffsets.set(channel, BigInt(indexStart + indexLength));
-      const piece = index.bytes.slice(0, INDEX_HEAD + 16 * index.count), view = new DataView(piece.buffer);
+      const piece = index.bytes.slice(0, INDEX_HEAD + 16 * index.count);
+      const view = new DataView(piece.buffer);
       view.setUint8(0, Opcode.MESSAGE_INDEX);
       view.setBigUint64(1, BigInt(piece.length - 9), true);
       view.setUint16(9, channel, true);
@@ -97,13 +116,23 @@ export class OpenChunk {
     this.messages = 0;
     return {
       pieces,
-      index: { ...times, chunkStartOffset: BigInt(position), chunkLength, messageIndexOffsets, messageIndexLength: BigInt(indexLength), compression, compressedSize: BigInt(stored.length), uncompressedSize: size },
+      index: {
+        ...times,
+        chunkStartOffset: BigInt(position),
+        chunkLength,
+        messageIndexOffsets,
+        messageIndexLength: BigInt(indexLength),
+        compression,
+        compressedSize: BigInt(stored.length),
+        uncompressedSize: size,
+      },
     };
   }
 
   /** startedAt + at, as 64 bits, without a bigint. */
   #time(view: DataView, at: number, at_ns: number): void {
-    const low = this.#startLow + at_ns % TWO_32, carry = low >= TWO_32 ? 1 : 0;
+    const low = this.#startLow + (at_ns % TWO_32);
+    const carry = low >= TWO_32 ? 1 : 0;
     view.setUint32(at, low - carry * TWO_32, true);
     view.setUint32(at + 4, this.#startHigh + Math.floor(at_ns / TWO_32) + carry, true);
   }

@@ -40,17 +40,26 @@ const TWO_32 = 2 ** 32;
 /** Channel, sequence, log time, publish time. */
 const MESSAGE_HEAD = 2 + 4 + 8 + 8;
 const MOST_JOINTS = 64;
-const KINDS = new Map<number, NoteKind>(Object.entries(CHANNEL).flatMap(([kind, id]) => (kind === "joints" || kind === "state" || kind === "events" ? [] : [[id, kind as NoteKind] as const])));
+const KINDS = new Map<number, NoteKind>(
+  Object.entries(CHANNEL).flatMap(([kind, id]) =>
+    kind === "joints" || kind === "state" || kind === "events" ? [] : [[id, kind as NoteKind] as const],
+  ),
+);
 const TOPIC_IDS: ReadonlyMap<string, number> = new Map(TOPICS.map(({ topic }, id) => [topic, id]));
 
 /** Facts from the metadata of a recording of ours; null when it is none. */
 export function factsFrom(metadata: ReadonlyMap<string, string>): RunFacts | null {
-  const started = metadata.get("started_at_ns") ?? "", names = json(Uint8Array.from(metadata.get("joints") ?? "[]", letter => letter.charCodeAt(0)));
+  const started = metadata.get("started_at_ns") ?? "";
+  const names = json(Uint8Array.from(metadata.get("joints") ?? "[]", letter => letter.charCodeAt(0)));
   const robot = metadata.get("robot");
   if (robot === undefined || !Array.isArray(names) || names.length > MOST_JOINTS) return null;
   return {
-    robot, robotName: metadata.get("robot_name") ?? "", program: metadata.get("program") ?? "", cell: metadata.get("cell") ?? "",
-    startedAt_ns: /^\d{1,19}$/.test(started) ? BigInt(started) : 0n, joints: names.length,
+    robot,
+    robotName: metadata.get("robot_name") ?? "",
+    program: metadata.get("program") ?? "",
+    cell: metadata.get("cell") ?? "",
+    startedAt_ns: /^\d{1,19}$/.test(started) ? BigInt(started) : 0n,
+    joints: names.length,
     cycle: openCycleFrom(json(utf8Bytes(metadata.get("cycle") ?? ""))),
   };
 }
@@ -60,9 +69,20 @@ export type Taken = "taken" | "damaged" | "unreadable" | "no-run-yet";
 /** Puts the messages of chunk after chunk into arrays that grow. Times are read without a bigint each. */
 export function createDecoder(packing: Packing | undefined, known: RunFacts | null = null, capacity = 1024) {
   const topics = new Map(TOPICS.map((_, id) => [id, id]));
-  let facts: RunFacts | null = null, startHigh = 0, startLow = 0, joints = 0, n = 0, alikeLength = -1, alikeOffset = -1;
-  let times_s = new Float64Array(capacity), q_rad = new Float64Array(0), sequences = new Uint32Array(capacity), stateOf = new Uint32Array(capacity);
-  const states: RobotState[] = [], events: RunEvent[] = [], notes: Note[] = [];
+  let facts: RunFacts | null = null;
+  let startHigh = 0;
+  let startLow = 0;
+  let joints = 0;
+  let n = 0;
+  let alikeLength = -1;
+  let alikeOffset = -1;
+  let times_s = new Float64Array(capacity);
+  let q_rad = new Float64Array(0);
+  let sequences = new Uint32Array(capacity);
+  let stateOf = new Uint32Array(capacity);
+  const states: RobotState[] = [];
+  const events: RunEvent[] = [];
+  const notes: Note[] = [];
   let lastIo = "";
   if (known) begin(known);
 
@@ -74,7 +94,10 @@ export function createDecoder(packing: Packing | undefined, known: RunFacts | nu
     q_rad = new Float64Array(times_s.length * joints);
   }
   function grow(): void {
-    const larger = <T extends Float64Array | Uint32Array>(from: T, to: T): T => { to.set(from); return to; };
+    const larger = <T extends Float64Array | Uint32Array>(from: T, to: T): T => {
+      to.set(from);
+      return to;
+    };
     times_s = larger(times_s, new Float64Array(2 * times_s.length));
     q_rad = larger(q_rad, new Float64Array(2 * q_rad.length));
     sequences = larger(sequences, new Uint32Array(2 * sequences.length));
@@ -86,7 +109,8 @@ export function createDecoder(packing: Packing | undefined, known: RunFacts | nu
     const read = reader.nextRecord();
     if (read?.type !== "Channel") return;
     const topic = TOPIC_IDS.get(read.topic);
-    if (topic === undefined) topics.delete(read.id); else topics.set(read.id, topic);
+    if (topic === undefined) topics.delete(read.id);
+    else topics.set(read.id, topic);
     if (!facts && topic === CHANNEL.joints) {
       const of = factsFrom(read.metadata);
       if (of) begin(of);
@@ -97,8 +121,10 @@ export function createDecoder(packing: Packing | undefined, known: RunFacts | nu
     if (!last || !sameState(last, next)) states.push(next);
   }
   function message(bytes: Uint8Array, view: DataView, from: number, until: number): void {
-    const topic = topics.get(view.getUint16(from, true)), data = from + MESSAGE_HEAD;
-    const at_s = ((view.getUint32(from + 10, true) - startHigh) * TWO_32 + (view.getUint32(from + 6, true) - startLow)) / 1e9;
+    const topic = topics.get(view.getUint16(from, true));
+    const data = from + MESSAGE_HEAD;
+    const at_s =
+      ((view.getUint32(from + 10, true) - startHigh) * TWO_32 + (view.getUint32(from + 6, true) - startLow)) / 1e9;
     if (topic === CHANNEL.joints) {
       // Messages of one channel are all alike; where the angles are is looked up once for each length.
       if (until - data !== alikeLength) {
@@ -115,7 +141,8 @@ export function createDecoder(packing: Packing | undefined, known: RunFacts | nu
     } else if (topic === CHANNEL.state) state(stateFrom(json(bytes.subarray(data, until))));
     else if (topic === CHANNEL.events) events.push(eventFrom(json(bytes.subarray(data, until)), at_s));
     else if (topic !== undefined) {
-      const kind = KINDS.get(topic)!, note = noteFrom(kind, json(bytes.subarray(data, until)), at_s);
+      const kind = KINDS.get(topic)!;
+      const note = noteFrom(kind, json(bytes.subarray(data, until)), at_s);
       if (note.kind === "io") {
         const said = JSON.stringify(note.signals);
         if (said === lastIo) return;
@@ -127,17 +154,19 @@ export function createDecoder(packing: Packing | undefined, known: RunFacts | nu
   function records(bytes: Uint8Array, view: DataView, from: number, until: number): Taken {
     // Without its run a chunk cannot be placed in time; a later chunk may bring it.
     if (!facts && !declaresRun(view, from, until)) return "no-run-yet";
-    for (let at = from; at + RECORD_HEAD <= until;) {
-      const opcode = view.getUint8(at), next = at + RECORD_HEAD + view.getUint32(at + 1, true) + TWO_32 * view.getUint32(at + 5, true);
+    for (let at = from; at + RECORD_HEAD <= until; ) {
+      const opcode = view.getUint8(at);
+      const next = at + RECORD_HEAD + view.getUint32(at + 1, true) + TWO_32 * view.getUint32(at + 5, true);
       if (next > until) break;
       if (opcode === Opcode.CHANNEL) channel(bytes.subarray(at, next));
-      else if (opcode === Opcode.MESSAGE && facts && next - at >= RECORD_HEAD + MESSAGE_HEAD) message(bytes, view, at + RECORD_HEAD, next);
+      else if (opcode === Opcode.MESSAGE && facts && next - at >= RECORD_HEAD + MESSAGE_HEAD)
+        message(bytes, view, at + RECORD_HEAD, next);
       at = next;
     }
     return facts ? "taken" : "no-run-yet";
   }
   function declaresRun(view: DataView, from: number, until: number): boolean {
-    for (let at = from; at + RECORD_HEAD <= until;) {
+    for (let at = from; at + RECORD_HEAD <= until; ) {
       const next = at + RECORD_HEAD + view.getUint32(at + 1, true) + TWO_32 * view.getUint32(at + 5, true);
       if (view.getUint8(at) === Opcode.CHANNEL && next <= until) return true;
       at = next;
@@ -146,7 +175,9 @@ export function createDecoder(packing: Packing | undefined, known: RunFacts | nu
   }
 
   return {
-    get facts() { return facts; },
+    get facts() {
+      return facts;
+    },
     /** Takes what the file says of itself outside its chunks. */
     run(metadata: ReadonlyMap<string, string>): void {
       const of = facts ? null : factsFrom(metadata);
@@ -162,11 +193,24 @@ export function createDecoder(packing: Packing | undefined, known: RunFacts | nu
       if (shape.packing !== packing?.name) return "unreadable";
       const unpacked = packing.unpack(bytes.subarray(from, from + shape.recordsLength), shape.size);
       if (!unpacked || shape.checksum !== crc32(unpacked)) return "damaged";
-      return records(unpacked, new DataView(unpacked.buffer, unpacked.byteOffset, unpacked.byteLength), 0, unpacked.length);
+      return records(
+        unpacked,
+        new DataView(unpacked.buffer, unpacked.byteOffset, unpacked.byteLength),
+        0,
+        unpacked.length,
+      );
     },
     samples(): Samples {
       if (states.length === 0) states.push(stateFrom(null));
-      return { times_s: times_s.slice(0, n), q_rad: q_rad.slice(0, n * joints), sequences: sequences.slice(0, n), stateOf: stateOf.slice(0, n), states, events, notes };
+      return {
+        times_s: times_s.slice(0, n),
+        q_rad: q_rad.slice(0, n * joints),
+        sequences: sequences.slice(0, n),
+        stateOf: stateOf.slice(0, n),
+        states,
+        events,
+        notes,
+      };
     },
   };
 }

@@ -8,9 +8,20 @@ export const JOINT_STATE_SCHEMA = {
   name: "sensor_msgs/msg/JointState",
   encoding: "ros2msg",
   text: [
-    "std_msgs/Header header", "string[] name", "float64[] position", "float64[] velocity", "float64[] effort",
-    "=".repeat(80), "MSG: std_msgs/Header", "builtin_interfaces/Time stamp", "string frame_id",
-    "=".repeat(80), "MSG: builtin_interfaces/Time", "int32 sec", "uint32 nanosec", "",
+    "std_msgs/Header header",
+    "string[] name",
+    "float64[] position",
+    "float64[] velocity",
+    "float64[] effort",
+    "=".repeat(80),
+    "MSG: std_msgs/Header",
+    "builtin_interfaces/Time stamp",
+    "string frame_id",
+    "=".repeat(80),
+    "MSG: builtin_interfaces/Time",
+    "int32 sec",
+    "uint32 nanosec",
+    "",
   ].join("\n"),
 } as const;
 
@@ -28,15 +39,21 @@ const ENCAPSULATION = 4;
 
 export function jointStateTemplate(frame: string, names: readonly string[]): JointStateTemplate {
   const bytes: number[] = [0, 1, 0, 0];
-  const align = (to: number): void => { while ((bytes.length - ENCAPSULATION) % to !== 0) bytes.push(0); };
-  const uint32 = (value: number): void => { align(4); bytes.push(value & 255, (value >> 8) & 255, (value >> 16) & 255, (value >>> 24) & 255); };
+  const align = (to: number): void => {
+    while ((bytes.length - ENCAPSULATION) % to !== 0) bytes.push(0);
+  };
+  const uint32 = (value: number): void => {
+    align(4);
+    bytes.push(value & 255, (value >> 8) & 255, (value >> 16) & 255, (value >>> 24) & 255);
+  };
   const string = (text: string): void => {
     const encoded = utf8Bytes(text);
     uint32(encoded.length + 1);
     bytes.push(...encoded, 0);
   };
   const stampAt = bytes.length;
-  uint32(0); uint32(0);
+  uint32(0);
+  uint32(0);
   string(frame);
   uint32(names.length);
   for (const name of names) string(name);
@@ -44,7 +61,8 @@ export function jointStateTemplate(frame: string, names: readonly string[]): Joi
   align(8);
   const positionsAt = bytes.length;
   for (let i = 0; i < 8 * names.length; i++) bytes.push(0);
-  uint32(0); uint32(0);
+  uint32(0);
+  uint32(0);
   return { bytes: Uint8Array.from(bytes), stampAt, positionsAt };
 }
 
@@ -67,7 +85,7 @@ export function positionsOffset(view: DataView, from: number, until: number, joi
   return offset + 8 * joints <= until ? offset - from : -1;
 }
 
-const aligned = (body: number, offset: number, to: number): number => offset + (to - ((offset - body) % to)) % to;
+const aligned = (body: number, offset: number, to: number): number => offset + ((to - ((offset - body) % to)) % to);
 /** The next number, or -1 behind the end. */
 function uint32At(view: DataView, body: number, offset: number, until: number): number {
   const at = aligned(body, offset, 4);
@@ -75,6 +93,7 @@ function uint32At(view: DataView, body: number, offset: number, until: number): 
 }
 /** Where the next string ends; behind the end when it does not fit. */
 function skipString(view: DataView, body: number, offset: number, until: number): number {
-  const length = uint32At(view, body, offset, until), end = aligned(body, offset, 4) + 4 + length;
+  const length = uint32At(view, body, offset, until);
+  const end = aligned(body, offset, 4) + 4 + length;
   return length >= 0 && end <= until ? end : until + 1;
 }

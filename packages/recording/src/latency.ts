@@ -14,7 +14,9 @@ const MOST = 2000;
 
 export function latencyMeter(stage: string, direction: Notes["latency"]["direction"]): LatencyMeter {
   const late = new Float64Array(MOST);
-  let samples = 0, worst_ms = 0, from_s = NaN;
+  let samples = 0;
+  let worst_ms = 0;
+  let from_s = NaN;
   return {
     add(late_ms) {
       if (samples < MOST) late[samples] = late_ms;
@@ -26,7 +28,9 @@ export function latencyMeter(stage: string, direction: Notes["latency"]["directi
       if (now_s - from_s < EVERY_S) return null;
       from_s = now_s;
       if (samples === 0) return null;
-      const sorted = late.subarray(0, Math.min(samples, MOST)).sort(), at = (part: number): number => rounded(sorted[Math.min(sorted.length - 1, Math.floor(part * sorted.length))]!);
+      const sorted = late.subarray(0, Math.min(samples, MOST)).sort();
+      const at = (part: number): number =>
+        rounded(sorted[Math.min(sorted.length - 1, Math.floor(part * sorted.length))]!);
       const said = { stage, direction, samples, median_ms: at(0.5), p99_ms: at(0.99), worst_ms: rounded(worst_ms) };
       samples = worst_ms = 0;
       return said;

@@ -29,15 +29,33 @@ export function chunkShape(view: DataView, at: number): ChunkShape | null {
   if (at < 0 || body + CHUNK_HEAD > view.byteLength || view.getUint32(at + 5, true) !== 0) return null;
   const name = view.getUint32(body + 28, true);
   if (name !== 0 && name !== 3 && name !== 4) return null;
-  if (body + CHUNK_HEAD + name > view.byteLength || view.getUint32(body + 20, true) !== 0 || view.getUint32(body + 36 + name, true) !== 0) return null;
+  if (
+    body + CHUNK_HEAD + name > view.byteLength ||
+    view.getUint32(body + 20, true) !== 0 ||
+    view.getUint32(body + 36 + name, true) !== 0
+  )
+    return null;
   let packing = "";
   for (let i = 0; i < name; i++) packing += String.fromCharCode(view.getUint8(body + 32 + i));
   if (packing !== "" && packing !== "lz4" && packing !== "zstd") return null;
-  const inside = view.getUint32(at + 1, true), recordsLength = view.getUint32(body + 32 + name, true), size = view.getUint32(body + 16, true);
-  if (inside !== CHUNK_HEAD + name + recordsLength || size > LARGEST_CHUNK || (packing === "" && size !== recordsLength)) return null;
+  const inside = view.getUint32(at + 1, true);
+  const recordsLength = view.getUint32(body + 32 + name, true);
+  const size = view.getUint32(body + 16, true);
+  if (
+    inside !== CHUNK_HEAD + name + recordsLength ||
+    size > LARGEST_CHUNK ||
+    (packing === "" && size !== recordsLength)
+  )
+    return null;
   return {
-    length: RECORD_HEAD + inside, packing, recordsAt: RECORD_HEAD + CHUNK_HEAD + name, recordsLength, size, checksum: view.getUint32(body + 24, true),
-    start_ns: view.getBigUint64(body, true), end_ns: view.getBigUint64(body + 8, true),
+    length: RECORD_HEAD + inside,
+    packing,
+    recordsAt: RECORD_HEAD + CHUNK_HEAD + name,
+    recordsLength,
+    size,
+    checksum: view.getUint32(body + 24, true),
+    start_ns: view.getBigUint64(body, true),
+    end_ns: view.getBigUint64(body + 8, true),
   };
 }
 

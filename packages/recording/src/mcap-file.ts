@@ -1,6 +1,14 @@
 import type { Refusal } from "@twincell/core";
 import { crc32Final, crc32Init, crc32Update } from "@foxglove/crc";
-import { McapRecordBuilder, Opcode, type Channel, type ChunkIndex, type Metadata, type MetadataIndex, type Schema } from "@mcap/core";
+import {
+  McapRecordBuilder,
+  Opcode,
+  type Channel,
+  type ChunkIndex,
+  type Metadata,
+  type MetadataIndex,
+  type Schema,
+} from "@mcap/core";
 import type { ByteSink } from "./sink.ts";
 
 export interface McapFile {
@@ -16,9 +24,15 @@ export interface McapFile {
 }
 
 /** Everything of an MCAP file that is not per message: head, chunks, summary, index, checksums. */
-export function mcapFile(sink: ByteSink, { schemas, channels }: { readonly schemas: readonly Schema[]; readonly channels: readonly Channel[] }): McapFile {
-  const indexes: ChunkIndex[] = [], metadataIndexes: MetadataIndex[] = [], counts = channels.map(() => 0);
-  let problem: Refusal | null = null, crc = crc32Init();
+export function mcapFile(
+  sink: ByteSink,
+  { schemas, channels }: { readonly schemas: readonly Schema[]; readonly channels: readonly Channel[] },
+): McapFile {
+  const indexes: ChunkIndex[] = [];
+  const metadataIndexes: MetadataIndex[] = [];
+  const counts = channels.map(() => 0);
+  let problem: Refusal | null = null;
+  let crc = crc32Init();
 
   function write(bytes: Uint8Array, inDataSection = true): void {
     if (problem) return;
@@ -26,7 +40,8 @@ export function mcapFile(sink: ByteSink, { schemas, channels }: { readonly schem
       sink.write(bytes);
     } catch (reason) {
       problem = {
-        code: "recording.no-room", sentence: `Recording ended after ${sink.position} bytes: ${reason instanceof Error ? reason.message : "the place it is written to takes no more"}`,
+        code: "recording.no-room",
+        sentence: `Recording ended after ${sink.position} bytes: ${reason instanceof Error ? reason.message : "the place it is written to takes no more"}`,
         hint: "Make room, then start a new recording. The part written so far can be opened.",
       };
       return;
@@ -36,25 +51,44 @@ export function mcapFile(sink: ByteSink, { schemas, channels }: { readonly schem
   function writeMetadata(metadata: Metadata): void {
     const offset = BigInt(sink.position);
     let length = 0n;
-    write(recordsOf(builder => { length = builder.writeMetadata(metadata); }));
+    write(
+      recordsOf(builder => {
+        length = builder.writeMetadata(metadata);
+      }),
+    );
     metadataIndexes.push({ name: metadata.name, offset, length });
   }
   function statistics() {
-    const first = indexes[0], last = indexes.at(-1);
+    const first = indexes[0];
+    const last = indexes.at(-1);
     return {
-      messageCount: BigInt(counts.reduce((sum, count) => sum + count, 0)), schemaCount: used().length, channelCount: used().length,
-      attachmentCount: 0, metadataCount: metadataIndexes.length, chunkCount: indexes.length,
-      messageStartTime: first?.messageStartTime ?? 0n, messageEndTime: last?.messageEndTime ?? 0n,
-      channelMessageCounts: new Map(counts.map((count, id) => [id, BigInt(count)] as const).filter(([, count]) => count > 0n)),
+      messageCount: BigInt(counts.reduce((sum, count) => sum + count, 0)),
+      schemaCount: used().length,
+      channelCount: used().length,
+      attachmentCount: 0,
+      metadataCount: metadataIndexes.length,
+      chunkCount: indexes.length,
+      messageStartTime: first?.messageStartTime ?? 0n,
+      messageEndTime: last?.messageEndTime ?? 0n,
+      channelMessageCounts: new Map(
+        counts.map((count, id) => [id, BigInt(count)] as const).filter(([, count]) => count > 0n),
+      ),
     };
   }
   const used = (): readonly Channel[] => channels.filter(channel => counts[channel.id]! > 0);
 
   return {
     counts,
-    get problem() { return problem; },
+    get problem() {
+      return problem;
+    },
     begin(metadata) {
-      write(recordsOf(builder => { builder.writeMagic(); builder.writeHeader({ profile: "", library: "twincell" }); }));
+      write(
+        recordsOf(builder => {
+          builder.writeMagic();
+          builder.writeHeader({ profile: "", library: "twincell" });
+        }),
+      );
       writeMetadata(metadata);
     },
     chunk({ pieces, index }) {
@@ -63,29 +97,75 @@ export function mcapFile(sink: ByteSink, { schemas, channels }: { readonly schem
     },
     end(summaries) {
       for (const metadata of summaries) writeMetadata(metadata);
-      write(recordsOf(builder => { builder.writeDataEnd({ dataSectionCrc: crc32Final(crc) }); }), false);
+      write(
+        recordsOf(builder => {
+          builder.writeDataEnd({ dataSectionCrc: crc32Final(crc) });
+        }),
+        false,
+      );
       const summaryStart = sink.position;
       const groups: [Opcode, (builder: McapRecordBuilder) => void][] = [
-        [Opcode.SCHEMA, builder => { for (const channel of used()) builder.writeSchema(schemas[channel.schemaId - 1]!); }],
-        [Opcode.CHANNEL, builder => { for (const channel of used()) builder.writeChannel(channel); }],
-        [Opcode.STATISTICS, builder => { builder.writeStatistics(statistics()); }],
-        [Opcode.METADATA_INDEX, builder => { for (const index of metadataIndexes) builder.writeMetadataIndex(index); }],
-        [Opcode.CHUNK_INDEX, builder => { for (const index of indexes) builder.writeChunkIndex(index); }],
+        [
+          Opcode.SCHEMA,
+          builder => {
+            for (const channel of used()) builder.writeSchema(schemas[channel.schemaId - 1]!);
+          },
+        ],
+        [
+          Opcode.CHANNEL,
+          builder => {
+            for (const channel of used()) builder.writeChannel(channel);
+          },
+        ],
+        [
+          Opcode.STATISTICS,
+          builder => {
+            builder.writeStatistics(statistics());
+          },
+        ],
+        [
+          Opcode.METADATA_INDEX,
+          builder => {
+            for (const index of metadataIndexes) builder.writeMetadataIndex(index);
+          },
+        ],
+        [
+          Opcode.CHUNK_INDEX,
+          builder => {
+            for (const index of indexes) builder.writeChunkIndex(index);
+          },
+        ],
       ];
-      const summary = new McapRecordBuilder(), offsets = new McapRecordBuilder();
+      const summary = new McapRecordBuilder();
+      const offsets = new McapRecordBuilder();
       for (const [groupOpcode, fill] of groups) {
         const from = summary.length;
         fill(summary);
         const groupLength = BigInt(summary.length - from);
-        if (groupLength > 0n) offsets.writeSummaryOffset({ groupOpcode, groupStart: BigInt(summaryStart + from), groupLength });
+        if (groupLength > 0n)
+          offsets.writeSummaryOffset({ groupOpcode, groupStart: BigInt(summaryStart + from), groupLength });
       }
-      const footer = { summaryStart: BigInt(summaryStart), summaryOffsetStart: BigInt(summaryStart + summary.length), summaryCrc: 0 };
+      const footer = {
+        summaryStart: BigInt(summaryStart),
+        summaryOffsetStart: BigInt(summaryStart + summary.length),
+        summaryCrc: 0,
+      };
       // The summary's checksum covers the footer up to the checksum itself.
-      const head = recordsOf(builder => { builder.writeFooter(footer); }).subarray(0, 1 + 8 + 8 + 8);
-      const summaryCrc = crc32Final(crc32Update(crc32Update(crc32Update(crc32Init(), summary.buffer), offsets.buffer), head));
+      const head = recordsOf(builder => {
+        builder.writeFooter(footer);
+      }).subarray(0, 1 + 8 + 8 + 8);
+      const summaryCrc = crc32Final(
+        crc32Update(crc32Update(crc32Update(crc32Init(), summary.buffer), offsets.buffer), head),
+      );
       write(summary.buffer, false);
       write(offsets.buffer, false);
-      write(recordsOf(builder => { builder.writeFooter({ ...footer, summaryCrc }); builder.writeMagic(); }), false);
+      write(
+        recordsOf(builder => {
+          builder.writeFooter({ ...footer, summaryCrc });
+          builder.writeMagic();
+        }),
+        false,
+      );
     },
   };
 }

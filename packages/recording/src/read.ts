@@ -11,12 +11,15 @@ export interface RecordingData extends RunFacts, Samples {
   /** Places where bytes were damaged and a chunk was left out. */
   readonly damaged: number;
 }
-export type Read = { readonly kind: "read"; readonly data: RecordingData } | { readonly kind: "not-a-recording"; readonly sentence: string };
+export type Read =
+  | { readonly kind: "read"; readonly data: RecordingData }
+  | { readonly kind: "not-a-recording"; readonly sentence: string };
 
 export const NOT_MCAP = "The file does not begin like an MCAP file.";
 export const NO_RUN = `The file is MCAP but holds no joint angles of a run (no ${TOPICS[0]!.topic} with ${RUN_METADATA}).`;
 export const NO_SAMPLE = "The recording ends before its first sample.";
-export const packedWith = (packing: string): string => `The file's chunks are packed with ${packing}, which is not read here.`;
+export const packedWith = (packing: string): string =>
+  `The file's chunks are packed with ${packing}, which is not read here.`;
 
 /**
  * Reads a recording, whole, cut off anywhere or damaged: what is lost is the chunk that is not whole, and no more.
@@ -27,10 +30,14 @@ export function readRecording(bytes: Uint8Array, packing?: Packing): Read {
   if (!hasMcapPrefix(new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength))) {
     return { kind: "not-a-recording", sentence: bytes.length === 0 ? "The file is empty." : NOT_MCAP };
   }
-  const decoder = createDecoder(packing), early: { at: number; shape: ChunkShape }[] = [], view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const decoder = createDecoder(packing);
+  const early: { at: number; shape: ChunkShape }[] = [];
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   let packed = "";
   const { complete, damaged } = walk(bytes, {
-    metadata: record => { if (record.name === RUN_METADATA) decoder.run(record.metadata); },
+    metadata: record => {
+      if (record.name === RUN_METADATA) decoder.run(record.metadata);
+    },
     chunk(at, shape) {
       const taken = decoder.chunk(bytes, view, at, shape);
       if (taken === "unreadable") packed = shape.packing;
@@ -60,9 +67,13 @@ export interface Walker {
 /** Goes through the records of a file; where one is damaged, on to the next chunk that is whole. */
 export function walk(bytes: Uint8Array, to: Walker): { readonly complete: boolean; readonly damaged: number } {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  let at = 8, damaged = 0, complete = false;
+  let at = 8;
+  let damaged = 0;
+  let complete = false;
   while (!complete && at + RECORD_HEAD <= bytes.length) {
-    const opcode = view.getUint8(at), end = at + RECORD_HEAD + Number(view.getBigUint64(at + 1, true)), shape = chunkShape(view, at);
+    const opcode = view.getUint8(at);
+    const end = at + RECORD_HEAD + Number(view.getBigUint64(at + 1, true));
+    const shape = chunkShape(view, at);
     let sound = opcode >= 1 && opcode <= Opcode.MAX && end <= bytes.length;
     if (sound && opcode === Opcode.CHUNK) {
       // A chunk whose lengths do not agree is damaged, even if its checksum holds: it would swallow what follows.
@@ -71,9 +82,15 @@ export function walk(bytes: Uint8Array, to: Walker): { readonly complete: boolea
       // A record that is, or holds, something shaped like a chunk has a wrong opcode or a wrong length.
       sound = shape === null && nextChunk(bytes, view, at + 1, end) === end;
       if (sound && opcode === Opcode.METADATA) metadata(bytes.subarray(at, end), to);
-      complete = sound && opcode === Opcode.FOOTER && hasMcapPrefix(new DataView(bytes.buffer, bytes.byteOffset + end, bytes.length - end));
+      complete =
+        sound &&
+        opcode === Opcode.FOOTER &&
+        hasMcapPrefix(new DataView(bytes.buffer, bytes.byteOffset + end, bytes.length - end));
     }
-    if (sound) { at = end; continue; }
+    if (sound) {
+      at = end;
+      continue;
+    }
     const next = nextChunk(bytes, view, at + 1, bytes.length);
     // What is cut off at the end is an unfinished chunk, not a damaged one.
     if (next < bytes.length || opcode < 1 || opcode > Opcode.MAX || end <= bytes.length) damaged++;
@@ -87,7 +104,10 @@ export function metadata(record: Uint8Array, to: Pick<Walker, "metadata">): void
   reader.append(record);
   let read: ReturnType<McapStreamReader["nextRecord"]>;
   // A record that is damaged inside says nothing; the library has one way to say so.
-  try { read = reader.nextRecord(); } catch { return; }
+  try {
+    read = reader.nextRecord();
+  } catch {
+    return;
+  }
   if (read?.type === "Metadata" && (read.name === RUN_METADATA || read.name === DIGEST_METADATA)) to.metadata(read);
 }
-

@@ -66,25 +66,64 @@ const REPEAT_NS = 60e9;
  * others: whatever happens to the file, a damaged or missing chunk costs itself and nothing else.
  */
 export function createRunRecorder(sink: ByteSink, header: RunHeader): RunRecorder {
-  const { robot, startedAt_ns, compact } = header, n = robot.arm.joints.length;
-  const chunkBytes = header.chunkBytes ?? 128 * 1024, chunk_ns = (header.chunk_s ?? 1) * 1e9, still = compact ? Math.max(compact.still ?? 0, QUANTUM / 2) : -1;
-  const names = robot.arm.joints.map(joint => joint.name), template = jointStateTemplate(robot.frames.base, names);
-  const start_s = Number(startedAt_ns / 1_000_000_000n), start_ns = Number(startedAt_ns % 1_000_000_000n);
+  const { robot, startedAt_ns, compact } = header;
+  const n = robot.arm.joints.length;
+  const chunkBytes = header.chunkBytes ?? 128 * 1024;
+  const chunk_ns = (header.chunk_s ?? 1) * 1e9;
+  const still = compact ? Math.max(compact.still ?? 0, QUANTUM / 2) : -1;
+  const names = robot.arm.joints.map(joint => joint.name);
+  const template = jointStateTemplate(robot.frames.base, names);
+  const start_s = Number(startedAt_ns / 1_000_000_000n);
+  const start_ns = Number(startedAt_ns % 1_000_000_000n);
   const run = new Map([
-    ["version", "2"], ["robot", robot.id], ["robot_name", robot.name], ["program", header.program], ["cell", header.cell],
-    ["started_at_ns", startedAt_ns.toString()], ["joints", JSON.stringify(names)],
+    ["version", "2"],
+    ["robot", robot.id],
+    ["robot_name", robot.name],
+    ["program", header.program],
+    ["cell", header.cell],
+    ["started_at_ns", startedAt_ns.toString()],
+    ["joints", JSON.stringify(names)],
     ...(header.cycle ? [["cycle", JSON.stringify(header.cycle)] as const] : []),
   ]);
-  const schemas: Schema[] = TOPICS.map(({ schema }, i) => ({ id: i + 1, name: schema.name, encoding: schema.encoding, data: utf8Bytes(schema.text) }));
-  const channels: Channel[] = TOPICS.map(({ topic, messageEncoding }, id) => ({ id, schemaId: id + 1, topic, messageEncoding, metadata: run }));
-  const declarations = channels.map((channel, id) => recordsOf(builder => { builder.writeSchema(schemas[id]!); builder.writeChannel(channel); }));
+  const schemas: Schema[] = TOPICS.map(({ schema }, i) => ({
+    id: i + 1,
+    name: schema.name,
+    encoding: schema.encoding,
+    data: utf8Bytes(schema.text),
+  }));
+  const channels: Channel[] = TOPICS.map(({ topic, messageEncoding }, id) => ({
+    id,
+    schemaId: id + 1,
+    topic,
+    messageEncoding,
+    metadata: run,
+  }));
+  const declarations = channels.map((channel, id) =>
+    recordsOf(builder => {
+      builder.writeSchema(schemas[id]!);
+      builder.writeChannel(channel);
+    }),
+  );
   const declaredAt_ns = channels.map(() => -Infinity);
 
-  const chunk = new OpenChunk(chunkBytes + 8192, channels.length, startedAt_ns), file = mcapFile(sink, { schemas, channels });
+  const chunk = new OpenChunk(chunkBytes + 8192, channels.length, startedAt_ns);
+  const file = mcapFile(sink, { schemas, channels });
   const digester = createDigester(n, header.cycle ?? null);
-  const kept = new Float64Array(n), seen = new Float64Array(n);
-  let state: RobotState | null = null, stateBytes = new Uint8Array(0), io: ReadonlyMap<string, boolean | number> | null = null, ioBytes = new Uint8Array(0);
-  let firstSample_s = NaN, now_ns = 0, opened_ns = 0, samples = 0, keptOne = false, opening = false, held_ns = -1, heldSequence = 0, finished = false;
+  const kept = new Float64Array(n);
+  const seen = new Float64Array(n);
+  let state: RobotState | null = null;
+  let stateBytes = new Uint8Array(0);
+  let io: ReadonlyMap<string, boolean | number> | null = null;
+  let ioBytes = new Uint8Array(0);
+  let firstSample_s = NaN;
+  let now_ns = 0;
+  let opened_ns = 0;
+  let samples = 0;
+  let keptOne = false;
+  let opening = false;
+  let held_ns = -1;
+  let heldSequence = 0;
+  let finished = false;
 
   function put(channel: number, sequence: number, data: Uint8Array, at_ns = now_ns): number {
     if (chunk.length === 0 && !opening) {
@@ -105,8 +144,10 @@ export function createRunRecorder(sink: ByteSink, header: RunHeader): RunRecorde
     return at;
   }
   function putJoints(sequence: number, at_ns: number, q: ArrayLike<number>): void {
-    const at = put(CHANNEL.joints, sequence, template.bytes, at_ns), { view } = chunk;
-    const nanoseconds = start_ns + at_ns % 1e9, carry = nanoseconds >= 1e9 ? 1 : 0;
+    const at = put(CHANNEL.joints, sequence, template.bytes, at_ns);
+    const { view } = chunk;
+    const nanoseconds = start_ns + (at_ns % 1e9);
+    const carry = nanoseconds >= 1e9 ? 1 : 0;
     view.setInt32(at + template.stampAt, start_s + Math.floor(at_ns / 1e9) + carry, true);
     view.setUint32(at + template.stampAt + 4, nanoseconds - carry * 1e9, true);
     for (let i = 0; i < n; i++) view.setFloat64(at + template.positionsAt + 8 * i, q[i]!, true);
@@ -126,7 +167,9 @@ export function createRunRecorder(sink: ByteSink, header: RunHeader): RunRecorde
     file.chunk(chunk.close(sink.position, compact?.packing));
     keptOne = false;
   }
-  const flushWhenFull = (): void => { if (chunk.length >= chunkBytes || (chunk.length > 0 && now_ns - opened_ns >= chunk_ns)) flush(); };
+  const flushWhenFull = (): void => {
+    if (chunk.length >= chunkBytes || (chunk.length > 0 && now_ns - opened_ns >= chunk_ns)) flush();
+  };
   const json = (value: unknown): Uint8Array<ArrayBuffer> => new Uint8Array(utf8Bytes(JSON.stringify(value)));
 
   function note<K extends NoteKind>(kind: K, what: Notes[K]): void {
@@ -138,10 +181,18 @@ export function createRunRecorder(sink: ByteSink, header: RunHeader): RunRecorde
 
   file.begin({ name: RUN_METADATA, metadata: run });
   return {
-    get samples() { return samples; },
-    get duration_s() { return now_ns / 1e9; },
-    get problem() { return file.problem; },
-    get cycle() { return digester.open; },
+    get samples() {
+      return samples;
+    },
+    get duration_s() {
+      return now_ns / 1e9;
+    },
+    get problem() {
+      return file.problem;
+    },
+    get cycle() {
+      return digester.open;
+    },
     record(sample) {
       if (finished || file.problem) return;
       if (samples++ === 0) firstSample_s = sample.time_s;
@@ -158,7 +209,11 @@ export function createRunRecorder(sink: ByteSink, header: RunHeader): RunRecorde
         put(CHANNEL.state, 0, stateBytes);
         changed = true;
       }
-      if (sample.signals !== undefined && !(io && sameLines(io, sample.signals)) && (io !== null || sample.signals.size > 0)) {
+      if (
+        sample.signals !== undefined &&
+        !(io && sameLines(io, sample.signals)) &&
+        (io !== null || sample.signals.size > 0)
+      ) {
         putHeld();
         io = new Map(sample.signals);
         ioBytes = json({ signals: Object.fromEntries(io) });
@@ -179,7 +234,12 @@ export function createRunRecorder(sink: ByteSink, header: RunHeader): RunRecorde
       }
       if (sample.safety !== before) {
         const active = sample.safety !== "normal";
-        note("alarm", { code: `safety.${active ? sample.safety : before}`, active, sentence: active ? sample.message || SAFETY_WORDS[sample.safety] : "Back to normal.", hint: "" });
+        note("alarm", {
+          code: `safety.${active ? sample.safety : before}`,
+          active,
+          sentence: active ? sample.message || SAFETY_WORDS[sample.safety] : "Back to normal.",
+          hint: "",
+        });
       }
     },
     event(kind, sentence, level = "info") {
@@ -187,7 +247,13 @@ export function createRunRecorder(sink: ByteSink, header: RunHeader): RunRecorde
       putHeld();
       const at_ns = startedAt_ns + BigInt(now_ns);
       const timestamp = { sec: Number(at_ns / 1_000_000_000n), nsec: Number(at_ns % 1_000_000_000n) };
-      put(CHANNEL.events, file.counts[CHANNEL.events]!, utf8Bytes(JSON.stringify({ timestamp, level: LEVELS[level], message: sentence, name: kind, file: "", line: 0 })));
+      put(
+        CHANNEL.events,
+        file.counts[CHANNEL.events]!,
+        utf8Bytes(
+          JSON.stringify({ timestamp, level: LEVELS[level], message: sentence, name: kind, file: "", line: 0 }),
+        ),
+      );
       digester.event(now_ns / 1e9, kind, level, sentence);
       flushWhenFull();
     },
@@ -206,7 +272,12 @@ export function createRunRecorder(sink: ByteSink, header: RunHeader): RunRecorde
   };
 }
 
-const SAFETY_WORDS = { "normal": "", "guard-stop": "The guard stopped the robot.", "protective-stop": "The robot is in a protective stop.", "emergency-stop": "The robot is in an emergency stop." } as const;
+const SAFETY_WORDS = {
+  normal: "",
+  "guard-stop": "The guard stopped the robot.",
+  "protective-stop": "The robot is in a protective stop.",
+  "emergency-stop": "The robot is in an emergency stop.",
+} as const;
 
 /** Every joint is within the band about where it was kept. */
 function within(kept: Float64Array, q: ArrayLike<number>, band: number): boolean {

@@ -15,12 +15,20 @@ export function memorySink(): MemorySink {
   const pieces: Uint8Array[] = [];
   let position = 0;
   return {
-    write(bytes) { pieces.push(bytes); position += bytes.length; },
-    get position() { return position; },
+    write(bytes) {
+      pieces.push(bytes);
+      position += bytes.length;
+    },
+    get position() {
+      return position;
+    },
     bytes() {
       const all = new Uint8Array(position);
       let at = 0;
-      for (const piece of pieces) { all.set(piece, at); at += piece.length; }
+      for (const piece of pieces) {
+        all.set(piece, at);
+        at += piece.length;
+      }
       return all;
     },
   };

@@ -3,7 +3,10 @@ export function utf8Bytes(text: string): Uint8Array {
   const escaped = encodeURIComponent(text.replace(/[\ud800-\udfff]/gu, "\ufffd"));
   const bytes: number[] = [];
   for (let i = 0; i < escaped.length; i++) {
-    if (escaped[i] === "%") { bytes.push(Number.parseInt(escaped.slice(i + 1, i + 3), 16)); i += 2; } else bytes.push(escaped.charCodeAt(i));
+    if (escaped[i] === "%") {
+      bytes.push(Number.parseInt(escaped.slice(i + 1, i + 3), 16));
+      i += 2;
+    } else bytes.push(escaped.charCodeAt(i));
   }
   return Uint8Array.from(bytes);
 }

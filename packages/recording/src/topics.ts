@@ -3,7 +3,11 @@ import { EVENT_SCHEMA, STATE_SCHEMA } from "./state.ts";
 import { NOTE_SCHEMAS } from "./notes.ts";
 
 /** What a channel says of itself in the file. */
-export interface Topic { readonly topic: string; readonly messageEncoding: "cdr" | "json"; readonly schema: { readonly name: string; readonly encoding: string; readonly text: string } }
+export interface Topic {
+  readonly topic: string;
+  readonly messageEncoding: "cdr" | "json";
+  readonly schema: { readonly name: string; readonly encoding: string; readonly text: string };
+}
 
 /** Every channel of a recording, by its number in the file. New ones are added at the end: old files keep their meaning. */
 export const TOPICS: readonly Topic[] = [
@@ -18,7 +22,18 @@ export const TOPICS: readonly Topic[] = [
   { topic: "/joint_load", messageEncoding: "json", schema: NOTE_SCHEMAS.load },
   { topic: "/cell", messageEncoding: "json", schema: NOTE_SCHEMAS.cell },
 ];
-export const CHANNEL = { joints: 0, state: 1, events: 2, io: 3, command: 4, alarm: 5, operator: 6, latency: 7, load: 8, cell: 9 } as const;
+export const CHANNEL = {
+  joints: 0,
+  state: 1,
+  events: 2,
+  io: 3,
+  command: 4,
+  alarm: 5,
+  operator: 6,
+  latency: 7,
+  load: 8,
+  cell: 9,
+} as const;
 /** Key of the channel metadata and name of the metadata record that say which run this is. */
 export const RUN_METADATA = "twincell.run";
 /** Name of the metadata record behind the data that sums it up. */

@@ -25,32 +25,60 @@ with open(sys.argv[1], "rb") as file:
     print(json.dumps({"count": summary.statistics.message_count, "joints": joints, "states": states, "events": events, "meta": meta}))
 `;
 
-test.skipIf(absent)(`the mcap and mcap-ros2-support Python packages read the same run${absent ? " (skipped: they are not installed)" : ""}`, () => {
-  const robot = robotById("staubli_rx90l")!, sink = memorySink(), startedAt_ns = 1_795_237_199_999_999_123n;
-  const recorder = createRunRecorder(sink, { robot, startedAt_ns, program: "Kante", cell: "Zelle α", chunkBytes: 4096 });
-  const angles = (k: number): Float64Array => Float64Array.from({ length: 6 }, (_, j) => Math.sin(0.01 * k + j));
-  for (let k = 0; k < 500; k++) {
-    recorder.record({ sequence: k, time_s: 0.004 * k, q_rad: angles(k), moving: true, mode: "automatic", safety: "normal", override: 1, gripperClosed: false, step: `s${k >> 8}`, message: "" });
-  }
-  recorder.event("stop", "Angehalten – „jetzt“.", "warning");
-  recorder.finish();
-  const folder = mkdtempSync(join(tmpdir(), "twincell-"));
-  try {
-    writeFileSync(join(folder, "run.mcap"), sink.bytes());
-    const read = JSON.parse(execFileSync(python, ["-c", READ, join(folder, "run.mcap")], { encoding: "utf8", maxBuffer: 1 << 26 })) as {
-      count: number; joints: [number, number, number, string[], number[]][]; states: { step: string }[]; events: { message: string; level: number }[]; meta: [string, Record<string, string>][];
-    };
-    expect(read.joints.length).toBe(500);
-    expect(read.count).toBe(read.joints.length + read.states.length + read.events.length);
-    read.joints.forEach(([, sec, nanosec, names, position], k) => {
-      expect(BigInt(sec) * 1_000_000_000n + BigInt(nanosec)).toBe(startedAt_ns + BigInt(k) * 4_000_000n);
-      expect(names).toEqual(robot.arm.joints.map(joint => joint.name));
-      expect(position).toEqual([...angles(k)]);
+test.skipIf(absent)(
+  `the mcap and mcap-ros2-support Python packages read the same run${absent ? " (skipped: they are not installed)" : ""}`,
+  () => {
+    const robot = robotById("staubli_rx90l")!;
+    const sink = memorySink();
+    const startedAt_ns = 1_795_237_199_999_999_123n;
+    const recorder = createRunRecorder(sink, {
+      robot,
+      startedAt_ns,
+      program: "Kante",
+      cell: "Zelle α",
+      chunkBytes: 4096,
     });
-    expect([...new Set(read.states.map(state => state.step))]).toEqual(["s0", "s1"]);
-    expect(read.events).toMatchObject([{ message: "Angehalten – „jetzt“.", level: 3 }]);
-    expect(read.meta).toMatchObject([["twincell.run", { robot: robot.id, cell: "Zelle α" }]]);
-  } finally {
-    rmSync(folder, { recursive: true });
-  }
-});
+    const angles = (k: number): Float64Array => Float64Array.from({ length: 6 }, (_, j) => Math.sin(0.01 * k + j));
+    for (let k = 0; k < 500; k++) {
+      recorder.record({
+        sequence: k,
+        time_s: 0.004 * k,
+        q_rad: angles(k),
+        moving: true,
+        mode: "automatic",
+        safety: "normal",
+        override: 1,
+        gripperClosed: false,
+        step: `s${k >> 8}`,
+        message: "",
+      });
+    }
+    recorder.event("stop", "Angehalten – „jetzt“.", "warning");
+    recorder.finish();
+    const folder = mkdtempSync(join(tmpdir(), "twincell-"));
+    try {
+      writeFileSync(join(folder, "run.mcap"), sink.bytes());
+      const read = JSON.parse(
+        execFileSync(python, ["-c", READ, join(folder, "run.mcap")], { encoding: "utf8", maxBuffer: 1 << 26 }),
+      ) as {
+        count: number;
+        joints: [number, number, number, string[], number[]][];
+        states: { step: string }[];
+        events: { message: string; level: number }[];
+        meta: [string, Record<string, string>][];
+      };
+      expect(read.joints.length).toBe(500);
+      expect(read.count).toBe(read.joints.length + read.states.length + read.events.length);
+      read.joints.forEach(([, sec, nanosec, names, position], k) => {
+        expect(BigInt(sec) * 1_000_000_000n + BigInt(nanosec)).toBe(startedAt_ns + BigInt(k) * 4_000_000n);
+        expect(names).toEqual(robot.arm.joints.map(joint => joint.name));
+        expect(position).toEqual([...angles(k)]);
+      });
+      expect([...new Set(read.states.map(state => state.step))]).toEqual(["s0", "s1"]);
+      expect(read.events).toMatchObject([{ message: "Angehalten – „jetzt“.", level: 3 }]);
+      expect(read.meta).toMatchObject([["twincell.run", { robot: robot.id, cell: "Zelle α" }]]);
+    } finally {
+      rmSync(folder, { recursive: true });
+    }
+  },
+);

@@ -1,4 +1,11 @@
-import { createRealController, type Brand, type BrandVirtual, type Face, type MemoryNetwork, type Network } from "@twincell/controllers";
+import {
+  createRealController,
+  type Brand,
+  type BrandVirtual,
+  type Face,
+  type MemoryNetwork,
+  type Network,
+} from "@twincell/controllers";
 import type { JointSample, ManualScheduler, RealController } from "@twincell/core";
 
 /** What a driver was told and what it heard, seen between it and all that stands in front of it. */
@@ -23,20 +30,49 @@ const inMemory = (network: Network): network is MemoryNetwork => "weather" in ne
 /** The same brand, seen from between: what is opened with it shows what goes through. */
 export function watched(brand: Brand, scheduler: ManualScheduler, random: () => number): Watched {
   const lies = { clock_s: 0, nan: 0 };
-  let virtual: BrandVirtual | null = null, line: MemoryNetwork | null = null, again: (() => Face) | null = null;
-  let heard_s = NaN, stopped_s = NaN, isOpen = false, motions = 0;
-  const got = <T>(what: T | null): T => { if (what === null) throw new Error("Nothing was opened yet."); return what; };
+  let virtual: BrandVirtual | null = null;
+  let line: MemoryNetwork | null = null;
+  let again: (() => Face) | null = null;
+  let heard_s = NaN;
+  let stopped_s = NaN;
+  let isOpen = false;
+  let motions = 0;
+  const got = <T>(what: T | null): T => {
+    if (what === null) throw new Error("Nothing was opened yet.");
+    return what;
+  };
   const lied = (lent: Sample): Sample => {
     const isNan = lies.nan > 0 && random() < lies.nan;
     if (lies.clock_s === 0 && !isNan) return lent;
-    return { ...lent, time_s: lent.time_s + lies.clock_s, q_rad: isNan ? lent.q_rad.map((q, i) => i === lent.sequence % 3 ? [NaN, Infinity, 1e12][lent.sequence % 3]! : q) : lent.q_rad };
+    return {
+      ...lent,
+      time_s: lent.time_s + lies.clock_s,
+      q_rad: isNan
+        ? lent.q_rad.map((q, i) => (i === lent.sequence % 3 ? [NaN, Infinity, 1e12][lent.sequence % 3]! : q))
+        : lent.q_rad,
+    };
   };
 
   return {
     lies,
-    get virtual() { return got(virtual); },
-    get network() { return got(line); },
-    get heard_s() { return heard_s; }, get stopped_s() { return stopped_s; }, get isOpen() { return isOpen; }, get motions() { return motions; },
+    get virtual() {
+      return got(virtual);
+    },
+    get network() {
+      return got(line);
+    },
+    get heard_s() {
+      return heard_s;
+    },
+    get stopped_s() {
+      return stopped_s;
+    },
+    get isOpen() {
+      return isOpen;
+    },
+    get motions() {
+      return motions;
+    },
     second: () => createRealController({ face: got(again)(), scheduler, name: "Another computer" }),
     brand: {
       ...brand,
@@ -49,24 +85,51 @@ export function watched(brand: Brand, scheduler: ManualScheduler, random: () => 
         if (!inMemory(options.network)) throw new Error("This soak runs in memory.");
         line = options.network;
         again = () => brand.face(options);
-        const face = brand.face(options), { runText } = face;
+        const face = brand.face(options);
+        const { runText } = face;
         return {
           ...face,
           // It may change with how the controller speaks just now.
-          get stale_s() { return face.stale_s; },
+          get stale_s() {
+            return face.stale_s;
+          },
           async open(events) {
             const opened = await face.open({
-              sample(lent) { heard_s = scheduler.now_s(); events.sample(lied(lent)); },
-              roundTrip(seconds) { events.roundTrip(seconds); },
-              lost(sentence) { isOpen = false; events.lost(sentence); },
+              sample(lent) {
+                heard_s = scheduler.now_s();
+                events.sample(lied(lent));
+              },
+              roundTrip(seconds) {
+                events.roundTrip(seconds);
+              },
+              lost(sentence) {
+                isOpen = false;
+                events.lost(sentence);
+              },
             });
             isOpen = opened.kind === "open";
             return opened;
           },
-          close() { isOpen = false; face.close(); },
-          move(motion) { motions++; return face.move(motion); },
-          stop(emergency) { if (isOpen) stopped_s = scheduler.now_s(); face.stop(emergency); },
-          ...(runText ? { runText(files: Parameters<typeof runText>[0]) { motions++; return runText.call(face, files); } } : {}),
+          close() {
+            isOpen = false;
+            face.close();
+          },
+          move(motion) {
+            motions++;
+            return face.move(motion);
+          },
+          stop(emergency) {
+            if (isOpen) stopped_s = scheduler.now_s();
+            face.stop(emergency);
+          },
+          ...(runText
+            ? {
+                runText(files: Parameters<typeof runText>[0]) {
+                  motions++;
+                  return runText.call(face, files);
+                },
+              }
+            : {}),
         };
       },
     },

@@ -14,11 +14,15 @@ Runs the benchmarks named (all when none is), one after the other, and prints on
 {"name":"ik/kr6","unit":"us","median":…,"min":…,"max":…,"n":…}`,
   async run(args) {
     const { positionals } = given(args, { json: { type: "boolean" } });
-    const files = (await readdir(folder)).filter(name => name.endsWith(".ts") && name !== "figure.ts").map(name => name.slice(0, -3)).sort();
+    const files = (await readdir(folder))
+      .filter(name => name.endsWith(".ts") && name !== "figure.ts")
+      .map(name => name.slice(0, -3))
+      .sort();
     const unknown = positionals.find(name => !files.includes(name));
-    if (unknown !== undefined) throw new UseFault(`There is no benchmark "${unknown}".`, `Benchmarks: ${files.join(", ")}.`);
+    if (unknown !== undefined)
+      throw new UseFault(`There is no benchmark "${unknown}".`, `Benchmarks: ${files.join(", ")}.`);
     for (const name of positionals.length ? positionals : files) {
-      const { run } = await import(new URL(`${name}.ts`, folder).href) as { run?: () => Promise<readonly unknown[]> };
+      const { run } = (await import(new URL(`${name}.ts`, folder).href)) as { run?: () => Promise<readonly unknown[]> };
       // Some files only hold what others measure with.
       if (run === undefined) continue;
       const writer = lineWriter();

@@ -1,4 +1,14 @@
-import { flangePose, frameFromThreePoints, pose, registerPoints, tcpFromTouches, tcpOrientation, type Pose, type Robot, type Vector3 } from "@twincell/core";
+import {
+  flangePose,
+  frameFromThreePoints,
+  pose,
+  registerPoints,
+  tcpFromTouches,
+  tcpOrientation,
+  type Pose,
+  type Robot,
+  type Vector3,
+} from "@twincell/core";
 import { given } from "../io/arguments.ts";
 import { readText } from "../io/files.ts";
 import { robotOf } from "../io/robot.ts";
@@ -23,10 +33,16 @@ frame   {"origin":[x,y,z],"alongX":[x,y,z],"inXy":[x,y,z]}
         or {"points":[{"known":[x,y,z],"measured":[x,y,z]}, …]}, three or more, known in the thing's own frame
         → {"kind":"registered","frame":POSE,"rms_m","worst_m","worst","each_m":[…],"sentence"}`,
   async run(args) {
-    const options = given(args, { robot: { type: "string" }, json: { type: "boolean" } }), [what, path] = options.positionals;
-    if (what !== "tcp" && what !== "frame") throw new UseFault(what === undefined ? "What to calibrate is missing." : `"${what}" cannot be calibrated.`, "Give tcp or frame, then FILE.");
+    const options = given(args, { robot: { type: "string" }, json: { type: "boolean" } });
+    const [what, path] = options.positionals;
+    if (what !== "tcp" && what !== "frame")
+      throw new UseFault(
+        what === undefined ? "What to calibrate is missing." : `"${what}" cannot be calibrated.`,
+        "Give tcp or frame, then FILE.",
+      );
     if (path === undefined) throw new UseFault("FILE is missing.", 'Give the path of a JSON file, or "-".');
-    const file = recordOf(path, await readText(path)), robot = options.text("robot") === undefined ? undefined : (await robotOf(options)).robot;
+    const file = recordOf(path, await readText(path));
+    const robot = options.text("robot") === undefined ? undefined : (await robotOf(options)).robot;
     const answer = what === "tcp" ? tcp(path, file, robot) : frame(path, file);
     process.stdout.write(`${JSON.stringify(answer)}\n`);
     return answer["kind"] === "calibrated" || answer["kind"] === "frame" || answer["kind"] === "registered" ? 0 : 1;
@@ -41,44 +57,67 @@ function tcp(path: string, file: Answer, robot: Robot | undefined): Answer {
     if (robot === undefined) throw new UseFault(`${path}: ${where} holds joint angles; --robot is missing.`);
     return flangePose(robot.arm, jointsAt(value, `${path}: ${where}`, robot.arm.joints.length, robot.name));
   };
-  const touches = file["touches"], { alongX, inXy } = file;
+  const touches = file["touches"];
+  const { alongX, inXy } = file;
   if (!Array.isArray(touches)) throw new UseFault(`${path} wants "touches" as a list of poses.`);
-  if ((alongX === undefined) !== (inXy === undefined)) throw new UseFault(`${path}: the orientation wants both "alongX" and "inXy".`);
+  if ((alongX === undefined) !== (inXy === undefined))
+    throw new UseFault(`${path}: the orientation wants both "alongX" and "inXy".`);
   const answer = tcpFromTouches(touches.map((touch: unknown, i) => touchAt(touch, `touch ${i + 1}`)));
   if (answer.kind !== "calibrated") return { ...answer };
   const { tip, residual, ...rest } = answer;
   if (alongX === undefined) return { ...rest, flangeFromTcp: pose(tip), ...residual };
   const turned = tcpOrientation(tip, answer.fixedPoint, touchAt(alongX, "alongX"), touchAt(inXy, "inXy"));
-  return turned.kind === "frame" ? { ...rest, flangeFromTcp: turned.intoFromFrame, ...residual, offSquare_rad: turned.offSquare_rad } : { ...turned };
+  return turned.kind === "frame"
+    ? { ...rest, flangeFromTcp: turned.intoFromFrame, ...residual, offSquare_rad: turned.offSquare_rad }
+    : { ...turned };
 }
 
 function frame(path: string, file: Answer): Answer {
   const points = file["points"];
   if (points === undefined) {
-    const answer = frameFromThreePoints(pointAt(path, file["origin"], '"origin"'), pointAt(path, file["alongX"], '"alongX"'), pointAt(path, file["inXy"], '"inXy"'));
+    const answer = frameFromThreePoints(
+      pointAt(path, file["origin"], '"origin"'),
+      pointAt(path, file["alongX"], '"alongX"'),
+      pointAt(path, file["inXy"], '"inXy"'),
+    );
     if (answer.kind !== "frame") return { ...answer };
     const { intoFromFrame, ...rest } = answer;
     return { ...rest, frame: intoFromFrame };
   }
   if (!Array.isArray(points)) throw new UseFault(`${path} wants "points" as a list.`);
-  const answer = registerPoints(points.map((pair: unknown, i) => {
-    if (!isRecord(pair)) throw new UseFault(`${path}: point ${i + 1} wants {"known":[…],"measured":[…]}.`);
-    return { known: pointAt(path, pair["known"], `"known" of point ${i + 1}`), measured: pointAt(path, pair["measured"], `"measured" of point ${i + 1}`) };
-  }));
+  const answer = registerPoints(
+    points.map((pair: unknown, i) => {
+      if (!isRecord(pair)) throw new UseFault(`${path}: point ${i + 1} wants {"known":[…],"measured":[…]}.`);
+      return {
+        known: pointAt(path, pair["known"], `"known" of point ${i + 1}`),
+        measured: pointAt(path, pair["measured"], `"measured" of point ${i + 1}`),
+      };
+    }),
+  );
   if (answer.kind !== "registered") return { ...answer };
   return { kind: answer.kind, frame: answer.intoFromFrame, ...answer.residual, sentence: answer.sentence };
 }
 
-const isRecord = (value: unknown): value is Answer => typeof value === "object" && value !== null && !Array.isArray(value);
+const isRecord = (value: unknown): value is Answer =>
+  typeof value === "object" && value !== null && !Array.isArray(value);
 
 function recordOf(path: string, text: string): Answer {
   let value: unknown;
-  try { value = JSON.parse(text); } catch (problem) { throw new UseFault(`${path} is not JSON: ${(problem as Error).message}.`); }
+  try {
+    value = JSON.parse(text);
+  } catch (problem) {
+    throw new UseFault(`${path} is not JSON: ${(problem as Error).message}.`);
+  }
   if (!isRecord(value)) throw new UseFault(`${path} wants one JSON object.`);
   return value;
 }
 
 function pointAt(path: string, value: unknown, name: string): Vector3 {
-  if (!Array.isArray(value) || value.length !== 3 || !value.every(each => typeof each === "number" && Number.isFinite(each))) throw new UseFault(`${path}: ${name} wants three finite numbers.`);
+  if (
+    !Array.isArray(value) ||
+    value.length !== 3 ||
+    !value.every(each => typeof each === "number" && Number.isFinite(each))
+  )
+    throw new UseFault(`${path}: ${name} wants three finite numbers.`);
   return value as Vector3;
 }

@@ -1,4 +1,11 @@
-import { checkProgram, readCertificate, verifyProgram, writeCertificate, type ProgramCertificateVerdict, type Verdict } from "@twincell/core";
+import {
+  checkProgram,
+  readCertificate,
+  verifyProgram,
+  writeCertificate,
+  type ProgramCertificateVerdict,
+  type Verdict,
+} from "@twincell/core";
 import { cellGeometry } from "@twincell/project";
 import { given } from "../io/arguments.ts";
 import { writeOne } from "../io/output.ts";
@@ -26,24 +33,44 @@ known, which joint is asked most goes to stderr as well; where they are not, "to
 
 ${ROBOT_HELP}`,
   async run(args) {
-    const options = given(args, { ...ROBOT_OPTIONS, cell: { type: "string" }, margin: { type: "string" }, junit: { type: "string" }, certificate: { type: "string" }, verify: { type: "string" }, json: { type: "boolean" } });
-    const [path] = options.positionals, cellPath = options.text("cell"), margin_m = options.number("margin") ?? 0, junit = options.text("junit");
-    const certificatePath = options.text("certificate"), verifyPath = options.text("verify");
+    const options = given(args, {
+      ...ROBOT_OPTIONS,
+      cell: { type: "string" },
+      margin: { type: "string" },
+      junit: { type: "string" },
+      certificate: { type: "string" },
+      verify: { type: "string" },
+      json: { type: "boolean" },
+    });
+    const [path] = options.positionals;
+    const cellPath = options.text("cell");
+    const margin_m = options.number("margin") ?? 0;
+    const junit = options.text("junit");
+    const certificatePath = options.text("certificate");
+    const verifyPath = options.text("verify");
     if (path === undefined) throw new UseFault("PROGRAM is missing.", "Give the path of a program file.");
     if (margin_m < 0) throw new UseFault(`--margin wants 0 or more, not ${margin_m}.`);
-    const chosen = await programRobot(options), { program, robot, solids } = await readProgram(path, chosen);
+    const chosen = await programRobot(options);
+    const { program, robot, solids } = await readProgram(path, chosen);
     const cell = cellPath === undefined ? undefined : cellGeometry(await readCell(cellPath), solids());
-    if ((certificatePath ?? verifyPath) !== undefined && cell === undefined) throw new UseFault("A certificate is about a cell.", "Name it with --cell.");
+    if ((certificatePath ?? verifyPath) !== undefined && cell === undefined)
+      throw new UseFault("A certificate is about a cell.", "Name it with --cell.");
     if (verifyPath !== undefined && cell !== undefined) {
       const read = readCertificate(await readText(verifyPath));
       if (read.kind === "not-a-certificate") throw new UseFault(`${verifyPath}: ${read.sentence}`);
-      const { plan } = checkProgram(program, robot, { worldFromBase: cell.worldFromBase }), answer = verifyProgram(read.certificate, program, plan, robot, cell);
+      const { plan } = checkProgram(program, robot, { worldFromBase: cell.worldFromBase });
+      const answer = verifyProgram(read.certificate, program, plan, robot, cell);
       process.stdout.write(`${JSON.stringify(answer)}\n`);
       process.stderr.write(`${verified(answer)}\n`);
       return answer.kind === "confirmed" ? 0 : 1;
     }
-    const { verdict, certificate } = checkProgram(program, robot, { margin_m, certify: certificatePath !== undefined, ...(cell ? { cell } : {}) });
-    if (certificatePath !== undefined && certificate !== undefined) await writeOne(certificatePath, writeCertificate(certificate));
+    const { verdict, certificate } = checkProgram(program, robot, {
+      margin_m,
+      certify: certificatePath !== undefined,
+      ...(cell ? { cell } : {}),
+    });
+    if (certificatePath !== undefined && certificate !== undefined)
+      await writeOne(certificatePath, writeCertificate(certificate));
     if (junit !== undefined) await writeOne(junit, junitReport(program.name, verdict));
     process.stdout.write(`${JSON.stringify(verdict)}\n`);
     if (verdict.torque.kind === "known") process.stderr.write(`${verdict.torque.sentence}\n`);
@@ -53,9 +80,12 @@ ${ROBOT_HELP}`,
 
 function verified(answer: ProgramCertificateVerdict): string {
   switch (answer.kind) {
-    case "confirmed": return `All ${answer.segments} motions are proven clear a second time, in ${answer.looks} looks.`;
-    case "missing": return `The motion of step ${answer.step} at ${answer.start_s.toFixed(2)} s has no certificate.`;
-    case "refuted": return `The certificate does not hold for step ${answer.step}: ${answer.a} and ${answer.b} at ${answer.at_s.toFixed(2)} s (${answer.reason}).`;
+    case "confirmed":
+      return `All ${answer.segments} motions are proven clear a second time, in ${answer.looks} looks.`;
+    case "missing":
+      return `The motion of step ${answer.step} at ${answer.start_s.toFixed(2)} s has no certificate.`;
+    case "refuted":
+      return `The certificate does not hold for step ${answer.step}: ${answer.a} and ${answer.b} at ${answer.at_s.toFixed(2)} s (${answer.reason}).`;
   }
 }
 
@@ -65,9 +95,17 @@ const escaped = (text: string): string => text.replace(/[<>&"']/g, char => `&#${
 function junitReport(name: string, verdict: Verdict): string {
   const cases = verdict.steps.map(({ id, verdict: says, findings }) => {
     const sentences = escaped(findings.map(finding => finding.sentence).join(" "));
-    const inside = says === "bad" ? `<failure message="${sentences}"/>` : says === "unknown" ? "<skipped/>" : findings.length ? `<system-out>${sentences}</system-out>` : "";
+    const inside =
+      says === "bad"
+        ? `<failure message="${sentences}"/>`
+        : says === "unknown"
+          ? "<skipped/>"
+          : findings.length
+            ? `<system-out>${sentences}</system-out>`
+            : "";
     return `  <testcase classname="${escaped(name)}" name="${escaped(id)}">${inside}</testcase>`;
   });
-  const bad = verdict.steps.filter(step => step.verdict === "bad").length, unknown = verdict.steps.filter(step => step.verdict === "unknown").length;
+  const bad = verdict.steps.filter(step => step.verdict === "bad").length;
+  const unknown = verdict.steps.filter(step => step.verdict === "unknown").length;
   return `<?xml version="1.0" encoding="UTF-8"?>\n<testsuite name="${escaped(name)}" tests="${cases.length}" failures="${bad}" skipped="${unknown}">\n${cases.join("\n")}\n</testsuite>\n`;
 }

@@ -15,7 +15,10 @@ ${ROBOT_HELP}`,
   async run(args) {
     const options = given(args, { ...ROBOT_OPTIONS, json: { type: "boolean" } });
     const { robot, baseFromRoot, flangeFromTip } = await robotOf(options);
-    const writer = lineWriter(), scratch = armScratch(), flange = identity<"base", "flange">(), tip: Pose = identity();
+    const writer = lineWriter();
+    const scratch = armScratch();
+    const flange = identity<"base", "flange">();
+    const tip: Pose = identity();
     for await (const { line, value } of jsonLines()) {
       const q = jointsOf(value, line, robot.arm.joints.length, robot.name);
       compose(compose(baseFromRoot, flangePose(robot.arm, q, flange, scratch) as Pose, tip), flangeFromTip, tip);

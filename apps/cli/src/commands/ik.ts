@@ -1,4 +1,14 @@
-import { allBranches, compose, explainReach, inverse, solveAll, solverScratch, travel, type Pose, type Reach } from "@twincell/core";
+import {
+  allBranches,
+  compose,
+  explainReach,
+  inverse,
+  solveAll,
+  solverScratch,
+  travel,
+  type Pose,
+  type Reach,
+} from "@twincell/core";
 import { given } from "../io/arguments.ts";
 import { methodOf, tried } from "../io/ik-methods.ts";
 import { jsonLines, lineWriter } from "../io/json-lines.ts";
@@ -23,22 +33,50 @@ Every distinct branch, angles in (−π, π]. An unreachable pose is an answer: 
                     --near or from home, as {"tried":[{"method","q","position_error_m","angle_error_rad","iterations","jump_rad","took_ms","sentence"}]};
                     gradient looks at the position alone; "q" is where the method ended, met or not`,
   async run(args) {
-    const options = given(args, { ...ROBOT_OPTIONS, "within-limits": { type: "boolean" }, near: { type: "string" }, elbow: { type: "string" }, method: { type: "string" }, json: { type: "boolean" } });
+    const options = given(args, {
+      ...ROBOT_OPTIONS,
+      "within-limits": { type: "boolean" },
+      near: { type: "string" },
+      elbow: { type: "string" },
+      method: { type: "string" },
+      json: { type: "boolean" },
+    });
     const { robot, baseFromRoot, flangeFromTip } = await robotOf(options);
-    const near = options.numbers("near"), joints = robot.arm.joints.length;
+    const near = options.numbers("near");
+    const joints = robot.arm.joints.length;
     if (near && near.length !== joints) throw new UseFault(`--near wants ${joints} angles, not ${near.length}.`);
 
     const elbow_rad = options.number("elbow");
-    if (elbow_rad !== undefined && robot.family.kind !== "spherical-seven") throw new UseFault(`${robot.name} has no elbow angle.`, "--elbow is for arms with seven joints, three of them in the shoulder and three in the wrist.");
+    if (elbow_rad !== undefined && robot.family.kind !== "spherical-seven")
+      throw new UseFault(
+        `${robot.name} has no elbow angle.`,
+        "--elbow is for arms with seven joints, three of them in the shoulder and three in the wrist.",
+      );
 
     const methods = methodOf(options.text("method"));
-    const rootFromBase = inverse(baseFromRoot), tipFromFlange = inverse(flangeFromTip), scratch = solverScratch(), writer = lineWriter();
+    const rootFromBase = inverse(baseFromRoot);
+    const tipFromFlange = inverse(flangeFromTip);
+    const scratch = solverScratch();
+    const writer = lineWriter();
     for await (const { line, value } of jsonLines()) {
-      const baseFromFlange = compose(compose(rootFromBase, poseOf(value, line)), tipFromFlange) as Pose<"base", "flange">;
-      if (methods) { writer.write({ tried: tried(methods, robot, baseFromFlange, near ?? robot.home_rad) }); continue; }
-      const reach = solveAll(robot, baseFromFlange, { ...(near === undefined ? {} : { near }), ...(elbow_rad === undefined ? {} : { elbow_rad }) }, scratch);
+      const baseFromFlange = compose(compose(rootFromBase, poseOf(value, line)), tipFromFlange) as Pose<
+        "base",
+        "flange"
+      >;
+      if (methods) {
+        writer.write({ tried: tried(methods, robot, baseFromFlange, near ?? robot.home_rad) });
+        continue;
+      }
+      const reach = solveAll(
+        robot,
+        baseFromFlange,
+        { ...(near === undefined ? {} : { near }), ...(elbow_rad === undefined ? {} : { elbow_rad }) },
+        scratch,
+      );
       const solutions = options.flag("within-limits")
-        ? (reach.kind === "reached" ? reach.solutions.map(solution => solution.q_rad) : [])
+        ? reach.kind === "reached"
+          ? reach.solutions.map(solution => solution.q_rad)
+          : []
         : allBranches(robot, baseFromFlange, near, scratch, elbow_rad);
       if (near) solutions.sort((a, b) => travel(a, near) - travel(b, near));
       writer.write({ solutions: solutions.map(q => Array.from(q)), reach: said(reach) });
@@ -51,6 +89,13 @@ Every distinct branch, angles in (−π, π]. An unreachable pose is an answer: 
 /** The reason with its numbers and its sentence; the solutions stand beside it. */
 function said(reach: Reach): Record<string, unknown> {
   const sentence = explainReach(reach);
-  if (reach.kind === "reached") return { kind: reach.kind, ...(reach.method === undefined ? {} : { method: reach.method }), singular: reach.singular, considered: reach.considered, sentence };
+  if (reach.kind === "reached")
+    return {
+      kind: reach.kind,
+      ...(reach.method === undefined ? {} : { method: reach.method }),
+      singular: reach.singular,
+      considered: reach.considered,
+      sentence,
+    };
   return { ...reach, sentence };
 }

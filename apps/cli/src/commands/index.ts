@@ -18,5 +18,21 @@ import { validateCommand } from "./validate.ts";
 import { virtualCommand } from "./virtual.ts";
 
 export const COMMANDS: readonly Command[] = [
-  robotsCommand, dialectsCommand, fkCommand, ikCommand, checkCommand, simulateCommand, validateCommand, datasetCommand, postCommand, parseCommand, runCommand, serveCommand, virtualCommand, recordCommand, replayCommand, calibrateCommand, benchCommand,
+  robotsCommand,
+  dialectsCommand,
+  fkCommand,
+  ikCommand,
+  checkCommand,
+  simulateCommand,
+  validateCommand,
+  datasetCommand,
+  postCommand,
+  parseCommand,
+  runCommand,
+  serveCommand,
+  virtualCommand,
+  recordCommand,
+  replayCommand,
+  calibrateCommand,
+  benchCommand,
 ];

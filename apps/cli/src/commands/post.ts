@@ -20,28 +20,43 @@ dialect's own interpreter and compared with the plan first; text that does not s
 
 ${ROBOT_HELP}`,
   async run(args) {
-    const options = given(args, { ...ROBOT_OPTIONS, to: { type: "string" }, out: { type: "string", short: "o" }, cell: { type: "string" }, json: { type: "boolean" } });
-    const [path] = options.positionals, folder = options.text("out"), cellPath = options.text("cell");
+    const options = given(args, {
+      ...ROBOT_OPTIONS,
+      to: { type: "string" },
+      out: { type: "string", short: "o" },
+      cell: { type: "string" },
+      json: { type: "boolean" },
+    });
+    const [path] = options.positionals;
+    const folder = options.text("out");
+    const cellPath = options.text("cell");
     if (path === undefined) throw new UseFault("PROGRAM is missing.", "Give the path of a program file.");
     if (folder === undefined) throw new UseFault("-o DIR is missing.", "Give the folder to write to.");
-    const dialect = dialectOf("to", options.text("to")), { program: taught, robot } = await readProgram(path, await programRobot(options));
-    const worldFromBase = cellPath === undefined ? pose<"world", "base">() : (await readCell(cellPath)).robot.worldFromBase;
+    const dialect = dialectOf("to", options.text("to"));
+    const { program: taught, robot } = await readProgram(path, await programRobot(options));
+    const worldFromBase =
+      cellPath === undefined ? pose<"world", "base">() : (await readCell(cellPath)).robot.worldFromBase;
 
     // A controller takes the nearest posture: where the checked plan takes another one, the text says so.
     const program = withBranches(taught, robot, { where: "needed", worldFromBase });
     const emitted = dialect.emit(program, robot, worldFromBase);
     if (emitted.kind === "cannot") {
-      process.stderr.write(`twincell: ${emitted.step ? `Step ${emitted.step}: ` : ""}${emitted.sentence} ${emitted.hint}\n`);
+      process.stderr.write(
+        `twincell: ${emitted.step ? `Step ${emitted.step}: ` : ""}${emitted.sentence} ${emitted.hint}\n`,
+      );
       return 1;
     }
-    const runnable = runnableFile(dialect, emitted.files), proofs = runnable === undefined ? [] : [proveText(dialect, runnable, program, robot, worldFromBase)];
+    const runnable = runnableFile(dialect, emitted.files);
+    const proofs = runnable === undefined ? [] : [proveText(dialect, runnable, program, robot, worldFromBase)];
     const wrong = proofs.find(proof => proof.kind !== "proven");
     if (wrong) {
       process.stderr.write(`twincell: ${wrong.sentence} Nothing was written.\n`);
       return 1;
     }
     const paths = await writeWhole(folder, emitted.files);
-    process.stdout.write(`${JSON.stringify({ dialect: dialect.id, files: paths, warnings: emitted.warnings, proof: proofs.flatMap(proof => (proof.kind === "proven" ? [{ file: proof.file, worst_m: proof.worst_m, worst_rad: proof.worst_rad }] : [])) })}\n`);
+    process.stdout.write(
+      `${JSON.stringify({ dialect: dialect.id, files: paths, warnings: emitted.warnings, proof: proofs.flatMap(proof => (proof.kind === "proven" ? [{ file: proof.file, worst_m: proof.worst_m, worst_rad: proof.worst_rad }] : [])) })}\n`,
+    );
     return 0;
   },
 };

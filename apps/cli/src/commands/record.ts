@@ -34,14 +34,30 @@ the link is. A crash loses less than a second. Foxglove and ROS tools open the f
 ${ROBOT_HELP}`,
   async run(args) {
     const options = given(args, {
-      ...ROBOT_OPTIONS, to: { type: "string" }, cell: { type: "string" }, program: { type: "string" }, from: { type: "string" }, station: { type: "string" }, still: { type: "string" },
-      "file-hours": { type: "string" }, "file-mb": { type: "string" }, "keep-days": { type: "string" }, "keep-gb": { type: "string" }, json: { type: "boolean" },
+      ...ROBOT_OPTIONS,
+      to: { type: "string" },
+      cell: { type: "string" },
+      program: { type: "string" },
+      from: { type: "string" },
+      station: { type: "string" },
+      still: { type: "string" },
+      "file-hours": { type: "string" },
+      "file-mb": { type: "string" },
+      "keep-days": { type: "string" },
+      "keep-gb": { type: "string" },
+      json: { type: "boolean" },
     });
     const to = options.text("to");
-    if (options.positionals.length > 0) throw new UseFault(`record takes no argument "${options.positionals[0]}".`, "The stream comes on standard input.");
-    if (to === undefined) throw new UseFault("--to is missing.", "Give a new file, or a folder with a slash at its end.");
+    if (options.positionals.length > 0)
+      throw new UseFault(
+        `record takes no argument "${options.positionals[0]}".`,
+        "The stream comes on standard input.",
+      );
+    if (to === undefined)
+      throw new UseFault("--to is missing.", "Give a new file, or a folder with a slash at its end.");
     const folder = /[/\\]$/.test(to) || (existsSync(to) && statSync(to).isDirectory());
-    if (!folder && existsSync(to)) throw new UseFault(`${to} is already there.`, "Give another name; recordings are not written over.");
+    if (!folder && existsSync(to))
+      throw new UseFault(`${to} is already there.`, "Give another name; recordings are not written over.");
     const positive = (name: string, otherwise: number): number => {
       const value = options.number(name) ?? otherwise;
       if (!(value > 0)) throw new UseFault(`--${name} wants more than 0, not ${value}.`);
@@ -50,17 +66,28 @@ ${ROBOT_HELP}`,
     const still = options.number("still") ?? 0;
     if (!(still >= 0 && still < 0.01)) throw new UseFault(`--still wants 0 up to 0.01 rad, not ${still}.`);
     const keeping = folder
-      ? { file_s: positive("file-hours", KEEPING.file_s / 3600) * 3600, file_bytes: positive("file-mb", KEEPING.file_bytes / 1e6) * 1e6, keep_s: positive("keep-days", KEEPING.keep_s / 86_400) * 86_400, keep_bytes: positive("keep-gb", KEEPING.keep_bytes / 1e9) * 1e9 }
+      ? {
+          file_s: positive("file-hours", KEEPING.file_s / 3600) * 3600,
+          file_bytes: positive("file-mb", KEEPING.file_bytes / 1e6) * 1e6,
+          keep_s: positive("keep-days", KEEPING.keep_s / 86_400) * 86_400,
+          keep_bytes: positive("keep-gb", KEEPING.keep_bytes / 1e9) * 1e9,
+        }
       : { file_s: Infinity, file_bytes: Infinity, keep_s: Infinity, keep_bytes: Infinity };
     const from = options.text("from");
     if (from !== undefined) {
-      if (!folder) throw new UseFault(`${to} is one file; a server may have several stations.`, "Give a folder, with a slash at its end.");
+      if (!folder)
+        throw new UseFault(
+          `${to} is one file; a server may have several stations.`,
+          "Give a folder, with a slash at its end.",
+        );
       return fromServer(from, options.text("station"), to, still, keeping);
     }
     const { robot } = await robotOf(options);
     let begun = false;
     const single: ArchivePort = {
-      list: () => Promise.resolve([]), read: () => Promise.resolve(new Uint8Array(0)), remove: () => Promise.resolve(),
+      list: () => Promise.resolve([]),
+      read: () => Promise.resolve(new Uint8Array(0)),
+      remove: () => Promise.resolve(),
       create() {
         if (begun) throw new Error("its file is full or was taken away");
         begun = true;
@@ -68,32 +95,61 @@ ${ROBOT_HELP}`,
       },
     };
     const archive = createArchive(folder ? recordingsFolder(to) : single, {
-      robot, cell: options.text("cell") ?? "", program: options.text("program") ?? "", compact: { packing: await zstd(), still }, clock_ns: () => BigInt(Date.now()) * 1_000_000n, keeping,
+      robot,
+      cell: options.text("cell") ?? "",
+      program: options.text("program") ?? "",
+      compact: { packing: await zstd(), still },
+      clock_ns: () => BigInt(Date.now()) * 1_000_000n,
+      keeping,
     });
     process.stderr.write(`Recording ${robot.name} to ${to}.${folder ? ` ${keptFor(keeping)}` : ""}\n`);
     const samples = await take(archive, stateLines(robot));
-    if (archive.problem) { process.stderr.write(`twincell: ${archive.problem.sentence} ${archive.problem.hint}\n`); return 1; }
-    process.stderr.write(`${samples} ${samples === 1 ? "sample" : "samples"} recorded${archive.deleted > 0 ? `; ${archive.deleted} old ${archive.deleted === 1 ? "file" : "files"} deleted` : ""}.\n`);
+    if (archive.problem) {
+      process.stderr.write(`twincell: ${archive.problem.sentence} ${archive.problem.hint}\n`);
+      return 1;
+    }
+    process.stderr.write(
+      `${samples} ${samples === 1 ? "sample" : "samples"} recorded${archive.deleted > 0 ? `; ${archive.deleted} old ${archive.deleted === 1 ? "file" : "files"} deleted` : ""}.\n`,
+    );
     return 0;
   },
 };
 
 /** Records the stations of a server until it goes, or Ctrl-C. */
-async function fromServer(from: string, only: string | undefined, to: string, still: number, keeping: typeof KEEPING): Promise<number> {
+async function fromServer(
+  from: string,
+  only: string | undefined,
+  to: string,
+  still: number,
+  keeping: typeof KEEPING,
+): Promise<number> {
   const url = URL.canParse(from) ? new URL(from) : null;
-  if (!url || !/^https?:$/.test(url.protocol)) throw new UseFault(`--from wants the address of a server, not "${from}".`, "Such as http://127.0.0.1:7341.");
+  if (!url || !/^https?:$/.test(url.protocol))
+    throw new UseFault(`--from wants the address of a server, not "${from}".`, "Such as http://127.0.0.1:7341.");
   const packing = await zstd();
   let bad = false;
   const recorder = recordRemote(url, {
-    onTrouble: sentence => { bad = true; process.stderr.write(`twincell: ${sentence}\n`); },
+    onTrouble: sentence => {
+      bad = true;
+      process.stderr.write(`twincell: ${sentence}\n`);
+    },
     archive(station, robot) {
       if (only !== undefined && station.id !== only) return null;
       const place = join(to, station.id.replace(/[^\w-]/g, "_"));
       process.stderr.write(`Recording ${station.name} to ${place}. ${keptFor(keeping)}\n`);
-      return createArchive(recordingsFolder(place), { robot, cell: station.name, program: "", compact: { packing, still }, clock_ns: () => BigInt(Date.now()) * 1_000_000n, keeping });
+      return createArchive(recordingsFolder(place), {
+        robot,
+        cell: station.name,
+        program: "",
+        compact: { packing, still },
+        clock_ns: () => BigInt(Date.now()) * 1_000_000n,
+        keeping,
+      });
     },
   });
-  const end = (): void => { recorder.close(); };
+  const end = (): void => {
+    recorder.close();
+  };
   for (const signal of ["SIGINT", "SIGTERM"] as const) process.once(signal, end);
   const why = await recorder.ended;
   for (const signal of ["SIGINT", "SIGTERM"] as const) process.removeListener(signal, end);
@@ -107,19 +163,34 @@ const round = (value: number): number => Number(value.toPrecision(3));
 
 /** Hands line after line to the archive. A line that cannot be read ends it; what came before is kept whole. */
 async function take(archive: Archive, read: ReturnType<typeof stateLines>): Promise<number> {
-  const input = createInterface({ input: process.stdin, crlfDelay: Infinity }), end = (): void => { input.close(); };
-  const clock = setInterval(() => { void archive.tick(); }, TICK_MS);
+  const input = createInterface({ input: process.stdin, crlfDelay: Infinity });
+  const end = (): void => {
+    input.close();
+  };
+  const clock = setInterval(() => {
+    void archive.tick();
+  }, TICK_MS);
   for (const signal of ["SIGINT", "SIGTERM"] as const) process.once(signal, end);
-  let line = 0, samples = 0;
+  let line = 0;
+  let samples = 0;
   try {
     for await (const text of input) {
       line++;
       if (text.trim() === "") continue;
       let value: unknown;
-      try { value = JSON.parse(text); } catch (problem) { throw new UseFault(`Line ${line} is not JSON: ${(problem as Error).message}.`, `${samples} samples before it are recorded.`); }
+      try {
+        value = JSON.parse(text);
+      } catch (problem) {
+        throw new UseFault(
+          `Line ${line} is not JSON: ${(problem as Error).message}.`,
+          `${samples} samples before it are recorded.`,
+        );
+      }
       const said = read(value, line);
-      if (said.kind === "sample") { archive.record(said.sample); samples++; }
-      else if (said.kind === "event") archive.event(said.code, said.sentence, said.level);
+      if (said.kind === "sample") {
+        archive.record(said.sample);
+        samples++;
+      } else if (said.kind === "event") archive.event(said.code, said.sentence, said.level);
       else archive.note(said.note, said.what);
       if (archive.problem) break;
     }

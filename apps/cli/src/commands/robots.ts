@@ -24,13 +24,28 @@ limits, where each number comes from, what was assumed. made_up_geometry marks a
   --base, --tip, --arg name:=value   as for fk, for a robot from a file`,
   async run(args) {
     const options = given(args, {
-      urdf: { type: "string" }, dh: { type: "string" }, convention: { type: "string" }, text: { type: "boolean" }, output: { type: "string", short: "o" },
-      base: ROBOT_OPTIONS.base, tip: ROBOT_OPTIONS.tip, arg: ROBOT_OPTIONS.arg, json: { type: "boolean" },
+      urdf: { type: "string" },
+      dh: { type: "string" },
+      convention: { type: "string" },
+      text: { type: "boolean" },
+      output: { type: "string", short: "o" },
+      base: ROBOT_OPTIONS.base,
+      tip: ROBOT_OPTIONS.tip,
+      arg: ROBOT_OPTIONS.arg,
+      json: { type: "boolean" },
     });
-    const asUrdf = options.text("urdf"), asTable = options.text("dh");
-    if (asUrdf !== undefined && asTable !== undefined) throw new UseFault("--urdf and --dh are given together.", "Ask for one at a time.");
-    if (asUrdf !== undefined) { await printUrdf(await robotOf(options, asUrdf), options.text("output")); return 0; }
-    if (asTable !== undefined) { await print(tableText(await robotOf(options, asTable), options), options.text("output")); return 0; }
+    const asUrdf = options.text("urdf");
+    const asTable = options.text("dh");
+    if (asUrdf !== undefined && asTable !== undefined)
+      throw new UseFault("--urdf and --dh are given together.", "Ask for one at a time.");
+    if (asUrdf !== undefined) {
+      await printUrdf(await robotOf(options, asUrdf), options.text("output"));
+      return 0;
+    }
+    if (asTable !== undefined) {
+      await print(tableText(await robotOf(options, asTable), options), options.text("output"));
+      return 0;
+    }
     const writer = lineWriter();
     for (const robot of LIBRARY) writer.write(lineOf(robot));
     await writer.end();
@@ -39,37 +54,61 @@ limits, where each number comes from, what was assumed. made_up_geometry marks a
 };
 
 const lineOf = (robot: Robot): object => ({
-  id: robot.id, name: robot.name, vendor: robot.vendor, family: robot.family.kind, dof: robot.arm.joints.length,
-  payload_kg: robot.payload_kg, ...(robot.mass_kg === undefined ? {} : { mass_kg: robot.mass_kg }),
-  reach_m: robot.reach_m, reach_measured_from: robot.reachMeasuredFrom, reach_measured_to: robot.reachMeasuredTo,
+  id: robot.id,
+  name: robot.name,
+  vendor: robot.vendor,
+  family: robot.family.kind,
+  dof: robot.arm.joints.length,
+  payload_kg: robot.payload_kg,
+  ...(robot.mass_kg === undefined ? {} : { mass_kg: robot.mass_kg }),
+  reach_m: robot.reach_m,
+  reach_measured_from: robot.reachMeasuredFrom,
+  reach_measured_to: robot.reachMeasuredTo,
   ...(robot.madeUpGeometry === true ? { made_up_geometry: true } : {}),
-  shape_error_m: robot.shapeError_m, base: robot.frames.base, tip: robot.frames.tip,
+  shape_error_m: robot.shapeError_m,
+  base: robot.frames.base,
+  tip: robot.frames.tip,
   limits: robot.arm.joints.map(({ name, limits }) => ({ joint: name, ...limits })),
-  source: robot.sources, assumptions: robot.assumptions,
+  source: robot.sources,
+  assumptions: robot.assumptions,
 });
 
 async function print(text: string, path: string | undefined): Promise<void> {
-  if (path === undefined) process.stdout.write(text); else await writeOne(path, text);
+  if (path === undefined) process.stdout.write(text);
+  else await writeOne(path, text);
 }
 
 async function printUrdf({ robot, solids }: ChosenRobot, path: string | undefined): Promise<void> {
-  const { base, tip } = robot.frames, hasWorld = base !== "base" && tip !== "base";
+  const { base, tip } = robot.frames;
+  const hasWorld = base !== "base" && tip !== "base";
   const { solids: parts, notes } = path === undefined ? { solids: [], notes: [] } : solids();
   for (const note of notes) process.stderr.write(`twincell: ${note}\n`);
   const meshes = new Map<number, string[]>();
   for (const [i, { link, mesh }] of parts.entries()) {
     const file = `meshes/${robot.id.replace(/[^\w.-]/g, "_")}-${i}.stl`;
     await writeOne(join(dirname(path ?? ""), file), writeStl(mesh));
-    meshes.set(link, [...meshes.get(link) ?? [], file]);
+    meshes.set(link, [...(meshes.get(link) ?? []), file]);
   }
-  await print(writeUrdf(robot.arm, {
-    base, tip, masses: robot.masses, meshesOf: link => meshes.get(link) ?? [],
-    ...(hasWorld ? { side: { name: "base", baseFromSide: robot.baseFromVendorWorld as Pose } } : {}),
-  }), path);
+  await print(
+    writeUrdf(robot.arm, {
+      base,
+      tip,
+      masses: robot.masses,
+      meshesOf: link => meshes.get(link) ?? [],
+      ...(hasWorld ? { side: { name: "base", baseFromSide: robot.baseFromVendorWorld as Pose } } : {}),
+    }),
+    path,
+  );
 }
 
 function tableText({ robot: { arm } }: ChosenRobot, options: Given): string {
   const convention = options.text("convention") ?? "modified";
-  if (convention !== "standard" && convention !== "modified") throw new UseFault(`--convention wants standard or modified, not "${convention}".`);
-  return options.flag("text") ? dhTableText(dhFromArm(arm, convention), arm.joints.map(({ name }) => name)) : writeDhTable(arm, convention);
+  if (convention !== "standard" && convention !== "modified")
+    throw new UseFault(`--convention wants standard or modified, not "${convention}".`);
+  return options.flag("text")
+    ? dhTableText(
+        dhFromArm(arm, convention),
+        arm.joints.map(({ name }) => name),
+      )
+    : writeDhTable(arm, convention);
 }

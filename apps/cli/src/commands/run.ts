@@ -19,13 +19,27 @@ export const runCommand: Command = {
 
 Executes the text with the vendor's own conventions and writes the same lines as simulate, each with the text line under way. With --skip-unknown what is not understood is left out and named on stderr.`,
   async run(args) {
-    const options = given(args, { ...ROBOT_OPTIONS, dialect: { type: "string" }, cell: { type: "string" }, period: { type: "string" }, inputs: { type: "string" }, "skip-unknown": { type: "boolean" }, json: { type: "boolean" } });
-    const [path] = options.positionals, period_s = options.number("period") ?? 0.01, cellPath = options.text("cell");
+    const options = given(args, {
+      ...ROBOT_OPTIONS,
+      dialect: { type: "string" },
+      cell: { type: "string" },
+      period: { type: "string" },
+      inputs: { type: "string" },
+      "skip-unknown": { type: "boolean" },
+      json: { type: "boolean" },
+    });
+    const [path] = options.positionals;
+    const period_s = options.number("period") ?? 0.01;
+    const cellPath = options.text("cell");
     if (path === undefined) throw new UseFault("FILE is missing.", "Give the path of a program text.");
     if (!(period_s >= 1e-4)) throw new UseFault(`--period wants at least 0.0001 s, not ${period_s}.`);
-    const { robot } = await robotOf(options), dialect = dialectOf("dialect", options.text("dialect"), path);
-    const worldFromBase = cellPath === undefined ? pose<"world", "base">() : (await readCell(cellPath)).robot.worldFromBase;
-    const interpreted = dialect.interpret(await readText(path), robot, worldFromBase, { skipUnknown: options.flag("skip-unknown") });
+    const { robot } = await robotOf(options);
+    const dialect = dialectOf("dialect", options.text("dialect"), path);
+    const worldFromBase =
+      cellPath === undefined ? pose<"world", "base">() : (await readCell(cellPath)).robot.worldFromBase;
+    const interpreted = dialect.interpret(await readText(path), robot, worldFromBase, {
+      skipUnknown: options.flag("skip-unknown"),
+    });
     if (interpreted.kind === "not-understood") throw notUnderstood(path, interpreted.faults);
     tellSkipped(path, interpreted.skipped ?? []);
 
@@ -41,17 +55,29 @@ Executes the text with the vendor's own conventions and writes the same lines as
       }
     }
     const signals = new SignalTable(Object.entries(inputsFrom(options.text("inputs"))));
-    const stepper = new Stepper(robot, { ...interpreted.context, worldFromBase }, steps(interpreted.run(signals)), robot.home_rad, { signals });
+    const stepper = new Stepper(
+      robot,
+      { ...interpreted.context, worldFromBase },
+      steps(interpreted.run(signals)),
+      robot.home_rad,
+      { signals },
+    );
     const moment = momentWriter(robot, worldFromBase, interpreted.context.tools, step => seen.get(step)?.tool ?? tool);
-    const writer = lineWriter(), q = Float64Array.from(robot.home_rad);
+    const writer = lineWriter();
+    const q = Float64Array.from(robot.home_rad);
     writer.write({ ...moment(0, q, ioOf(false, {}, signals.all), ""), line: 0 });
     for (let i = 1; i * period_s < LONGEST_S; i++) {
       const now = stepper.advance(period_s, 1, q);
-      writer.write({ ...moment(i * period_s, q, ioOf(now.gripperClosed, {}, signals.all), now.step), line: seen.get(now.step)?.line ?? 0 });
+      writer.write({
+        ...moment(i * period_s, q, ioOf(now.gripperClosed, {}, signals.all), now.step),
+        line: seen.get(now.step)?.line ?? 0,
+      });
       if (now.kind === "running") continue;
       await writer.end();
       if (now.kind !== "fault" || !now.fault) return 0;
-      process.stderr.write(`twincell: ${path}, line ${seen.get(now.fault.step)?.line ?? 0}: ${now.fault.sentence} ${now.fault.hint}\n`);
+      process.stderr.write(
+        `twincell: ${path}, line ${seen.get(now.fault.step)?.line ?? 0}: ${now.fault.sentence} ${now.fault.hint}\n`,
+      );
       return 1;
     }
     await writer.end();

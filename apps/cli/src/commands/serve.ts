@@ -19,21 +19,40 @@ export const serveCommand: Command = {
   --lan        also serve other machines: HTTPS, a QR code and an access code
   --open       open the address in a browser where there is one`,
   async run(args) {
-    const options = given(args, { port: { type: "string" }, data: { type: "string" }, lan: { type: "boolean" }, open: { type: "boolean" } });
+    const options = given(args, {
+      port: { type: "string" },
+      data: { type: "string" },
+      lan: { type: "boolean" },
+      open: { type: "boolean" },
+    });
     if (options.positionals.length) throw new UseFault(`serve takes no argument "${options.positionals[0]}".`);
     const port = options.number("port");
-    if (port !== undefined && !(Number.isInteger(port) && port >= 0 && port <= 65535)) throw new UseFault(`--port wants a whole number from 0 to 65535, not ${port}.`);
-    if (!existsSync(`${studio}/index.html`)) throw new UseFault("The studio is not built yet.", "Run npm run build, or npm start.");
+    if (port !== undefined && !(Number.isInteger(port) && port >= 0 && port <= 65535))
+      throw new UseFault(`--port wants a whole number from 0 to 65535, not ${port}.`);
+    if (!existsSync(`${studio}/index.html`))
+      throw new UseFault("The studio is not built yet.", "Run npm run build, or npm start.");
 
     const data = options.text("data");
-    const served = await listen({ studio, port: port ?? DEFAULT_PORT, lan: options.flag("lan"), ...(data === undefined ? {} : { data }) }, port === undefined);
+    const served = await listen(
+      { studio, port: port ?? DEFAULT_PORT, lan: options.flag("lan"), ...(data === undefined ? {} : { data }) },
+      port === undefined,
+    );
     process.stdout.write(`Twincell is at ${served.url}\n`);
-    for (const url of served.lanUrls) process.stdout.write(`From another machine: ${url}\n${await qrText(url, { type: "terminal", small: true })}`);
-    if (served.code) process.stdout.write(`Access code: ${served.code}. Browsers will warn about the certificate, which was made here.\n`);
+    for (const url of served.lanUrls)
+      process.stdout.write(`From another machine: ${url}\n${await qrText(url, { type: "terminal", small: true })}`);
+    if (served.code)
+      process.stdout.write(
+        `Access code: ${served.code}. Browsers will warn about the certificate, which was made here.\n`,
+      );
     process.stdout.write("Not a certified safety device. Ctrl-C ends.\n");
     if (options.flag("open")) openBrowser(served.url);
 
-    await new Promise<void>(resolve => { for (const signal of ["SIGINT", "SIGTERM"] as const) process.once(signal, () => { resolve(); }); });
+    await new Promise<void>(resolve => {
+      for (const signal of ["SIGINT", "SIGTERM"] as const)
+        process.once(signal, () => {
+          resolve();
+        });
+    });
     await served.close();
     return 0;
   },
@@ -48,16 +67,24 @@ async function listen(options: ServeOptions, mayMove: boolean): Promise<Served> 
       const code = (problem as NodeJS.ErrnoException).code;
       if (code === "EADDRINUSE" && mayMove && port < options.port + 50) continue;
       if (code === "EADDRINUSE") throw new UseFault(`Port ${port} is already in use.`, "Choose another with --port.");
-      if (code === "EACCES") throw new UseFault(`Port ${port} may not be used by this user.`, "Choose one above 1023 with --port.");
+      if (code === "EACCES")
+        throw new UseFault(`Port ${port} may not be used by this user.`, "Choose one above 1023 with --port.");
       throw problem;
     }
   }
 }
 
 function openBrowser(url: string): void {
-  const [command, ...args] = process.platform === "darwin" ? ["open", url] : process.platform === "win32" ? ["cmd", "/c", "start", "", url] : ["xdg-open", url];
+  const [command, ...args] =
+    process.platform === "darwin"
+      ? ["open", url]
+      : process.platform === "win32"
+        ? ["cmd", "/c", "start", "", url]
+        : ["xdg-open", url];
   if (process.platform === "linux" && !process.env["DISPLAY"] && !process.env["WAYLAND_DISPLAY"]) return;
   const child = spawn(command!, args, { stdio: "ignore", detached: true });
-  child.on("error", () => { process.stdout.write("No browser could be opened; open the address by hand.\n"); });
+  child.on("error", () => {
+    process.stdout.write("No browser could be opened; open the address by hand.\n");
+  });
   child.unref();
 }

@@ -36,48 +36,111 @@ time, and a loop without end goes round once. A step that cannot be carried out 
 
 ${ROBOT_HELP}`,
   async run(args) {
-    const options = given(args, { ...ROBOT_OPTIONS, cell: { type: "string" }, period: { type: "string" }, inputs: { type: "string" }, torque: { type: "boolean" }, "within-torque": { type: "boolean" }, accuracy: { type: "string" }, bandwidth: { type: "string" }, physics: { type: "boolean" }, control: { type: "string" }, most: { type: "string" }, "lift-anything": { type: "boolean" }, json: { type: "boolean" } });
-    const [path] = options.positionals, period_s = options.number("period") ?? 0.01;
+    const options = given(args, {
+      ...ROBOT_OPTIONS,
+      cell: { type: "string" },
+      period: { type: "string" },
+      inputs: { type: "string" },
+      torque: { type: "boolean" },
+      "within-torque": { type: "boolean" },
+      accuracy: { type: "string" },
+      bandwidth: { type: "string" },
+      physics: { type: "boolean" },
+      control: { type: "string" },
+      most: { type: "string" },
+      "lift-anything": { type: "boolean" },
+      json: { type: "boolean" },
+    });
+    const [path] = options.positionals;
+    const period_s = options.number("period") ?? 0.01;
     if (path === undefined) throw new UseFault("PROGRAM is missing.", "Give the path of a program file.");
     if (!(period_s >= 1e-6)) throw new UseFault(`--period wants at least 0.000001 s, not ${period_s}.`);
-    const { program, robot } = await readProgram(path, await programRobot(options)), cellPath = options.text("cell");
-    const cell = cellPath === undefined ? undefined : await readCell(cellPath), worldFromBase = cell === undefined ? pose<"world", "base">() : cell.robot.worldFromBase;
+    const { program, robot } = await readProgram(path, await programRobot(options));
+    const cellPath = options.text("cell");
+    const cell = cellPath === undefined ? undefined : await readCell(cellPath);
+    const worldFromBase = cell === undefined ? pose<"world", "base">() : cell.robot.worldFromBase;
 
     const inputs = inputsFrom(options.text("inputs"));
     if (options.flag("physics")) {
       const scene = sceneFor(cell, robot, program, controlFrom(options.text("control"), options.number("bandwidth")));
-      return playWithPhysics({ scene, program, period_s, most_s: options.number("most") ?? 600, inputs, liftAnything: options.flag("lift-anything") });
+      return playWithPhysics({
+        scene,
+        program,
+        period_s,
+        most_s: options.number("most") ?? 600,
+        inputs,
+        liftAnything: options.flag("lift-anything"),
+      });
     }
-    const answer = planProgram(program, robot, { worldFromBase, inputs, ...(options.flag("within-torque") ? { withinTorque: {} } : {}) }), { plan } = answer;
-    const torque = options.flag("torque") || options.flag("within-torque") ? torqueAt(plan, robot, program, { worldFromBase }) : undefined;
-    if (torque?.kind === "unknown") { process.stderr.write(`twincell: ${torque.sentence}\n`); return 1; }
-    const torqueOf = (t_s: number): { torque?: number[] } => (options.flag("torque") && torque?.kind === "known" ? { torque: Array.from(torque.at(t_s)) } : {});
-    const overrides = options.numbers("accuracy"), bandwidth_rad_s = options.number("bandwidth") ?? 60;
+    const answer = planProgram(program, robot, {
+      worldFromBase,
+      inputs,
+      ...(options.flag("within-torque") ? { withinTorque: {} } : {}),
+    });
+    const { plan } = answer;
+    const torque =
+      options.flag("torque") || options.flag("within-torque")
+        ? torqueAt(plan, robot, program, { worldFromBase })
+        : undefined;
+    if (torque?.kind === "unknown") {
+      process.stderr.write(`twincell: ${torque.sentence}\n`);
+      return 1;
+    }
+    const torqueOf = (t_s: number): { torque?: number[] } =>
+      options.flag("torque") && torque?.kind === "known" ? { torque: Array.from(torque.at(t_s)) } : {};
+    const overrides = options.numbers("accuracy");
+    const bandwidth_rad_s = options.number("bandwidth") ?? 60;
     if (overrides !== undefined) {
-      if (!overrides.every(share => share > 0 && share <= 10)) throw new UseFault("--accuracy wants shares above 0 and up to 10.", "Such as --accuracy 0.1,0.5,1.");
-      if (!(bandwidth_rad_s > 0 && bandwidth_rad_s <= 1000)) throw new UseFault(`--bandwidth wants more than 0 and up to 1000 rad/s, not ${bandwidth_rad_s}.`);
-      const tracked = trackingError(plan, robot, program, { worldFromBase, overrides, control: { kind: "drives", bandwidth_rad_s } });
-      if (tracked.kind === "unknown") { process.stderr.write(`twincell: ${tracked.sentence}\n`); return 1; }
+      if (!overrides.every(share => share > 0 && share <= 10))
+        throw new UseFault("--accuracy wants shares above 0 and up to 10.", "Such as --accuracy 0.1,0.5,1.");
+      if (!(bandwidth_rad_s > 0 && bandwidth_rad_s <= 1000))
+        throw new UseFault(`--bandwidth wants more than 0 and up to 1000 rad/s, not ${bandwidth_rad_s}.`);
+      const tracked = trackingError(plan, robot, program, {
+        worldFromBase,
+        overrides,
+        control: { kind: "drives", bandwidth_rad_s },
+      });
+      if (tracked.kind === "unknown") {
+        process.stderr.write(`twincell: ${tracked.sentence}\n`);
+        return 1;
+      }
       for (const row of tracked.rows) process.stdout.write(`${JSON.stringify(row)}\n`);
       return answer.kind === "planned" ? 0 : 1;
     }
-    const moment = momentWriter(robot, worldFromBase, program.tools, toolsBySteps(program)), outputs = new PlanSignals(plan);
-    const io = (t_s: number, closed: boolean) => ({ ...ioOf(closed, program.signals, new Map(Object.entries(inputs))), ...Object.fromEntries(outputs.at(t_s)) });
-    const writer = lineWriter(), cursor = new PlanCursor(plan), q = new Float64Array(jointsOf(plan) || robot.arm.joints.length);
+    const moment = momentWriter(robot, worldFromBase, program.tools, toolsBySteps(program));
+    const outputs = new PlanSignals(plan);
+    const io = (t_s: number, closed: boolean) => ({
+      ...ioOf(closed, program.signals, new Map(Object.entries(inputs))),
+      ...Object.fromEntries(outputs.at(t_s)),
+    });
+    const writer = lineWriter();
+    const cursor = new PlanCursor(plan);
+    const q = new Float64Array(jointsOf(plan) || robot.arm.joints.length);
     if (plan.segments.length === 0) q.set(robot.home_rad);
     const lines = Math.floor(plan.duration_s / period_s + 1e-9);
     for (let i = 0; i <= lines; i++) {
       const now = plan.segments.length ? cursor.at(i * period_s, q) : { gripperClosed: false, step: "" };
-      writer.write({ ...moment(i * period_s, q, io(i * period_s, now.gripperClosed), now.step), ...torqueOf(i * period_s) });
+      writer.write({
+        ...moment(i * period_s, q, io(i * period_s, now.gripperClosed), now.step),
+        ...torqueOf(i * period_s),
+      });
     }
     if (lines * period_s < plan.duration_s - 1e-9) {
       const now = cursor.at(plan.duration_s, q);
-      writer.write({ ...moment(plan.duration_s, q, io(plan.duration_s, now.gripperClosed), now.step), ...torqueOf(plan.duration_s) });
+      writer.write({
+        ...moment(plan.duration_s, q, io(plan.duration_s, now.gripperClosed), now.step),
+        ...torqueOf(plan.duration_s),
+      });
     }
     await writer.end();
-    for (const { step, share, peak } of answer.gentled) process.stderr.write(`Step ${step} runs at ${(share * 100).toFixed(0)} % of its speed: joint ${peak.joint} would need ${Math.abs(peak.torque_Nm).toFixed(1)} N m; its limit is ${peak.limit_Nm.toFixed(1)} N m.\n`);
+    for (const { step, share, peak } of answer.gentled)
+      process.stderr.write(
+        `Step ${step} runs at ${(share * 100).toFixed(0)} % of its speed: joint ${peak.joint} would need ${Math.abs(peak.torque_Nm).toFixed(1)} N m; its limit is ${peak.limit_Nm.toFixed(1)} N m.\n`,
+      );
     if (answer.kind === "planned") {
-      process.stderr.write(`The program takes ${plan.duration_s.toFixed(2)} s.${answer.assumptions.length > 0 ? ` This rests on: ${answer.assumptions.join(" ")}` : ""}\n`);
+      process.stderr.write(
+        `The program takes ${plan.duration_s.toFixed(2)} s.${answer.assumptions.length > 0 ? ` This rests on: ${answer.assumptions.join(" ")}` : ""}\n`,
+      );
       return 0;
     }
     process.stderr.write(`twincell: Step ${answer.stuck.step}: ${answer.stuck.sentence} ${answer.stuck.hint}\n`);

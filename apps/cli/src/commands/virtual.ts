@@ -10,15 +10,26 @@ import { UseFault, type Command } from "../io/usage.ts";
 
 /** `realTime` is asked for as `--port-real-time`. */
 const portOption = (name: string): string => `port-${name.replace(/[A-Z]/g, letter => `-${letter.toLowerCase()}`)}`;
-const portsOf = (brand: Brand): string => Object.entries(brand.ports).map(([name, port]) => `--${portOption(name)} ${port}`).join(", ");
+const portsOf = (brand: Brand): string =>
+  Object.entries(brand.ports)
+    .map(([name, port]) => `--${portOption(name)} ${port}`)
+    .join(", ");
 
 const studio = fileURLToPath(new URL("../../../studio/dist", import.meta.url));
 
 /** What a word on standard input does. */
 const WORDS: ReadonlyMap<string, CabinetAct> = new Map<string, CabinetAct>([
-  ["manual", { do: "mode", mode: "manual" }], ["remote", { do: "mode", mode: "remote" }], ["stop", { do: "emergency-stop", pressed: true }], ["release", { do: "emergency-stop", pressed: false }],
-  ["open", { do: "guard", open: true }], ["close", { do: "guard", open: false }], ["near", { do: "near", somebody: true }], ["away", { do: "near", somebody: false }],
-  ["protective", { do: "protective-stop", because: "Somebody asked for it at the pendant." }], ["reset", { do: "reset" }], ["reboot", { do: "reboot" }],
+  ["manual", { do: "mode", mode: "manual" }],
+  ["remote", { do: "mode", mode: "remote" }],
+  ["stop", { do: "emergency-stop", pressed: true }],
+  ["release", { do: "emergency-stop", pressed: false }],
+  ["open", { do: "guard", open: true }],
+  ["close", { do: "guard", open: false }],
+  ["near", { do: "near", somebody: true }],
+  ["away", { do: "near", somebody: false }],
+  ["protective", { do: "protective-stop", because: "Somebody asked for it at the pendant." }],
+  ["reset", { do: "reset" }],
+  ["reboot", { do: "reboot" }],
 ]);
 
 export const virtualCommand: Command = {
@@ -34,38 +45,86 @@ Lines on standard input are hands on it too: ${[...WORDS.keys()].join(", ")}.
 Ctrl-C ends it.`,
   async run(args) {
     const options = given(args, {
-      ...ROBOT_OPTIONS, host: { type: "string" }, [portOption("pendant")]: { type: "string" }, json: { type: "boolean" },
-      ...Object.fromEntries(BRANDS.flatMap(brand => Object.keys(brand.ports).map(name => [portOption(name), { type: "string" as const }]))),
+      ...ROBOT_OPTIONS,
+      host: { type: "string" },
+      [portOption("pendant")]: { type: "string" },
+      json: { type: "boolean" },
+      ...Object.fromEntries(
+        BRANDS.flatMap(brand => Object.keys(brand.ports).map(name => [portOption(name), { type: "string" as const }])),
+      ),
     });
-    const [id] = options.positionals, brand = brandById(id ?? "");
+    const [id] = options.positionals;
+    const brand = brandById(id ?? "");
     if (!brand || options.positionals.length !== 1) {
-      throw new UseFault(id === undefined ? "BRAND is missing." : options.positionals.length > 1 ? `virtual takes one brand, not "${options.positionals[1]}" as well.` : `There is no virtual controller of "${id}".`,
-        `Brands: ${BRANDS.map(each => each.id).join(", ")}.`);
+      throw new UseFault(
+        id === undefined
+          ? "BRAND is missing."
+          : options.positionals.length > 1
+            ? `virtual takes one brand, not "${options.positionals[1]}" as well.`
+            : `There is no virtual controller of "${id}".`,
+        `Brands: ${BRANDS.map(each => each.id).join(", ")}.`,
+      );
     }
-    const wanted = options.text("robot") ?? robotsOf(brand)[0]?.id, { robot } = await robotOf(options, wanted);
-    const dialect = dialectById(brand.dialect), host = options.text("host") ?? "127.0.0.1";
+    const wanted = options.text("robot") ?? robotsOf(brand)[0]?.id;
+    const { robot } = await robotOf(options, wanted);
+    const dialect = dialectById(brand.dialect);
+    const host = options.text("host") ?? "127.0.0.1";
     const opened = await openCabinet({
-      brand, robot, scheduler: nodeScheduler, network: nodeNetwork(), host, ports: askedPorts(options, Object.keys(brand.ports)),
-      interpret: text => dialect ? dialect.interpret(text, robot) : { kind: "not-understood", faults: [] },
+      brand,
+      robot,
+      scheduler: nodeScheduler,
+      network: nodeNetwork(),
+      host,
+      ports: askedPorts(options, Object.keys(brand.ports)),
+      interpret: text => (dialect ? dialect.interpret(text, robot) : { kind: "not-understood", faults: [] }),
     });
-    if (opened.kind === "taken") throw new UseFault(opened.sentence, "Choose another address with --host, or other ports.");
-    const { virtual, cabinet } = opened, page = existsSync(`${studio}/pendant/index.html`) ? await servePendant({
-      // A page that moves the robot is for who sits at this machine, wherever the controller itself can be reached from.
-      studio, host: host.startsWith("127.") ? host : "127.0.0.1", port: askedPorts(options, ["pendant"])["pendant"] ?? 0, version: "", scheduler: nodeScheduler, pendant: cabinet,
-      words: { id: "pendant", name: virtual.name, brand: brand.id, robot: robot.id, virtual: true, watchdog: "" },
-    }) : null;
-    if (page?.kind === "taken") { opened.close(); throw new UseFault(page.sentence, "Choose another with --port-pendant."); }
-    process.stdout.write(options.flag("json") ? `${JSON.stringify({ brand: brand.id, robot: robot.id, host, ports: virtual.ports, pendant: page?.url ?? null })}\n`
-      : `${virtual.name} listens at ${host}: ${Object.entries(virtual.ports).map(([name, port]) => `${name} ${port}`).join(", ")}\n${page ? `Its pendant is at ${page.url}` : "Its pendant is not built yet: run npm run build."}\nNot a certified safety device. Ctrl-C ends.\n`);
+    if (opened.kind === "taken")
+      throw new UseFault(opened.sentence, "Choose another address with --host, or other ports.");
+    const { virtual, cabinet } = opened;
+    const page = existsSync(`${studio}/pendant/index.html`)
+      ? await servePendant({
+          // A page that moves the robot is for who sits at this machine, wherever the controller itself can be reached from.
+          studio,
+          host: host.startsWith("127.") ? host : "127.0.0.1",
+          port: askedPorts(options, ["pendant"])["pendant"] ?? 0,
+          version: "",
+          scheduler: nodeScheduler,
+          pendant: cabinet,
+          words: { id: "pendant", name: virtual.name, brand: brand.id, robot: robot.id, virtual: true, watchdog: "" },
+        })
+      : null;
+    if (page?.kind === "taken") {
+      opened.close();
+      throw new UseFault(page.sentence, "Choose another with --port-pendant.");
+    }
+    process.stdout.write(
+      options.flag("json")
+        ? `${JSON.stringify({ brand: brand.id, robot: robot.id, host, ports: virtual.ports, pendant: page?.url ?? null })}\n`
+        : `${virtual.name} listens at ${host}: ${Object.entries(virtual.ports)
+            .map(([name, port]) => `${name} ${port}`)
+            .join(
+              ", ",
+            )}\n${page ? `Its pendant is at ${page.url}` : "Its pendant is not built yet: run npm run build."}\nNot a certified safety device. Ctrl-C ends.\n`,
+    );
     const hands = createInterface({ input: process.stdin });
     const carryOut = async (word: string): Promise<void> => {
-      const act = WORDS.get(word), outcome = act && await cabinet.act("console", act);
+      const act = WORDS.get(word);
+      const outcome = act && (await cabinet.act("console", act));
       if (word === "") return;
-      process.stdout.write(`${!outcome ? `There is no "${word}" at the pendant: ${[...WORDS.keys()].join(", ")}.` : outcome.kind === "done" ? word : outcome.why.sentence}\n`);
+      process.stdout.write(
+        `${!outcome ? `There is no "${word}" at the pendant: ${[...WORDS.keys()].join(", ")}.` : outcome.kind === "done" ? word : outcome.why.sentence}\n`,
+      );
     };
     let before = Promise.resolve();
-    hands.on("line", line => { before = before.then(() => carryOut(line.trim())); });
-    await new Promise<void>(resolve => { for (const signal of ["SIGINT", "SIGTERM"] as const) process.once(signal, () => { resolve(); }); });
+    hands.on("line", line => {
+      before = before.then(() => carryOut(line.trim()));
+    });
+    await new Promise<void>(resolve => {
+      for (const signal of ["SIGINT", "SIGTERM"] as const)
+        process.once(signal, () => {
+          resolve();
+        });
+    });
     hands.close();
     page?.close();
     opened.close();
@@ -76,9 +135,11 @@ Ctrl-C ends it.`,
 function askedPorts(options: Given, names: readonly string[]): Readonly<Record<string, number>> {
   const ports: Record<string, number> = {};
   for (const name of names) {
-    const option = portOption(name), port = options.number(option);
+    const option = portOption(name);
+    const port = options.number(option);
     if (port === undefined) continue;
-    if (!Number.isInteger(port) || port < 0 || port > 65_535) throw new UseFault(`--${option} wants a whole number from 0 to 65535, not ${port}.`);
+    if (!Number.isInteger(port) || port < 0 || port > 65_535)
+      throw new UseFault(`--${option} wants a whole number from 0 to 65535, not ${port}.`);
     ports[name] = port;
   }
   return ports;

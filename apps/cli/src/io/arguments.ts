@@ -1,7 +1,9 @@
 import { parseArgs } from "node:util";
 import { UseFault } from "./usage.ts";
 
-type Options = Readonly<Record<string, { readonly type: "string" | "boolean"; readonly short?: string; readonly multiple?: boolean }>>;
+type Options = Readonly<
+  Record<string, { readonly type: "string" | "boolean"; readonly short?: string; readonly multiple?: boolean }>
+>;
 
 export interface Given {
   readonly positionals: readonly string[];
@@ -21,9 +23,15 @@ export function given(args: readonly string[], options: Options): Given {
   try {
     parsed = parseArgs({ args: joinNegativeValues(args, options), options, allowPositionals: true, strict: true });
   } catch (problem) {
-    throw new UseFault((problem as Error).message.split(". ")[0]!.replace(/\.?$/, "."), "Add --help to see the options.");
+    throw new UseFault(
+      (problem as Error).message.split(". ")[0]!.replace(/\.?$/, "."),
+      "Add --help to see the options.",
+    );
   }
-  const text = (name: string) => { const value = parsed.values[name]; return typeof value === "string" ? value : undefined; };
+  const text = (name: string) => {
+    const value = parsed.values[name];
+    return typeof value === "string" ? value : undefined;
+  };
   const number = (name: string, value: string): number => {
     const read = Number(value);
     if (value.trim() === "" || !Number.isFinite(read)) throw new UseFault(`--${name} wants a number, not "${value}".`);
@@ -31,10 +39,20 @@ export function given(args: readonly string[], options: Options): Given {
   };
   return {
     positionals: parsed.positionals,
-    text, flag: name => parsed.values[name] === true,
-    list: name => { const values = parsed.values[name]; return Array.isArray(values) ? values.filter(value => typeof value === "string") : []; },
-    number: name => { const value = text(name); return value === undefined ? undefined : number(name, value); },
-    numbers: name => text(name)?.split(",").map(part => number(name, part)),
+    text,
+    flag: name => parsed.values[name] === true,
+    list: name => {
+      const values = parsed.values[name];
+      return Array.isArray(values) ? values.filter(value => typeof value === "string") : [];
+    },
+    number: name => {
+      const value = text(name);
+      return value === undefined ? undefined : number(name, value);
+    },
+    numbers: name =>
+      text(name)
+        ?.split(",")
+        .map(part => number(name, part)),
   };
 }
 
@@ -42,10 +60,13 @@ export function given(args: readonly string[], options: Options): Given {
 function joinNegativeValues(args: readonly string[], options: Options): string[] {
   const joined: string[] = [];
   for (let i = 0; i < args.length; i++) {
-    const arg = args[i]!, next = args[i + 1];
+    const arg = args[i]!;
+    const next = args[i + 1];
     const name = arg.startsWith("--") ? arg.slice(2) : "";
-    if (options[name]?.type === "string" && next !== undefined && /^-[\d.]/.test(next)) { joined.push(`${arg}=${next}`); i++; }
-    else joined.push(arg);
+    if (options[name]?.type === "string" && next !== undefined && /^-[\d.]/.test(next)) {
+      joined.push(`${arg}=${next}`);
+      i++;
+    } else joined.push(arg);
   }
   return joined;
 }

@@ -7,7 +7,13 @@ export async function readText(path: string): Promise<string> {
     return path === "-" ? await readStdin() : await readFile(path, "utf8");
   } catch (problem) {
     const code = (problem as NodeJS.ErrnoException).code;
-    throw new UseFault(code === "ENOENT" ? `There is no file ${path}.` : code === "EISDIR" ? `${path} is a folder, not a file.` : `${path} cannot be read: ${(problem as Error).message}.`);
+    throw new UseFault(
+      code === "ENOENT"
+        ? `There is no file ${path}.`
+        : code === "EISDIR"
+          ? `${path} is a folder, not a file.`
+          : `${path} cannot be read: ${(problem as Error).message}.`,
+    );
   }
 }
 

@@ -8,7 +8,10 @@ import { UseFault } from "./usage.ts";
 export async function readHistory(path: string, robot?: string): Promise<History> {
   const found = statSync(path, { throwIfNoEntry: false });
   if (!found) throw new UseFault(`There is no file ${path}.`);
-  const opened = await openHistory(found.isDirectory() ? recordingsFolder(path) : recordingFile(path), { packing: await zstd(), ...(robot === undefined ? {} : { robot }) });
+  const opened = await openHistory(found.isDirectory() ? recordingsFolder(path) : recordingFile(path), {
+    packing: await zstd(),
+    ...(robot === undefined ? {} : { robot }),
+  });
   if (opened.kind === "not-a-recording") throw new UseFault(`${path} is no recording. ${opened.sentence}`);
   for (const trouble of opened.history.troubles) process.stderr.write(`twincell: ${trouble}\n`);
   return opened.history;

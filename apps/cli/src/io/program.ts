@@ -9,17 +9,31 @@ import { UseFault } from "./usage.ts";
  *
  * @param chosen  the robot it is to run on; the one it names when absent.
  */
-export async function readProgram(path: string, chosen?: RobotToRun): Promise<RobotToRun & { readonly program: Program }> {
+export async function readProgram(
+  path: string,
+  chosen?: RobotToRun,
+): Promise<RobotToRun & { readonly program: Program }> {
   const answer = parseProgram(await readText(path));
   if (answer.kind === "not-a-program") {
-    const [first] = answer.faults, more = answer.faults.length - 1;
-    throw new UseFault(`${path}: ${first!.path ? `${first!.path}: ` : ""}${first!.sentence}`, more > 0 ? `${more} more of the kind.` : "");
+    const [first] = answer.faults;
+    const more = answer.faults.length - 1;
+    throw new UseFault(
+      `${path}: ${first!.path ? `${first!.path}: ` : ""}${first!.sentence}`,
+      more > 0 ? `${more} more of the kind.` : "",
+    );
   }
   const robot = chosen?.robot ?? robotById(answer.program.robot);
-  if (!robot) throw new UseFault(`${path}: there is no robot "${answer.program.robot}" in the library.`, "See twincell robots, or name its file with --robot.");
+  if (!robot)
+    throw new UseFault(
+      `${path}: there is no robot "${answer.program.robot}" in the library.`,
+      "See twincell robots, or name its file with --robot.",
+    );
   for (const step of answer.program.steps) {
     const q = step.type === "move" && "q" in step.target ? step.target.q : undefined;
-    if (q && q.length !== robot.arm.joints.length) throw new UseFault(`${path}: step ${step.id} gives ${q.length} angles; ${robot.name} has ${robot.arm.joints.length} joints.`);
+    if (q && q.length !== robot.arm.joints.length)
+      throw new UseFault(
+        `${path}: step ${step.id} gives ${q.length} angles; ${robot.name} has ${robot.arm.joints.length} joints.`,
+      );
   }
   return { program: answer.program, robot, solids: chosen?.solids ?? (() => linkSolids(robot)) };
 }
@@ -28,8 +42,14 @@ export async function readProgram(path: string, chosen?: RobotToRun): Promise<Ro
 export async function readCell(path: string): Promise<CellDocument> {
   const answer = openDocument(await readText(path));
   switch (answer.kind) {
-    case "opened": return answer.document;
-    case "too-new": throw new UseFault(`${path} is of version ${answer.version}; this release reads versions up to ${answer.newest}.`, "Update Twincell.");
-    case "not-a-cell": throw new UseFault(`${path}: ${answer.why[0] ?? "This is not a saved cell."}`);
+    case "opened":
+      return answer.document;
+    case "too-new":
+      throw new UseFault(
+        `${path} is of version ${answer.version}; this release reads versions up to ${answer.newest}.`,
+        "Update Twincell.",
+      );
+    case "not-a-cell":
+      throw new UseFault(`${path}: ${answer.why[0] ?? "This is not a saved cell."}`);
   }
 }

@@ -1,7 +1,27 @@
 import { existsSync, statSync } from "node:fs";
 import { basename, resolve } from "node:path";
-import { compose, inverse, parseRobot, pose, robotFromArm, type LinkSolid, type Pose, type Robot } from "@twincell/core";
-import { armFromUrdf, endsOf, loadMeshes, readDhTable, readRobot, solidShapes, urdfSolids, type NotUnderstood, type UrdfChain, type UrdfRobot } from "@twincell/formats";
+import {
+  compose,
+  inverse,
+  parseRobot,
+  pose,
+  robotFromArm,
+  type LinkSolid,
+  type Pose,
+  type Robot,
+} from "@twincell/core";
+import {
+  armFromUrdf,
+  endsOf,
+  loadMeshes,
+  readDhTable,
+  readRobot,
+  solidShapes,
+  urdfSolids,
+  type NotUnderstood,
+  type UrdfChain,
+  type UrdfRobot,
+} from "@twincell/formats";
 import { disk } from "./disk.ts";
 import { readText } from "./files.ts";
 import { UseFault } from "./usage.ts";
@@ -15,29 +35,45 @@ export interface RobotFromFile {
   solids(): { readonly solids: readonly LinkSolid[]; readonly notes: readonly string[] } | undefined;
 }
 
-const DESCRIPTION = /\.(urdf|xacro|xml)$/i, TABLE = /\.(json|csv|tsv|txt|dh)$/i;
+const DESCRIPTION = /\.(urdf|xacro|xml)$/i;
+const TABLE = /\.(json|csv|tsv|txt|dh)$/i;
 
 /** Whether `--robot` is a path rather than an id of the library. */
-export const isRobotPath = (wanted: string): boolean => DESCRIPTION.test(wanted) || TABLE.test(wanted) || (/[/\\]/.test(wanted) && existsSync(wanted));
+export const isRobotPath = (wanted: string): boolean =>
+  DESCRIPTION.test(wanted) || TABLE.test(wanted) || (/[/\\]/.test(wanted) && existsSync(wanted));
 
 /** Opens a URDF, a xacro or a D-H table. */
-export async function robotFromFile(path: string, base: string | undefined, tip: string | undefined, args: Readonly<Record<string, string>>): Promise<RobotFromFile> {
+export async function robotFromFile(
+  path: string,
+  base: string | undefined,
+  tip: string | undefined,
+  args: Readonly<Record<string, string>>,
+): Promise<RobotFromFile> {
   if (TABLE.test(path)) return fromTable(path, base, tip);
   if (!existsSync(path)) throw new UseFault(`${path} cannot be read: there is no such file.`);
-  if (statSync(path).isDirectory()) throw new UseFault(`${path} is a folder, not a file.`, "Give the URDF or xacro in it.");
+  if (statSync(path).isDirectory())
+    throw new UseFault(`${path} is a folder, not a file.`, "Give the URDF or xacro in it.");
   return fromDescription(path, base, tip, args);
 }
 
-const idOf = (path: string): string => basename(path).replace(/(\.urdf)?\.(urdf|xacro|xml)$|(\.dh)?\.(json|csv|tsv|txt|dh)$/i, "");
+const idOf = (path: string): string =>
+  basename(path).replace(/(\.urdf)?\.(urdf|xacro|xml)$|(\.dh)?\.(json|csv|tsv|txt|dh)$/i, "");
 
 async function fromTable(path: string, base: string | undefined, tip: string | undefined): Promise<RobotFromFile> {
-  const text = await readText(path), data = robotData(path, text);
+  const text = await readText(path);
+  const data = robotData(path, text);
   if (data !== undefined) return fromData(path, data, base, tip);
   const answer = readDhTable(text, idOf(path));
   if (answer.kind !== "read") throw refused(path, answer);
-  if (base !== undefined && base !== "base") throw new UseFault(`${path} has no frame "${base}".`, "A D-H table has the frames base and flange.");
-  if (tip !== undefined && tip !== "flange") throw new UseFault(`${path} has no frame "${tip}".`, "A D-H table has the frames base and flange.");
-  const robot = robotFromArm(answer.arm, { id: idOf(path), frames: { base: "base", tip: "flange" }, assumptions: answer.assumptions });
+  if (base !== undefined && base !== "base")
+    throw new UseFault(`${path} has no frame "${base}".`, "A D-H table has the frames base and flange.");
+  if (tip !== undefined && tip !== "flange")
+    throw new UseFault(`${path} has no frame "${tip}".`, "A D-H table has the frames base and flange.");
+  const robot = robotFromArm(answer.arm, {
+    id: idOf(path),
+    frames: { base: "base", tip: "flange" },
+    assumptions: answer.assumptions,
+  });
   return { robot, baseFromRoot: pose(), solids: () => undefined };
 }
 
@@ -45,16 +81,26 @@ async function fromTable(path: string, base: string | undefined, tip: string | u
 function robotData(path: string, text: string): unknown {
   if (!/\.json$/i.test(path) || /\.dh\.json$/i.test(path)) return undefined;
   let value: unknown;
-  try { value = JSON.parse(text); } catch (cause) { throw new UseFault(`${path} is not JSON: ${cause instanceof Error ? cause.message : String(cause)}.`); }
+  try {
+    value = JSON.parse(text);
+  } catch (cause) {
+    throw new UseFault(`${path} is not JSON: ${cause instanceof Error ? cause.message : String(cause)}.`);
+  }
   return typeof value === "object" && value !== null && "convention" in value ? undefined : value;
 }
 
 function fromData(path: string, data: unknown, base: string | undefined, tip: string | undefined): RobotFromFile {
   const answer = parseRobot(data);
-  if (answer.kind === "not-a-robot") throw new UseFault(`${path}: ${answer.faults.map(fault => `${fault.path === "" ? "" : `${fault.path}: `}${fault.sentence}`).join(" ")}`);
-  const { robot } = answer, { frames } = robot;
-  if (base !== undefined && base !== frames.base) throw new UseFault(`${robot.name} has no frame "${base}".`, `Its base is ${frames.base}.`);
-  if (tip !== undefined && tip !== frames.tip && tip !== "flange") throw new UseFault(`${robot.name} has no frame "${tip}".`, `Tips: ${frames.tip}, flange.`);
+  if (answer.kind === "not-a-robot")
+    throw new UseFault(
+      `${path}: ${answer.faults.map(fault => `${fault.path === "" ? "" : `${fault.path}: `}${fault.sentence}`).join(" ")}`,
+    );
+  const { robot } = answer;
+  const { frames } = robot;
+  if (base !== undefined && base !== frames.base)
+    throw new UseFault(`${robot.name} has no frame "${base}".`, `Its base is ${frames.base}.`);
+  if (tip !== undefined && tip !== frames.tip && tip !== "flange")
+    throw new UseFault(`${robot.name} has no frame "${tip}".`, `Tips: ${frames.tip}, flange.`);
   return { robot, baseFromRoot: pose(), solids: () => undefined };
 }
 
@@ -62,20 +108,31 @@ function fromData(path: string, data: unknown, base: string | undefined, tip: st
  * The arm is laid out from the file's root, where axis 1 stands as the closed form wants it; another base is a fixed step from
  * there. Another tip becomes the arm's own flange.
  */
-function fromDescription(path: string, base: string | undefined, tip: string | undefined, args: Readonly<Record<string, string>>): RobotFromFile {
-  const whole = resolve(path), answer = readRobot(whole, disk, { args });
+function fromDescription(
+  path: string,
+  base: string | undefined,
+  tip: string | undefined,
+  args: Readonly<Record<string, string>>,
+): RobotFromFile {
+  const whole = resolve(path);
+  const answer = readRobot(whole, disk, { args });
   if (answer.kind !== "read") throw refused(path, answer);
   const chain = chainOf(path, answer.robot, undefined, tip);
   const robot = robotFromArm(chain.arm, {
-    id: idOf(path), frames: { base: chain.base, tip: chain.tip }, assumptions: [...answer.warnings, ...chain.assumptions], ...(chain.masses ? { masses: chain.masses } : {}),
+    id: idOf(path),
+    frames: { base: chain.base, tip: chain.tip },
+    assumptions: [...answer.warnings, ...chain.assumptions],
+    ...(chain.masses ? { masses: chain.masses } : {}),
   });
   const solids = (): ReturnType<RobotFromFile["solids"]> => {
     if (chain.shapes.length === 0) return undefined;
-    const meshes = loadMeshes(solidShapes(chain), whole, disk), found = urdfSolids(chain, meshes.meshOf);
+    const meshes = loadMeshes(solidShapes(chain), whole, disk);
+    const found = urdfSolids(chain, meshes.meshOf);
     return { solids: found.solids, notes: meshes.notes };
   };
   if (base === undefined || base === chain.base) return { robot, baseFromRoot: pose(), solids };
-  const baseFromJoint = chainOf(path, answer.robot, base, tip).arm.joints[0]!.parentFromJoint, rootFromJoint = chain.arm.joints[0]!.parentFromJoint;
+  const baseFromJoint = chainOf(path, answer.robot, base, tip).arm.joints[0]!.parentFromJoint;
+  const rootFromJoint = chain.arm.joints[0]!.parentFromJoint;
   return { robot, baseFromRoot: compose(baseFromJoint as Pose, inverse(rootFromJoint) as Pose), solids };
 }
 
@@ -83,7 +140,13 @@ function chainOf(path: string, file: UrdfRobot, base: string | undefined, tip: s
   const chain = armFromUrdf(file, base, tip);
   if (chain.kind === "chain") return chain;
   const ends = endsOf(file);
-  throw refused(path, chain, ends.length > 0 ? `The file ends in ${ends.slice(0, 12).join(", ")}${ends.length > 12 ? ", …" : ""}: choose with --tip.` : "");
+  throw refused(
+    path,
+    chain,
+    ends.length > 0
+      ? `The file ends in ${ends.slice(0, 12).join(", ")}${ends.length > 12 ? ", …" : ""}: choose with --tip.`
+      : "",
+  );
 }
 
 function refused(path: string, { sentence, line, file }: NotUnderstood, hint = ""): UseFault {

@@ -5,8 +5,14 @@ import type { ArchivePort, FilePort, FileSink } from "@twincell/recording";
 
 /** What the operating system says, in words. */
 const WHY: Readonly<Record<string, string>> = {
-  ENOSPC: "the disk is full", EDQUOT: "the quota of this user is used up", EACCES: "this user may not write there", EPERM: "this user may not write there",
-  EROFS: "the disk can only be read", EEXIST: "a file of that name is already there", ENOTDIR: "a part of the path is a file, not a folder", EISDIR: "it is a folder",
+  ENOSPC: "the disk is full",
+  EDQUOT: "the quota of this user is used up",
+  EACCES: "this user may not write there",
+  EPERM: "this user may not write there",
+  EROFS: "the disk can only be read",
+  EEXIST: "a file of that name is already there",
+  ENOTDIR: "a part of the path is a file, not a folder",
+  EISDIR: "it is a folder",
 };
 const inWords = (problem: unknown): Error => {
   const code = problem instanceof Error && "code" in problem ? String(problem.code) : "";
@@ -15,20 +21,29 @@ const inWords = (problem: unknown): Error => {
 
 /** A new file. Its bytes are with the operating system when `write` returns, so that only a crash of the machine itself can lose them. */
 export function newFile(path: string): FileSink {
-  let file: number, position = 0;
+  let file: number;
+  let position = 0;
   try {
     mkdirSync(dirname(path), { recursive: true });
     file = openSync(path, "wx");
-  } catch (problem) { throw inWords(problem); }
+  } catch (problem) {
+    throw inWords(problem);
+  }
   return {
-    get position() { return position; },
+    get position() {
+      return position;
+    },
     write(bytes) {
       try {
-        for (let at = 0; at < bytes.length;) at += writeSync(file, bytes, at);
-      } catch (problem) { throw inWords(problem); }
+        for (let at = 0; at < bytes.length; ) at += writeSync(file, bytes, at);
+      } catch (problem) {
+        throw inWords(problem);
+      }
       position += bytes.length;
     },
-    close() { closeSync(file); },
+    close() {
+      closeSync(file);
+    },
   };
 }
 
@@ -36,7 +51,7 @@ async function readPart(path: string, from: number, length: number): Promise<Uin
   const file = await open(path);
   try {
     const out = new Uint8Array(Math.max(0, Math.min(length, (await file.stat()).size - from)));
-    for (let at = 0; at < out.length;) {
+    for (let at = 0; at < out.length; ) {
       const { bytesRead } = await file.read(out, at, out.length - at, from + at);
       if (bytesRead === 0) return out.subarray(0, at);
       at += bytesRead;
@@ -52,7 +67,9 @@ export function recordingsFolder(folder: string): ArchivePort {
   return {
     async list() {
       const names = (await readdir(folder).catch(() => [])).filter(name => name.endsWith(".mcap")).sort();
-      const files = await Promise.all(names.map(async name => ({ name, found: await stat(join(folder, name)).catch(() => null) })));
+      const files = await Promise.all(
+        names.map(async name => ({ name, found: await stat(join(folder, name)).catch(() => null) })),
+      );
       return files.flatMap(({ name, found }) => (found?.isFile() ? [{ name, bytes: found.size }] : []));
     },
     read: (name, from, length) => readPart(join(folder, basename(name)), from, length),

@@ -16,14 +16,33 @@ export interface Door {
  *
  * @param allowed  whether that request may come in at all: the access code of the local network.
  */
-export function openDoors(server: Server, doors: readonly Door[], allowed: (request: IncomingMessage) => boolean): { close(): void } {
-  const rooms = new Map(doors.map(door => [door.path, { door, sockets: new WebSocketServer({ noServer: true, maxPayload: door.longest, perMessageDeflate: false }) }]));
-  const turnAway = (socket: Duplex, status: string): void => { socket.end(`HTTP/1.1 ${status}\r\nConnection: close\r\n\r\n`); };
+export function openDoors(
+  server: Server,
+  doors: readonly Door[],
+  allowed: (request: IncomingMessage) => boolean,
+): { close(): void } {
+  const rooms = new Map(
+    doors.map(door => [
+      door.path,
+      { door, sockets: new WebSocketServer({ noServer: true, maxPayload: door.longest, perMessageDeflate: false }) },
+    ]),
+  );
+  const turnAway = (socket: Duplex, status: string): void => {
+    socket.end(`HTTP/1.1 ${status}\r\nConnection: close\r\n\r\n`);
+  };
   server.on("upgrade", (request: IncomingMessage, socket: Duplex, head: Buffer) => {
-    socket.on("error", () => { socket.destroy(); });
+    socket.on("error", () => {
+      socket.destroy();
+    });
     const room = rooms.get((request.url ?? "").split("?")[0]!);
-    if (!room) { turnAway(socket, "404 Not Found"); return; }
-    if (!sameOrigin(request) || !allowed(request)) { turnAway(socket, "403 Forbidden"); return; }
+    if (!room) {
+      turnAway(socket, "404 Not Found");
+      return;
+    }
+    if (!sameOrigin(request) || !allowed(request)) {
+      turnAway(socket, "403 Forbidden");
+      return;
+    }
     room.sockets.handleUpgrade(request, socket, head, room.door.welcome);
   });
   return {
@@ -38,5 +57,9 @@ export function openDoors(server: Server, doors: readonly Door[], allowed: (requ
 
 function sameOrigin({ headers: { origin, host } }: IncomingMessage): boolean {
   if (origin === undefined) return true; // No browser: a program of this machine or one that knows the code.
-  try { return new URL(origin).host === host; } catch { return false; }
+  try {
+    return new URL(origin).host === host;
+  } catch {
+    return false;
+  }
 }

@@ -4,7 +4,9 @@ import { nodeNetwork } from "./node-network.ts";
 
 describeNetwork("the system's sockets", () => ({
   network: nodeNetwork(),
-  close() { /* The sockets are the tests' own. */ },
+  close() {
+    /* The sockets are the tests' own. */
+  },
   async until(so) {
     for (let i = 0; i < 2000 && !so(); i++) await pause(2);
     if (!so()) throw new Error("It never came about.");

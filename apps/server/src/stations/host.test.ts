@@ -1,4 +1,12 @@
-import { emptyProgram, manualScheduler, type CommandOutcome, type ManualScheduler, type MoveStep, type Pose, type Program } from "@twincell/core";
+import {
+  emptyProgram,
+  manualScheduler,
+  type CommandOutcome,
+  type ManualScheduler,
+  type MoveStep,
+  type Pose,
+  type Program,
+} from "@twincell/core";
 import { BRANDS } from "@twincell/controllers";
 import { createClient, write, type Client, type Request, type Tell, type TellOf } from "@twincell/messages";
 import { afterEach, describe, expect, test } from "vitest";
@@ -7,42 +15,103 @@ import { stationHost } from "./host.ts";
 const ROBOTS: Readonly<Record<string, string>> = { ur: "ur10e", yaskawa: "yaskawa_gp8", kuka: "kuka_kr6r900sixx" };
 const brands = BRANDS.filter(({ id }) => id in ROBOTS).map(({ id }) => id);
 const to = (id: string, y: number): MoveStep => ({
-  id, type: "move", path: "ptp", speed: { ratio: 0.3 }, blend_m: 0,
-  target: { pose: { position: [0.42, y, 0.4], quaternion: [0, 1, 0, 0] } as unknown as Pose<"frame", "tcp">, frame: "world", tool: "flange" },
+  id,
+  type: "move",
+  path: "ptp",
+  speed: { ratio: 0.3 },
+  blend_m: 0,
+  target: {
+    pose: { position: [0.42, y, 0.4], quaternion: [0, 1, 0, 0] } as unknown as Pose<"frame", "tcp">,
+    frame: "world",
+    tool: "flange",
+  },
 });
-const program = (robot: string): Program => ({ ...emptyProgram(robot, "To and fro"), steps: [to("a", -0.1), to("b", 0.1), to("c", -0.1)] });
+const program = (robot: string): Program => ({
+  ...emptyProgram(robot, "To and fro"),
+  steps: [to("a", -0.1), to("b", 0.1), to("c", -0.1)],
+});
 
 const hosts: { close(): void }[] = [];
-afterEach(() => { for (const host of hosts.splice(0)) host.close(); });
+afterEach(() => {
+  for (const host of hosts.splice(0)) host.close();
+});
 
 function bench() {
-  const scheduler = manualScheduler(), host = stationHost(scheduler, "test"), told: Tell[] = [];
+  const scheduler = manualScheduler();
+  const host = stationHost(scheduler, "test");
+  const told: Tell[] = [];
   hosts.push(host);
   const join = (who: string): { client: Client; leave: () => void; hear: (text: string) => void } => {
     const lines: string[] = [];
-    const client = createClient({ send: text => { seat.hear(text); }, close() { /* Ends with the test. */ } }, () => scheduler.now_s(), message => { told.push(message); });
+    const client = createClient(
+      {
+        send: text => {
+          seat.hear(text);
+        },
+        close() {
+          /* Ends with the test. */
+        },
+      },
+      () => scheduler.now_s(),
+      message => {
+        told.push(message);
+      },
+    );
     let client2: Client | null = client;
-    const seat = host.join(who, { send: text => { if (client2) client2.hear(text); else lines.push(text); }, close() { client2 = null; client.gone(); } });
-    return { client, leave: () => { client2 = null; seat.leave(); }, hear: seat.hear };
+    const seat = host.join(who, {
+      send: text => {
+        if (client2) client2.hear(text);
+        else lines.push(text);
+      },
+      close() {
+        client2 = null;
+        client.gone();
+      },
+    });
+    return {
+      client,
+      leave: () => {
+        client2 = null;
+        seat.leave();
+      },
+      hear: seat.hear,
+    };
   };
-  const samples = (station: string): TellOf<"sample">[] => told.filter((message): message is TellOf<"sample"> => message.type === "sample" && message.station === station);
+  const samples = (station: string): TellOf<"sample">[] =>
+    told.filter((message): message is TellOf<"sample"> => message.type === "sample" && message.station === station);
   return { scheduler, host, told, join, samples };
 }
 /** Lets time pass, with signs of life from who commands, until the answer is there. */
-async function answered(scheduler: ManualScheduler, client: Client, station: string, asking: Promise<CommandOutcome>, most_s = 60): Promise<CommandOutcome> {
+async function answered(
+  scheduler: ManualScheduler,
+  client: Client,
+  station: string,
+  asking: Promise<CommandOutcome>,
+  most_s = 60,
+): Promise<CommandOutcome> {
   let outcome: CommandOutcome | undefined;
-  void asking.then(value => { outcome = value; });
-  for (let at_s = 0; at_s < most_s && !outcome; at_s += 0.02) { client.alive(station); await scheduler.elapse(0.02); }
+  void asking.then(value => {
+    outcome = value;
+  });
+  for (let at_s = 0; at_s < most_s && !outcome; at_s += 0.02) {
+    client.alive(station);
+    await scheduler.elapse(0.02);
+  }
   if (!outcome) throw new Error(`No answer within ${most_s} s.`);
   return outcome;
 }
 async function connected(brand: string) {
-  const { scheduler, join, ...rest } = bench(), { client, ...ends } = join("you"), robot = ROBOTS[brand]!;
+  const { scheduler, join, ...rest } = bench();
+  const { client, ...ends } = join("you");
+  const robot = ROBOTS[brand]!;
   const ask = (request: Request) => answered(scheduler, client, "s", client.ask(request));
   expect(await ask({ type: "open", station: "s", brand, robot })).toEqual({ kind: "done" });
   expect(await ask({ type: "take", station: "s" })).toEqual({ kind: "done" });
   expect(await ask({ type: "connect", station: "s" })).toEqual({ kind: "done" });
-  for (let i = 0; i < 15; i++) { client.alive("s"); await scheduler.elapse(0.02); }
+  for (let i = 0; i < 15; i++) {
+    client.alive("s");
+    await scheduler.elapse(0.02);
+  }
   return { scheduler, client, ask, robot, join, ...ends, ...rest };
 }
 
@@ -50,7 +119,8 @@ describe.each(brands)("a station of %s", brand => {
   test("T-24 T-34 runs a program as text of its own language, on its plan all the way", async () => {
     const { ask, robot, samples, told } = await connected(brand);
     expect(await ask({ type: "run", station: "s", program: program(robot), asText: true })).toEqual({ kind: "done" });
-    const seen = samples("s"), far = seen.map(({ plan_rad }) => plan_rad ?? 0);
+    const seen = samples("s");
+    const far = seen.map(({ plan_rad }) => plan_rad ?? 0);
     expect(seen.some(({ moving }) => moving)).toBe(true);
     expect(Math.max(...far)).toBeLessThan(Math.PI / 180);
     expect(told.filter(({ type }) => type === "notice")).toEqual([]);
@@ -59,35 +129,71 @@ describe.each(brands)("a station of %s", brand => {
   test("X-41 the plug is pulled: stopped within 100 ms of silence, and no motion after it before a person says so", async () => {
     const { scheduler, client, ask, samples, told } = await connected(brand);
     const moving = client.ask({ type: "zero", station: "s" });
-    for (let i = 0; i < 20; i++) { client.alive("s"); await scheduler.elapse(0.02); }
+    for (let i = 0; i < 20; i++) {
+      client.alive("s");
+      await scheduler.elapse(0.02);
+    }
     expect(samples("s").at(-1)?.moving).toBe(true);
     void client.ask({ type: "plug", station: "s", pulled: true });
     const outcome = await answered(scheduler, client, "s", moving, 1);
     expect(outcome.kind).toBe("stopped");
     expect(told.some(message => message.type === "link" && message.state === "lost")).toBe(true);
     await ask({ type: "plug", station: "s", pulled: false });
-    for (let i = 0; i < 400; i++) { client.alive("s"); await scheduler.elapse(0.02); }
+    for (let i = 0; i < 400; i++) {
+      client.alive("s");
+      await scheduler.elapse(0.02);
+    }
     expect(told.findLast((message): message is TellOf<"link"> => message.type === "link")?.state).toBe("open");
     expect(samples("s").at(-1)?.moving).toBe(false);
-    expect(await ask({ type: "zero", station: "s" })).toMatchObject({ kind: "refused", why: { code: "guard.link-unconfirmed" } });
+    expect(await ask({ type: "zero", station: "s" })).toMatchObject({
+      kind: "refused",
+      why: { code: "guard.link-unconfirmed" },
+    });
   }, 60_000);
 });
 
-const EVERY_ROBOT: Readonly<Record<string, string>> = { ...ROBOTS, fanuc: "fanuc_lrmate200id", abb: "abb_irb120", staubli: "staubli_rx160" };
-const watchable = BRANDS.filter(({ id, cannot }) => id in EVERY_ROBOT && !cannot.some(({ row }) => row === "watch")).map(({ id }) => id);
+const EVERY_ROBOT: Readonly<Record<string, string>> = {
+  ...ROBOTS,
+  fanuc: "fanuc_lrmate200id",
+  abb: "abb_irb120",
+  staubli: "staubli_rx160",
+};
+const watchable = BRANDS.filter(
+  ({ id, cannot }) => id in EVERY_ROBOT && !cannot.some(({ row }) => row === "watch"),
+).map(({ id }) => id);
 
 describe.each(watchable)("a station of %s that was opened to watch", brand => {
   test("T-24 T-26 follows the pendant, refuses every command with one sentence, stops all the same, and stays so when the link comes back", async () => {
-    const { scheduler, join, samples, told } = bench(), { client } = join("you"), robot = EVERY_ROBOT[brand]!;
-    const ask = (request: Request) => answered(scheduler, client, "s", client.ask(request)), pass = (seconds: number) => answered(scheduler, client, "s", scheduler.elapse(seconds).then(() => ({ kind: "done" as const })));
+    const { scheduler, join, samples, told } = bench();
+    const { client } = join("you");
+    const robot = EVERY_ROBOT[brand]!;
+    const ask = (request: Request) => answered(scheduler, client, "s", client.ask(request));
+    const pass = (seconds: number) =>
+      answered(
+        scheduler,
+        client,
+        "s",
+        scheduler.elapse(seconds).then(() => ({ kind: "done" as const })),
+      );
     const guard = () => told.findLast((message): message is TellOf<"guard"> => message.type === "guard")!;
     const refuses = async () => {
       const asked: Request[] = [
-        { type: "take", station: "s" }, { type: "release", station: "s" }, { type: "confirm", station: "s" }, { type: "reset", station: "s" }, { type: "hold", station: "s", pressed: true },
-        { type: "speed", station: "s", percent: 50 }, { type: "move", station: "s", q_rad: [0, 0, 0, 0, 0, 0] }, { type: "zero", station: "s" },
-        { type: "run", station: "s", program: program(robot), asText: true }, { type: "run", station: "s", program: program(robot), asText: false },
+        { type: "take", station: "s" },
+        { type: "release", station: "s" },
+        { type: "confirm", station: "s" },
+        { type: "reset", station: "s" },
+        { type: "hold", station: "s", pressed: true },
+        { type: "speed", station: "s", percent: 50 },
+        { type: "move", station: "s", q_rad: [0, 0, 0, 0, 0, 0] },
+        { type: "zero", station: "s" },
+        { type: "run", station: "s", program: program(robot), asText: true },
+        { type: "run", station: "s", program: program(robot), asText: false },
       ];
-      for (const request of asked) expect(await ask(request), request.type).toMatchObject({ kind: "refused", why: { code: "guard.watching", hint: expect.stringContaining("Take it to command") as string } });
+      for (const request of asked)
+        expect(await ask(request), request.type).toMatchObject({
+          kind: "refused",
+          why: { code: "guard.watching", hint: expect.stringContaining("Take it to command") as string },
+        });
     };
     expect(await ask({ type: "open", station: "s", brand, robot, watch: true })).toEqual({ kind: "done" });
     expect(await ask({ type: "connect", station: "s" })).toEqual({ kind: "done" });
@@ -100,7 +206,8 @@ describe.each(watchable)("a station of %s that was opened to watch", brand => {
     await pass(1);
     await ask({ type: "pendant", station: "s", act: { do: "enable", pressed: true } });
     await pass(1);
-    const from = samples("s").at(-1)!.q_rad, jogged = client.ask({ type: "pendant", station: "s", act: { do: "jog", joint: 1, direction: 1 } });
+    const from = samples("s").at(-1)!.q_rad;
+    const jogged = client.ask({ type: "pendant", station: "s", act: { do: "jog", joint: 1, direction: 1 } });
     await pass(1);
     await ask({ type: "pendant", station: "s", act: { do: "jog", joint: 1, direction: 0 } });
     expect(await jogged).toEqual({ kind: "done" });
@@ -113,7 +220,12 @@ describe.each(watchable)("a station of %s that was opened to watch", brand => {
     await ask({ type: "plug", station: "s", pulled: true });
     await pass(1);
     expect(guard()).toMatchObject({ link: "lost", watching: true });
-    expect(told.filter(message => message.type === "notice").map(({ why }) => why.sentence).join()).toMatch(/^Nothing was heard of .* only watched and was not stopped/);
+    expect(
+      told
+        .filter(message => message.type === "notice")
+        .map(({ why }) => why.sentence)
+        .join(),
+    ).toMatch(/^Nothing was heard of .* only watched and was not stopped/);
     await ask({ type: "plug", station: "s", pulled: false });
     await pass(12);
     expect(guard()).toMatchObject({ link: "up", watching: true });
@@ -133,51 +245,98 @@ describe.each(watchable)("a station of %s that was opened to watch", brand => {
 });
 
 test("T-26 who gives a robot up to be watched in the middle of a motion stops it first", async () => {
-  const { scheduler, join, samples } = bench(), { client } = join("you"), ask = (request: Request) => answered(scheduler, client, "s", client.ask(request));
+  const { scheduler, join, samples } = bench();
+  const { client } = join("you");
+  const ask = (request: Request) => answered(scheduler, client, "s", client.ask(request));
   await ask({ type: "open", station: "s", brand: "ur", robot: "ur10e" });
   await ask({ type: "take", station: "s" });
   await ask({ type: "connect", station: "s" });
-  await answered(scheduler, client, "s", scheduler.elapse(0.3).then(() => ({ kind: "done" as const })));
+  await answered(
+    scheduler,
+    client,
+    "s",
+    scheduler.elapse(0.3).then(() => ({ kind: "done" as const })),
+  );
   const moving = client.ask({ type: "zero", station: "s" });
-  for (let i = 0; i < 20; i++) { client.alive("s"); await scheduler.elapse(0.02); }
+  for (let i = 0; i < 20; i++) {
+    client.alive("s");
+    await scheduler.elapse(0.02);
+  }
   expect(samples("s").at(-1)!.moving).toBe(true);
   expect(await ask({ type: "watch", station: "s", on: true })).toEqual({ kind: "done" });
   expect(await answered(scheduler, client, "s", moving)).toMatchObject({ kind: "stopped" });
 }, 60_000);
 
-test.each(BRANDS.filter(({ cannot }) => cannot.some(({ row }) => row === "watch")))("$name cannot only be watched, and says why", async ({ id }) => {
-  const { scheduler, join } = bench(), { client } = join("you");
-  expect(await answered(scheduler, client, "s", client.ask({ type: "open", station: "s", brand: id, robot: EVERY_ROBOT[id]!, watch: true }))).toMatchObject({ kind: "refused", why: { code: "station.no-watching" } });
-});
+test.each(BRANDS.filter(({ cannot }) => cannot.some(({ row }) => row === "watch")))(
+  "$name cannot only be watched, and says why",
+  async ({ id }) => {
+    const { scheduler, join } = bench();
+    const { client } = join("you");
+    expect(
+      await answered(
+        scheduler,
+        client,
+        "s",
+        client.ask({ type: "open", station: "s", brand: id, robot: EVERY_ROBOT[id]!, watch: true }),
+      ),
+    ).toMatchObject({ kind: "refused", why: { code: "station.no-watching" } });
+  },
+);
 
 describe("a host of stations", () => {
   test("one commands, anyone stops, and who leaves gives the robot back", async () => {
     const { scheduler, client, join, leave, ask } = await connected(brands[0]!);
     const other = join("somebody");
-    expect(await answered(scheduler, client, "s", other.client.ask({ type: "take", station: "s" }))).toMatchObject({ kind: "refused", why: { code: "guard.lease-taken" } });
+    expect(await answered(scheduler, client, "s", other.client.ask({ type: "take", station: "s" }))).toMatchObject({
+      kind: "refused",
+      why: { code: "guard.lease-taken" },
+    });
     const moving = client.ask({ type: "zero", station: "s" });
-    for (let i = 0; i < 10; i++) { client.alive("s"); await scheduler.elapse(0.02); }
+    for (let i = 0; i < 10; i++) {
+      client.alive("s");
+      await scheduler.elapse(0.02);
+    }
     other.client.stop();
     expect(await answered(scheduler, client, "s", moving)).toMatchObject({ kind: "stopped" });
-    expect(await ask({ type: "close", station: "nowhere" })).toMatchObject({ kind: "refused", why: { code: "station.none" } });
+    expect(await ask({ type: "close", station: "nowhere" })).toMatchObject({
+      kind: "refused",
+      why: { code: "station.none" },
+    });
     leave();
-    expect(await answered(scheduler, other.client, "s", other.client.ask({ type: "take", station: "s" }))).toEqual({ kind: "done" });
+    expect(await answered(scheduler, other.client, "s", other.client.ask({ type: "take", station: "s" }))).toEqual({
+      kind: "done",
+    });
   }, 60_000);
 
   test("X-41 who commands falls silent, a tab that sleeps for instance: the robot is stopped within 100 ms", async () => {
     const { scheduler, client, told } = await connected(brands[0]!);
     void client.ask({ type: "zero", station: "s" });
-    for (let i = 0; i < 10; i++) { client.alive("s"); await scheduler.elapse(0.02); }
+    for (let i = 0; i < 10; i++) {
+      client.alive("s");
+      await scheduler.elapse(0.02);
+    }
     const from_s = scheduler.now_s();
     told.length = 0;
-    while (!told.some(message => message.type === "guard" && message.motion === "stopping") && scheduler.now_s() - from_s < 1) await scheduler.elapse(0.005);
+    while (
+      !told.some(message => message.type === "guard" && message.motion === "stopping") &&
+      scheduler.now_s() - from_s < 1
+    )
+      await scheduler.elapse(0.005);
     expect(scheduler.now_s() - from_s).toBeLessThanOrEqual(0.105);
     expect(told.some(message => message.type === "notice")).toBe(true);
   }, 60_000);
 
   test("what cannot be read ends the connection with one sentence, and nothing else", () => {
     const { told, join, host } = bench();
-    for (const text of ["", "{", "[]", '{"type":"open"}', '{"type":"run","id":1,"station":"s","program":{},"asText":1}', "\u0000".repeat(100), JSON.stringify({ type: "move", id: 1, station: "s", q_rad: [null] })]) {
+    for (const text of [
+      "",
+      "{",
+      "[]",
+      '{"type":"open"}',
+      '{"type":"run","id":1,"station":"s","program":{},"asText":1}',
+      "\u0000".repeat(100),
+      JSON.stringify({ type: "move", id: 1, station: "s", q_rad: [null] }),
+    ]) {
       const { hear } = join("stranger");
       told.length = 0;
       hear(text);
@@ -189,7 +348,8 @@ describe("a host of stations", () => {
   });
 
   test("T-61 a message comes back with the time it took", async () => {
-    const { join } = bench(), { client } = join("you");
+    const { join } = bench();
+    const { client } = join("you");
     expect(await client.ping()).toBe(0);
   });
 });

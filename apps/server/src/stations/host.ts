@@ -6,7 +6,12 @@ import { nodeNetwork } from "../sockets/node-network.ts";
 import { plugInFor } from "./plug-in.ts";
 
 const refused = (why: Refusal): OpenedStation => ({ kind: "refused", why });
-const noRobot = (id: string): OpenedStation => refused({ code: "station.no-robot", sentence: `There is no robot “${id}” in the library.`, hint: "Choose one of the library." });
+const noRobot = (id: string): OpenedStation =>
+  refused({
+    code: "station.no-robot",
+    sentence: `There is no robot “${id}” in the library.`,
+    hint: "Choose one of the library.",
+  });
 /** Of the one who commands: without a sign of life for this long the robot is stopped (row X-41 with the watch's own period). */
 const HEARTBEAT_S = 0.08;
 
@@ -16,21 +21,53 @@ const HEARTBEAT_S = 0.08;
  * @param layOut  plans, checks and writes programs; where links run on real time, another thread does.
  */
 export function stationHost(scheduler: Scheduler, version: string, layOut?: LayOut): Host {
-  const network = nodeNetwork(), cell = createSharedCell();
+  const network = nodeNetwork();
+  const cell = createSharedCell();
   return createHost({
-    scheduler, version,
+    scheduler,
+    version,
     brands: BRANDS.map(({ id, name, vendor, dialect, ports }) => ({ id, name, vendor, dialect, ports: { ...ports } })),
     together: (members, onStarted) => startTogether(members, scheduler, onStarted),
     async open(ask: AskOf<"open">): Promise<OpenedStation> {
-      const robot = robotById(ask.robot), brand = ask.brand === PLUG_IN && robot ? plugInFor(robot) : brandById(ask.brand), dialect = brand && dialectById(brand.dialect);
+      const robot = robotById(ask.robot);
+      const brand = ask.brand === PLUG_IN && robot ? plugInFor(robot) : brandById(ask.brand);
+      const dialect = brand && dialectById(brand.dialect);
       if (ask.brand === PLUG_IN && !robot) return noRobot(ask.robot);
-      if (ask.brand === PLUG_IN && !ask.address) return refused({ code: "station.no-address", sentence: "A plug-in runs by itself, and where was not said.", hint: "Start it and give its address." });
-      if (!brand || !dialect) return refused({ code: "station.no-brand", sentence: `There is no driver for “${ask.brand}”.`, hint: `There are: ${BRANDS.map(({ id }) => id).join(", ")}, ${PLUG_IN}.` });
+      if (ask.brand === PLUG_IN && !ask.address)
+        return refused({
+          code: "station.no-address",
+          sentence: "A plug-in runs by itself, and where was not said.",
+          hint: "Start it and give its address.",
+        });
+      if (!brand || !dialect)
+        return refused({
+          code: "station.no-brand",
+          sentence: `There is no driver for “${ask.brand}”.`,
+          hint: `There are: ${BRANDS.map(({ id }) => id).join(", ")}, ${PLUG_IN}.`,
+        });
       if (!robot) return noRobot(ask.robot);
       return openStation({
-        id: ask.station, brand, robot, scheduler, dialect, heartbeat_s: HEARTBEAT_S, ...(layOut ? { layOut } : {}), ...(ask.stand ? { shared: { cell, stand: ask.stand } } : {}), ...(ask.watch === undefined ? {} : { watching: ask.watch }),
-        ...(ask.name === undefined ? {} : { name: ask.name }), ...(ask.worldFromBase ? { worldFromBase: ask.worldFromBase } : {}),
-        ...(ask.address ? { at: { network, host: ask.address.host, ...(ask.address.ports ? { ports: ask.address.ports } : {}), ...(ask.address.data ? { data: ask.address.data } : {}) } } : {}),
+        id: ask.station,
+        brand,
+        robot,
+        scheduler,
+        dialect,
+        heartbeat_s: HEARTBEAT_S,
+        ...(layOut ? { layOut } : {}),
+        ...(ask.stand ? { shared: { cell, stand: ask.stand } } : {}),
+        ...(ask.watch === undefined ? {} : { watching: ask.watch }),
+        ...(ask.name === undefined ? {} : { name: ask.name }),
+        ...(ask.worldFromBase ? { worldFromBase: ask.worldFromBase } : {}),
+        ...(ask.address
+          ? {
+              at: {
+                network,
+                host: ask.address.host,
+                ...(ask.address.ports ? { ports: ask.address.ports } : {}),
+                ...(ask.address.data ? { data: ask.address.data } : {}),
+              },
+            }
+          : {}),
       });
     },
   });

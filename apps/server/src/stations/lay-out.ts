@@ -4,7 +4,11 @@ import type { FromLayOut, ToLayOut } from "./lay-out-messages.ts";
 
 /** What came of a program that could not even be looked at. */
 const failed = (trouble: string): LaidOut => {
-  const why = { code: "station.lay-out", sentence: `The program could not be planned: ${trouble}`, hint: "Send it again; if it stays so, start the server anew." };
+  const why = {
+    code: "station.lay-out",
+    sentence: `The program could not be planned: ${trouble}`,
+    hint: "Send it again; if it stays so, start the server anew.",
+  };
   return { plan: null, stuck: why, findings: [], files: null, unwritten: why };
 };
 
@@ -14,7 +18,8 @@ const failed = (trouble: string): LaidOut => {
  */
 export function layOutElsewhere(): { readonly layOut: LayOut; close(): void } {
   const waiting = new Map<number, (laid: LaidOut) => void>();
-  let worker: Worker | null = null, count = 0;
+  let worker: Worker | null = null;
+  let count = 0;
   const end = (why: string): void => {
     worker = null;
     for (const tell of waiting.values()) tell(failed(why));
@@ -22,23 +27,35 @@ export function layOutElsewhere(): { readonly layOut: LayOut; close(): void } {
   };
   function started(): Worker {
     if (worker) return worker;
-    const mine = worker = new Worker(new URL("./lay-out.worker.ts", import.meta.url));
+    const mine = (worker = new Worker(new URL("./lay-out.worker.ts", import.meta.url)));
     mine.unref();
     mine.on("message", (message: FromLayOut) => {
       const tell = waiting.get(message.id);
       waiting.delete(message.id);
       tell?.("laid" in message ? message.laid : failed(message.trouble));
     });
-    mine.on("error", problem => { if (worker === mine) end(problem.message); });
-    mine.on("exit", () => { if (worker === mine) end("its thread ended."); });
+    mine.on("error", problem => {
+      if (worker === mine) end(problem.message);
+    });
+    mine.on("exit", () => {
+      if (worker === mine) end("its thread ended.");
+    });
     return mine;
   }
   return {
-    layOut: ({ program, robot, start_rad, worldFromBase, dialect }) => new Promise(resolve => {
-      const id = count++;
-      waiting.set(id, resolve);
-      started().postMessage({ id, robot: robot.id, dialect: dialect?.id ?? null, program, start_rad, worldFromBase: worldFromBase ?? null } satisfies ToLayOut);
-    }),
+    layOut: ({ program, robot, start_rad, worldFromBase, dialect }) =>
+      new Promise(resolve => {
+        const id = count++;
+        waiting.set(id, resolve);
+        started().postMessage({
+          id,
+          robot: robot.id,
+          dialect: dialect?.id ?? null,
+          program,
+          start_rad,
+          worldFromBase: worldFromBase ?? null,
+        } satisfies ToLayOut);
+      }),
     close() {
       void worker?.terminate();
       end("the server is closing.");

@@ -8,7 +8,8 @@ const LONGEST_LINE = 1 << 20;
  */
 export function lines(line: (text: string) => void, broken: (sentence: string) => void): (lent: Uint8Array) => void {
   const decoder = new TextDecoder("utf-8", { fatal: true });
-  let rest = "", over = false;
+  let rest = "";
+  let over = false;
   return lent => {
     if (over) return;
     try {

@@ -5,8 +5,16 @@ import { createPlugInFace } from "./plug-in-face.ts";
 
 /** A maker's own driver as a brand for that robot, whoever makes it. There is no virtual controller: what a plug-in does is not known here. */
 export const plugInFor = (robot: Robot): Brand => ({
-  id: PLUG_IN, name: "Plug-in", dialect: "l-irl", ports: { [PLUG_IN]: PLUG_IN_PORT }, vendor: robot.vendor,
+  id: PLUG_IN,
+  name: "Plug-in",
+  dialect: "l-irl",
+  ports: { [PLUG_IN]: PLUG_IN_PORT },
+  vendor: robot.vendor,
   cannot: [{ row: "texts", because: "A plug-in takes steps, no program texts." }],
   face: createPlugInFace,
-  virtual: () => Promise.resolve({ kind: "taken", sentence: "A plug-in has no virtual controller: give the address where it runs." }),
+  virtual: () =>
+    Promise.resolve({
+      kind: "taken",
+      sentence: "A plug-in has no virtual controller: give the address where it runs.",
+    }),
 });

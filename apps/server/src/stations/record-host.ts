@@ -9,19 +9,58 @@ import { recordStations, type StationRecorder } from "./recorder.ts";
 const TICK_S = 0.1;
 
 /** Records every station of that host to a folder of its own, file after file, until it is closed. */
-export async function recordHost(host: Host, folder: string, scheduler: Scheduler, onTrouble: (sentence: string) => void): Promise<StationRecorder> {
+export async function recordHost(
+  host: Host,
+  folder: string,
+  scheduler: Scheduler,
+  onTrouble: (sentence: string) => void,
+): Promise<StationRecorder> {
   const packing = await zstd();
-  const recorder: StationRecorder = recordStations({ send: text => { seat.hear(text); }, close: () => undefined }, {
-    now_s: scheduler.now_s, onTrouble,
-    archive: (station, robot) => createArchive(recordingsFolder(join(folder, station.id.replace(/[^\w-]/g, "_"))), {
-      robot, cell: station.name, program: "", compact: { packing }, clock_ns: () => BigInt(Date.now()) * 1_000_000n,
-    }),
-  });
+  const recorder: StationRecorder = recordStations(
+    {
+      send: text => {
+        seat.hear(text);
+      },
+      close: () => undefined,
+    },
+    {
+      now_s: scheduler.now_s,
+      onTrouble,
+      archive: (station, robot) =>
+        createArchive(recordingsFolder(join(folder, station.id.replace(/[^\w-]/g, "_"))), {
+          robot,
+          cell: station.name,
+          program: "",
+          compact: { packing },
+          clock_ns: () => BigInt(Date.now()) * 1_000_000n,
+        }),
+    },
+  );
   const heard: string[] = [];
   let ready = false;
-  const seat = host.join("recorder", { send: text => { if (ready) recorder.hear(text); else heard.push(text); }, close: () => undefined });
+  const seat = host.join("recorder", {
+    send: text => {
+      if (ready) recorder.hear(text);
+      else heard.push(text);
+    },
+    close: () => undefined,
+  });
   ready = true;
   for (const text of heard) recorder.hear(text);
-  const stop = scheduler.every(TICK_S, () => { recorder.tick().catch((trouble: unknown) => { onTrouble(`Recordings could not be tidied: ${trouble instanceof Error ? trouble.message : String(trouble)}.`); }); });
-  return { ...recorder, get recording() { return recorder.recording; }, close() { stop(); seat.leave(); recorder.close(); } };
+  const stop = scheduler.every(TICK_S, () => {
+    recorder.tick().catch((trouble: unknown) => {
+      onTrouble(`Recordings could not be tidied: ${trouble instanceof Error ? trouble.message : String(trouble)}.`);
+    });
+  });
+  return {
+    ...recorder,
+    get recording() {
+      return recorder.recording;
+    },
+    close() {
+      stop();
+      seat.leave();
+      recorder.close();
+    },
+  };
 }

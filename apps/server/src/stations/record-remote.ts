@@ -15,11 +15,32 @@ export function recordRemote(url: URL, options: Omit<StationRecorderOptions, "no
   const address = new URL(STATIONS_PATH, url);
   address.protocol = url.protocol === "https:" ? "wss:" : "ws:";
   const socket = new WebSocket(address, { perMessageDeflate: false });
-  let asked = false, why: string | null = `The server at ${url.host} ended the connection.`;
-  const recorder = recordStations({ send: text => { if (socket.readyState === WebSocket.OPEN) socket.send(text); }, close: () => { socket.close(); } }, { ...options, now_s: () => performance.now() / 1000 });
-  const timer = setInterval(() => { recorder.tick().catch((trouble: unknown) => { options.onTrouble?.(`Recordings could not be tidied: ${trouble instanceof Error ? trouble.message : String(trouble)}.`); }); }, TICK_MS);
-  socket.on("message", (data, binary) => { if (!binary) recorder.hear(String(data as Buffer)); });
-  socket.on("error", trouble => { why = `The server at ${url.host} cannot be reached: ${trouble.message || "it does not answer"}.`; });
+  let asked = false;
+  let why: string | null = `The server at ${url.host} ended the connection.`;
+  const recorder = recordStations(
+    {
+      send: text => {
+        if (socket.readyState === WebSocket.OPEN) socket.send(text);
+      },
+      close: () => {
+        socket.close();
+      },
+    },
+    { ...options, now_s: () => performance.now() / 1000 },
+  );
+  const timer = setInterval(() => {
+    recorder.tick().catch((trouble: unknown) => {
+      options.onTrouble?.(
+        `Recordings could not be tidied: ${trouble instanceof Error ? trouble.message : String(trouble)}.`,
+      );
+    });
+  }, TICK_MS);
+  socket.on("message", (data, binary) => {
+    if (!binary) recorder.hear(String(data as Buffer));
+  });
+  socket.on("error", trouble => {
+    why = `The server at ${url.host} cannot be reached: ${trouble.message || "it does not answer"}.`;
+  });
   return {
     ended: new Promise(resolve => {
       socket.on("close", () => {
@@ -28,6 +49,9 @@ export function recordRemote(url: URL, options: Omit<StationRecorderOptions, "no
         resolve(asked ? null : why);
       });
     }),
-    close() { asked = true; socket.close(); },
+    close() {
+      asked = true;
+      socket.close();
+    },
   };
 }

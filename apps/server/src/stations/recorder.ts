@@ -17,23 +17,50 @@ export interface StationRecorder {
   close(): void;
 }
 
-const GUARD_TELLS: ReadonlySet<string> = new Set(["takes the lease", "gives the lease back", "presses the enabling switch", "lets the enabling switch go"]);
+const GUARD_TELLS: ReadonlySet<string> = new Set([
+  "takes the lease",
+  "gives the lease back",
+  "presses the enabling switch",
+  "lets the enabling switch go",
+]);
 
-interface Recorded { readonly archive: Archive; signals: ReadonlyMap<string, boolean | number>; holder: string | null; pressed: boolean; trip: TellOf<"guard">["trip"]; link: TellOf<"link">["state"] | ""; told: string; readonly late: LatencyMeter; readonly back: LatencyMeter }
+interface Recorded {
+  readonly archive: Archive;
+  signals: ReadonlyMap<string, boolean | number>;
+  holder: string | null;
+  pressed: boolean;
+  trip: TellOf<"guard">["trip"];
+  link: TellOf<"link">["state"] | "";
+  told: string;
+  readonly late: LatencyMeter;
+  readonly back: LatencyMeter;
+}
 
 /**
  * Records every station of a host, as one more who listens to it: samples with the controller's own time, the link with its
  * lateness, who commands, stops of the guard, refusals (rows T-54, T-61). It asks for nothing but the time.
  */
 export function recordStations(channel: Channel, options: StationRecorderOptions): StationRecorder {
-  const stations = new Map<string, Recorded>(), roundTrip = latencyMeter("host and back", "round-trip");
+  const stations = new Map<string, Recorded>();
+  const roundTrip = latencyMeter("host and back", "round-trip");
   let asking = false;
 
   function open(words: StationWords): void {
     if (stations.has(words.id)) return;
-    const robot = robotById(words.robot), archive = robot ? options.archive(words, robot) : null;
+    const robot = robotById(words.robot);
+    const archive = robot ? options.archive(words, robot) : null;
     if (!archive) return;
-    stations.set(words.id, { archive, signals: new Map(), holder: null, pressed: false, trip: "none", link: "", told: "", late: latencyMeter("controller to host", "from-robot"), back: latencyMeter("controller and back", "round-trip") });
+    stations.set(words.id, {
+      archive,
+      signals: new Map(),
+      holder: null,
+      pressed: false,
+      trip: "none",
+      link: "",
+      told: "",
+      late: latencyMeter("controller to host", "from-robot"),
+      back: latencyMeter("controller and back", "round-trip"),
+    });
     archive.event("station", `${words.name} is open.`);
   }
   function close(id: string): void {
@@ -44,17 +71,54 @@ export function recordStations(channel: Channel, options: StationRecorderOptions
     // Lines are told when they change.
     if (signals) to.signals = new Map(Object.entries(signals));
     const { sequence, time_s, moving, mode, safety, override, gripperClosed, step, message } = said;
-    to.archive.record({ sequence, time_s, q_rad: Float64Array.from(q_rad), moving, mode, safety, override, gripperClosed, step, message, signals: to.signals } satisfies JointSample);
+    to.archive.record({
+      sequence,
+      time_s,
+      q_rad: Float64Array.from(q_rad),
+      moving,
+      mode,
+      safety,
+      override,
+      gripperClosed,
+      step,
+      message,
+      signals: to.signals,
+    } satisfies JointSample);
   }
   function guard(to: Recorded, { holder, pressed, trip }: TellOf<"guard">): void {
-    if (holder !== to.holder) to.archive.note("operator", { who: holder ?? to.holder ?? "", action: holder === null ? "gives the lease back" : "takes the lease", detail: "" });
-    if (pressed !== to.pressed) to.archive.note("operator", { who: holder ?? "", action: pressed ? "presses the enabling switch" : "lets the enabling switch go", detail: "" });
-    if (trip !== to.trip) to.archive.note("alarm", { code: "guard.trip", active: trip !== "none", sentence: trip === "none" ? "The robot is back at its last safe pose." : "The guard stopped the robot on its way into contact.", hint: "" });
+    if (holder !== to.holder)
+      to.archive.note("operator", {
+        who: holder ?? to.holder ?? "",
+        action: holder === null ? "gives the lease back" : "takes the lease",
+        detail: "",
+      });
+    if (pressed !== to.pressed)
+      to.archive.note("operator", {
+        who: holder ?? "",
+        action: pressed ? "presses the enabling switch" : "lets the enabling switch go",
+        detail: "",
+      });
+    if (trip !== to.trip)
+      to.archive.note("alarm", {
+        code: "guard.trip",
+        active: trip !== "none",
+        sentence:
+          trip === "none"
+            ? "The robot is back at its last safe pose."
+            : "The guard stopped the robot on its way into contact.",
+        hint: "",
+      });
     Object.assign(to, { holder, pressed, trip });
   }
   function link(to: Recorded, { state, sentence, late_s, roundTrip_s }: TellOf<"link">): void {
     if (state !== to.link) {
-      if (state === "lost" || to.link === "lost") to.archive.note("alarm", { code: "link.lost", active: state === "lost", sentence: state === "lost" ? sentence : "The link is open again.", hint: "" });
+      if (state === "lost" || to.link === "lost")
+        to.archive.note("alarm", {
+          code: "link.lost",
+          active: state === "lost",
+          sentence: state === "lost" ? sentence : "The link is open again.",
+          hint: "",
+        });
       else if (to.link !== "") to.archive.event("link", sentence || `The link is ${state}.`);
       to.link = state;
     }
@@ -64,8 +128,23 @@ export function recordStations(channel: Channel, options: StationRecorderOptions
   }
 
   function group(message: TellOf<"began"> | TellOf<"ended">): void {
-    if (message.type === "began") for (const id of message.stations) stations.get(id)?.archive.event("group.began", `${message.stations.length} robots began together, within ${Math.round(1000 * message.spread_s)} ms.`);
-    else for (const { station, outcome } of message.stations) stations.get(station)?.archive.event("group.ended", outcome.kind === "done" ? "The common run is done." : outcome.why.sentence, outcome.kind === "done" ? "info" : "warning");
+    if (message.type === "began")
+      for (const id of message.stations)
+        stations
+          .get(id)
+          ?.archive.event(
+            "group.began",
+            `${message.stations.length} robots began together, within ${Math.round(1000 * message.spread_s)} ms.`,
+          );
+    else
+      for (const { station, outcome } of message.stations)
+        stations
+          .get(station)
+          ?.archive.event(
+            "group.ended",
+            outcome.kind === "done" ? "The common run is done." : outcome.why.sentence,
+            outcome.kind === "done" ? "info" : "warning",
+          );
   }
 
   /** What somebody asked for, and what became of it (rows T-54, X-43). */
@@ -77,29 +156,60 @@ export function recordStations(channel: Channel, options: StationRecorderOptions
   }
 
   const client: Client = createClient(channel, options.now_s, message => {
-    if (message.type === "hello") { for (const words of message.stations) open(words); return; }
-    if (message.type === "opened") { const { id, name, brand, robot, virtual, watchdog } = message; open({ id, name, brand, robot, virtual, watchdog }); return; }
-    if (message.type === "closed") { close(message.station); return; }
-    if (message.type === "fault") { options.onTrouble?.(message.sentence); return; }
+    if (message.type === "hello") {
+      for (const words of message.stations) open(words);
+      return;
+    }
+    if (message.type === "opened") {
+      const { id, name, brand, robot, virtual, watchdog } = message;
+      open({ id, name, brand, robot, virtual, watchdog });
+      return;
+    }
+    if (message.type === "closed") {
+      close(message.station);
+      return;
+    }
+    if (message.type === "fault") {
+      options.onTrouble?.(message.sentence);
+      return;
+    }
     // Where it will be is no record of where it was.
     if (message.type === "ahead") return;
-    if (message.type === "began" || message.type === "ended") { group(message); return; }
+    if (message.type === "began" || message.type === "ended") {
+      group(message);
+      return;
+    }
     const to = stations.get(message.station);
     if (!to) return;
     switch (message.type) {
-      case "sample": sample(to, message); break;
-      case "guard": guard(to, message); break;
-      case "link": link(to, message); break;
-      case "act": act(to, message); break;
-      case "notice": to.archive.event(message.why.code, message.why.sentence, "warning"); break;
+      case "sample":
+        sample(to, message);
+        break;
+      case "guard":
+        guard(to, message);
+        break;
+      case "link":
+        link(to, message);
+        break;
+      case "act":
+        act(to, message);
+        break;
+      case "notice":
+        to.archive.event(message.why.code, message.why.sentence, "warning");
+        break;
     }
     const { problem } = to.archive;
-    if (problem && problem.sentence !== to.told) { to.told = problem.sentence; options.onTrouble?.(problem.sentence); }
+    if (problem && problem.sentence !== to.told) {
+      to.told = problem.sentence;
+      options.onTrouble?.(problem.sentence);
+    }
   });
 
   return {
     hear: client.hear,
-    get recording() { return [...stations.keys()]; },
+    get recording() {
+      return [...stations.keys()];
+    },
     async tick() {
       if (!asking && stations.size > 0) {
         asking = true;
@@ -108,7 +218,8 @@ export function recordStations(channel: Channel, options: StationRecorderOptions
           if (!Number.isNaN(seconds)) roundTrip.add(seconds * 1000);
         });
       }
-      const now_s = options.now_s(), host = roundTrip.due(now_s);
+      const now_s = options.now_s();
+      const host = roundTrip.due(now_s);
       for (const { archive, late, back } of stations.values()) {
         for (const said of [host, late.due(now_s), back.due(now_s)]) if (said) archive.note("latency", said);
         await archive.tick();

@@ -10,13 +10,21 @@ export const STATIONS_PATH = "/stations";
 export function stationDoor(host: Pick<Host, "join">): Door {
   let count = 0;
   return {
-    path: STATIONS_PATH, longest: LONGEST_MESSAGE,
+    path: STATIONS_PATH,
+    longest: LONGEST_MESSAGE,
     welcome(socket) {
       const seat = host.join(`studio ${++count}`, {
-        send(text) { if (socket.bufferedAmount < MOST_WAITING || !STATES.some(state => text.startsWith(state))) socket.send(text); },
-        close() { socket.close(); },
+        send(text) {
+          if (socket.bufferedAmount < MOST_WAITING || !STATES.some(state => text.startsWith(state))) socket.send(text);
+        },
+        close() {
+          socket.close();
+        },
       });
-      socket.on("message", (data, binary) => { if (binary) socket.close(1003); else seat.hear(String(data as Buffer)); });
+      socket.on("message", (data, binary) => {
+        if (binary) socket.close(1003);
+        else seat.hear(String(data as Buffer));
+      });
       socket.on("close", seat.leave);
       socket.on("error", seat.leave);
     },

@@ -2,8 +2,19 @@
 
 /** Of its src folder. */
 export const SOURCES = [
-  "byte_array.cpp", "simple_message.cpp", "smpl_msg_connection.cpp", "socket/simple_socket.cpp", "socket/tcp_client.cpp", "socket/tcp_socket.cpp", "socket/tcp_server.cpp",
-  "joint_data.cpp", "joint_traj_pt.cpp", "robot_status.cpp", "messages/joint_message.cpp", "messages/joint_traj_pt_message.cpp", "messages/robot_status_message.cpp",
+  "byte_array.cpp",
+  "simple_message.cpp",
+  "smpl_msg_connection.cpp",
+  "socket/simple_socket.cpp",
+  "socket/tcp_client.cpp",
+  "socket/tcp_socket.cpp",
+  "socket/tcp_server.cpp",
+  "joint_data.cpp",
+  "joint_traj_pt.cpp",
+  "robot_status.cpp",
+  "messages/joint_message.cpp",
+  "messages/joint_traj_pt_message.cpp",
+  "messages/robot_status_message.cpp",
 ];
 /** Its server listens on every address of the machine; here it is to be seen by this machine only. */
 export const LOOPBACK = `#include <netinet/in.h>

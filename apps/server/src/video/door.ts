@@ -10,16 +10,28 @@ const MOST_WAITING = 8 * 1024 * 1024;
  */
 export function videoDoor(relay: VideoRelay): Door {
   return {
-    path: VIDEO_PATH, longest: LARGEST_PICTURE,
+    path: VIDEO_PATH,
+    longest: LARGEST_PICTURE,
     welcome(socket) {
-      const enough = (): boolean => { if (socket.bufferedAmount < MOST_WAITING) return true; socket.terminate(); return false; };
+      const enough = (): boolean => {
+        if (socket.bufferedAmount < MOST_WAITING) return true;
+        socket.terminate();
+        return false;
+      };
       const seat = relay.join({
-        send(text) { if (enough()) socket.send(text); },
-        picture(bytes) { if (enough()) socket.send(bytes); },
-        close() { socket.close(); },
+        send(text) {
+          if (enough()) socket.send(text);
+        },
+        picture(bytes) {
+          if (enough()) socket.send(bytes);
+        },
+        close() {
+          socket.close();
+        },
       });
       socket.on("message", (data, binary) => {
-        if (binary) seat.hearPicture(data as Buffer); else seat.hear(String(data as Buffer));
+        if (binary) seat.hearPicture(data as Buffer);
+        else seat.hear(String(data as Buffer));
       });
       socket.on("close", seat.leave);
       socket.on("error", seat.leave);

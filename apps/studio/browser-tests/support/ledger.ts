@@ -8,9 +8,22 @@ export interface LedgerReading {
   /** Tasks over 50 ms as the browser counts them, with our part of them. */
   readonly longTasks: readonly LongTask[];
 }
-export interface LongTask { readonly at_ms: number; readonly took_ms: number; readonly script_ms: number; readonly gl_ms: number; readonly what: string }
-export interface Ledger { reset(): void; read(): LedgerReading }
-declare global { interface Window { twincellLedger: Ledger } }
+export interface LongTask {
+  readonly at_ms: number;
+  readonly took_ms: number;
+  readonly script_ms: number;
+  readonly gl_ms: number;
+  readonly what: string;
+}
+export interface Ledger {
+  reset(): void;
+  read(): LedgerReading;
+}
+declare global {
+  interface Window {
+    twincellLedger: Ledger;
+  }
+}
 
 /**
  * Runs in the page before anything else and wraps every way into our script (frames, timers, messages, events, microtasks)
@@ -19,23 +32,48 @@ declare global { interface Window { twincellLedger: Ledger } }
  * browser's own count by who reads it.
  */
 function install(asTheyAre: boolean): void {
-  const now = performance.now.bind(performance), KEPT = 1 << 15;
-  const starts = new Float64Array(KEPT), ends = new Float64Array(KEPT), gls = new Float64Array(KEPT), whats: string[] = [];
+  const now = performance.now.bind(performance);
+  const KEPT = 1 << 15;
+  const starts = new Float64Array(KEPT);
+  const ends = new Float64Array(KEPT);
+  const gls = new Float64Array(KEPT);
+  const whats: string[] = [];
   const longTasks: { startTime: number; duration: number }[] = [];
-  let entries = 0, depth = 0, began = 0, gl = 0, frame = -1, frameScript = 0, frameGl = 0, since = now(), script_ms: number[] = [], gl_ms: number[] = [];
+  let entries = 0;
+  let depth = 0;
+  let began = 0;
+  let gl = 0;
+  let frame = -1;
+  let frameScript = 0;
+  let frameGl = 0;
+  let since = now();
+  let script_ms: number[] = [];
+  let gl_ms: number[] = [];
 
   function closeFrame(): void {
-    if (frame >= 0) { script_ms.push(frameScript); gl_ms.push(frameGl); }
+    if (frame >= 0) {
+      script_ms.push(frameScript);
+      gl_ms.push(frameGl);
+    }
     frameScript = frameGl = 0;
   }
   function leave(what: string): void {
     if (--depth > 0) return;
-    const ended = now(), at = entries++ % KEPT;
-    starts[at] = began; ends[at] = ended; gls[at] = gl; whats[at] = what;
+    const ended = now();
+    const at = entries++ % KEPT;
+    starts[at] = began;
+    ends[at] = ended;
+    gls[at] = gl;
+    whats[at] = what;
     frameScript += ended - began - gl;
     frameGl += gl;
   }
-  function enter(): void { if (depth++ === 0) { began = now(); gl = 0; } }
+  function enter(): void {
+    if (depth++ === 0) {
+      began = now();
+      gl = 0;
+    }
+  }
 
   type Call = (this: unknown, ...given: unknown[]) => unknown;
   const wrapped = new WeakMap<object, Call>();
@@ -44,7 +82,14 @@ function install(asTheyAre: boolean): void {
     const inner = call as Call;
     let outer = wrapped.get(inner);
     if (!outer) {
-      outer = function (this: unknown, ...given: unknown[]): unknown { enter(); try { return inner.apply(this, given); } finally { leave(what); } };
+      outer = function (this: unknown, ...given: unknown[]): unknown {
+        enter();
+        try {
+          return inner.apply(this, given);
+        } finally {
+          leave(what);
+        }
+      };
       wrapped.set(inner, outer);
     }
     return outer;
@@ -54,63 +99,144 @@ function install(asTheyAre: boolean): void {
     Reflect.set(owner, name, make(was as Call));
   }
 
-  const callFrame = (call: FrameRequestCallback, at: number): void => { if (at !== frame) { closeFrame(); frame = at; } call(at); };
+  const callFrame = (call: FrameRequestCallback, at: number): void => {
+    if (at !== frame) {
+      closeFrame();
+      frame = at;
+    }
+    call(at);
+  };
   if (asTheyAre) {
     replace(window, "requestAnimationFrame", was => (call: unknown) => {
       const inner = wrap(call, "frame") as FrameRequestCallback;
-      return was.call(window, (at: number) => { callFrame(inner, at); });
+      return was.call(window, (at: number) => {
+        callFrame(inner, at);
+      });
     });
   } else {
     const waiting = new Map<number, FrameRequestCallback>();
     let asked = 0;
-    window.requestAnimationFrame = call => { waiting.set(++asked, wrap(call, "frame") as FrameRequestCallback); return asked; };
-    window.cancelAnimationFrame = handle => { waiting.delete(handle); };
+    window.requestAnimationFrame = call => {
+      waiting.set(++asked, wrap(call, "frame") as FrameRequestCallback);
+      return asked;
+    };
+    window.cancelAnimationFrame = handle => {
+      waiting.delete(handle);
+    };
     setInterval(() => {
-      const at = now(), due = [...waiting.values()];
+      const at = now();
+      const due = [...waiting.values()];
       waiting.clear();
       console.timeStamp("frame");
       for (const call of due) callFrame(call, at);
     }, 1000 / 60);
   }
-  for (const name of ["setTimeout", "setInterval"]) replace(window, name, was => (call: unknown, ...rest: unknown[]) => was.call(window, wrap(call, "timer"), ...rest));
+  for (const name of ["setTimeout", "setInterval"])
+    replace(
+      window,
+      name,
+      was =>
+        (call: unknown, ...rest: unknown[]) =>
+          was.call(window, wrap(call, "timer"), ...rest),
+    );
   replace(window, "queueMicrotask", was => (call: unknown) => was.call(window, wrap(call, "microtask")));
-  replace(EventTarget.prototype, "addEventListener", was => function (this: unknown, type: unknown, call: unknown, ...rest: unknown[]) { return was.call(this ?? window, type, wrap(call, String(type)), ...rest); });
-  replace(EventTarget.prototype, "removeEventListener", was => function (this: unknown, type: unknown, call: unknown, ...rest: unknown[]) {
-    return was.call(this ?? window, type, typeof call === "function" ? wrapped.get(call) ?? call : call, ...rest);
-  });
+  replace(
+    EventTarget.prototype,
+    "addEventListener",
+    was =>
+      function (this: unknown, type: unknown, call: unknown, ...rest: unknown[]) {
+        return was.call(this ?? window, type, wrap(call, String(type)), ...rest);
+      },
+  );
+  replace(
+    EventTarget.prototype,
+    "removeEventListener",
+    was =>
+      function (this: unknown, type: unknown, call: unknown, ...rest: unknown[]) {
+        return was.call(this ?? window, type, typeof call === "function" ? (wrapped.get(call) ?? call) : call, ...rest);
+      },
+  );
   for (const owner of [MessagePort.prototype, Worker.prototype]) {
     const slot = Object.getOwnPropertyDescriptor(owner, "onmessage")!;
-    Object.defineProperty(owner, "onmessage", { ...slot, set(call: unknown) { slot.set!.call(this, wrap(call, "message")); } });
+    Object.defineProperty(owner, "onmessage", {
+      ...slot,
+      set(call: unknown) {
+        slot.set!.call(this, wrap(call, "message"));
+      },
+    });
   }
   // Another size of the canvas is another picture to allocate: it waits for the rasteriser like a call does.
   for (const name of ["width", "height"]) {
     const slot = Object.getOwnPropertyDescriptor(HTMLCanvasElement.prototype, name)!;
-    Object.defineProperty(HTMLCanvasElement.prototype, name, { ...slot, set(value: unknown) { const from = now(); slot.set!.call(this, value); gl += now() - from; } });
+    Object.defineProperty(HTMLCanvasElement.prototype, name, {
+      ...slot,
+      set(value: unknown) {
+        const from = now();
+        slot.set!.call(this, value);
+        gl += now() - from;
+      },
+    });
   }
   const context = WebGL2RenderingContext.prototype;
   for (const name of Object.getOwnPropertyNames(context)) {
     const slot = Object.getOwnPropertyDescriptor(context, name);
     if (name === "constructor" || typeof slot?.value !== "function") continue;
-    if (!asTheyAre && /^(draw(Arrays|Elements|Range)|clear$|clearBuffer|blitFramebuffer)/.test(name)) { replace(context, name, () => () => undefined); continue; }
-    replace(context, name, was => function (this: unknown, ...given: unknown[]) { const from = now(); try { return was.apply(this, given); } finally { gl += now() - from; } });
+    if (!asTheyAre && /^(draw(Arrays|Elements|Range)|clear$|clearBuffer|blitFramebuffer)/.test(name)) {
+      replace(context, name, () => () => undefined);
+      continue;
+    }
+    replace(
+      context,
+      name,
+      was =>
+        function (this: unknown, ...given: unknown[]) {
+          const from = now();
+          try {
+            return was.apply(this, given);
+          } finally {
+            gl += now() - from;
+          }
+        },
+    );
   }
-  new PerformanceObserver(list => { for (const { startTime, duration } of list.getEntries()) longTasks.push({ startTime, duration }); }).observe({ type: "longtask", buffered: true });
+  new PerformanceObserver(list => {
+    for (const { startTime, duration } of list.getEntries()) longTasks.push({ startTime, duration });
+  }).observe({ type: "longtask", buffered: true });
 
   /** Our part of a long task: the entries that lie within it. */
   function share({ startTime, duration }: { startTime: number; duration: number }): LongTask {
-    let script = 0, inGl = 0, longest = 0, what = "";
+    let script = 0;
+    let inGl = 0;
+    let longest = 0;
+    let what = "";
     for (let at = 0; at < Math.min(entries, KEPT); at++) {
       if (ends[at]! < startTime || starts[at]! > startTime + duration) continue;
       const own = ends[at]! - starts[at]! - gls[at]!;
       script += own;
       inGl += gls[at]!;
-      if (own > longest) { longest = own; what = whats[at]!; }
+      if (own > longest) {
+        longest = own;
+        what = whats[at]!;
+      }
     }
     return { at_ms: startTime, took_ms: duration, script_ms: script, gl_ms: inGl, what };
   }
   window.twincellLedger = {
-    reset() { script_ms = []; gl_ms = []; frame = -1; frameScript = frameGl = 0; since = now(); },
-    read() { return { script_ms, gl_ms, seconds: (now() - since) / 1000, longTasks: longTasks.filter(task => task.startTime >= since).map(share) }; },
+    reset() {
+      script_ms = [];
+      gl_ms = [];
+      frame = -1;
+      frameScript = frameGl = 0;
+      since = now();
+    },
+    read() {
+      return {
+        script_ms,
+        gl_ms,
+        seconds: (now() - since) / 1000,
+        longTasks: longTasks.filter(task => task.startTime >= since).map(share),
+      };
+    },
   };
 }
 
@@ -120,7 +246,8 @@ function install(asTheyAre: boolean): void {
  * @param frames  "as they come", or "paced": then draw calls are left out and frames begin 60 times a second, as with a
  *                graphics card, and do not wait for the rasteriser. Our script does the same in both.
  */
-export const ledger = (frames: "as they come" | "paced"): string => `(${install.toString()})(${frames === "as they come"});`;
+export const ledger = (frames: "as they come" | "paced"): string =>
+  `(${install.toString()})(${frames === "as they come"});`;
 
 /** The value that so large a part of them does not exceed. */
 export function quantile(values: readonly number[], part: number): number {

@@ -8,14 +8,28 @@ export type { Page };
 
 const root = fileURLToPath(new URL("../../../../", import.meta.url));
 const PLACES = [process.env["TWINCELL_CHROMIUM"], "/usr/bin/chromium", "/usr/bin/google-chrome"];
-const FLAGS = ["--headless=new", "--no-sandbox", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
-  "--disable-quic", "--ignore-gpu-blocklist", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--autoplay-policy=no-user-gesture-required"];
+const FLAGS = [
+  "--headless=new",
+  "--no-sandbox",
+  "--no-first-run",
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
+  "--disable-quic",
+  "--ignore-gpu-blocklist",
+  "--use-angle=swiftshader",
+  "--enable-unsafe-swiftshader",
+  "--autoplay-policy=no-user-gesture-required",
+];
 
 /**
  * A camera that films the studio itself: the browser captures the page of that title, as a phone before the screen would, so that
  * what the studio shows comes back in the picture. `getUserMedia` takes the browser's made-up camera.
  */
-export const CAMERA_FLAGS = ["--auto-select-tab-capture-source-by-title=Twincell", "--use-fake-device-for-media-stream"];
+export const CAMERA_FLAGS = [
+  "--auto-select-tab-capture-source-by-title=Twincell",
+  "--use-fake-device-for-media-stream",
+];
 
 export interface OpenOptions {
   readonly width?: number;
@@ -46,7 +60,10 @@ export class Studio {
   static async start(flags: readonly string[] = []): Promise<Studio> {
     const executablePath = PLACES.find(path => path !== undefined && existsSync(path));
     if (executablePath === undefined) throw new Error("No Chromium was found; set TWINCELL_CHROMIUM to its path.");
-    const server = spawn(process.execPath, ["apps/cli/src/main.ts", "serve", "--port", "0"], { cwd: root, stdio: ["ignore", "pipe", "inherit"] });
+    const server = spawn(process.execPath, ["apps/cli/src/main.ts", "serve", "--port", "0"], {
+      cwd: root,
+      stdio: ["ignore", "pipe", "inherit"],
+    });
     const url = await new Promise<string>((resolve, reject) => {
       let text = "";
       server.stdout.on("data", (part: Buffer) => {
@@ -54,7 +71,9 @@ export class Studio {
         const found = /https?:\/\/\S+/.exec(text);
         if (found) resolve(found[0]);
       });
-      server.once("exit", code => { reject(new Error(`twincell serve ended with ${code ?? "a signal"}.`)); });
+      server.once("exit", code => {
+        reject(new Error(`twincell serve ended with ${code ?? "a signal"}.`));
+      });
     });
     const browser = await chromium.launch({ executablePath, headless: true, args: [...FLAGS, ...flags] });
     return new Studio(url, server, browser);
@@ -64,19 +83,28 @@ export class Studio {
   async open(options: OpenOptions = {}): Promise<StudioPage> {
     const context = await this.browser.newContext({
       viewport: { width: options.width ?? 1280, height: options.height ?? 800 },
-      hasTouch: options.touch ?? false, isMobile: options.touch ?? false, acceptDownloads: true,
+      hasTouch: options.touch ?? false,
+      isMobile: options.touch ?? false,
+      acceptDownloads: true,
       colorScheme: options.theme ?? "dark",
     });
     const page = await context.newPage();
     const problems: string[] = [];
     page.on("pageerror", problem => problems.push(problem.message));
-    page.on("console", message => { if (message.type() === "error") problems.push(message.text()); });
-    page.on("request", request => { if (!request.url().startsWith(this.url) && !/^(data|blob):/.test(request.url())) problems.push(`The page asked for ${request.url()}.`); });
+    page.on("console", message => {
+      if (message.type() === "error") problems.push(message.text());
+    });
+    page.on("request", request => {
+      if (!request.url().startsWith(this.url) && !/^(data|blob):/.test(request.url()))
+        problems.push(`The page asked for ${request.url()}.`);
+    });
     if (options.headset) {
       await page.addInitScript({ path: `${root}node_modules/iwer/build/iwer.min.js` });
-      await page.addInitScript({ content: `{const d=new IWER.XRDevice(IWER.${options.headset === true ? "metaQuest3" : options.headset});d.installRuntime({forceInstall:true});d.position.set(0,1.6,0);window.xrDevice=d;
+      await page.addInitScript({
+        content: `{const d=new IWER.XRDevice(IWER.${options.headset === true ? "metaQuest3" : options.headset});d.installRuntime({forceInstall:true});d.position.set(0,1.6,0);window.xrDevice=d;
         // The emulator shows the page's own canvas in its own frame: let the picture fill it.
-        addEventListener("DOMContentLoaded",()=>document.head.append(Object.assign(document.createElement("style"),{textContent:"[data-webxr_runtime]{background:#000}[data-webxr_runtime] canvas{position:absolute!important;inset:0!important;width:100%!important;height:100%!important}"})))}` });
+        addEventListener("DOMContentLoaded",()=>document.head.append(Object.assign(document.createElement("style"),{textContent:"[data-webxr_runtime]{background:#000}[data-webxr_runtime] canvas{position:absolute!important;inset:0!important;width:100%!important;height:100%!important}"})))}`,
+      });
     }
     if (options.script) await page.addInitScript({ content: options.script });
     options.before?.(page);
@@ -85,7 +113,9 @@ export class Studio {
   }
 
   /** The server goes, the browser stays. */
-  stopServer(): void { this.server.kill("SIGTERM"); }
+  stopServer(): void {
+    this.server.kill("SIGTERM");
+  }
 
   async stop(): Promise<void> {
     await this.browser.close();
@@ -95,10 +125,18 @@ export class Studio {
 
 /** Resolves when the cell is on screen: document open, geometry drawn. */
 export async function drawn(page: Page): Promise<void> {
-  await page.waitForFunction(() => window.twincell.stores.cellStore.getState().document !== null && (window.twincellScene?.frames ?? 0) > 1, null, { timeout: 60_000, polling: 100 });
+  await page.waitForFunction(
+    () => window.twincell.stores.cellStore.getState().document !== null && (window.twincellScene?.frames ?? 0) > 1,
+    null,
+    { timeout: 60_000, polling: 100 },
+  );
 }
 
-export interface StudioPage { readonly page: Page; readonly context: BrowserContext; readonly problems: string[] }
+export interface StudioPage {
+  readonly page: Page;
+  readonly context: BrowserContext;
+  readonly problems: string[];
+}
 
 /** Where a picture of the test goes, to be looked at. */
 export function picture(name: string): string {

@@ -28,17 +28,60 @@ export interface CabinetLink {
 }
 /** What a link needs of the connection. */
 export interface CabinetWire {
-  ask(request: { readonly type: "pendant"; readonly station: string; readonly act: PendantAct } | { readonly type: "visit"; readonly station: string; readonly on: boolean }): Promise<CommandOutcome>;
+  ask(
+    request:
+      | { readonly type: "pendant"; readonly station: string; readonly act: PendantAct }
+      | { readonly type: "visit"; readonly station: string; readonly on: boolean },
+  ): Promise<CommandOutcome>;
   alive(station: string): void;
 }
 
 const ALIVE_EVERY_MS = 20;
-const lampsOf = ({ key, servo, safety, override, program, running, alarms, moving, enabled, jog, pressed, gateOpen, near, on, trouble, peers, says }: PendantShown): Lamps =>
-  ({ key, servo, safety, override, program, running, alarms, moving, enabled, jog, pressed, gateOpen, near, on, trouble, peers, says });
+const lampsOf = ({
+  key,
+  servo,
+  safety,
+  override,
+  program,
+  running,
+  alarms,
+  moving,
+  enabled,
+  jog,
+  pressed,
+  gateOpen,
+  near,
+  on,
+  trouble,
+  peers,
+  says,
+}: PendantShown): Lamps => ({
+  key,
+  servo,
+  safety,
+  override,
+  program,
+  running,
+  alarms,
+  moving,
+  enabled,
+  jog,
+  pressed,
+  gateOpen,
+  near,
+  on,
+  trouble,
+  peers,
+  says,
+});
 
 export function createCabinetLink(station: string, wire: CabinetWire): CabinetLink {
-  const view = createStore<CabinetView>(() => ({ words: null, lamps: null, connected: false, complaint: null })), listeners = new Set<(shown: PendantShown) => void>();
-  let shown: PendantShown | null = null, said = "", beat: ReturnType<typeof setInterval> | undefined, jogging = false;
+  const view = createStore<CabinetView>(() => ({ words: null, lamps: null, connected: false, complaint: null }));
+  const listeners = new Set<(shown: PendantShown) => void>();
+  let shown: PendantShown | null = null;
+  let said = "";
+  let beat: ReturnType<typeof setInterval> | undefined;
+  let jogging = false;
   const act = (what: PendantAct): void => {
     if (what.do === "jog") jogging = what.direction !== 0;
     void wire.ask({ type: "pendant", station, act: what }).then(outcome => {
@@ -50,29 +93,51 @@ export function createCabinetLink(station: string, wire: CabinetWire): CabinetLi
   };
   const enable = (pressed: boolean): void => {
     clearInterval(beat);
-    beat = pressed ? setInterval(() => { wire.alive(station); }, ALIVE_EVERY_MS) : undefined;
+    beat = pressed
+      ? setInterval(() => {
+          wire.alive(station);
+        }, ALIVE_EVERY_MS)
+      : undefined;
     act({ do: "enable", pressed });
   };
   return {
-    station, view, act, enable,
-    get shown() { return shown; },
+    station,
+    view,
+    act,
+    enable,
+    get shown() {
+      return shown;
+    },
     letGo() {
       if (jogging) act({ do: "jog", joint: 1, direction: 0 });
       if (beat !== undefined) enable(false);
     },
-    watch(on) { void wire.ask({ type: "visit", station, on }).then(outcome => { if (outcome.kind !== "done") view.setState({ complaint: { sentence: outcome.why.sentence, hint: outcome.why.hint } }); }); },
+    watch(on) {
+      void wire.ask({ type: "visit", station, on }).then(outcome => {
+        if (outcome.kind !== "done")
+          view.setState({ complaint: { sentence: outcome.why.sentence, hint: outcome.why.hint } });
+      });
+    },
     onShown(listen) {
       listeners.add(listen);
       if (shown) listen(shown);
-      return () => { listeners.delete(listen); };
+      return () => {
+        listeners.delete(listen);
+      };
     },
     take(message) {
       shown = message.shown;
-      const lamps = lampsOf(shown), says = JSON.stringify(lamps);
-      if (message.words || says !== said || !view.getState().connected) view.setState({ ...(message.words ? { words: message.words } : {}), lamps, connected: true });
+      const lamps = lampsOf(shown);
+      const says = JSON.stringify(lamps);
+      if (message.words || says !== said || !view.getState().connected)
+        view.setState({ ...(message.words ? { words: message.words } : {}), lamps, connected: true });
       said = says;
       for (const listen of listeners) listen(shown);
     },
-    gone() { clearInterval(beat); beat = undefined; view.setState({ connected: false }); },
+    gone() {
+      clearInterval(beat);
+      beat = undefined;
+      view.setState({ connected: false });
+    },
   };
 }

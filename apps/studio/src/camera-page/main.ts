@@ -8,7 +8,11 @@ const { camera: words, noSafety } = videoWords;
 const root = document.getElementById("root")!;
 
 /** One element with its words. */
-function make<Tag extends keyof HTMLElementTagNameMap>(tag: Tag, text = "", attributes: Readonly<Record<string, string>> = {}): HTMLElementTagNameMap[Tag] {
+function make<Tag extends keyof HTMLElementTagNameMap>(
+  tag: Tag,
+  text = "",
+  attributes: Readonly<Record<string, string>> = {},
+): HTMLElementTagNameMap[Tag] {
   const element = document.createElement(tag);
   element.textContent = text;
   for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
@@ -23,18 +27,30 @@ const kept = localStorage.getItem("twincell.camera-name") ?? "";
 const name = make("input", "", { id: "name", maxlength: "60", autocomplete: "off" });
 name.value = (asked || kept || words.named).slice(0, 60);
 const which = make("select", "", { id: "which" });
-for (const [value, text] of [["back", words.back], ["front", words.front]] as const) which.append(make("option", text, { value }));
+for (const [value, text] of [
+  ["back", words.back],
+  ["front", words.front],
+] as const)
+  which.append(make("option", text, { value }));
 const button = make("button", words.start, { type: "button", class: "primary" });
-const state = make("p", words.says, { role: "status", class: "state" }), trouble = make("p", "", { role: "alert", class: "trouble" }), stage = make("div", "", { class: "stage" });
+const state = make("p", words.says, { role: "status", class: "state" });
+const trouble = make("p", "", { role: "alert", class: "trouble" });
+const stage = make("div", "", { class: "stage" });
 const fields = make("div", "", { class: "fields" });
 fields.append(make("label", words.name, { for: "name" }), name, make("label", words.which, { for: "which" }), which);
 const foot = make("p", `${noSafety} ${words.awake}`, { class: "foot" });
 root.append(make("h1", words.title), stage, state, trouble, fields, button, foot);
 
-let sender: Sender | null = null, timer = 0, watchers = 0, line = "";
+let sender: Sender | null = null;
+let timer = 0;
+let watchers = 0;
+let line = "";
 function say(): void {
-  const video = sender?.video, count = sender?.takeCount() ?? 0;
-  state.textContent = !sender ? words.says : line || `${words.watched(watchers)} ${video ? words.rate(count, video.videoWidth, video.videoHeight) : ""}`;
+  const video = sender?.video;
+  const count = sender?.takeCount() ?? 0;
+  state.textContent = !sender
+    ? words.says
+    : line || `${words.watched(watchers)} ${video ? words.rate(count, video.videoWidth, video.videoHeight) : ""}`;
 }
 function stop(): void {
   clearInterval(timer);
@@ -51,14 +67,24 @@ async function start(): Promise<void> {
   button.disabled = true;
   const opened = await openCamera(which.value);
   button.disabled = false;
-  if (opened.kind === "refused") { trouble.textContent = opened.sentence; return; }
+  if (opened.kind === "refused") {
+    trouble.textContent = opened.sentence;
+    return;
+  }
   const shownAs = name.value.trim() || words.named;
   localStorage.setItem("twincell.camera-name", shownAs);
   line = words.connecting;
   sender = startSender(opened.stream, shownAs, key, {
-    state(link, sentence) { line = link === "open" ? "" : sentence || words.connecting; say(); },
-    watchers(count) { watchers = count; },
-    trouble(sentence) { trouble.textContent = sentence; },
+    state(link, sentence) {
+      line = link === "open" ? "" : sentence || words.connecting;
+      say();
+    },
+    watchers(count) {
+      watchers = count;
+    },
+    trouble(sentence) {
+      trouble.textContent = sentence;
+    },
   });
   stage.replaceChildren(sender.video);
   button.textContent = words.stop;
@@ -70,7 +96,15 @@ async function start(): Promise<void> {
 
 /** A phone that sleeps takes no pictures. Not every browser can be asked. */
 function stayAwake(): void {
-  if ("wakeLock" in navigator) navigator.wakeLock.request("screen").catch(() => { trouble.textContent = words.awake; });
+  if ("wakeLock" in navigator)
+    navigator.wakeLock.request("screen").catch(() => {
+      trouble.textContent = words.awake;
+    });
 }
-document.addEventListener("visibilitychange", () => { if (sender && document.visibilityState === "visible") stayAwake(); });
-button.addEventListener("click", () => { if (sender) stop(); else void start(); });
+document.addEventListener("visibilitychange", () => {
+  if (sender && document.visibilityState === "visible") stayAwake();
+});
+button.addEventListener("click", () => {
+  if (sender) stop();
+  else void start();
+});

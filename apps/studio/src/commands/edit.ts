@@ -9,16 +9,48 @@ import { words } from "../words/index.ts";
 
 export const editCommands = (): readonly Command[] => [
   { id: "stop", group: "jog", words: words.commands.stop, keys: ["Pause"], run: stop },
-  { id: "edit.undo", group: "edit", words: words.commands.undo, keys: ["Mod+Z"], can: () => cellStore.getState().undo.length > 0, run: () => { const label = undo(); if (label) notify("info", words.undo.done(label)); } },
-  { id: "edit.redo", group: "edit", words: words.commands.redo, keys: ["Mod+Shift+Z", "Mod+Y"], can: () => cellStore.getState().redo.length > 0, run: () => { const label = redo(); if (label) notify("info", words.undo.redone(label)); } },
+  {
+    id: "edit.undo",
+    group: "edit",
+    words: words.commands.undo,
+    keys: ["Mod+Z"],
+    can: () => cellStore.getState().undo.length > 0,
+    run: () => {
+      const label = undo();
+      if (label) notify("info", words.undo.done(label));
+    },
+  },
+  {
+    id: "edit.redo",
+    group: "edit",
+    words: words.commands.redo,
+    keys: ["Mod+Shift+Z", "Mod+Y"],
+    can: () => cellStore.getState().redo.length > 0,
+    run: () => {
+      const label = redo();
+      if (label) notify("info", words.undo.redone(label));
+    },
+  },
   { id: "edit.leave", group: "edit", words: words.commands.deselect, keys: ["Escape"], run: leave },
   {
-    id: "cell.box", group: "edit", words: words.commands.box,
+    id: "cell.box",
+    group: "edit",
+    words: words.commands.box,
     run: () => {
       const id = freshObjectId();
       commit(words.undo.addObject, document => ({
         ...document,
-        objects: [...document.objects, { id, name: `Box ${id.slice(4)}`, role: "workpiece", worldFromObject: { position: [0.6, 0.4, 0.1], quaternion: [0, 0, 0, 1] }, shape: { kind: "box", size_m: [0.2, 0.2, 0.2] }, color: "#9aa7b0" }],
+        objects: [
+          ...document.objects,
+          {
+            id,
+            name: `Box ${id.slice(4)}`,
+            role: "workpiece",
+            worldFromObject: { position: [0.6, 0.4, 0.1], quaternion: [0, 0, 0, 1] },
+            shape: { kind: "box", size_m: [0.2, 0.2, 0.2] },
+            color: "#9aa7b0",
+          },
+        ],
       }));
       select({ kind: "object", id });
     },

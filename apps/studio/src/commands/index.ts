@@ -8,4 +8,12 @@ import { programCommands } from "./program.ts";
 import { viewCommands } from "./view.ts";
 
 /** Commands that need no part of the page. Features add theirs while they are on screen. */
-export const startCommands = (checking: Checking): (() => void) => registerCommands([...checkCommands(checking), ...programCommands(), ...jogCommands(), ...playCommands(), ...viewCommands(), ...editCommands()]);
+export const startCommands = (checking: Checking): (() => void) =>
+  registerCommands([
+    ...checkCommands(checking),
+    ...programCommands(),
+    ...jogCommands(),
+    ...playCommands(),
+    ...viewCommands(),
+    ...editCommands(),
+  ]);

@@ -10,9 +10,22 @@ import { words } from "../words/index.ts";
 const can = (): boolean => (playStore.getState().plan?.duration_s ?? 0) > 0;
 
 export const playCommands = (): readonly Command[] => [
-  { id: "play.toggle", group: "play", words: words.commands.play, keys: ["Space"], can, run: () => (physicsStore.getState().on ? playOrHold() : playOrPause()) },
+  {
+    id: "play.toggle",
+    group: "play",
+    words: words.commands.play,
+    keys: ["Space"],
+    can,
+    run: () => (physicsStore.getState().on ? playOrHold() : playOrPause()),
+  },
   { id: "play.physics", group: "play", words: words.commands.physics, run: togglePhysics },
-  { id: "play.resume", group: "play", words: words.commands.resume, can: () => physicsStore.getState().status === "stopped", run: resume },
+  {
+    id: "play.resume",
+    group: "play",
+    words: words.commands.resume,
+    can: () => physicsStore.getState().status === "stopped",
+    run: resume,
+  },
   { id: "play.step", group: "play", words: words.commands.stepOn, keys: ["ArrowRight"], can, run: () => toStep(1) },
   { id: "play.back", group: "play", words: words.commands.stepBack, keys: ["ArrowLeft"], can, run: () => toStep(-1) },
   { id: "play.start", group: "play", words: words.commands.start, keys: ["Home"], can, run: () => seek(0) },
@@ -27,10 +40,12 @@ function togglePhysics(): void {
 
 /** To the next or the previous end of a step. */
 function toStep(by: 1 | -1): void {
-  const { plan } = playStore.getState(), now = playheadNow();
+  const { plan } = playStore.getState();
+  const now = playheadNow();
   if (!plan) return;
   const ends = new Map(plan.segments.map(segment => [segment.step, segment.start_s + segment.duration_s]));
-  const found = by > 0 ? [...ends].find(([, end]) => end > now + 1e-6) : [...ends].findLast(([, end]) => end < now - 1e-6);
+  const found =
+    by > 0 ? [...ends].find(([, end]) => end > now + 1e-6) : [...ends].findLast(([, end]) => end < now - 1e-6);
   seek(found?.[1] ?? (by > 0 ? plan.duration_s : 0));
   if (found) select({ kind: "step", id: found[0] });
 }

@@ -7,15 +7,35 @@ import { collideStore } from "../stores/collide.ts";
 import type { Command } from "../stores/commands.ts";
 import { theProgram, theRobot } from "../stores/document.ts";
 import { notify } from "../stores/notices.ts";
-import { addComment, addGripper, addRepeat, addSet, addWait, addWaitFor, clearProgram, copySteps, deleteSteps, findStep, recordPoint, stepWords, touchUp } from "../stores/program.ts";
+import {
+  addComment,
+  addGripper,
+  addRepeat,
+  addSet,
+  addWait,
+  addWaitFor,
+  clearProgram,
+  copySteps,
+  deleteSteps,
+  findStep,
+  recordPoint,
+  stepWords,
+  touchUp,
+} from "../stores/program.ts";
 import { recordMoving, recordStore } from "../stores/record.ts";
 import { seekStep } from "../stores/seek.ts";
 import { selectionStore } from "../stores/selection.ts";
 import { sound } from "../stores/sound.ts";
 import { words } from "../words/index.ts";
 
-const selectedStep = (): string | null => { const { selected } = selectionStore.getState(); return selected?.kind === "step" ? selected.id : null; };
-const stepOf = (id: string | null): ReturnType<typeof findStep> => { const program = theProgram(); return program && id !== null ? findStep(program, id) : undefined; };
+const selectedStep = (): string | null => {
+  const { selected } = selectionStore.getState();
+  return selected?.kind === "step" ? selected.id : null;
+};
+const stepOf = (id: string | null): ReturnType<typeof findStep> => {
+  const program = theProgram();
+  return program && id !== null ? findStep(program, id) : undefined;
+};
 const isMove = (id: string | null): boolean => stepOf(id)?.step.type === "move";
 const hasProgram = (): boolean => theProgram() !== null;
 const nameOf = (id: string): string => {
@@ -44,30 +64,149 @@ function gripper(closed: boolean): void {
 }
 
 export const programCommands = (): readonly Command[] => [
-  { id: "program.record-ptp", group: "program", words: words.commands.recordPtp, keys: ["P"], can: hasProgram, run: () => record("ptp") },
-  { id: "program.record-lin", group: "program", words: words.commands.recordLin, keys: ["Shift+P"], can: hasProgram, run: () => record("lin") },
-  { id: "program.record-moving", group: "program", words: words.commands.recordMoving, keys: ["Shift+R"], can: hasProgram, run: () => recordMoving(!recordStore.getState().moving) },
   {
-    id: "program.touch-up", group: "program", words: words.commands.touchUp, keys: ["Shift+U"], can: () => isMove(selectedStep()),
-    run: () => { const id = selectedStep(); if (id && !refused() && touchUp(id, theLive().q_rad, cellStore.getState().document?.tool ?? "flange")) notify("done", words.jog.touched(nameOf(id))); },
+    id: "program.record-ptp",
+    group: "program",
+    words: words.commands.recordPtp,
+    keys: ["P"],
+    can: hasProgram,
+    run: () => record("ptp"),
   },
-  { id: "program.wait", group: "program", words: words.commands.wait, can: hasProgram, run: () => { addWait(0.5); } },
-  { id: "program.wait-for", group: "program", words: words.commands.waitFor, can: hasProgram, run: () => { addWaitFor(); } },
-  { id: "program.set", group: "program", words: words.commands.set, can: hasProgram, run: () => { addSet(); } },
-  { id: "program.repeat", group: "program", words: words.commands.repeat, can: hasProgram, run: () => { addRepeat(); } },
-  { id: "program.comment", group: "program", words: words.commands.comment, can: hasProgram, run: () => { addComment(); } },
-  { id: "program.gripper-close", group: "program", words: words.commands.gripperClose, can: hasProgram, run: () => gripper(true) },
-  { id: "program.gripper-open", group: "program", words: words.commands.gripperOpen, can: hasProgram, run: () => gripper(false) },
   {
-    id: "program.go-to", group: "program", words: words.tree.goTo, keys: ["G"], can: () => selectedStep() !== null,
+    id: "program.record-lin",
+    group: "program",
+    words: words.commands.recordLin,
+    keys: ["Shift+P"],
+    can: hasProgram,
+    run: () => record("lin"),
+  },
+  {
+    id: "program.record-moving",
+    group: "program",
+    words: words.commands.recordMoving,
+    keys: ["Shift+R"],
+    can: hasProgram,
+    run: () => recordMoving(!recordStore.getState().moving),
+  },
+  {
+    id: "program.touch-up",
+    group: "program",
+    words: words.commands.touchUp,
+    keys: ["Shift+U"],
+    can: () => isMove(selectedStep()),
     run: () => {
-      const id = selectedStep(), robot = theRobot(), step = stepOf(id)?.step;
-      if (step?.type !== "move" || !robot) { if (id) seekStep(id); return; }
-      const there = solveStep(step, theLive().q_rad);
-      if (there.kind === "reached") goThere(robot, there.q_rad); else notify("warn", there.sentence);
+      const id = selectedStep();
+      if (id && !refused() && touchUp(id, theLive().q_rad, cellStore.getState().document?.tool ?? "flange"))
+        notify("done", words.jog.touched(nameOf(id)));
     },
   },
-  { id: "program.duplicate", group: "program", words: words.commands.duplicate, keys: ["Mod+D"], can: () => selectedStep() !== null, run: () => { const id = selectedStep(); if (id) copySteps([id]); } },
-  { id: "program.delete", group: "program", words: words.commands.remove, keys: ["Delete"], can: () => selectedStep() !== null, run: () => { const id = selectedStep(); if (id) deleteSteps([id]); } },
-  { id: "program.clear", group: "program", words: words.commands.clear, can: () => (theProgram()?.steps.length ?? 0) > 0, run: () => { clearProgram(); } },
+  {
+    id: "program.wait",
+    group: "program",
+    words: words.commands.wait,
+    can: hasProgram,
+    run: () => {
+      addWait(0.5);
+    },
+  },
+  {
+    id: "program.wait-for",
+    group: "program",
+    words: words.commands.waitFor,
+    can: hasProgram,
+    run: () => {
+      addWaitFor();
+    },
+  },
+  {
+    id: "program.set",
+    group: "program",
+    words: words.commands.set,
+    can: hasProgram,
+    run: () => {
+      addSet();
+    },
+  },
+  {
+    id: "program.repeat",
+    group: "program",
+    words: words.commands.repeat,
+    can: hasProgram,
+    run: () => {
+      addRepeat();
+    },
+  },
+  {
+    id: "program.comment",
+    group: "program",
+    words: words.commands.comment,
+    can: hasProgram,
+    run: () => {
+      addComment();
+    },
+  },
+  {
+    id: "program.gripper-close",
+    group: "program",
+    words: words.commands.gripperClose,
+    can: hasProgram,
+    run: () => gripper(true),
+  },
+  {
+    id: "program.gripper-open",
+    group: "program",
+    words: words.commands.gripperOpen,
+    can: hasProgram,
+    run: () => gripper(false),
+  },
+  {
+    id: "program.go-to",
+    group: "program",
+    words: words.tree.goTo,
+    keys: ["G"],
+    can: () => selectedStep() !== null,
+    run: () => {
+      const id = selectedStep();
+      const robot = theRobot();
+      const step = stepOf(id)?.step;
+      if (step?.type !== "move" || !robot) {
+        if (id) seekStep(id);
+        return;
+      }
+      const there = solveStep(step, theLive().q_rad);
+      if (there.kind === "reached") goThere(robot, there.q_rad);
+      else notify("warn", there.sentence);
+    },
+  },
+  {
+    id: "program.duplicate",
+    group: "program",
+    words: words.commands.duplicate,
+    keys: ["Mod+D"],
+    can: () => selectedStep() !== null,
+    run: () => {
+      const id = selectedStep();
+      if (id) copySteps([id]);
+    },
+  },
+  {
+    id: "program.delete",
+    group: "program",
+    words: words.commands.remove,
+    keys: ["Delete"],
+    can: () => selectedStep() !== null,
+    run: () => {
+      const id = selectedStep();
+      if (id) deleteSteps([id]);
+    },
+  },
+  {
+    id: "program.clear",
+    group: "program",
+    words: words.commands.clear,
+    can: () => (theProgram()?.steps.length ?? 0) > 0,
+    run: () => {
+      clearProgram();
+    },
+  },
 ];

@@ -1,20 +1,59 @@
 import type { Command } from "../stores/commands.ts";
 import { openDialog } from "../stores/dialogs.ts";
 import { headsetStore } from "../stores/headset.ts";
-import { showMode, toggleCamera, toggleMuted, toggleTheme, viewStore, wishHeadset, type StudioMode } from "../stores/view.ts";
+import {
+  showMode,
+  toggleCamera,
+  toggleMuted,
+  toggleTheme,
+  viewStore,
+  wishHeadset,
+  type StudioMode,
+} from "../stores/view.ts";
 import { words } from "../words/index.ts";
 
 const MODES: readonly StudioMode[] = ["teach", "check", "run", "history"];
 
 export const viewCommands = (): readonly Command[] => [
-  ...MODES.map((mode, i): Command => ({ id: `view.${mode}`, group: "view", words: words.commands[mode], keys: [String(i + 1)], run: () => showMode(mode) })),
+  ...MODES.map(
+    (mode, i): Command => ({
+      id: `view.${mode}`,
+      group: "view",
+      words: words.commands[mode],
+      keys: [String(i + 1)],
+      run: () => showMode(mode),
+    }),
+  ),
   { id: "view.camera", group: "view", words: words.commands.camera, keys: ["C"], run: toggleCamera },
-  { id: "view.plots", group: "view", words: words.commands.plots, run: () => viewStore.setState(({ plots }) => ({ plots: !plots })) },
+  {
+    id: "view.plots",
+    group: "view",
+    words: words.commands.plots,
+    run: () => viewStore.setState(({ plots }) => ({ plots: !plots })),
+  },
   { id: "view.theme", group: "view", words: words.commands.theme, run: toggleTheme },
   { id: "view.mute", group: "view", words: words.commands.mute, keys: ["M"], run: toggleMuted },
-  { id: "view.headset", group: "view", words: words.commands.headset, can: () => headsetStore.getState().ready === true, run: wishHeadset },
-  { id: "help.palette", group: "help", words: words.commands.palette, keys: ["Mod+K"], run: () => openDialog("palette") },
-  { id: "help.shortcuts", group: "help", words: words.commands.shortcuts, keys: ["?"], run: () => openDialog("shortcuts") },
+  {
+    id: "view.headset",
+    group: "view",
+    words: words.commands.headset,
+    can: () => headsetStore.getState().ready === true,
+    run: wishHeadset,
+  },
+  {
+    id: "help.palette",
+    group: "help",
+    words: words.commands.palette,
+    keys: ["Mod+K"],
+    run: () => openDialog("palette"),
+  },
+  {
+    id: "help.shortcuts",
+    group: "help",
+    words: words.commands.shortcuts,
+    keys: ["?"],
+    run: () => openDialog("shortcuts"),
+  },
   { id: "help.controls", group: "help", words: words.commands.controls, run: () => openDialog("controls") },
   { id: "view.cameras", group: "view", words: words.video.command, run: () => openDialog("cameras") },
   { id: "view.collision", group: "view", words: words.commands.collision, run: () => openDialog("collision") },

@@ -12,8 +12,11 @@ import { solveTcp } from "./solve.ts";
 
 /** The piece the aids belong to: the selected object, else the first work piece; the world when there is none. */
 function pieceNow(): Pose<"world", "object"> {
-  const objects = cellStore.getState().document?.objects ?? [], { selected } = selectionStore.getState();
-  const piece = (selected?.kind === "object" ? objects.find(object => object.id === selected.id) : undefined) ?? objects.find(object => object.role === "workpiece");
+  const objects = cellStore.getState().document?.objects ?? [];
+  const { selected } = selectionStore.getState();
+  const piece =
+    (selected?.kind === "object" ? objects.find(object => object.id === selected.id) : undefined) ??
+    objects.find(object => object.role === "workpiece");
   return piece?.worldFromObject ?? { position: [0, 0, 0], quaternion: [0, 0, 0, 1] };
 }
 
@@ -26,15 +29,22 @@ export function chosenAidAxis(): Readonly<Vector3> | null {
 
 /** Turns the tool to the next or previous orientation aid about its tip (rows N-31, N-35, N-52); says why when it cannot. */
 export function cycleAid(by: 1 | -1): void {
-  const robot = theRobot(), now = jogStore.getState().aid;
+  const robot = theRobot();
+  const now = jogStore.getState().aid;
   if (!robot) return;
-  const aid = now === null ? (by > 0 ? 0 : nextAid(0, -1)) : nextAid(now, by), tcp = tcpNow(), near = theLive().q_rad;
+  const aid = now === null ? (by > 0 ? 0 : nextAid(0, -1)) : nextAid(now, by);
+  const tcp = tcpNow();
+  const near = theLive().q_rad;
   // Round tools leave the turn about their axis open: the least turn is tried first, the turn along the edge second.
   const ways = [aidOrientation(pieceNow(), aid, tcp.quaternion), aidOrientation(pieceNow(), aid)];
   const solved = ways.map(quaternion => solveTcp({ position: tcp.position, quaternion }, near));
   const there = solved.find(each => each.kind === "reached");
   jogStore.setState({ aid });
-  if (there?.kind === "reached") { jogStore.setState({ blocked: null }); glideTo(robot, there.q_rad); return; }
+  if (there?.kind === "reached") {
+    jogStore.setState({ blocked: null });
+    glideTo(robot, there.q_rad);
+    return;
+  }
   const [first] = solved;
   sound("limit");
   if (first?.kind === "not") notify("warn", words.jog.aidUnreachable(aid + 1, first.sentence));

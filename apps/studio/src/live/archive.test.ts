@@ -10,27 +10,64 @@ import { openHere } from "./recordings.ts";
 import { travelBack } from "./travel-back.ts";
 
 const robot = robotById("staubli_rx90l")!;
-const record = { id: "r1", name: "Trace", startedAt: "2026-01-02T03:04:05Z", duration_s: 2, bytes: 0, ending: "running" as const };
+const record = {
+  id: "r1",
+  name: "Trace",
+  startedAt: "2026-01-02T03:04:05Z",
+  duration_s: 2,
+  bytes: 0,
+  ending: "running" as const,
+};
 
 function memoryShelf(room = Infinity): Shelf {
   const kept = new Map<string, unknown>();
   return {
-    async set(key, value) { if (kept.size >= room) { const full = new Error("full"); full.name = "QuotaExceededError"; throw full; } kept.set(key, structuredClone(value)); },
-    async get(key) { return kept.get(key); },
-    async keys() { return [...kept.keys()]; },
-    async remove(keys) { for (const key of keys) kept.delete(key); },
+    async set(key, value) {
+      if (kept.size >= room) {
+        const full = new Error("full");
+        full.name = "QuotaExceededError";
+        throw full;
+      }
+      kept.set(key, structuredClone(value));
+    },
+    async get(key) {
+      return kept.get(key);
+    },
+    async keys() {
+      return [...kept.keys()];
+    },
+    async remove(keys) {
+      for (const key of keys) kept.delete(key);
+    },
   };
 }
 const sample = (i: number): JointSample => ({
-  sequence: i, time_s: i * 0.01, q_rad: Float64Array.from(robot.home_rad, q => q + i * 0.001), moving: true, mode: "automatic", safety: "normal",
-  override: 1, gripperClosed: false, step: `s${Math.floor(i / 100)}`, message: "",
+  sequence: i,
+  time_s: i * 0.01,
+  q_rad: Float64Array.from(robot.home_rad, q => q + i * 0.001),
+  moving: true,
+  mode: "automatic",
+  safety: "normal",
+  override: 1,
+  gripperClosed: false,
+  step: `s${Math.floor(i / 100)}`,
+  message: "",
 });
 function recordInto(shelf: Shelf, samples: number, finish: boolean) {
   const file = openRunFile(shelf, "r1");
   file.note(record);
-  const recorder = createRunRecorder(file.sink, { robot, startedAt_ns: 0n, program: "Trace", cell: "Cell", chunk_s: 0.5 });
+  const recorder = createRunRecorder(file.sink, {
+    robot,
+    startedAt_ns: 0n,
+    program: "Trace",
+    cell: "Cell",
+    chunk_s: 0.5,
+  });
   for (let i = 0; i < samples; i++) recorder.record(sample(i));
-  if (finish) { recorder.finish(); file.note({ ...record, ending: "done" }); }
+  if (finish) {
+    recorder.finish();
+    file.note({ ...record, ending: "done" });
+  }
   return file;
 }
 
@@ -81,8 +118,12 @@ test("bytes that are no recording are told, and nothing stays open", async () =>
 });
 
 test("runs are kept for 90 days and up to 1 GB; the oldest go, the newest stays", async () => {
-  const shelf = memoryShelf(), now_ms = Date.parse("2026-06-01T00:00:00Z");
-  const keep = async (id: string, startedAt: string, bytes: number): Promise<void> => { await shelf.set(`meta:${id}`, { ...record, id, startedAt, bytes, ending: "done" }); await shelf.set(`piece:${id}:00000000`, new Uint8Array(3)); };
+  const shelf = memoryShelf();
+  const now_ms = Date.parse("2026-06-01T00:00:00Z");
+  const keep = async (id: string, startedAt: string, bytes: number): Promise<void> => {
+    await shelf.set(`meta:${id}`, { ...record, id, startedAt, bytes, ending: "done" });
+    await shelf.set(`piece:${id}:00000000`, new Uint8Array(3));
+  };
   await keep("old", "2026-01-01T00:00:00Z", 10);
   await keep("large", "2026-05-01T00:00:00Z", 600_000_000);
   await keep("mid", "2026-05-20T00:00:00Z", 600_000_000);

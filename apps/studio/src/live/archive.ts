@@ -21,7 +21,8 @@ export function browserShelf(): Shelf {
   };
 }
 
-const META = "meta:", PIECE = "piece:";
+const META = "meta:";
+const PIECE = "piece:";
 const pieceKey = (id: string, n: number): string => `${PIECE}${id}:${String(n).padStart(8, "0")}`;
 
 /** One run on its way to the shelf, piece by piece: a page that closes loses only the piece under way. */
@@ -34,23 +35,37 @@ export interface RunFile {
 }
 
 export function openRunFile(shelf: Shelf, id: string): RunFile {
-  let position = 0, pieces = 0, trouble: string | null = null, last: Promise<void> = Promise.resolve();
+  let position = 0;
+  let pieces = 0;
+  let trouble: string | null = null;
+  let last: Promise<void> = Promise.resolve();
   const keep = (key: string, value: unknown): void => {
-    last = last.then(() => shelf.set(key, value)).catch((reason: unknown) => {
-      trouble ??= isFull(reason) ? "The browser has no room left for this recording." : `The recording could not be kept: ${reason instanceof Error ? reason.message : String(reason)}.`;
-    });
+    last = last
+      .then(() => shelf.set(key, value))
+      .catch((reason: unknown) => {
+        trouble ??= isFull(reason)
+          ? "The browser has no room left for this recording."
+          : `The recording could not be kept: ${reason instanceof Error ? reason.message : String(reason)}.`;
+      });
   };
   return {
     sink: {
-      get position() { return position; },
+      get position() {
+        return position;
+      },
       write(bytes) {
         if (trouble !== null) throw new Error(trouble);
         position += bytes.length;
         keep(pieceKey(id, pieces++), bytes.slice());
       },
     },
-    note(record) { keep(META + id, record); },
-    async settled() { await last; return trouble; },
+    note(record) {
+      keep(META + id, record);
+    },
+    async settled() {
+      await last;
+      return trouble;
+    },
   };
 }
 
@@ -68,7 +83,9 @@ export async function listRuns(shelf: Shelf): Promise<RunRecord[]> {
 /** The file of a run. */
 export async function runBlob(shelf: Shelf, id: string): Promise<Blob> {
   const wanted = (await shelf.keys()).filter(key => key.startsWith(`${PIECE}${id}:`)).sort();
-  return new Blob(await Promise.all(wanted.map(key => shelf.get(key) as Promise<Uint8Array<ArrayBuffer>>)), { type: "application/octet-stream" });
+  return new Blob(await Promise.all(wanted.map(key => shelf.get(key) as Promise<Uint8Array<ArrayBuffer>>)), {
+    type: "application/octet-stream",
+  });
 }
 
 /** Runs older than this go; while all together weigh more than that, the oldest go. */
@@ -78,7 +95,8 @@ const DAY_MS = 86_400_000;
 /** Removes what is kept no longer; the newest run always stays. @returns how many went. */
 export async function tidyRuns(shelf: Shelf, now_ms: number): Promise<number> {
   const [newest, ...older] = await listRuns(shelf);
-  let bytes = newest?.bytes ?? 0, gone = 0;
+  let bytes = newest?.bytes ?? 0;
+  let gone = 0;
   for (const run of older) {
     bytes += run.bytes;
     if (bytes <= KEEP_RUNS.bytes && now_ms - Date.parse(run.startedAt) <= KEEP_RUNS.days * DAY_MS) continue;

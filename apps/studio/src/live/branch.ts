@@ -10,14 +10,18 @@ export interface Branch {
 }
 
 /** The branch of a moment; its step is kept only where the program still has it. */
-export function branchOf({ state: { step, gripperClosed }, signals }: Pick<Moment, "state" | "signals">, program: Program): Branch {
+export function branchOf(
+  { state: { step, gripperClosed }, signals }: Pick<Moment, "state" | "signals">,
+  program: Program,
+): Branch {
   const known = [...everyStep(program)].some(({ id }) => id === step);
   return { step: known ? step : "", gripperClosed, signals };
 }
 
 /** The gripper as it was, then the steps from that one on. What came before it is passed over, decisions seeing the lines as they are now. */
 export function* stepsFrom(steps: Iterable<Step>, { step, gripperClosed }: Branch): Generator<Step> {
-  let passing = step !== "", first = true;
+  let passing = step !== "";
+  let first = true;
   for (const each of steps) {
     if (passing && each.id !== step) continue;
     passing = false;
@@ -28,8 +32,14 @@ export function* stepsFrom(steps: Iterable<Step>, { step, gripperClosed }: Branc
 }
 
 /** Sets the lines to what they were: inputs from outside, outputs by themselves. */
-export function restoreSignals({ signals }: Branch, program: Pick<Program, "signals">, lines: Signals, setInput: (signal: string, value: boolean | number) => void): void {
+export function restoreSignals(
+  { signals }: Branch,
+  program: Pick<Program, "signals">,
+  lines: Signals,
+  setInput: (signal: string, value: boolean | number) => void,
+): void {
   for (const [name, value] of Object.entries(signals)) {
-    if (program.signals[name]?.kind.endsWith("-in")) setInput(name, value); else lines.write(name, value);
+    if (program.signals[name]?.kind.endsWith("-in")) setInput(name, value);
+    else lines.write(name, value);
   }
 }

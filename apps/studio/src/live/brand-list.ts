@@ -15,6 +15,12 @@ export interface OfferedBrand {
 
 /** What the dialog offers: brands with a virtual controller in the page, and drivers that are processes of their own (row T-60). */
 export const BRAND_LIST: readonly OfferedBrand[] = [
-  ...BRANDS.map(brand => ({ id: brand.id, name: brand.name, robots: robotsOf(brand), data: brand.data ?? [], port: null })),
+  ...BRANDS.map(brand => ({
+    id: brand.id,
+    name: brand.name,
+    robots: robotsOf(brand),
+    data: brand.data ?? [],
+    port: null,
+  })),
   { id: PLUG_IN, name: words.stations.plugInBrand, robots: LIBRARY, data: [], port: PLUG_IN_PORT },
 ];

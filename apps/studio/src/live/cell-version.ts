@@ -8,7 +8,8 @@ import { saveDocument, type CellDocument } from "@twincell/project";
  */
 export function cellVersion(document: CellDocument): string {
   const text = saveDocument(document);
-  let a = 0x811c9dc5, b = 0x9747b28c;
+  let a = 0x811c9dc5;
+  let b = 0x9747b28c;
   for (let i = 0; i < text.length; i++) {
     const code = text.charCodeAt(i);
     a = Math.imul(a ^ code, 0x01000193);

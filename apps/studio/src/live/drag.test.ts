@@ -7,14 +7,20 @@ import { beginDrag, dragFollows, dragTcp } from "./drag.ts";
 import { followPoses, showJoints, tcpNow } from "./live.ts";
 
 const robot = robotById("staubli_rx90l")!;
-const worldFromBase = pose<"world", "base">([0.1, -0.2, 0.75]), flangeFromTcp = pose<"flange", "tcp">([0, 0, 0.14], fromAxisAngle([0, 1, 0], 0.3));
+const worldFromBase = pose<"world", "base">([0.1, -0.2, 0.75]);
+const flangeFromTcp = pose<"flange", "tcp">([0, 0, 0.14], fromAxisAngle([0, 1, 0], 0.3));
 const START = [0.2, -1.1, 2.2, 0.3, 0.7, -0.4];
-const at = (x: number, y: number, z: number, from: Pose<"world", "tcp">): Pose<"world", "tcp"> => pose([from.position[0] + x, from.position[1] + y, from.position[2] + z], from.quaternion);
+const at = (x: number, y: number, z: number, from: Pose<"world", "tcp">): Pose<"world", "tcp"> =>
+  pose([from.position[0] + x, from.position[1] + y, from.position[2] + z], from.quaternion);
 
 beforeEach(() => {
   followPoses(robot, {
-    flange: (q, out) => { flangePose(robot.arm, q, out); },
-    tcp: (baseFromFlange, out) => { compose(compose(worldFromBase, baseFromFlange), flangeFromTcp, out); },
+    flange: (q, out) => {
+      flangePose(robot.arm, q, out);
+    },
+    tcp: (baseFromFlange, out) => {
+      compose(compose(worldFromBase, baseFromFlange), flangeFromTcp, out);
+    },
   });
   dragFollows(robot, worldFromBase, flangeFromTcp);
   showJoints(START);
@@ -38,7 +44,8 @@ describe("dragging the tool", () => {
   test("N-39 at the edge of reach one coordinate is blocked and the others stay free", () => {
     const before = tcpNow();
     for (let i = 0; i < 40; i++) dragTcp(at(5, 0, 0, before));
-    const edge = tcpNow(), outcome = dragTcp(at(0.05, 0, 0.02, edge));
+    const edge = tcpNow();
+    const outcome = dragTcp(at(0.05, 0, 0.02, edge));
     expect(outcome.kind).toBe("blocked");
     expect(outcome.kind === "blocked" && outcome.sentence).toMatch(/^(The wrist would be|Joint \d would).* \d.*\.$/);
     const after = tcpNow();
@@ -48,7 +55,8 @@ describe("dragging the tool", () => {
   });
 
   test("N-40 a limit is said once, with its sound and its pause, and forgotten when free", () => {
-    const before = tcpNow(), sounds = soundStore.getState().played.limit;
+    const before = tcpNow();
+    const sounds = soundStore.getState().played.limit;
     for (let i = 0; i < 40; i++) dragTcp(at(5, 0, 0, before));
     expect(jogStore.getState().blocked).not.toBeNull();
     expect(soundStore.getState().played.limit - sounds).toBe(1);
@@ -58,7 +66,9 @@ describe("dragging the tool", () => {
 
   test("STOP ends the drag", () => {
     let ended = 0;
-    const end = beginDrag(() => { ended++; });
+    const end = beginDrag(() => {
+      ended++;
+    });
     stopEverything();
     expect(ended).toBe(1);
     end();

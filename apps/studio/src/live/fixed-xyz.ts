@@ -8,11 +8,14 @@ import type { Quaternion } from "@twincell/core";
  * Where ry = ±π/2 only rx ∓ rz is determined; rx takes all of it and rz is 0. `out` receives rx, ry, rz [rad].
  */
 export function fixedXyz(q: Quaternion, out: Float64Array): Float64Array {
-  const x = q[0], y = q[1], z = q[2], w = q[3];
+  const x = q[0];
+  const y = q[1];
+  const z = q[2];
+  const w = q[3];
   const sine = 2 * (w * y - x * z);
   if (Math.abs(sine) > 1 - 1e-12) {
     out[0] = Math.sign(sine) * 2 * Math.atan2(z, w) * -1;
-    out[1] = Math.sign(sine) * Math.PI / 2;
+    out[1] = (Math.sign(sine) * Math.PI) / 2;
     out[2] = 0;
     out[0] = wrap(out[0]!);
     return out;
@@ -24,11 +27,17 @@ export function fixedXyz(q: Quaternion, out: Float64Array): Float64Array {
 }
 /** The rotation of those angles. */
 export function fromFixedXyz(rx: number, ry: number, rz: number, out: Quaternion = [0, 0, 0, 1]): Quaternion {
-  const cx = Math.cos(rx / 2), sx = Math.sin(rx / 2), cy = Math.cos(ry / 2), sy = Math.sin(ry / 2), cz = Math.cos(rz / 2), sz = Math.sin(rz / 2);
+  const cx = Math.cos(rx / 2);
+  const sx = Math.sin(rx / 2);
+  const cy = Math.cos(ry / 2);
+  const sy = Math.sin(ry / 2);
+  const cz = Math.cos(rz / 2);
+  const sz = Math.sin(rz / 2);
   out[0] = sx * cy * cz - cx * sy * sz;
   out[1] = cx * sy * cz + sx * cy * sz;
   out[2] = cx * cy * sz - sx * sy * cz;
   out[3] = cx * cy * cz + sx * sy * sz;
   return out;
 }
-const wrap = (angle: number): number => (angle > Math.PI ? angle - 2 * Math.PI : angle <= -Math.PI ? angle + 2 * Math.PI : angle);
+const wrap = (angle: number): number =>
+  angle > Math.PI ? angle - 2 * Math.PI : angle <= -Math.PI ? angle + 2 * Math.PI : angle;

@@ -1,4 +1,16 @@
-import { angleBetween, compose, distance, distanceToPolyline, flangePose, planProgram, robotById, samplePlan, type MoveStep, type Pose, type Vector3 } from "@twincell/core";
+import {
+  angleBetween,
+  compose,
+  distance,
+  distanceToPolyline,
+  flangePose,
+  planProgram,
+  robotById,
+  samplePlan,
+  type MoveStep,
+  type Pose,
+  type Vector3,
+} from "@twincell/core";
 import { edgeTraceCell } from "@twincell/project";
 import { afterEach, beforeEach, expect, test } from "vitest";
 import { cellStore } from "../stores/cell.ts";
@@ -14,16 +26,34 @@ import { hold, release, releaseAll } from "./held.ts";
 import { startJogging } from "./jogger.ts";
 import { showJoints, tcpNow, theLive } from "./live.ts";
 
-const robot = robotById("staubli_rx90l")!, cell = edgeTraceCell(), { flangeFromTcp } = cell.tools[0]!, { worldFromBase } = cell.robot;
-const START = [0, -60, 110, 0, 40, 0].map(angle => (angle * Math.PI) / 180), DT_MS = 1000 / 60;
-let now_ms = 1e6, ends: (() => void)[] = [], hand: Pose<"world", "tcp">[] = [];
-const frames = (count: number): void => { for (let i = 0; i < count; i++) tick(now_ms += DT_MS); };
-const recorded = (): readonly MoveStep[] => theProgram()!.steps.filter((step): step is MoveStep => step.type === "move" && step.group?.startsWith("path-") === true);
+const robot = robotById("staubli_rx90l")!;
+const cell = edgeTraceCell();
+const { flangeFromTcp } = cell.tools[0]!;
+const { worldFromBase } = cell.robot;
+const START = [0, -60, 110, 0, 40, 0].map(angle => (angle * Math.PI) / 180);
+const DT_MS = 1000 / 60;
+let now_ms = 1e6;
+let ends: (() => void)[] = [];
+let hand: Pose<"world", "tcp">[] = [];
+const frames = (count: number): void => {
+  for (let i = 0; i < count; i++) tick((now_ms += DT_MS));
+};
+const recorded = (): readonly MoveStep[] =>
+  theProgram()!.steps.filter(
+    (step): step is MoveStep => step.type === "move" && step.group?.startsWith("path-") === true,
+  );
 
 beforeEach(() => {
   releaseAll();
   showDocument(cell);
-  ends = [startFollowing(), startJogging(), startHandPath(), onFrame(() => { hand.push(tcpNow()); })];
+  ends = [
+    startFollowing(),
+    startJogging(),
+    startHandPath(),
+    onFrame(() => {
+      hand.push(tcpNow());
+    }),
+  ];
   dragFollows(robot, worldFromBase, flangeFromTcp);
   showJoints(START);
   jogStore.setState({ frame: "world", manner: "hold", speed: 0.5, blocked: null });
@@ -31,20 +61,37 @@ beforeEach(() => {
   frames(2);
   hand = [tcpNow()];
 });
-afterEach(() => { for (const end of ends) end(); });
+afterEach(() => {
+  for (const end of ends) end();
+});
 
 /** Largest distance and turn between the way of the hand and the planned way of the recorded program, looked at from both sides. */
 function deviation(): { m: number; rad: number } {
   const planned = planProgram(theProgram()!, robot, { worldFromBase, start_rad: START });
   if (planned.kind !== "planned") throw new Error(JSON.stringify(planned));
-  const q = new Float64Array(6), way: Pose<"world", "tcp">[] = [];
+  const q = new Float64Array(6);
+  const way: Pose<"world", "tcp">[] = [];
   for (let t_s = 0; t_s <= planned.plan.duration_s; t_s += 0.004) {
     samplePlan(planned.plan, t_s, q);
     way.push(compose(compose(worldFromBase, flangePose(robot.arm, q)), flangeFromTcp));
   }
-  const lines = { hand: hand.map(({ position }): Vector3 => [...position]), way: way.map(({ position }): Vector3 => [...position]) };
-  const m = Math.max(...lines.hand.map(point => distanceToPolyline(lines.way, point)), ...lines.way.map(point => distanceToPolyline(lines.hand, point)));
-  const rad = Math.max(...hand.map(pose => Math.min(...way.filter(other => distance(other.position, pose.position) < 0.006).map(other => angleBetween(other.quaternion, pose.quaternion)))));
+  const lines = {
+    hand: hand.map(({ position }): Vector3 => [...position]),
+    way: way.map(({ position }): Vector3 => [...position]),
+  };
+  const m = Math.max(
+    ...lines.hand.map(point => distanceToPolyline(lines.way, point)),
+    ...lines.way.map(point => distanceToPolyline(lines.hand, point)),
+  );
+  const rad = Math.max(
+    ...hand.map(pose =>
+      Math.min(
+        ...way
+          .filter(other => distance(other.position, pose.position) < 0.006)
+          .map(other => angleBetween(other.quaternion, pose.quaternion)),
+      ),
+    ),
+  );
   return { m, rad };
 }
 
@@ -99,9 +146,13 @@ test("N-57 several strokes are one group and one undo step, and the point they s
 
 test("N-57 a drag of the tool is recorded, a slow hand gives points 1 mm apart and not one a frame", () => {
   recordMoving(true);
-  const end = beginDrag(() => undefined), from = tcpNow();
+  const end = beginDrag(() => undefined);
+  const from = tcpNow();
   for (let i = 1; i <= 200; i++) {
-    dragTcp({ position: [from.position[0] - 0.0001 * i, from.position[1], from.position[2] - 0.00005 * i], quaternion: from.quaternion });
+    dragTcp({
+      position: [from.position[0] - 0.0001 * i, from.position[1], from.position[2] - 0.00005 * i],
+      quaternion: from.quaternion,
+    });
     frames(1);
   }
   end();

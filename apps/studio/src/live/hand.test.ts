@@ -16,30 +16,73 @@ import { showJoints, theLive } from "./live.ts";
 import { planTask } from "./plan-task.ts";
 import { cancelSearch, findWayRound, hirePlanners, learnMatrix } from "./planning.ts";
 
-const cell = edgeTraceCell(), robot = robotById(cell.robot.id)!, HOME = [0, -Math.PI / 2, Math.PI / 2, 0, 0, 0];
+const cell = edgeTraceCell();
+const robot = robotById(cell.robot.id)!;
+const HOME = [0, -Math.PI / 2, Math.PI / 2, 0, 0, 0];
 /** Arm stretched out level; turned to the left it meets the wall there. */
-const OUT = [0, 0, Math.PI / 2, 0, 0, 0], INTO_WALL = [Math.PI / 2, ...OUT.slice(1)];
+const OUT = [0, 0, Math.PI / 2, 0, 0, 0];
+const INTO_WALL = [Math.PI / 2, ...OUT.slice(1)];
 /** On either side of the carton: the straight way meets it. */
-const FROM = [0.9, 0.5, 2.2, 0, 0, 0], THERE = [-1, 0.5, 2.2, 0, 0, 0];
+const FROM = [0.9, 0.5, 2.2, 0, 0, 0];
+const THERE = [-1, 0.5, 2.2, 0, 0, 0];
 const collider = new CellCollider(cellGeometry(cell, linkSolids(robot)), robot.arm);
 const said = (): string => noticeStore.getState().notices.at(-1)?.sentence ?? "";
-const command = (id: string): void => { programCommands().find(each => each.id === id)!.run(); };
+const command = (id: string): void => {
+  programCommands()
+    .find(each => each.id === id)!
+    .run();
+};
 let now_ms = 0;
-const frames = (count: number): void => { for (let i = 0; i < count; i++) tick(now_ms += 16); };
+const frames = (count: number): void => {
+  for (let i = 0; i < count; i++) tick((now_ms += 16));
+};
 
 /** Answers at once or, held back, when told to. */
 function planner(held = false): { readonly asked: ToPlanner[]; answer(): void; closed: number } {
   let hear: (message: FromPlanner) => void = () => undefined;
-  const seat = { asked: [] as ToPlanner[], closed: 0, answer: () => { for (const message of seat.asked.splice(0)) hear(planTask(message, () => 0, told => { hear(told); })); } };
-  hirePlanners(() => ({ post: message => { seat.asked.push(message); if (!held) seat.answer(); }, listen: listen => { hear = listen; }, close: () => { seat.closed++; } }));
+  const seat = {
+    asked: [] as ToPlanner[],
+    closed: 0,
+    answer: () => {
+      for (const message of seat.asked.splice(0))
+        hear(
+          planTask(
+            message,
+            () => 0,
+            told => {
+              hear(told);
+            },
+          ),
+        );
+    },
+  };
+  hirePlanners(() => ({
+    post: message => {
+      seat.asked.push(message);
+      if (!held) seat.answer();
+    },
+    listen: listen => {
+      hear = listen;
+    },
+    close: () => {
+      seat.closed++;
+    },
+  }));
   return seat;
 }
 
-beforeEach(() => { cancelSearch(); showDocument(cell); startFollowing(); chooseBehaviour("refuse"); showJoints(HOME); });
+beforeEach(() => {
+  cancelSearch();
+  showDocument(cell);
+  startFollowing();
+  chooseBehaviour("refuse");
+  showJoints(HOME);
+});
 
 describe("T-42 a point in contact", () => {
   test("is refused with what touches what, and is taught where a contact is an alert only", () => {
-    const steps = (): number => theProgram()!.steps.length, before = steps();
+    const steps = (): number => theProgram()!.steps.length;
+    const before = steps();
     showJoints(INTO_WALL);
     expect(contactAt(INTO_WALL)).toMatchObject({ b: "wall-left" });
     command("program.record-ptp");
@@ -60,7 +103,8 @@ describe("a hand that leads the arm into the wall", () => {
   const lead = (): ReturnType<typeof moveByHand> => {
     showJoints(OUT);
     for (let i = 0; i < 120; i++) {
-      const live = theLive().q_rad, met = moveByHand(Float64Array.from(live, (q, k) => (k === 0 ? q + Math.PI / 180 : q)));
+      const live = theLive().q_rad;
+      const met = moveByHand(Float64Array.from(live, (q, k) => (k === 0 ? q + Math.PI / 180 : q)));
       if (met.kind === "stopped") return met;
       if (collideStore.getState().behaviour !== "alert") expect(collider.collides(theLive().q_rad)).toBe(false);
     }
@@ -70,17 +114,24 @@ describe("a hand that leads the arm into the wall", () => {
   test("N-50 alert: goes on", () => {
     chooseBehaviour("alert");
     expect(lead().kind).toBe("moved");
-    expect(theLive().q_rad[0]).toBeCloseTo(120 * Math.PI / 180, 9);
+    expect(theLive().q_rad[0]).toBeCloseTo((120 * Math.PI) / 180, 9);
   });
 
   test("T-43 stop: says what it would have touched, goes back by itself, and has room there", () => {
     chooseBehaviour("stop");
     const met = lead();
-    expect(met).toMatchObject({ kind: "stopped", sentence: expect.stringMatching(/^Stopped before .+ touches “.+”; going back to where there was room\.$/) as string });
+    expect(met).toMatchObject({
+      kind: "stopped",
+      sentence: expect.stringMatching(
+        /^Stopped before .+ touches “.+”; going back to where there was room\.$/,
+      ) as string,
+    });
     const stood = theLive().q_rad[0]!;
     frames(200);
     expect(theLive().q_rad[0]).toBeLessThan(stood);
-    expect(collider.clearance(theLive().q_rad, 0.2, undefined, ({ b }) => b.name === "wall-left").distance_m).toBeGreaterThan(0.01);
+    expect(
+      collider.clearance(theLive().q_rad, 0.2, undefined, ({ b }) => b.name === "wall-left").distance_m,
+    ).toBeGreaterThan(0.01);
   });
 });
 
@@ -100,8 +151,13 @@ describe("E-25 going to a posture when something is in the way", () => {
     planner();
     showJoints(FROM);
     let arrived = false;
-    goThere(robot, THERE, done => { arrived = done; });
-    for (let i = 0; i < 2000 && !arrived; i++) { frames(1); expect(collider.collides(theLive().q_rad)).toBe(false); }
+    goThere(robot, THERE, done => {
+      arrived = done;
+    });
+    for (let i = 0; i < 2000 && !arrived; i++) {
+      frames(1);
+      expect(collider.collides(theLive().q_rad)).toBe(false);
+    }
     expect(arrived).toBe(true);
     expect([...theLive().q_rad]).toEqual(THERE.map(q => expect.closeTo(q, 9) as number));
   });
@@ -109,9 +165,16 @@ describe("E-25 going to a posture when something is in the way", () => {
 
 describe("searches", () => {
   const blocked = (): void => {
-    commit("Test", document => ({ ...document, programs: document.programs.map(program => ({ ...program, steps: [
-      { id: "a", type: "move", path: "ptp", target: { q: FROM }, speed: { ratio: 0.4 }, blend_m: 0 }, { id: "b", type: "move", path: "ptp", target: { q: THERE }, speed: { ratio: 0.4 }, blend_m: 0 },
-    ] })) }));
+    commit("Test", document => ({
+      ...document,
+      programs: document.programs.map(program => ({
+        ...program,
+        steps: [
+          { id: "a", type: "move", path: "ptp", target: { q: FROM }, speed: { ratio: 0.4 }, blend_m: 0 },
+          { id: "b", type: "move", path: "ptp", target: { q: THERE }, speed: { ratio: 0.4 }, blend_m: 0 },
+        ],
+      })),
+    }));
   };
 
   test("a way round is one edit that one undo takes back", () => {
@@ -160,7 +223,13 @@ describe("searches", () => {
 
 test("the behaviour is kept with the preferences; one that is not known is left out", () => {
   let kept = "{}";
-  const shelf = { getItem: () => kept, setItem: (_: string, text: string) => { kept = text; } }, stop = keepPreferences(shelf, false);
+  const shelf = {
+    getItem: () => kept,
+    setItem: (_: string, text: string) => {
+      kept = text;
+    },
+  };
+  const stop = keepPreferences(shelf, false);
   chooseBehaviour("slide");
   stop();
   chooseBehaviour("alert");

@@ -25,14 +25,15 @@ function tell(): void {
  */
 export function hold(source: JogSource, axis: number, amount: number): void {
   let command = held.get(source);
-  if (!command) held.set(source, command = new Float64Array(AXES));
+  if (!command) held.set(source, (command = new Float64Array(AXES)));
   command[axis] = Number.isFinite(amount) ? Math.min(1, Math.max(-1, amount)) : 0;
   tell();
 }
 export function release(source: JogSource, axis?: number): void {
   const command = held.get(source);
   if (!command) return;
-  if (axis === undefined) command.fill(0); else command[axis] = 0;
+  if (axis === undefined) command.fill(0);
+  else command[axis] = 0;
   tell();
 }
 /** Focus lost, tab hidden, touch cancelled, gamepad gone, STOP. */

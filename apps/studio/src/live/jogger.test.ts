@@ -9,10 +9,17 @@ import { hold, release, releaseAll } from "./held.ts";
 import { createJogger, LOCK_MS, type Jogger } from "./jogger.ts";
 import { showJoints, theLive } from "./live.ts";
 
-const DT = 1 / 60, robot = robotById("staubli_rx90l")!;
+const DT = 1 / 60;
+const robot = robotById("staubli_rx90l")!;
 const START = [0, -60, 110, 0, 40, 0].map(angle => (angle * Math.PI) / 180);
-let jogger: Jogger, now_ms = 0;
-const run = (frames: number): void => { for (let i = 0; i < frames; i++) { now_ms += DT * 1000; jogger.step(now_ms, DT); } };
+let jogger: Jogger;
+let now_ms = 0;
+const run = (frames: number): void => {
+  for (let i = 0; i < frames; i++) {
+    now_ms += DT * 1000;
+    jogger.step(now_ms, DT);
+  }
+};
 const tcp = (): readonly number[] => [...theLive().worldFromTcp.position];
 
 beforeEach(() => {
@@ -54,7 +61,8 @@ test("steps: one press is one step however long it is held", () => {
 
 test("N-39, N-40 at a limit the joint blocks, one sound plays, and nothing moves for 500 ms although other axes are held", () => {
   jogStore.setState({ frame: "joint", speed: 1 });
-  const limit = robot.arm.joints[4]!.limits.upper_rad, sounds = soundStore.getState().played.limit;
+  const limit = robot.arm.joints[4]!.limits.upper_rad;
+  const sounds = soundStore.getState().played.limit;
   hold("gamepad", 4, 1);
   for (let i = 0; i < 600 && jogStore.getState().blocked === null; i++) run(1);
   expect(theLive().q_rad[4]).toBeCloseTo(limit, 9);
@@ -82,8 +90,12 @@ test("a command that is not a number moves nothing", () => {
 });
 
 test("the live TCP is forward kinematics of base, arm and tool", () => {
-  const { q_rad, worldFromTcp } = theLive(), cell = edgeTraceCell();
-  const wanted: Pose<"world", "tcp"> = compose(compose(cell.robot.worldFromBase, flangePose(robot.arm, q_rad)), cell.tools[0]!.flangeFromTcp);
+  const { q_rad, worldFromTcp } = theLive();
+  const cell = edgeTraceCell();
+  const wanted: Pose<"world", "tcp"> = compose(
+    compose(cell.robot.worldFromBase, flangePose(robot.arm, q_rad)),
+    cell.tools[0]!.flangeFromTcp,
+  );
   for (let i = 0; i < 3; i++) expect(worldFromTcp.position[i]).toBeCloseTo(wanted.position[i]!, 12);
 });
 
@@ -91,9 +103,16 @@ test("N-40 a push held on at the edge of reach sounds once, however uneven the f
   jogStore.setState({ speed: 1 });
   const sounds = soundStore.getState().played.limit;
   hold("gamepad", 0, 1);
-  for (let i = 0; i < 600 && jogStore.getState().blocked === null; i++) { now_ms += 100; jogger.step(now_ms, 0.1); }
+  for (let i = 0; i < 600 && jogStore.getState().blocked === null; i++) {
+    now_ms += 100;
+    jogger.step(now_ms, 0.1);
+  }
   expect(soundStore.getState().played.limit).toBe(sounds + 1);
-  for (let i = 0; i < 400; i++) { const dt_s = [0.1, 0.004, 0.016, 0.001, 0.05][i % 5]!; now_ms += 1000 * dt_s; jogger.step(now_ms, dt_s); }
+  for (let i = 0; i < 400; i++) {
+    const dt_s = [0.1, 0.004, 0.016, 0.001, 0.05][i % 5]!;
+    now_ms += 1000 * dt_s;
+    jogger.step(now_ms, dt_s);
+  }
   expect(soundStore.getState().played.limit).toBe(sounds + 1);
   release("gamepad");
   run(2);

@@ -1,4 +1,13 @@
-import { jogScratch, jogStep, type JogBlock, type JogCell, type JogCommand, type Jogged, type Quaternion, type Vector3 } from "@twincell/core";
+import {
+  jogScratch,
+  jogStep,
+  type JogBlock,
+  type JogCell,
+  type JogCommand,
+  type Jogged,
+  type Quaternion,
+  type Vector3,
+} from "@twincell/core";
 import { cellStore } from "../stores/cell.ts";
 import { controlStore } from "../stores/control.ts";
 import { flangeFromTcpOf, robotOf, worldFromFrameOf } from "../stores/document.ts";
@@ -30,45 +39,79 @@ export interface Jogger {
 }
 
 export function createJogger(): Jogger {
-  const scratch = jogScratch(), held = new Float64Array(MOST_COORDINATES), before = new Float64Array(MOST_COORDINATES), pending = new Float64Array(MOST_COORDINATES), rates = new Float64Array(MOST_COORDINATES);
-  const linear: Vector3 = [0, 0, 0], angular: Vector3 = [0, 0, 0];
+  const scratch = jogScratch();
+  const held = new Float64Array(MOST_COORDINATES);
+  const before = new Float64Array(MOST_COORDINATES);
+  const pending = new Float64Array(MOST_COORDINATES);
+  const rates = new Float64Array(MOST_COORDINATES);
+  const linear: Vector3 = [0, 0, 0];
+  const angular: Vector3 = [0, 0, 0];
   const told = new Set<Coordinate>();
   let q = new Float64Array(6);
   // Stopped before a contact it waits for the hand to let go: pushing on would only meet it again.
-  let left_s = 0, letGo = false, known = "", cell: JogCell | null = null, document: unknown = null;
+  let left_s = 0;
+  let letGo = false;
+  let known = "";
+  let cell: JogCell | null = null;
+  let document: unknown = null;
 
   const cellNow = (): JogCell | null => {
     const now = cellStore.getState().document;
     if (now !== document) {
       document = now;
       const robot = robotOf(now);
-      cell = now && robot ? { robot, worldFromBase: now.robot.worldFromBase, flangeFromTcp: flangeFromTcpOf(now) } : null;
+      cell =
+        now && robot ? { robot, worldFromBase: now.robot.worldFromBase, flangeFromTcp: flangeFromTcpOf(now) } : null;
     }
     return cell;
   };
 
   const command = (on: JogCell, jog: JogState, want: Float64Array): JogCommand => {
     if (jog.frame === "joint") {
-      for (let i = 0; i < on.robot.arm.joints.length; i++) rates[i] = want[i]! * (jog.manner === "steps" ? jog.step_rad / STEP_S : jog.speed * JOINT_PART * on.robot.arm.joints[i]!.limits.speed_rad_s);
+      for (let i = 0; i < on.robot.arm.joints.length; i++)
+        rates[i] =
+          want[i]! *
+          (jog.manner === "steps"
+            ? jog.step_rad / STEP_S
+            : jog.speed * JOINT_PART * on.robot.arm.joints[i]!.limits.speed_rad_s);
       return { kind: "joints", speed_rad_s: rates };
     }
-    const metres = jog.manner === "steps" ? jog.step_m / STEP_S : jog.speed * MANUAL_SPEED_MPS, turn = jog.manner === "steps" ? jog.step_rad / STEP_S : jog.speed * TURN_RAD_S;
-    for (let i = 0; i < 3; i++) { linear[i] = want[i]! * metres; angular[i] = want[i + 3]! * turn; }
-    return { kind: "tip", linear_mps: linear, angular_rad_s: angular, frame: jog.frame === "user" ? userAxes(jog) : jog.frame };
+    const metres = jog.manner === "steps" ? jog.step_m / STEP_S : jog.speed * MANUAL_SPEED_MPS;
+    const turn = jog.manner === "steps" ? jog.step_rad / STEP_S : jog.speed * TURN_RAD_S;
+    for (let i = 0; i < 3; i++) {
+      linear[i] = want[i]! * metres;
+      angular[i] = want[i + 3]! * turn;
+    }
+    return {
+      kind: "tip",
+      linear_mps: linear,
+      angular_rad_s: angular,
+      frame: jog.frame === "user" ? userAxes(jog) : jog.frame,
+    };
   };
-  const userAxes = (jog: JogState): Quaternion => worldFromFrameOf(cellStore.getState().document, "user", jog.userFrame).quaternion;
+  const userAxes = (jog: JogState): Quaternion =>
+    worldFromFrameOf(cellStore.getState().document, "user", jog.userFrame).quaternion;
 
   return {
     step(now_ms, dt_s) {
-      const any = heldNow(held), jog = jogStore.getState();
+      const any = heldNow(held);
+      const jog = jogStore.getState();
       if (jog.moving !== any) jogStore.setState({ moving: any });
-      if (jog.aid !== null && any && (jog.frame === "joint" || held[3] !== 0 || held[4] !== 0 || held[5] !== 0)) jogStore.setState({ aid: null });
+      if (jog.aid !== null && any && (jog.frame === "joint" || held[3] !== 0 || held[4] !== 0 || held[5] !== 0))
+        jogStore.setState({ aid: null });
       if (jog.manner === "steps") {
-        for (let i = 0; i < MOST_COORDINATES; i++) if (held[i] !== 0 && before[i] === 0) { pending.fill(0); pending[i] = Math.sign(held[i]!); left_s = STEP_S; }
+        for (let i = 0; i < MOST_COORDINATES; i++)
+          if (held[i] !== 0 && before[i] === 0) {
+            pending.fill(0);
+            pending[i] = Math.sign(held[i]!);
+            left_s = STEP_S;
+          }
       }
       for (const coordinate of told) if (!stillPushed(coordinate, held, before)) told.delete(coordinate);
       before.set(held);
-      const stepping = jog.manner === "steps", on = cellNow(), locked = jog.blocked !== null && now_ms < jog.blocked.until_ms;
+      const stepping = jog.manner === "steps";
+      const on = cellNow();
+      const locked = jog.blocked !== null && now_ms < jog.blocked.until_ms;
       if (!any && !(stepping && left_s > 0)) {
         if (moverNow() === "jog") leaveRobot("jog");
         known = "";
@@ -79,7 +122,11 @@ export function createJogger(): Jogger {
       }
       if (!on || locked || letGo || dt_s <= 0 || (stepping && left_s <= 0)) return;
       if (controlStore.getState().running) {
-        if (known !== "busy") { known = "busy"; sound("limit"); jogStore.setState({ blocked: { sentence: words.jog.busy, until_ms: now_ms + LOCK_MS } }); }
+        if (known !== "busy") {
+          known = "busy";
+          sound("limit");
+          jogStore.setState({ blocked: { sentence: words.jog.busy, until_ms: now_ms + LOCK_MS } });
+        }
         return;
       }
       takeRobot("jog");
@@ -124,7 +171,8 @@ function tell(done: Jogged, known: string, told: Set<Coordinate>, now_ms: number
     if (known !== "") jogStore.setState({ blocked: null });
     return "";
   }
-  const now = done.blocked.map(block => String(block.coordinate)).join(), fresh = done.blocked.some(block => !told.has(block.coordinate));
+  const now = done.blocked.map(block => String(block.coordinate)).join();
+  const fresh = done.blocked.some(block => !told.has(block.coordinate));
   if (fresh) {
     for (const { coordinate } of done.blocked) told.add(coordinate);
     sound("limit");

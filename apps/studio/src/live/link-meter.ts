@@ -13,9 +13,13 @@ export class LinkMeter {
     this.#last = sequence;
     this.#ages_ms[this.samples++ % KEPT] = Math.max(0, age_ms);
   }
-  reset(): void { this.samples = this.lost = 0; }
+  reset(): void {
+    this.samples = this.lost = 0;
+  }
   /** The latest 8192 ages [ms]. */
-  get ages_ms(): number[] { return Array.from(this.#ages_ms.subarray(0, Math.min(this.samples, KEPT))); }
+  get ages_ms(): number[] {
+    return Array.from(this.#ages_ms.subarray(0, Math.min(this.samples, KEPT)));
+  }
 }
 
 /** Of the run under way, or of the last one. */

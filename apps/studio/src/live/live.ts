@@ -30,7 +30,10 @@ export function onTouching(listen: (touching: ReadonlySet<string>) => void): () 
   return () => touchListeners.delete(listen);
 }
 
-export interface LivePoses { flange(q_rad: ArrayLike<number>, out: Pose<"base", "flange">): void; tcp(baseFromFlange: Pose<"base", "flange">, out: Pose<"world", "tcp">): void }
+export interface LivePoses {
+  flange(q_rad: ArrayLike<number>, out: Pose<"base", "flange">): void;
+  tcp(baseFromFlange: Pose<"base", "flange">, out: Pose<"world", "tcp">): void;
+}
 let poses: LivePoses | undefined;
 /** Called once per robot and tool by whoever owns the cell document. `atHome`: the robot begins at its home position. */
 export function followPoses(robot: Robot, how: LivePoses, atHome = false): void {
@@ -42,7 +45,11 @@ export function followPoses(robot: Robot, how: LivePoses, atHome = false): void 
 /** Shows these joint angles from the next frame on. */
 export function showJoints(q_rad: ArrayLike<number>): void {
   for (let i = 0; i < live.q_rad.length; i++) live.q_rad[i] = q_rad[i]!;
-  if (poses) { poses.flange(live.q_rad, live.baseFromFlange); poses.tcp(live.baseFromFlange, live.worldFromTcp); }
+  if (poses) {
+    poses.flange(live.q_rad, live.baseFromFlange);
+    poses.tcp(live.baseFromFlange, live.worldFromTcp);
+  }
   live.revision++;
 }
-export const tcpNow = (out: Pose<"world", "tcp"> = identity()): Pose<"world", "tcp"> => copyPose(live.worldFromTcp, out);
+export const tcpNow = (out: Pose<"world", "tcp"> = identity()): Pose<"world", "tcp"> =>
+  copyPose(live.worldFromTcp, out);

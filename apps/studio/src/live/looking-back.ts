@@ -4,7 +4,8 @@ import { showJoints, theLive } from "./live.ts";
 
 /** From now on the past is shown; what is returned goes back to now: the mode as it was, the robot as it stands. */
 export function beginLookingBack(): () => void {
-  const { mode } = viewStore.getState(), stood_rad = Float64Array.from(theLive().q_rad);
+  const { mode } = viewStore.getState();
+  const stood_rad = Float64Array.from(theLive().q_rad);
   showMode("history");
   return () => {
     theHistory.pause();

@@ -6,11 +6,18 @@ let lost: (() => void) | null = null;
 export const moverNow = (): Mover | null => owner;
 /** @param onLost  called once when somebody else takes the robot. */
 export function takeRobot(mover: Mover, onLost: () => void = () => undefined): void {
-  if (owner === mover) { lost = onLost; return; }
+  if (owner === mover) {
+    lost = onLost;
+    return;
+  }
   const tell = lost;
-  owner = mover; lost = onLost;
+  owner = mover;
+  lost = onLost;
   tell?.();
 }
 export function leaveRobot(mover: Mover): void {
-  if (owner === mover) { owner = null; lost = null; }
+  if (owner === mover) {
+    owner = null;
+    lost = null;
+  }
 }

@@ -2,7 +2,11 @@ import type { Robot } from "@twincell/core";
 import { noteOther } from "./shown.ts";
 
 /** A robot of a recording that is not the one in the cell: written in place, read by the frame loop. */
-export interface PastRobot { readonly robot: Robot; readonly q_rad: Float64Array; revision: number }
+export interface PastRobot {
+  readonly robot: Robot;
+  readonly q_rad: Float64Array;
+  revision: number;
+}
 
 let past: PastRobot | null = null;
 export const pastRobot = (): PastRobot | null => past;
@@ -12,4 +16,6 @@ export function showPast(robot: Robot, q_rad: ArrayLike<number>): void {
   past.revision++;
   noteOther();
 }
-export function leavePast(): void { past = null; }
+export function leavePast(): void {
+  past = null;
+}

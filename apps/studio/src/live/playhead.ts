@@ -6,11 +6,16 @@ import { leaveRobot, takeRobot } from "./owner.ts";
 
 /** Joint angles at a moment, written to `out`. */
 export type SampleAt = (t_s: number, out: Float64Array) => void;
-interface Reel { readonly duration_s: number; readonly sampleAt: SampleAt }
+interface Reel {
+  readonly duration_s: number;
+  readonly sampleAt: SampleAt;
+}
 
 /** The exact time lives here; the store hears of it at most ten times a second. */
 const TELL_EVERY_MS = 100;
-let reel: Reel | null = null, t_s = 0, told_ms = 0;
+let reel: Reel | null = null;
+let t_s = 0;
+let told_ms = 0;
 let q = new Float64Array(6);
 
 export const playheadNow = (): number => t_s;
@@ -26,7 +31,10 @@ function show(now_ms: number, always: boolean): void {
   if (q.length !== theLive().q_rad.length) q = new Float64Array(theLive().q_rad.length);
   reel.sampleAt(t_s, q);
   showJoints(q);
-  if (always || now_ms - told_ms >= TELL_EVERY_MS) { told_ms = now_ms; playStore.setState({ t_s }); }
+  if (always || now_ms - told_ms >= TELL_EVERY_MS) {
+    told_ms = now_ms;
+    playStore.setState({ t_s });
+  }
 }
 
 export function seekTo(to_s: number): void {
@@ -60,5 +68,7 @@ export function startPlayhead(): () => void {
       if (over) pause();
     }),
   ];
-  return () => { for (const stop of stops) stop(); };
+  return () => {
+    for (const stop of stops) stop();
+  };
 }

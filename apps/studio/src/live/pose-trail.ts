@@ -8,8 +8,10 @@ export interface PoseTrail {
 
 /** @param most  samples that are kept: 1024 are 11 s at 90 a second */
 export function poseTrail(joints: number, most = 1024): PoseTrail {
-  const times = new Float64Array(most), samples = new Float64Array(most * joints);
-  let newest = -1, count = 0;
+  const times = new Float64Array(most);
+  const samples = new Float64Array(most * joints);
+  let newest = -1;
+  let count = 0;
   const slot = (back: number): number => (newest - back + most) % most;
   return {
     record(at_s, q_rad) {
@@ -22,12 +24,16 @@ export function poseTrail(joints: number, most = 1024): PoseTrail {
     at(at_s, out_rad) {
       if (count === 0 || at_s < times[slot(count - 1)]!) return false;
       // The last sample that is not after that moment, by halves: 0 steps back is the newest.
-      let near = 0, far = count - 1;
+      let near = 0;
+      let far = count - 1;
       while (near < far) {
         const middle = (near + far) >> 1;
-        if (times[slot(middle)]! <= at_s) far = middle; else near = middle + 1;
+        if (times[slot(middle)]! <= at_s) far = middle;
+        else near = middle + 1;
       }
-      const before = slot(near), after = near === 0 ? before : slot(near - 1), span_s = times[after]! - times[before]!;
+      const before = slot(near);
+      const after = near === 0 ? before : slot(near - 1);
+      const span_s = times[after]! - times[before]!;
       const share = span_s > 0 ? Math.min(1, (at_s - times[before]!) / span_s) : 0;
       for (let j = 0; j < joints; j++) {
         const from = samples[before * joints + j]!;

@@ -10,7 +10,11 @@ export function startPreview(): () => void {
   return onPreview(step => {
     const robot = theRobot();
     if (!robot) return;
-    if (step === null) { if (before) glideTo(robot, before); before = null; return; }
+    if (step === null) {
+      if (before) glideTo(robot, before);
+      before = null;
+      return;
+    }
     if (step.type !== "move") return;
     const there = solveStep(step, theLive().q_rad);
     if (there.kind !== "reached") return;

@@ -3,7 +3,10 @@ import { zstd } from "@twincell/recording/zstd";
 import type { FromRecordingReader, ToRecordingReader } from "../workers/recording-messages.ts";
 
 /** A recording as the browser holds it: nothing of it is read before it is looked at. */
-export interface RecordingFile { readonly name: string; readonly blob: Blob }
+export interface RecordingFile {
+  readonly name: string;
+  readonly blob: Blob;
+}
 /** Opens recordings as one history. */
 export type OpenRecordings = (files: readonly RecordingFile[]) => Promise<OpenedHistory>;
 
@@ -26,7 +29,9 @@ export const openHere: OpenRecordings = async files => openHistory(blobFiles(fil
 export const openInWorker: OpenRecordings = async files => {
   const worker = new Worker(new URL("../workers/recording.worker.ts", import.meta.url), { type: "module" });
   const waiting = new Map<string, (said: FromRecordingReader["said"]) => void>();
-  worker.addEventListener("message", ({ data }: MessageEvent<FromRecordingReader>) => { waiting.get(data.name)?.(data.said); });
+  worker.addEventListener("message", ({ data }: MessageEvent<FromRecordingReader>) => {
+    waiting.get(data.name)?.(data.said);
+  });
   worker.addEventListener("error", event => {
     const sentence = `The recording cannot be read: ${event.message || "the reader stopped without saying why"}.`;
     for (const settle of waiting.values()) settle({ kind: "not-a-recording", sentence });
@@ -34,10 +39,11 @@ export const openInWorker: OpenRecordings = async files => {
   try {
     return await openHistory(blobFiles(files), {
       packing: await zstd(),
-      catalogue: ({ name }) => new Promise(resolve => {
-        waiting.set(name, resolve);
-        worker.postMessage({ name, blob: files.find(file => file.name === name)!.blob } satisfies ToRecordingReader);
-      }),
+      catalogue: ({ name }) =>
+        new Promise(resolve => {
+          waiting.set(name, resolve);
+          worker.postMessage({ name, blob: files.find(file => file.name === name)!.blob } satisfies ToRecordingReader);
+        }),
     });
   } finally {
     worker.terminate();

@@ -10,22 +10,43 @@ import { showJoints, theLive } from "./live.ts";
 import { controlCell, prepareRun } from "./run.ts";
 import { writeProgram, type Written } from "./written.ts";
 
-const robot = robotById("staubli_rx90l")!, cell = tracedCartonCell(), program = cell.programs[0]!;
-const worldFromBase = cell.robot.worldFromBase, flangeFromTcp = cell.tools[0]!.flangeFromTcp;
+const robot = robotById("staubli_rx90l")!;
+const cell = tracedCartonCell();
+const program = cell.programs[0]!;
+const worldFromBase = cell.robot.worldFromBase;
+const flangeFromTcp = cell.tools[0]!.flangeFromTcp;
 
 function memoryShelf(): Shelf {
   const kept = new Map<string, unknown>();
   return {
-    async set(key, value) { kept.set(key, structuredClone(value)); },
-    async get(key) { return kept.get(key); },
-    async keys() { return [...kept.keys()]; },
-    async remove(keys) { for (const key of keys) kept.delete(key); },
+    async set(key, value) {
+      kept.set(key, structuredClone(value));
+    },
+    async get(key) {
+      return kept.get(key);
+    },
+    async keys() {
+      return [...kept.keys()];
+    },
+    async remove(keys) {
+      for (const key of keys) kept.delete(key);
+    },
   };
 }
 function bench(isSafe?: (q: Float64Array) => boolean) {
-  const scheduler = manualScheduler(), shelf = memoryShelf();
+  const scheduler = manualScheduler();
+  const shelf = memoryShelf();
   showJoints(robot.home_rad);
-  const control = controlCell({ dialect: () => vPlus, write: async wanted => writeProgram(vPlus, wanted, robot, worldFromBase), scheduler, shelf, clock_ms: () => 1_700_000_000_000 + scheduler.now_s() * 1000 }, { robot, worldFromBase, flangeFromTcp, ...(isSafe ? { isSafe } : {}) });
+  const control = controlCell(
+    {
+      dialect: () => vPlus,
+      write: async wanted => writeProgram(vPlus, wanted, robot, worldFromBase),
+      scheduler,
+      shelf,
+      clock_ms: () => 1_700_000_000_000 + scheduler.now_s() * 1000,
+    },
+    { robot, worldFromBase, flangeFromTcp, ...(isSafe ? { isSafe } : {}) },
+  );
   return { scheduler, shelf, control };
 }
 
@@ -53,7 +74,12 @@ test("T-23 T-25 the exported text runs to its end, the twin within 0.001°, and 
 
 test("lines of the text keep the ids of the program's steps", () => {
   const lines = new Map<string, number>();
-  const prepared = prepareRun(vPlus, writeProgram(vPlus, program, robot, worldFromBase), { robot, worldFromBase }, (step, line) => lines.set(step, line));
+  const prepared = prepareRun(
+    vPlus,
+    writeProgram(vPlus, program, robot, worldFromBase),
+    { robot, worldFromBase },
+    (step, line) => lines.set(step, line),
+  );
   if (prepared.kind !== "ready") throw new Error(prepared.sentence);
   expect([...prepared.steps()].map(step => step.id)).toEqual(program.steps.map(step => step.id));
   expect([...lines.keys()]).toEqual(program.steps.map(step => step.id));
@@ -115,9 +141,19 @@ test("override 0 holds the robot and more lets it go on", async () => {
 }, 60_000);
 
 test("a robot that no language speaks for runs the steps themselves, to the same end", async () => {
-  const scheduler = manualScheduler(), shelf = memoryShelf();
+  const scheduler = manualScheduler();
+  const shelf = memoryShelf();
   showJoints(robot.home_rad);
-  const control = controlCell({ dialect: () => null, write: async wanted => writeProgram(null, wanted, robot, worldFromBase), scheduler, shelf, clock_ms: () => 1_700_000_000_000 }, { robot, worldFromBase, flangeFromTcp });
+  const control = controlCell(
+    {
+      dialect: () => null,
+      write: async wanted => writeProgram(null, wanted, robot, worldFromBase),
+      scheduler,
+      shelf,
+      clock_ms: () => 1_700_000_000_000,
+    },
+    { robot, worldFromBase, flangeFromTcp },
+  );
   const outcome = control.run(program, cell.name);
   await scheduler.elapse(3);
   expect(controlStore.getState()).toMatchObject({ running: true, line: 0 });
@@ -128,9 +164,15 @@ test("a robot that no language speaks for runs the steps themselves, to the same
 
 test("an input switched by hand lets a program go on; outputs are told as the controller says them", async () => {
   const { scheduler, control } = bench();
-  const waiting: Program = { ...program, signals: { part: { kind: "digital-in", address: 1001 }, lamp: { kind: "digital-out", address: 1 } }, steps: [
-    { id: "i", type: "wait-for", when: { signal: "part", is: true } }, { id: "o", type: "set", signal: "lamp", to: true }, { id: "w", type: "wait", s: 0.5 },
-  ] };
+  const waiting: Program = {
+    ...program,
+    signals: { part: { kind: "digital-in", address: 1001 }, lamp: { kind: "digital-out", address: 1 } },
+    steps: [
+      { id: "i", type: "wait-for", when: { signal: "part", is: true } },
+      { id: "o", type: "set", signal: "lamp", to: true },
+      { id: "w", type: "wait", s: 0.5 },
+    ],
+  };
   const outcome = control.run(waiting, cell.name);
   await scheduler.elapse(2);
   expect(controlStore.getState().signals.get("lamp")).toBeUndefined();
@@ -144,12 +186,20 @@ test("an input switched by hand lets a program go on; outputs are told as the co
 
 test("a straight move that the nearest posture does not lead to runs as it was checked", async () => {
   const { scheduler, control } = bench();
-  const from = [-0.96, -1.27, 1.08, 0.92, 0.3, -0.24], to = [-0.58, -1.58, 1.09, 0.39, 0.32, -0.75];
-  const target = (q: readonly number[]) => ({ pose: compose(worldFromBase, flangePose(robot.arm, q)) as Pose as Pose<"frame", "tcp">, frame: "world", tool: "flange" });
-  const rescued: Program = { ...program, steps: [
-    { id: "a", type: "move", path: "ptp", target: target(from), speed: { ratio: 1 }, blend_m: 0 },
-    { id: "b", type: "move", path: "lin", target: target(to), speed: { mps: 0.3 }, blend_m: 0 },
-  ] };
+  const from = [-0.96, -1.27, 1.08, 0.92, 0.3, -0.24];
+  const to = [-0.58, -1.58, 1.09, 0.39, 0.32, -0.75];
+  const target = (q: readonly number[]) => ({
+    pose: compose(worldFromBase, flangePose(robot.arm, q)) as Pose as Pose<"frame", "tcp">,
+    frame: "world",
+    tool: "flange",
+  });
+  const rescued: Program = {
+    ...program,
+    steps: [
+      { id: "a", type: "move", path: "ptp", target: target(from), speed: { ratio: 1 }, blend_m: 0 },
+      { id: "b", type: "move", path: "lin", target: target(to), speed: { mps: 0.3 }, blend_m: 0 },
+    ],
+  };
   expect(withBranches(rescued, robot, { where: "needed", worldFromBase })).not.toBe(rescued);
   const outcome = control.run(rescued, cell.name);
   await scheduler.elapse(30);
@@ -163,7 +213,17 @@ test("who presses stop while the text is being written has stopped the run, and 
   let answer: (written: Written) => void = () => undefined;
   showJoints(robot.home_rad);
   const control = controlCell(
-    { dialect: () => vPlus, write: () => new Promise(resolve => { answer = resolve; }), scheduler, shelf: memoryShelf(), clock_ms: () => 0 }, { robot, worldFromBase, flangeFromTcp },
+    {
+      dialect: () => vPlus,
+      write: () =>
+        new Promise(resolve => {
+          answer = resolve;
+        }),
+      scheduler,
+      shelf: memoryShelf(),
+      clock_ms: () => 0,
+    },
+    { robot, worldFromBase, flangeFromTcp },
   );
   const outcome = control.run(program, cell.name);
   expect(controlStore.getState().running).toBe(true);

@@ -5,11 +5,16 @@ import { addEffort } from "./effort.ts";
 export const pageScheduler: Scheduler = {
   now_s: () => performance.now() / 1000,
   every(period_s, tick) {
-    const timer = setInterval(() => {
-      const began_ms = performance.now();
-      tick();
-      addEffort(performance.now() - began_ms);
-    }, Math.max(4, period_s * 1000));
-    return () => { clearInterval(timer); };
+    const timer = setInterval(
+      () => {
+        const began_ms = performance.now();
+        tick();
+        addEffort(performance.now() - began_ms);
+      },
+      Math.max(4, period_s * 1000),
+    );
+    return () => {
+      clearInterval(timer);
+    };
   },
 };

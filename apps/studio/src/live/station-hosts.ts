@@ -6,15 +6,34 @@ type Listen = (place: HostPlace, message: Told) => void;
 
 const now_s = (): number => performance.now() / 1000;
 const clients = new Map<HostPlace, Client>();
-let listen: Listen = () => { /* Nobody listens yet. */ };
+let listen: Listen = () => {
+  /* Nobody listens yet. */
+};
 
-export function onHosts(to: Listen): void { listen = to; }
+export function onHosts(to: Listen): void {
+  listen = to;
+}
 
 /** The host in a worker of the page; it is hired when the first station is wanted. */
 function pageHost(): Client {
   const worker = new Worker(new URL("../workers/station.worker.ts", import.meta.url), { type: "module" });
-  const client = createClient({ send: text => { worker.postMessage(text); }, close: () => { worker.terminate(); } }, now_s, message => { listen("page", message); });
-  worker.addEventListener("message", ({ data }: MessageEvent<string>) => { client.hear(data); });
+  const client = createClient(
+    {
+      send: text => {
+        worker.postMessage(text);
+      },
+      close: () => {
+        worker.terminate();
+      },
+    },
+    now_s,
+    message => {
+      listen("page", message);
+    },
+  );
+  worker.addEventListener("message", ({ data }: MessageEvent<string>) => {
+    client.hear(data);
+  });
   worker.addEventListener("error", event => {
     clients.delete("page");
     client.gone();
@@ -38,16 +57,29 @@ export function lookForServer(): void {
   address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
   const socket = new WebSocket(address);
   const waiting: string[] = [];
-  const client = createClient({
-    send(text) { if (socket.readyState === WebSocket.OPEN) socket.send(text); else waiting.push(text); },
-    close() { socket.close(); },
-  }, now_s, message => { listen("server", message); });
+  const client = createClient(
+    {
+      send(text) {
+        if (socket.readyState === WebSocket.OPEN) socket.send(text);
+        else waiting.push(text);
+      },
+      close() {
+        socket.close();
+      },
+    },
+    now_s,
+    message => {
+      listen("server", message);
+    },
+  );
   socket.addEventListener("open", () => {
     for (const text of waiting.splice(0)) socket.send(text);
     clients.set("server", client);
     stationStore.setState({ server: true });
   });
-  socket.addEventListener("message", ({ data }: MessageEvent<string>) => { client.hear(data); });
+  socket.addEventListener("message", ({ data }: MessageEvent<string>) => {
+    client.hear(data);
+  });
   socket.addEventListener("close", () => {
     const was = clients.delete("server");
     client.gone();

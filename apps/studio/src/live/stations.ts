@@ -1,4 +1,12 @@
-import { retargetProgram, robotById, type CommandOutcome, type JointSample, type Pose, type Program, type Robot } from "@twincell/core";
+import {
+  retargetProgram,
+  robotById,
+  type CommandOutcome,
+  type JointSample,
+  type Pose,
+  type Program,
+  type Robot,
+} from "@twincell/core";
 import { actNote, type TellOf } from "@twincell/messages";
 import { createRunRecorder, type RunRecorder } from "@twincell/recording";
 import { createCabinetLink, type CabinetLink } from "../cabinet/link.ts";
@@ -26,15 +34,45 @@ export interface StationLive {
   readonly ahead: { readonly q_rad: Float64Array; revision: number };
 }
 const newLive = (robot: Robot): StationLive => ({
-  robot, q_rad: Float64Array.from(robot.home_rad), revision: 0, received_s: 0, sent_s: 0, ahead: { q_rad: Float64Array.from(robot.home_rad), revision: 0 },
+  robot,
+  q_rad: Float64Array.from(robot.home_rad),
+  revision: 0,
+  received_s: 0,
+  sent_s: 0,
+  ahead: { q_rad: Float64Array.from(robot.home_rad), revision: 0 },
 });
-interface Recording { readonly recorder: RunRecorder; readonly file: RunFile; readonly note: (ending: RunEnding) => void }
+interface Recording {
+  readonly recorder: RunRecorder;
+  readonly file: RunFile;
+  readonly note: (ending: RunEnding) => void;
+}
 
 const shelf = browserShelf();
-const cabinets = new Map<string, CabinetLink>(), lives = new Map<string, StationLive>(), recordings = new Map<string, Recording>(), told_ms = new Map<string, number>(), alive = new Map<string, number>();
-const TELL_EVERY_MS = 100, ALIVE_EVERY_MS = 25;
-const NO_LINK: StationState["link"] = { state: "closed", sentence: "", attempts: 0, rate_Hz: 0, late_s: 0, roundTrip_s: null, missing: 0 };
-const AT_REST: StationState["guard"] = { holder: null, pressed: false, link: "up", motion: "at-rest", trip: "none", emergency: false, watching: false };
+const cabinets = new Map<string, CabinetLink>();
+const lives = new Map<string, StationLive>();
+const recordings = new Map<string, Recording>();
+const told_ms = new Map<string, number>();
+const alive = new Map<string, number>();
+const TELL_EVERY_MS = 100;
+const ALIVE_EVERY_MS = 25;
+const NO_LINK: StationState["link"] = {
+  state: "closed",
+  sentence: "",
+  attempts: 0,
+  rate_Hz: 0,
+  late_s: 0,
+  roundTrip_s: null,
+  missing: 0,
+};
+const AT_REST: StationState["guard"] = {
+  holder: null,
+  pressed: false,
+  link: "up",
+  motion: "at-rest",
+  trip: "none",
+  emergency: false,
+  watching: false,
+};
 
 export const stationLive = (id: string): StationLive | undefined => lives.get(id);
 
@@ -43,17 +81,36 @@ export interface NewStation {
   readonly robot: string;
   readonly place: HostPlace;
   readonly stand: Pose<"world", "base">;
-  readonly address?: { readonly host: string; readonly ports?: Readonly<Record<string, number>>; readonly data?: Readonly<Record<string, readonly number[]>> };
+  readonly address?: {
+    readonly host: string;
+    readonly ports?: Readonly<Record<string, number>>;
+    readonly data?: Readonly<Record<string, readonly number[]>>;
+  };
   /** Only to watch what others do with it. */
   readonly watch?: boolean;
 }
 
-const refusedAs = (sentence: string, hint: string): CommandOutcome => ({ kind: "refused", why: { code: "station.none", sentence, hint } });
-const hostOf = (id: string) => { const place = stationOf(id)?.place; return place && hostAt(place); };
+const refusedAs = (sentence: string, hint: string): CommandOutcome => ({
+  kind: "refused",
+  why: { code: "station.none", sentence, hint },
+});
+const hostOf = (id: string) => {
+  const place = stationOf(id)?.place;
+  return place && hostAt(place);
+};
 
 /** Opens and connects a station, and takes its lease. Programs of the cell are carried out as if its robot stood where the cell's stands. */
-export async function addStation({ brand, robot: robotId, place, stand, address, watch = false }: NewStation): Promise<CommandOutcome> {
-  const host = hostAt(place), robot = robotById(robotId), { document } = cellStore.getState();
+export async function addStation({
+  brand,
+  robot: robotId,
+  place,
+  stand,
+  address,
+  watch = false,
+}: NewStation): Promise<CommandOutcome> {
+  const host = hostAt(place);
+  const robot = robotById(robotId);
+  const { document } = cellStore.getState();
   if (!host || !robot || !document) return refusedAs(words.stations.noServer, words.stations.noServerHint);
   const taken = new Set(stationStore.getState().stations.map(({ id }) => id));
   let id = robotId;
@@ -61,21 +118,49 @@ export async function addStation({ brand, robot: robotId, place, stand, address,
   lives.set(id, newLive(robot));
   stands.set(id, stand);
   const opened = await host.ask({
-    type: "open", station: id, brand, robot: robotId, worldFromBase: document.robot.worldFromBase, stand, ...(watch ? { watch } : {}), ...(address ? { address: { host: address.host, ...(address.ports ? { ports: { ...address.ports } } : {}), ...(address.data ? { data: Object.fromEntries(Object.entries(address.data).map(([name, numbers]) => [name, [...numbers]])) } : {}) } } : {}),
+    type: "open",
+    station: id,
+    brand,
+    robot: robotId,
+    worldFromBase: document.robot.worldFromBase,
+    stand,
+    ...(watch ? { watch } : {}),
+    ...(address
+      ? {
+          address: {
+            host: address.host,
+            ...(address.ports ? { ports: { ...address.ports } } : {}),
+            ...(address.data
+              ? {
+                  data: Object.fromEntries(Object.entries(address.data).map(([name, numbers]) => [name, [...numbers]])),
+                }
+              : {}),
+          },
+        }
+      : {}),
   });
-  if (opened.kind !== "done") { lives.delete(id); return opened; }
+  if (opened.kind !== "done") {
+    lives.delete(id);
+    return opened;
+  }
   if (watch) return host.ask({ type: "connect", station: id });
   const took = await host.ask({ type: "take", station: id });
   return took.kind === "done" ? host.ask({ type: "connect", station: id }) : took;
 }
 const stands = new Map<string, Pose<"world", "base">>();
 
-export async function removeStation(id: string): Promise<void> { await hostOf(id)?.ask({ type: "close", station: id }); }
-export const askStation = (id: string, type: "connect" | "disconnect" | "confirm" | "reset" | "take" | "release" | "zero"): Promise<CommandOutcome> =>
+export async function removeStation(id: string): Promise<void> {
+  await hostOf(id)?.ask({ type: "close", station: id });
+}
+export const askStation = (
+  id: string,
+  type: "connect" | "disconnect" | "confirm" | "reset" | "take" | "release" | "zero",
+): Promise<CommandOutcome> =>
   hostOf(id)?.ask({ type, station: id }) ?? Promise.resolve(refusedAs(words.stations.gone, ""));
 /** The pendant of a virtual controller, kept as long as the controller is there. */
 export function cabinetOf(id: string): CabinetLink | null {
-  const host = hostOf(id), known = cabinets.get(id);
+  const host = hostOf(id);
+  const known = cabinets.get(id);
   if (known || !host) return known ?? null;
   const link = createCabinetLink(id, host);
   cabinets.set(id, link);
@@ -95,23 +180,33 @@ export function lookAhead(id: string, seconds: number): void {
 }
 /** The ghost goes through the present program; nothing is sent to the robot. */
 export async function previewStation(id: string): Promise<CommandOutcome> {
-  const wanted = programFor(id), host = hostOf(id), live = lives.get(id);
+  const wanted = programFor(id);
+  const host = hostOf(id);
+  const live = lives.get(id);
   if (!wanted || !host || !live) return refusedAs(words.stations.gone, "");
   if (wanted.program.steps.length === 0) return refusedAs(words.run.nothing, "");
-  if (wanted.unreached.length > 0) return refusedAs(words.stations.unreached(live.robot.name, wanted.unreached.length), words.stations.unreachedHint);
+  if (wanted.unreached.length > 0)
+    return refusedAs(words.stations.unreached(live.robot.name, wanted.unreached.length), words.stations.unreachedHint);
   return host.ask({ type: "preview", station: id, program: wanted.program });
 }
-export function stopStation(id: string, emergency = false): void { hostOf(id)?.stop(id, emergency); }
+export function stopStation(id: string, emergency = false): void {
+  hostOf(id)?.stop(id, emergency);
+}
 export async function pullPlug(id: string, pulled: boolean): Promise<void> {
   const outcome = await hostOf(id)?.ask({ type: "plug", station: id, pulled });
   if (outcome?.kind === "done") changeStation(id, { unplugged: pulled });
 }
 /** The dead-man of a real robot. */
-export function holdStation(id: string, pressed: boolean): void { void hostOf(id)?.ask({ type: "hold", station: id, pressed }); }
+export function holdStation(id: string, pressed: boolean): void {
+  void hostOf(id)?.ask({ type: "hold", station: id, pressed });
+}
 
 /** The present program as that station's robot can do it. */
 export function programFor(id: string): { readonly program: Program; readonly unreached: readonly string[] } | null {
-  const { document } = cellStore.getState(), program = programOf(document), from = robotOf(document), to = lives.get(id)?.robot;
+  const { document } = cellStore.getState();
+  const program = programOf(document);
+  const from = robotOf(document);
+  const to = lives.get(id)?.robot;
   if (!document || !program || !from || !to) return null;
   if (from.id === to.id) return { program, unreached: [] };
   const { program: moved, unreached } = retargetProgram(program, from, to, document.robot.worldFromBase);
@@ -120,10 +215,14 @@ export function programFor(id: string): { readonly program: Program; readonly un
 
 /** Runs the present program there as text of its own language, recorded from beginning to end. */
 export async function runStation(id: string): Promise<CommandOutcome> {
-  const wanted = programFor(id), host = hostOf(id), station = stationOf(id), live = lives.get(id);
+  const wanted = programFor(id);
+  const host = hostOf(id);
+  const station = stationOf(id);
+  const live = lives.get(id);
   if (!wanted || !host || !station || !live) return refusedAs(words.stations.gone, "");
   if (wanted.program.steps.length === 0) return refusedAs(words.run.nothing, "");
-  if (wanted.unreached.length > 0) return refusedAs(words.stations.unreached(live.robot.name, wanted.unreached.length), words.stations.unreachedHint);
+  if (wanted.unreached.length > 0)
+    return refusedAs(words.stations.unreached(live.robot.name, wanted.unreached.length), words.stations.unreachedHint);
   changeStation(id, { running: true, notice: "" });
   const recording = beginRecording(station, live, wanted.program.name);
   const outcome = await host.ask({ type: "run", station: id, program: wanted.program, asText: true });
@@ -134,9 +233,13 @@ export async function runStation(id: string): Promise<CommandOutcome> {
 
 /** All that are at rest begin in the same turn. */
 export async function runAll(): Promise<void> {
-  const ready = stationStore.getState().stations.filter(({ running, link, guard }) => !running && link.state === "open" && !guard.watching);
+  const ready = stationStore
+    .getState()
+    .stations.filter(({ running, link, guard }) => !running && link.state === "open" && !guard.watching);
   const outcomes = await Promise.all(ready.map(async station => ({ station, outcome: await runStation(station.id) })));
-  for (const { station, outcome } of outcomes) if (outcome.kind !== "done") notify(outcome.kind === "stopped" ? "warn" : "bad", `${station.name}: ${outcome.why.sentence}`, outcome.why.hint);
+  for (const { station, outcome } of outcomes)
+    if (outcome.kind !== "done")
+      notify(outcome.kind === "stopped" ? "warn" : "bad", `${station.name}: ${outcome.why.sentence}`, outcome.why.hint);
 }
 
 /** How each of a group ended, as its host said just before it answered. */
@@ -146,21 +249,32 @@ const groupEnds = new Map<string, CommandOutcome>();
 export async function startTogether(ids: readonly string[]): Promise<CommandOutcome> {
   const group: { readonly station: StationState; readonly live: StationLive; readonly program: Program }[] = [];
   for (const id of ids) {
-    const wanted = programFor(id), station = stationOf(id), live = lives.get(id);
+    const wanted = programFor(id);
+    const station = stationOf(id);
+    const live = lives.get(id);
     if (!wanted || !station || !live) return refusedAs(words.stations.gone, "");
     if (wanted.program.steps.length === 0) return refusedAs(words.run.nothing, "");
-    if (wanted.unreached.length > 0) return refusedAs(words.stations.unreached(live.robot.name, wanted.unreached.length), words.stations.unreachedHint);
+    if (wanted.unreached.length > 0)
+      return refusedAs(
+        words.stations.unreached(live.robot.name, wanted.unreached.length),
+        words.stations.unreachedHint,
+      );
     group.push({ station, live, program: wanted.program });
   }
-  const [first] = group, host = first && hostAt(first.station.place);
+  const [first] = group;
+  const host = first && hostAt(first.station.place);
   if (!host) return refusedAs(words.stations.gone, "");
-  if (group.some(({ station }) => station.place !== first.station.place)) return refusedAs(words.stations.twoClocks, words.stations.twoClocksHint);
+  if (group.some(({ station }) => station.place !== first.station.place))
+    return refusedAs(words.stations.twoClocks, words.stations.twoClocksHint);
   const running = group.map(({ station, live, program }) => {
     changeStation(station.id, { running: true, notice: "" });
     return { id: station.id, recording: beginRecording(station, live, program.name) };
   });
   for (const id of ids) groupEnds.delete(id);
-  const outcome = await host.ask({ type: "together", members: group.map(({ station, program }) => ({ station: station.id, program, asText: true })) });
+  const outcome = await host.ask({
+    type: "together",
+    members: group.map(({ station, program }) => ({ station: station.id, program, asText: true })),
+  });
   for (const { id, recording } of running) {
     const own = groupEnds.get(id) ?? outcome;
     await endRecording(id, recording, own);
@@ -170,11 +284,25 @@ export async function startTogether(ids: readonly string[]): Promise<CommandOutc
 }
 
 function beginRecording(station: StationState, { robot }: StationLive, program: string): Recording {
-  const startedAt = new Date(), run = `${startedAt.toISOString().replace(/[:.]/g, "-")} ${station.id}`, file = openRunFile(shelf, run), cell = cellStore.getState().document?.name ?? "";
-  const recorder = createRunRecorder(file.sink, { robot, startedAt_ns: BigInt(startedAt.getTime()) * 1_000_000n, program, cell, chunk_s: 0.5 });
+  const startedAt = new Date();
+  const run = `${startedAt.toISOString().replace(/[:.]/g, "-")} ${station.id}`;
+  const file = openRunFile(shelf, run);
+  const cell = cellStore.getState().document?.name ?? "";
+  const recorder = createRunRecorder(file.sink, {
+    robot,
+    startedAt_ns: BigInt(startedAt.getTime()) * 1_000_000n,
+    program,
+    cell,
+    chunk_s: 0.5,
+  });
   const note = (ending: RunEnding): void => {
     file.note({
-      id: run, name: `${station.name} · ${program}`, startedAt: startedAt.toISOString(), duration_s: (Date.now() - startedAt.getTime()) / 1000, bytes: file.sink.position, ending,
+      id: run,
+      name: `${station.name} · ${program}`,
+      startedAt: startedAt.toISOString(),
+      duration_s: (Date.now() - startedAt.getTime()) / 1000,
+      bytes: file.sink.position,
+      ending,
       station: { robot: station.robot, stand: station.stand },
     });
   };
@@ -186,17 +314,22 @@ function beginRecording(station: StationState, { robot }: StationLive, program: 
 }
 async function endRecording(id: string, { recorder, file, note }: Recording, outcome: CommandOutcome): Promise<void> {
   recordings.delete(id);
-  recorder.event(outcome.kind, outcome.kind === "done" ? "The run is done." : outcome.why.sentence, outcome.kind === "done" ? "info" : "warning");
+  recorder.event(
+    outcome.kind,
+    outcome.kind === "done" ? "The run is done." : outcome.why.sentence,
+    outcome.kind === "done" ? "info" : "warning",
+  );
   recorder.finish();
   note(outcome.kind);
-  const trouble = await file.settled() ?? recorder.problem?.sentence ?? null;
+  const trouble = (await file.settled()) ?? recorder.problem?.sentence ?? null;
   if (trouble !== null) changeStation(id, { notice: trouble });
   historyStore.setState({ runs: await listRuns(shelf) });
 }
 
 /** Everything that anybody does at that station while its run is recorded. */
 function recordAct(message: TellOf<"act">): void {
-  const recorder = recordings.get(message.station)?.recorder, said = actNote(message);
+  const recorder = recordings.get(message.station)?.recorder;
+  const said = actNote(message);
   if (said?.kind === "command") recorder?.note("command", said.note);
   else if (said) recorder?.note("operator", said.note);
 }
@@ -204,7 +337,12 @@ function recordAct(message: TellOf<"act">): void {
 /** Commands wait on nothing, but who holds the lease of a real robot says so many times a second. */
 function keepAlive(id: string): void {
   if (alive.has(id)) return;
-  alive.set(id, window.setInterval(() => { hostOf(id)?.alive(id); }, ALIVE_EVERY_MS));
+  alive.set(
+    id,
+    window.setInterval(() => {
+      hostOf(id)?.alive(id);
+    }, ALIVE_EVERY_MS),
+  );
 }
 
 function take(place: HostPlace, message: Told): void {
@@ -213,22 +351,49 @@ function take(place: HostPlace, message: Told): void {
       if (message.brands.length > 0) stationStore.setState({ brands: message.brands });
       for (const station of message.stations) appear(place, station);
       break;
-    case "opened": appear(place, message); break;
-    case "closed": vanish(message.station); break;
-    case "link": if (message.state !== stationOf(message.station)?.link.state || due(`${message.station} link`)) changeStation(message.station, { link: message }); break;
-    case "guard": changeStation(message.station, { guard: message }); break;
-    case "notice": changeStation(message.station, { notice: message.why.sentence }); recordings.get(message.station)?.recorder.event(message.why.code, message.why.sentence, "warning"); break;
+    case "opened":
+      appear(place, message);
+      break;
+    case "closed":
+      vanish(message.station);
+      break;
+    case "link":
+      if (message.state !== stationOf(message.station)?.link.state || due(`${message.station} link`))
+        changeStation(message.station, { link: message });
+      break;
+    case "guard":
+      changeStation(message.station, { guard: message });
+      break;
+    case "notice":
+      changeStation(message.station, { notice: message.why.sentence });
+      recordings.get(message.station)?.recorder.event(message.why.code, message.why.sentence, "warning");
+      break;
     case "began":
       notify("info", words.stations.began(message.stations.length, Math.round(1000 * message.spread_s)));
-      for (const id of message.stations) recordings.get(id)?.recorder.event("group.began", words.stations.began(message.stations.length, Math.round(1000 * message.spread_s)));
+      for (const id of message.stations)
+        recordings
+          .get(id)
+          ?.recorder.event(
+            "group.began",
+            words.stations.began(message.stations.length, Math.round(1000 * message.spread_s)),
+          );
       break;
-    case "ended": for (const { station, outcome } of message.stations) groupEnds.set(station, outcome); break;
-    case "act": recordAct(message); break;
-    case "ahead": foresee(message); break;
-    case "sample": show(message); break;
+    case "ended":
+      for (const { station, outcome } of message.stations) groupEnds.set(station, outcome);
+      break;
+    case "act":
+      recordAct(message);
+      break;
+    case "ahead":
+      foresee(message);
+      break;
+    case "sample":
+      show(message);
+      break;
     case "pendant":
       cabinets.get(message.station)?.take(message);
-      if (message.shown.trouble.unplugged !== stationOf(message.station)?.unplugged) changeStation(message.station, { unplugged: message.shown.trouble.unplugged });
+      if (message.shown.trouble.unplugged !== stationOf(message.station)?.unplugged)
+        changeStation(message.station, { unplugged: message.shown.trouble.unplugged });
       break;
     case "fault":
       notify("bad", message.sentence, words.stations.faultHint);
@@ -237,14 +402,40 @@ function take(place: HostPlace, message: Told): void {
   }
 }
 
-function appear(place: HostPlace, { id, name, brand, robot: robotId, virtual, watchdog }: Omit<TellOf<"opened">, "type">): void {
-  const robot = robotById(robotId), { document } = cellStore.getState();
+function appear(
+  place: HostPlace,
+  { id, name, brand, robot: robotId, virtual, watchdog }: Omit<TellOf<"opened">, "type">,
+): void {
+  const robot = robotById(robotId);
+  const { document } = cellStore.getState();
   if (!robot || stationOf(id)) return;
   if (!lives.has(id)) lives.set(id, newLive(robot));
   const stand = stands.get(id) ?? document!.robot.worldFromBase;
   const station: StationState = {
-    id, name: virtual ? shortName(robot) : name, brand, robot: robotId, virtual, watchdog, place, stand, link: NO_LINK, guard: AT_REST, mode: "automatic", safety: "normal", moving: false, override: 1,
-    step: "", message: "", plan_rad: null, command_rad: null, running: false, unplugged: false, notice: "", ghost: "none", foreseen: "", ahead_s: 2,
+    id,
+    name: virtual ? shortName(robot) : name,
+    brand,
+    robot: robotId,
+    virtual,
+    watchdog,
+    place,
+    stand,
+    link: NO_LINK,
+    guard: AT_REST,
+    mode: "automatic",
+    safety: "normal",
+    moving: false,
+    override: 1,
+    step: "",
+    message: "",
+    plan_rad: null,
+    command_rad: null,
+    running: false,
+    unplugged: false,
+    notice: "",
+    ghost: "none",
+    foreseen: "",
+    ahead_s: 2,
   };
   stationStore.setState(({ stations }) => ({ stations: [...stations, station] }));
   keepAlive(id);
@@ -268,24 +459,45 @@ const due = (what: string): boolean => {
 
 /** Angles go to the frame loop at once; words as slowly as people read. */
 function foresee({ station: id, ahead }: TellOf<"ahead">): void {
-  const live = lives.get(id), known = stationOf(id);
+  const live = lives.get(id);
+  const known = stationOf(id);
   if (!live || !known) return;
-  if (ahead && ahead.q_rad.length === live.ahead.q_rad.length) { live.ahead.q_rad.set(ahead.q_rad); live.ahead.revision++; noteOther(); }
+  if (ahead && ahead.q_rad.length === live.ahead.q_rad.length) {
+    live.ahead.q_rad.set(ahead.q_rad);
+    live.ahead.revision++;
+    noteOther();
+  }
   const ghost = !ahead ? "none" : ahead.problem ? "blocked" : "free";
   if (ghost === known.ghost && !(ahead?.problem && due(`${id} ahead`))) return;
-  changeStation(id, { ghost, foreseen: ahead?.problem ? words.stations.inTime(ahead.problem.in_s.toFixed(1), ahead.problem.sentence) : "" });
+  changeStation(id, {
+    ghost,
+    foreseen: ahead?.problem ? words.stations.inTime(ahead.problem.in_s.toFixed(1), ahead.problem.sentence) : "",
+  });
 }
 
 function show(sample: TellOf<"sample">): void {
-  const live = lives.get(sample.station), known = stationOf(sample.station);
+  const live = lives.get(sample.station);
+  const known = stationOf(sample.station);
   if (!live || !known || sample.q_rad.length !== live.q_rad.length) return;
   live.q_rad.set(sample.q_rad);
   live.received_s = performance.now() / 1000;
   live.sent_s = sample.sent_s;
   live.revision++;
   noteOther();
-  const { sequence, time_s, moving, mode, safety, override, gripperClosed, step, message, plan_rad, command_rad } = sample;
-  recordings.get(sample.station)?.recorder.record({ sequence, time_s, q_rad: live.q_rad, moving, mode, safety, override, gripperClosed, step, message } satisfies JointSample);
+  const { sequence, time_s, moving, mode, safety, override, gripperClosed, step, message, plan_rad, command_rad } =
+    sample;
+  recordings.get(sample.station)?.recorder.record({
+    sequence,
+    time_s,
+    q_rad: live.q_rad,
+    moving,
+    mode,
+    safety,
+    override,
+    gripperClosed,
+    step,
+    message,
+  } satisfies JointSample);
   if (safety === known.safety && mode === known.mode && !due(sample.station)) return;
   changeStation(sample.station, { moving, mode, safety, override, step, message, plan_rad, command_rad });
 }
@@ -293,5 +505,7 @@ function show(sample: TellOf<"sample">): void {
 /** Listens to hosts as long as the page lives. STOP stops every station. */
 export function startStations(): void {
   onHosts(take);
-  onStop(() => { for (const place of new Set(stationStore.getState().stations.map(({ place: at }) => at))) hostAt(place)?.stop(); });
+  onStop(() => {
+    for (const place of new Set(stationStore.getState().stations.map(({ place: at }) => at))) hostAt(place)?.stop();
+  });
 }

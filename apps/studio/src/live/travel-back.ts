@@ -44,16 +44,37 @@ export interface TravelBack {
   remove(id: string): Promise<void>;
 }
 
-export function travelBack(shelf: Shelf, scheduler: Scheduler, openRecordings: OpenRecordings, clock_ms: () => number): TravelBack {
-  let player: HistoryPlayer | null = null, told_s = -1, opening: object | null = null;
+export function travelBack(
+  shelf: Shelf,
+  scheduler: Scheduler,
+  openRecordings: OpenRecordings,
+  clock_ms: () => number,
+): TravelBack {
+  let player: HistoryPlayer | null = null;
+  let told_s = -1;
+  let opening: object | null = null;
 
   const tell = (force: boolean): void => {
     if (!player) return;
     const now_s = scheduler.now_s();
     if (!force && now_s - told_s < TELL_EVERY_S && player.playing) return;
     told_s = now_s;
-    const { moment, position_s } = player, said = moment && { step: moment.state.step, mode: moment.state.mode, safety: moment.state.safety, gripperClosed: moment.state.gripperClosed, message: moment.state.message, signals: moment.signals, recorded: moment.recorded };
-    historyStore.setState(state => ({ t_s: position_s, playing: player!.playing, window: windowAt(position_s, state), ...(said && !alike(said, state.moment) ? { moment: said } : {}) }));
+    const { moment, position_s } = player;
+    const said = moment && {
+      step: moment.state.step,
+      mode: moment.state.mode,
+      safety: moment.state.safety,
+      gripperClosed: moment.state.gripperClosed,
+      message: moment.state.message,
+      signals: moment.signals,
+      recorded: moment.recorded,
+    };
+    historyStore.setState(state => ({
+      t_s: position_s,
+      playing: player!.playing,
+      window: windowAt(position_s, state),
+      ...(said && !alike(said, state.moment) ? { moment: said } : {}),
+    }));
   };
   const close = (): void => {
     player?.close();
@@ -62,36 +83,64 @@ export function travelBack(shelf: Shelf, scheduler: Scheduler, openRecordings: O
     closeHistory();
   };
 
-  async function openAs(id: string | null, name: string, files: () => Promise<readonly RecordingFile[]>, hint: string): Promise<boolean> {
+  async function openAs(
+    id: string | null,
+    name: string,
+    files: () => Promise<readonly RecordingFile[]>,
+    hint: string,
+  ): Promise<boolean> {
     close();
-    const mine = opening = {};
+    const mine = (opening = {});
     historyStore.setState({ open: id, name, opening: true });
-    const taken = await files().then(openRecordings).catch((reason: unknown) => ({ kind: "not-a-recording" as const, sentence: `${words.history.unreadable} ${reason instanceof Error ? reason.message : String(reason)}.` }));
+    const taken = await files()
+      .then(openRecordings)
+      .catch((reason: unknown) => ({
+        kind: "not-a-recording" as const,
+        sentence: `${words.history.unreadable} ${reason instanceof Error ? reason.message : String(reason)}.`,
+      }));
     if (opening !== mine) return false;
     const robot = taken.kind === "history" ? robotById(taken.history.robot) : undefined;
-    const wrong = taken.kind === "not-a-recording" ? taken.sentence
-      : !robot ? words.history.unknownRobot(taken.history.robotName || taken.history.robot)
-      : robot.arm.joints.length !== taken.history.joints ? words.history.otherJoints(taken.history.joints, robot.name, robot.arm.joints.length) : null;
+    const wrong =
+      taken.kind === "not-a-recording"
+        ? taken.sentence
+        : !robot
+          ? words.history.unknownRobot(taken.history.robotName || taken.history.robot)
+          : robot.arm.joints.length !== taken.history.joints
+            ? words.history.otherJoints(taken.history.joints, robot.name, robot.arm.joints.length)
+            : null;
     if (taken.kind === "not-a-recording" || !robot || wrong !== null) {
       close();
       notify("bad", wrong ?? words.history.unreadable, hint);
       return false;
     }
-    const { history } = taken, { document } = cellStore.getState(), here = robotOf(document);
-    const stand = historyStore.getState().runs.find(run => run.id === id)?.station?.stand, other = stand !== undefined || (here ? here.id !== robot.id : false);
+    const { history } = taken;
+    const { document } = cellStore.getState();
+    const here = robotOf(document);
+    const stand = historyStore.getState().runs.find(run => run.id === id)?.station?.stand;
+    const other = stand !== undefined || (here ? here.id !== robot.id : false);
     player = playHistory(history, robot, scheduler);
     player.onSample(({ q_rad }) => {
       if (other) showPast(robot, q_rad);
       else if (viewStore.getState().mode === "history") showJoints(q_rad);
       tell(false);
     });
-    player.onTrouble(sentence => { tell(true); notify("bad", sentence, words.history.unreadableHint); });
+    player.onTrouble(sentence => {
+      tell(true);
+      notify("bad", sentence, words.history.unreadableHint);
+    });
     const parts = history.samples(0, Infinity);
     for (let read = 0; read < READ_AT_ONCE && !(await parts.next()).done; read++);
     if (opening !== mine) return false;
     historyStore.setState({
-      opening: false, name: name || history.program || history.cell, startedAt_ms: Number(history.startedAt_ns / 1_000_000n), duration_s: history.duration_s, marks: history.marks, cycles: history.cycles,
-      troubles: history.troubles, speed: 1, window: { from_s: 0, to_s: history.duration_s },
+      opening: false,
+      name: name || history.program || history.cell,
+      startedAt_ms: Number(history.startedAt_ns / 1_000_000n),
+      duration_s: history.duration_s,
+      marks: history.marks,
+      cycles: history.cycles,
+      troubles: history.troubles,
+      speed: 1,
+      window: { from_s: 0, to_s: history.duration_s },
     });
     player.timeline.seek(0);
     tell(true);
@@ -105,32 +154,74 @@ export function travelBack(shelf: Shelf, scheduler: Scheduler, openRecordings: O
       if (gone > 0) notify("info", words.history.tidied(gone));
       historyStore.setState({ runs: await listRuns(shelf) });
     },
-    open: id => openAs(id, "", async () => [{ name: `${id}.mcap`, blob: await runBlob(shelf, id) }], words.history.unreadableKept),
+    open: id =>
+      openAs(
+        id,
+        "",
+        async () => [{ name: `${id}.mcap`, blob: await runBlob(shelf, id) }],
+        words.history.unreadableKept,
+      ),
     openFiles: files => openAs(null, files[0]?.name ?? "", () => Promise.resolve(files), words.history.unreadableHint),
     close,
-    seek(to_s) { player?.timeline.seek(to_s); tell(true); },
-    play() { player?.timeline.play(); tell(true); },
-    pause() { player?.timeline.pause(); tell(true); },
-    setSpeed(factor) { player?.timeline.setSpeed(factor); historyStore.setState({ speed: factor }); },
+    seek(to_s) {
+      player?.timeline.seek(to_s);
+      tell(true);
+    },
+    play() {
+      player?.timeline.play();
+      tell(true);
+    },
+    pause() {
+      player?.timeline.pause();
+      tell(true);
+    },
+    setSpeed(factor) {
+      player?.timeline.setSpeed(factor);
+      historyStore.setState({ speed: factor });
+    },
     lastAlarm() {
       if (!player) return;
       const alarm = player.history.lastAlarm(player.position_s) ?? player.history.lastAlarm(Infinity);
-      if (!alarm) { notify("info", words.history.noAlarm); return; }
+      if (!alarm) {
+        notify("info", words.history.noAlarm);
+        return;
+      }
       player.timeline.pause();
       player.timeline.seek(alarm.at_s);
       tell(true);
     },
     async overlay(first, second, world) {
       if (!player) return;
-      const { history, robot } = player, cycles = [history.cycles[first], history.cycles[second]];
-      const traces = await Promise.all(cycles.flatMap(cycle => (cycle ? [traceOf(history, cycle.from_s, cycle.to_s)] : [])));
+      const { history, robot } = player;
+      const cycles = [history.cycles[first], history.cycles[second]];
+      const traces = await Promise.all(
+        cycles.flatMap(cycle => (cycle ? [traceOf(history, cycle.from_s, cycle.to_s)] : [])),
+      );
       if (player?.history !== history) return;
       const [a, b] = traces;
-      historyStore.setState({ overlay: { first, second, ways: traces.map(trace => wayOf(trace, robot, world)), comparison: a && b ? compareTraces(robot, a, b) : null } });
+      historyStore.setState({
+        overlay: {
+          first,
+          second,
+          ways: traces.map(trace => wayOf(trace, robot, world)),
+          comparison: a && b ? compareTraces(robot, a, b) : null,
+        },
+      });
     },
-    get moment() { return player?.moment ?? null; },
-    get robot() { return player?.history.robot ?? ""; },
-    figures() { if (player) historyStore.setState({ figures: dashboardOf(player.history, { serviceTravel: serviceStore.getState().travel[player.history.robot] ?? [] }) }); },
+    get moment() {
+      return player?.moment ?? null;
+    },
+    get robot() {
+      return player?.history.robot ?? "";
+    },
+    figures() {
+      if (player)
+        historyStore.setState({
+          figures: dashboardOf(player.history, {
+            serviceTravel: serviceStore.getState().travel[player.history.robot] ?? [],
+          }),
+        });
+    },
     file: id => runBlob(shelf, id),
     async remove(id) {
       if (historyStore.getState().open === id) close();
@@ -141,5 +232,7 @@ export function travelBack(shelf: Shelf, scheduler: Scheduler, openRecordings: O
 }
 
 function alike<T extends object>(a: T, b: T): boolean {
-  return (Object.keys(a) as (keyof T)[]).every(key => a[key] === b[key] || (key === "signals" && JSON.stringify(a[key]) === JSON.stringify(b[key])));
+  return (Object.keys(a) as (keyof T)[]).every(
+    key => a[key] === b[key] || (key === "signals" && JSON.stringify(a[key]) === JSON.stringify(b[key])),
+  );
 }

@@ -8,7 +8,12 @@ export interface Written {
 }
 
 /** Takes as long as planning does: for a worker. */
-export function writeProgram(dialect: Dialect | null, program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Written {
+export function writeProgram(
+  dialect: Dialect | null,
+  program: Program,
+  robot: Robot,
+  worldFromBase: Pose<"world", "base">,
+): Written {
   const branched = withBranches(program, robot, { where: "needed", worldFromBase });
   return { program: branched, emitted: dialect?.emit(branched, robot, worldFromBase) ?? null };
 }

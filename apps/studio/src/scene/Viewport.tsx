@@ -47,38 +47,62 @@ const BARE_FLANGE: Pose<"flange", "tcp"> = identity();
 /** The cell as it is now. Draws what stores and live state say; decides nothing. */
 export function Viewport() {
   const document = useStore(cellStore, state => state.document);
-  const mode = useStore(viewStore, state => state.mode), inHeadset = useStore(viewStore, state => state.inHeadset);
+  const mode = useStore(viewStore, state => state.mode);
+  const inHeadset = useStore(viewStore, state => state.inHeadset);
   const wish = useStore(viewStore, state => state.headsetWish);
   const physics = useStore(physicsStore, ({ status }) => status === "running" || status === "stopped");
-  const playing = useStore(playStore, state => state.playing) || physics, tracing = useStore(traceStore, state => state.active);
+  const playing = useStore(playStore, state => state.playing) || physics;
+  const tracing = useStore(traceStore, state => state.active);
   const stations = useStore(stationStore, state => state.stations.length);
-  const theme = useStore(viewStore, state => state.theme), colours = useMemo(() => readTheme(theme), [theme]);
+  const theme = useStore(viewStore, state => state.theme);
+  const colours = useMemo(() => readTheme(theme), [theme]);
   const [pictured, setPictured] = useState(true);
-  const picture = useMemo(hiddenPicture, []), interaction = useMemo(newInteraction, []), wishes = useMemo<CameraWishes>(() => ({ fit: () => undefined, look: () => undefined }), []);
-  const label = useMemo<PointerLabel>(() => ({ element: null }), []), targets = useRef<readonly Mesh[]>([]);
-  const world = useRef<Group>(null), cube = useRef<HTMLDivElement>(null);
-  const robot = document ? robotById(document.robot.id) : undefined, tool = document?.tools.find(each => each.name === document.tool);
+  const picture = useMemo(hiddenPicture, []);
+  const interaction = useMemo(newInteraction, []);
+  const wishes = useMemo<CameraWishes>(() => ({ fit: () => undefined, look: () => undefined }), []);
+  const label = useMemo<PointerLabel>(() => ({ element: null }), []);
+  const targets = useRef<readonly Mesh[]>([]);
+  const world = useRef<Group>(null);
+  const cube = useRef<HTMLDivElement>(null);
+  const robot = document ? robotById(document.robot.id) : undefined;
+  const tool = document?.tools.find(each => each.name === document.tool);
   const worldFromBase = document?.robot.worldFromBase;
   useEffect(() => {
     if (robot && worldFromBase) dragFollows(robot, worldFromBase, tool?.flangeFromTcp ?? BARE_FLANGE);
   }, [robot, worldFromBase, tool]);
-  useEffect(() => registerCommands([{ id: "view.fit", group: "view", words: WORDS.fit, keys: ["F"], run: () => wishes.fit() }]), [wishes]);
-  useEffect(() => { void askForHeadset(); }, []);
+  useEffect(
+    () => registerCommands([{ id: "view.fit", group: "view", words: WORDS.fit, keys: ["F"], run: () => wishes.fit() }]),
+    [wishes],
+  );
+  useEffect(() => {
+    void askForHeadset();
+  }, []);
 
   return (
     <div className="viewport">
       <div className="canvas" style={{ position: "absolute", inset: 0 }} role="img" aria-label={WORDS.viewport}>
-        <Canvas frameloop="demand" dpr={[1, 2]} shadows={{ type: PCFShadowMap }} gl={{ antialias: true, toneMapping: NeutralToneMapping, toneMappingExposure: 0.95 }}
-          camera={{ fov: 32, near: 0.05, far: 60, position: [3.6, 2.3, 2.1] }}>
+        <Canvas
+          frameloop="demand"
+          dpr={[1, 2]}
+          shadows={{ type: PCFShadowMap }}
+          gl={{ antialias: true, toneMapping: NeutralToneMapping, toneMappingExposure: 0.95 }}
+          camera={{ fov: 32, near: 0.05, far: 60, position: [3.6, 2.3, 2.1] }}
+        >
           <RenderLoop meter={meter} picture={picture} cube={cube} />
           <Probe meter={meter} />
           {document && <Controls wishes={wishes} world={world} document={document} interaction={interaction} />}
           <group rotation-x={-Math.PI / 2} ref={world}>
             {document && <Stage theme={colours} document={document} />}
             {document && robot && <RobotView robot={robot} worldFromBase={document.robot.worldFromBase} />}
-            {stations > 0 && <Suspense fallback={null}><StationViews /></Suspense>}
+            {stations > 0 && (
+              <Suspense fallback={null}>
+                <StationViews />
+              </Suspense>
+            )}
             {document && tool && <ToolView tool={tool} worldFromBase={document.robot.worldFromBase} />}
-            {document?.objects.map(object => <ObjectView key={object.id} object={object} theme={colours} />)}
+            {document?.objects.map(object => (
+              <ObjectView key={object.id} object={object} theme={colours} />
+            ))}
             {document && <WatchedView document={document} theme={colours} />}
             <PathView theme={colours} />
             {document && <Waypoints document={document} />}
@@ -86,17 +110,41 @@ export function Viewport() {
             <PastView />
             <OverlayView theme={colours} />
             <EdgeView theme={colours} />
-            <TcpHandle interaction={interaction} shown={robot !== undefined && mode === "teach" && !playing && !tracing} theme={colours} targets={targets} />
+            <TcpHandle
+              interaction={interaction}
+              shown={robot !== undefined && mode === "teach" && !playing && !tracing}
+              theme={colours}
+              targets={targets}
+            />
             <Ghost interaction={interaction} tool={tool} theme={colours} />
             <Outline world={world} theme={colours} />
           </group>
-          {document && wish > 0 && <Suspense fallback={null}><Headset wish={wish} document={document} interaction={interaction} world={world} /></Suspense>}
-          {document && <Pointer interaction={interaction} label={label} world={world} handle={targets} document={document} meter={meter} />}
+          {document && wish > 0 && (
+            <Suspense fallback={null}>
+              <Headset wish={wish} document={document} interaction={interaction} world={world} />
+            </Suspense>
+          )}
+          {document && (
+            <Pointer
+              interaction={interaction}
+              label={label}
+              world={world}
+              handle={targets}
+              document={document}
+              meter={meter}
+            />
+          )}
         </Canvas>
       </div>
       <ViewCube cube={cube} wishes={wishes} />
       {pictured && robot && !inHeadset && <Picture picture={picture} onHide={() => setPictured(false)} />}
-      <div className="pointer-label" hidden ref={element => { label.element = element; }} />
+      <div
+        className="pointer-label"
+        hidden
+        ref={element => {
+          label.element = element;
+        }}
+      />
     </div>
   );
 }

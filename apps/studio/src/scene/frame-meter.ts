@@ -13,8 +13,12 @@ export class FrameMeter {
   #draw = 0;
 
   /** Script time spent on behalf of the frame under way: frame callbacks, pointer events, the heartbeat, the controller's cycle. */
-  addScript(ms: number): void { this.#script += ms; }
-  addDraw(ms: number): void { this.#draw += ms; }
+  addScript(ms: number): void {
+    this.#script += ms;
+  }
+  addDraw(ms: number): void {
+    this.#draw += ms;
+  }
 
   endFrame(): void {
     const at = this.frames % SIZE;
@@ -24,16 +28,27 @@ export class FrameMeter {
     this.frames++;
   }
 
-  reset(): void { this.frames = 0; this.#script = this.#draw = 0; }
+  reset(): void {
+    this.frames = 0;
+    this.#script = this.#draw = 0;
+  }
 
   /** Quantiles over the frames kept [ms]. */
   summary(): { readonly frames: number; readonly script: Quantiles; readonly draw: Quantiles } {
     const n = Math.min(this.frames, SIZE);
-    return { frames: this.frames, script: quantiles(this.script_ms.slice(0, n)), draw: quantiles(this.draw_ms.slice(0, n)) };
+    return {
+      frames: this.frames,
+      script: quantiles(this.script_ms.slice(0, n)),
+      draw: quantiles(this.draw_ms.slice(0, n)),
+    };
   }
 }
 
-export interface Quantiles { readonly median: number; readonly p95: number; readonly worst: number }
+export interface Quantiles {
+  readonly median: number;
+  readonly p95: number;
+  readonly worst: number;
+}
 
 function quantiles(values: Float64Array): Quantiles {
   values.sort();

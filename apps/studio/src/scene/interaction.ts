@@ -23,12 +23,23 @@ export interface Interaction {
 }
 
 export const newInteraction = (): Interaction => ({
-  ndc: new Vector2(), px: 0, py: 0, inside: false, dirty: false, turning: false, hoveredPart: null, draggedPart: null, shift: false,
-  wanted: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] }, wanting: false,
+  ndc: new Vector2(),
+  px: 0,
+  py: 0,
+  inside: false,
+  dirty: false,
+  turning: false,
+  hoveredPart: null,
+  draggedPart: null,
+  shift: false,
+  wanted: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] },
+  wanting: false,
 });
 
 /** The small label that follows the pointer: set by the scene, drawn by the DOM. */
-export interface PointerLabel { element: HTMLElement | null }
+export interface PointerLabel {
+  element: HTMLElement | null;
+}
 export function sayAtPointer(label: PointerLabel, text: string, tone: "plain" | "blocked", x: number, y: number): void {
   const { element } = label;
   if (!element) return;

@@ -10,32 +10,61 @@ const GRAIN_M = 1e-6;
  * flat and only the bevels beside them bend.
  */
 export function meshGeometry(mesh: TriangleMesh): BufferGeometry {
-  const corners = mesh.indices.length, { positions, indices } = mesh;
+  const corners = mesh.indices.length;
+  const { positions, indices } = mesh;
   const faces = new Float32Array(corners); // area-weighted normal per triangle
   const at = new Map<string, number[]>();
-  const keys: string[] = Array.from({ length: positions.length / 3 }, (_, v) =>
-    `${Math.round(positions[3 * v]! / GRAIN_M)} ${Math.round(positions[3 * v + 1]! / GRAIN_M)} ${Math.round(positions[3 * v + 2]! / GRAIN_M)}`);
+  const keys: string[] = Array.from(
+    { length: positions.length / 3 },
+    (_, v) =>
+      `${Math.round(positions[3 * v]! / GRAIN_M)} ${Math.round(positions[3 * v + 1]! / GRAIN_M)} ${Math.round(positions[3 * v + 2]! / GRAIN_M)}`,
+  );
   for (let t = 0; t < corners; t += 3) {
-    const a = 3 * indices[t]!, b = 3 * indices[t + 1]!, c = 3 * indices[t + 2]!;
-    const ux = positions[b]! - positions[a]!, uy = positions[b + 1]! - positions[a + 1]!, uz = positions[b + 2]! - positions[a + 2]!;
-    const vx = positions[c]! - positions[a]!, vy = positions[c + 1]! - positions[a + 1]!, vz = positions[c + 2]! - positions[a + 2]!;
-    faces[t] = uy * vz - uz * vy; faces[t + 1] = uz * vx - ux * vz; faces[t + 2] = ux * vy - uy * vx;
+    const a = 3 * indices[t]!;
+    const b = 3 * indices[t + 1]!;
+    const c = 3 * indices[t + 2]!;
+    const ux = positions[b]! - positions[a]!;
+    const uy = positions[b + 1]! - positions[a + 1]!;
+    const uz = positions[b + 2]! - positions[a + 2]!;
+    const vx = positions[c]! - positions[a]!;
+    const vy = positions[c + 1]! - positions[a + 1]!;
+    const vz = positions[c + 2]! - positions[a + 2]!;
+    faces[t] = uy * vz - uz * vy;
+    faces[t + 1] = uz * vx - ux * vz;
+    faces[t + 2] = ux * vy - uy * vx;
     for (let k = 0; k < 3; k++) {
-      const key = keys[indices[t + k]!]!, list = at.get(key);
-      if (list) list.push(t); else at.set(key, [t]);
+      const key = keys[indices[t + k]!]!;
+      const list = at.get(key);
+      if (list) list.push(t);
+      else at.set(key, [t]);
     }
   }
-  const drawn = new Float32Array(3 * corners), normals = new Float32Array(3 * corners), cosine = Math.cos(CREASE_RAD);
+  const drawn = new Float32Array(3 * corners);
+  const normals = new Float32Array(3 * corners);
+  const cosine = Math.cos(CREASE_RAD);
   for (let i = 0; i < corners; i++) {
-    const t = i - (i % 3), v = indices[i]!, size = Math.hypot(faces[t]!, faces[t + 1]!, faces[t + 2]!) || 1;
-    let nx = 0, ny = 0, nz = 0;
+    const t = i - (i % 3);
+    const v = indices[i]!;
+    const size = Math.hypot(faces[t]!, faces[t + 1]!, faces[t + 2]!) || 1;
+    let nx = 0;
+    let ny = 0;
+    let nz = 0;
     for (const other of at.get(keys[v]!)!) {
-      const ox = faces[other]!, oy = faces[other + 1]!, oz = faces[other + 2]!, otherSize = Math.hypot(ox, oy, oz);
-      if (ox * faces[t]! + oy * faces[t + 1]! + oz * faces[t + 2]! >= cosine * size * otherSize) { nx += ox; ny += oy; nz += oz; }
+      const ox = faces[other]!;
+      const oy = faces[other + 1]!;
+      const oz = faces[other + 2]!;
+      const otherSize = Math.hypot(ox, oy, oz);
+      if (ox * faces[t]! + oy * faces[t + 1]! + oz * faces[t + 2]! >= cosine * size * otherSize) {
+        nx += ox;
+        ny += oy;
+        nz += oz;
+      }
     }
     const n = Math.hypot(nx, ny, nz) || 1;
     for (let k = 0; k < 3; k++) drawn[3 * i + k] = positions[3 * v + k]!;
-    normals[3 * i] = nx / n; normals[3 * i + 1] = ny / n; normals[3 * i + 2] = nz / n;
+    normals[3 * i] = nx / n;
+    normals[3 * i + 1] = ny / n;
+    normals[3 * i + 2] = nz / n;
   }
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(drawn, 3));

@@ -2,15 +2,26 @@ import { Color, Mesh, type Material, MeshStandardMaterial, type Object3D } from 
 import { onTouching, touchingNow } from "../live/live.ts";
 
 const originals = new WeakMap<Mesh, Material | Material[]>();
-const red = new MeshStandardMaterial({ color: "#d5201a", roughness: 0.5, emissive: new Color("#8f0d08"), emissiveIntensity: 0.55 });
+const red = new MeshStandardMaterial({
+  color: "#d5201a",
+  roughness: 0.5,
+  emissive: new Color("#8f0d08"),
+  emissiveIntensity: 0.55,
+});
 
 /** Paints every mesh below `root` red, or gives it back what it wore (rows N-48, N-49). */
 export function paint(root: Object3D, touching: boolean): void {
   root.traverse(object => {
     if (!(object instanceof Mesh) || object.userData.unpainted === true) return;
     const original = originals.get(object);
-    if (touching && original === undefined) { originals.set(object, object.material); object.material = red; }
-    if (!touching && original !== undefined) { object.material = original; originals.delete(object); }
+    if (touching && original === undefined) {
+      originals.set(object, object.material);
+      object.material = red;
+    }
+    if (!touching && original !== undefined) {
+      object.material = original;
+      originals.delete(object);
+    }
   });
 }
 
@@ -25,5 +36,8 @@ export function paintTouching(find: (name: string) => Object3D | null): () => vo
   };
   apply(touchingNow());
   const stop = onTouching(apply);
-  return () => { stop(); for (const object of painted) paint(object, false); };
+  return () => {
+    stop();
+    for (const object of painted) paint(object, false);
+  };
 }

@@ -1,7 +1,9 @@
 import type { Pose } from "@twincell/core";
 import { Matrix4, Quaternion, Vector3 } from "three";
 
-const place = new Vector3(), turn = new Quaternion(), one = new Vector3(1, 1, 1);
+const place = new Vector3();
+const turn = new Quaternion();
+const one = new Vector3(1, 1, 1);
 
 /** The 4 × 4 matrix of a pose. Allocates nothing. */
 export function poseMatrix(pose: Pose, out: Matrix4): Matrix4 {
@@ -13,8 +15,13 @@ export function poseMatrix(pose: Pose, out: Matrix4): Matrix4 {
 /** The pose of a rigid matrix, written into `out`. */
 export function matrixPose<A extends string, B extends string>(matrix: Matrix4, out: Pose<A, B>): Pose<A, B> {
   matrix.decompose(place, turn, scale);
-  out.position[0] = place.x; out.position[1] = place.y; out.position[2] = place.z;
-  out.quaternion[0] = turn.x; out.quaternion[1] = turn.y; out.quaternion[2] = turn.z; out.quaternion[3] = turn.w;
+  out.position[0] = place.x;
+  out.position[1] = place.y;
+  out.position[2] = place.z;
+  out.quaternion[0] = turn.x;
+  out.quaternion[1] = turn.y;
+  out.quaternion[2] = turn.z;
+  out.quaternion[3] = turn.w;
   return out;
 }
 const scale = new Vector3();

@@ -15,29 +15,58 @@ import type { PictureFrame } from "./picture.ts";
 import { Sharpness } from "./sharpness.ts";
 import { toScene } from "./world-space.ts";
 
-const place: Vector = [0, 0, 0], side: Vector = [0, 0, 0], up: Vector = [0, 0, 0];
+const place: Vector = [0, 0, 0];
+const side: Vector = [0, 0, 0];
+const up: Vector = [0, 0, 0];
 
 /** Renders the frame: the view, and the other camera as a picture in it. Measures script and draw time apart. */
-export function RenderLoop({ meter, picture, cube }: { readonly meter: FrameMeter; readonly picture: PictureFrame; readonly cube: RefObject<HTMLDivElement | null> }) {
+export function RenderLoop({
+  meter,
+  picture,
+  cube,
+}: {
+  readonly meter: FrameMeter;
+  readonly picture: PictureFrame;
+  readonly cube: RefObject<HTMLDivElement | null>;
+}) {
   const close = useMemo(() => new PerspectiveCamera(40, 1.4, 0.02, 60), []);
   const overview = useMemo(() => new PerspectiveCamera(36, 1.4, 0.05, 60), []);
   const clock = useMemo(() => ({ start: 0, turned: new Quaternion(0, 0, 0, 0) }), []);
-  const invalidate = useThree(state => state.invalidate), sharpness = useMemo(() => new Sharpness(), []);
+  const invalidate = useThree(state => state.invalidate);
+  const sharpness = useMemo(() => new Sharpness(), []);
 
   // Nothing is drawn while nothing changes: two comparisons per display frame keep watch.
   useEffect(() => {
-    let seen = -1, others = -1, handle = 0;
+    let seen = -1;
+    let others = -1;
+    let handle = 0;
     const watch = (): void => {
-      const { revision } = shownRobot(), moved = othersRevision();
-      if (revision !== seen || moved !== others) { seen = revision; others = moved; invalidate(); }
+      const { revision } = shownRobot();
+      const moved = othersRevision();
+      if (revision !== seen || moved !== others) {
+        seen = revision;
+        others = moved;
+        invalidate();
+      }
       handle = requestAnimationFrame(watch);
     };
     handle = requestAnimationFrame(watch);
-    const stops = [viewStore.subscribe(() => invalidate()), onTouching(() => invalidate()), jogStore.subscribe(({ aid }, before) => { if (aid !== before.aid) invalidate(); })];
-    return () => { cancelAnimationFrame(handle); for (const stop of stops) stop(); };
+    const stops = [
+      viewStore.subscribe(() => invalidate()),
+      onTouching(() => invalidate()),
+      jogStore.subscribe(({ aid }, before) => {
+        if (aid !== before.aid) invalidate();
+      }),
+    ];
+    return () => {
+      cancelAnimationFrame(handle);
+      for (const stop of stops) stop();
+    };
   }, [invalidate]);
 
-  useFrame(() => { clock.start = performance.now(); }, -2000);
+  useFrame(() => {
+    clock.start = performance.now();
+  }, -2000);
   useFrame(({ gl, scene, camera, size }) => {
     const drawing = performance.now();
     meter.addScript(drawing - clock.start);
@@ -45,7 +74,8 @@ export function RenderLoop({ meter, picture, cube }: { readonly meter: FrameMete
       gl.render(scene, camera);
     } else {
       sharpness.choose(gl, camera, invalidate);
-      const view = viewStore.getState(), { worldFromTcp } = theLive();
+      const view = viewStore.getState();
+      const { worldFromTcp } = theLive();
       closeCameraSide(chosenAidAxis(), side);
       closeCameraPosition(worldFromTcp, view.closePlacement, view.closeTilt_rad, side, place);
       toScene(place, close.position);
@@ -59,7 +89,10 @@ export function RenderLoop({ meter, picture, cube }: { readonly meter: FrameMete
       gl.render(scene, large);
       if (picture.visible) {
         const small = view.camera === "main" ? close : overview;
-        if (small === overview) { overview.position.copy(camera.position); overview.quaternion.copy(camera.quaternion); }
+        if (small === overview) {
+          overview.position.copy(camera.position);
+          overview.quaternion.copy(camera.quaternion);
+        }
         small.aspect = picture.width / picture.height;
         small.updateProjectionMatrix();
         const below = size.height - picture.top - picture.height;
@@ -73,7 +106,10 @@ export function RenderLoop({ meter, picture, cube }: { readonly meter: FrameMete
       }
     }
     const drawn = performance.now();
-    if (cube.current && !camera.quaternion.equals(clock.turned)) { clock.turned.copy(camera.quaternion); turnCube(cube.current, camera); }
+    if (cube.current && !camera.quaternion.equals(clock.turned)) {
+      clock.turned.copy(camera.quaternion);
+      turnCube(cube.current, camera);
+    }
     meter.addDraw(drawn - drawing);
     meter.addScript(performance.now() - drawn + takeEffort_ms());
     meter.endFrame();

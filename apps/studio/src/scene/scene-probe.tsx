@@ -17,7 +17,11 @@ export interface SceneProbe {
   /** Draw calls and triangles of the last frame. */
   drawn(): { readonly calls: number; readonly triangles: number };
 }
-declare global { interface Window { twincellScene?: SceneProbe } }
+declare global {
+  interface Window {
+    twincellScene?: SceneProbe;
+  }
+}
 
 export function Probe({ meter }: { readonly meter: FrameMeter }) {
   const get = useThree(state => state.get);
@@ -25,19 +29,37 @@ export function Probe({ meter }: { readonly meter: FrameMeter }) {
     const point = new Vector3();
     window.twincellScene = {
       project(world) {
-        const { camera, gl } = get(), box = gl.domElement.getBoundingClientRect();
+        const { camera, gl } = get();
+        const box = gl.domElement.getBoundingClientRect();
         camera.updateMatrixWorld();
         toScene(world, point).project(camera);
-        return { x: box.left + ((point.x + 1) / 2) * box.width, y: box.top + ((1 - point.y) / 2) * box.height, visible: point.z < 1 };
+        return {
+          x: box.left + ((point.x + 1) / 2) * box.width,
+          y: box.top + ((1 - point.y) / 2) * box.height,
+          visible: point.z < 1,
+        };
       },
-      get frames() { return meter.frames; },
+      get frames() {
+        return meter.frames;
+      },
       meter,
-      get camera() { return get().camera; },
-      get gl() { return get().gl; },
-      get scene() { return get().scene; },
-      drawn() { const { render } = get().gl.info; return { calls: render.calls, triangles: render.triangles }; },
+      get camera() {
+        return get().camera;
+      },
+      get gl() {
+        return get().gl;
+      },
+      get scene() {
+        return get().scene;
+      },
+      drawn() {
+        const { render } = get().gl.info;
+        return { calls: render.calls, triangles: render.triangles };
+      },
     };
-    return () => { delete window.twincellScene; };
+    return () => {
+      delete window.twincellScene;
+    };
   }, [get, meter]);
   return null;
 }

@@ -20,12 +20,19 @@ export class Sharpness {
   choose(gl: WebGLRenderer, camera: Camera, invalidate: () => void): void {
     this.#software ??= drawsInSoftware(gl);
     if (!this.#software) return;
-    const now_ms = performance.now(), { revision } = theLive();
-    if (this.#full === 0) { this.#full = gl.getPixelRatio(); this.#revision = revision; this.#seen.copy(camera.matrixWorld); return; }
+    const now_ms = performance.now();
+    const { revision } = theLive();
+    if (this.#full === 0) {
+      this.#full = gl.getPixelRatio();
+      this.#revision = revision;
+      this.#seen.copy(camera.matrixWorld);
+      return;
+    }
     if (revision !== this.#revision || !this.#seen.equals(camera.matrixWorld)) this.#moved_ms = now_ms;
     this.#revision = revision;
     this.#seen.copy(camera.matrixWorld);
-    const coarse = now_ms - this.#moved_ms < REST_MS, ratio = coarse ? Math.min(COARSE, this.#full) : this.#full;
+    const coarse = now_ms - this.#moved_ms < REST_MS;
+    const ratio = coarse ? Math.min(COARSE, this.#full) : this.#full;
     if (gl.getPixelRatio() !== ratio) gl.setPixelRatio(ratio);
     if (!coarse) return;
     clearTimeout(this.#timer);

@@ -10,14 +10,17 @@ import { paintTouching } from "./paint.ts";
 import { raycastByTree } from "./pick/raycast.ts";
 import { poseMatrix } from "./pose-matrix.ts";
 
-const BODY = new Color("#2b3136"), TIP = new Color("#c98f45");
+const BODY = new Color("#2b3136");
+const TIP = new Color("#c98f45");
 
 /** The last fifth of a tool along the flange axis is drawn in copper, so that the working end shows. */
 export function toolGeometry(tool: ToolRecord): BufferGeometry | null {
   if (!tool.shape) return null;
-  const geometry = shapeGeometry(tool.shape), position = geometry.getAttribute("position");
+  const geometry = shapeGeometry(tool.shape);
+  const position = geometry.getAttribute("position");
   geometry.computeBoundingBox();
-  const { min, max } = geometry.boundingBox!, from = max.z - (max.z - min.z) * 0.2;
+  const { min, max } = geometry.boundingBox!;
+  const from = max.z - (max.z - min.z) * 0.2;
   const colors = new Float32Array(position.count * 3);
   for (let i = 0; i < position.count; i++) (position.getZ(i) > from ? TIP : BODY).toArray(colors, 3 * i);
   geometry.setAttribute("color", new BufferAttribute(colors, 3));
@@ -28,7 +31,8 @@ const WIRE_RADIUS_M = 0.0012;
 
 /** Where the solid ends before the TCP, a thin wire shows the way to it. */
 function Wire({ tool, from_m }: { readonly tool: ToolRecord; readonly from_m: number }) {
-  const [x, y, z] = tool.flangeFromTcp.position, length = z - from_m;
+  const [x, y, z] = tool.flangeFromTcp.position;
+  const length = z - from_m;
   if (Math.hypot(x, y) > 1e-6 || length < 1e-4) return null;
   return (
     <mesh position={[0, 0, from_m + length / 2]} rotation={[Math.PI / 2, 0, 0]} castShadow>
@@ -39,12 +43,21 @@ function Wire({ tool, from_m }: { readonly tool: ToolRecord; readonly from_m: nu
 }
 
 /** The tool in use, carried by the flange. */
-export function ToolView({ tool, worldFromBase }: { readonly tool: ToolRecord; readonly worldFromBase: Pose<"world", "base"> }) {
-  const group = useRef<Group>(null), seen = useRef(-1);
+export function ToolView({
+  tool,
+  worldFromBase,
+}: {
+  readonly tool: ToolRecord;
+  readonly worldFromBase: Pose<"world", "base">;
+}) {
+  const group = useRef<Group>(null);
+  const seen = useRef(-1);
   const geometry = useMemo(() => toolGeometry(tool), [tool]);
   const world = useMemo(() => identity<"world", "flange">(), []);
   useEffect(() => () => geometry?.dispose(), [geometry]);
-  useEffect(() => { seen.current = -1; }, [tool, worldFromBase]);
+  useEffect(() => {
+    seen.current = -1;
+  }, [tool, worldFromBase]);
   useEffect(() => paintTouching(name => (name === "tool" || name === tool.name ? group.current : null)), [tool.name]);
   useFrame(() => {
     const live = shownRobot();
@@ -57,7 +70,11 @@ export function ToolView({ tool, worldFromBase }: { readonly tool: ToolRecord; r
     <group ref={group} name="tool" matrixAutoUpdate={false} userData={{ thing: { kind: "tool" } }}>
       {tool.shape && <Wire tool={tool} from_m={geometry?.boundingBox?.max.z ?? 0} />}
       {tool.gripper && <Fingers tool={tool} gripper={tool.gripper} />}
-      {geometry && <mesh geometry={geometry} castShadow receiveShadow raycast={raycastByTree}><meshStandardMaterial vertexColors roughness={0.36} metalness={0.6} /></mesh>}
+      {geometry && (
+        <mesh geometry={geometry} castShadow receiveShadow raycast={raycastByTree}>
+          <meshStandardMaterial vertexColors roughness={0.36} metalness={0.6} />
+        </mesh>
+      )}
     </group>
   );
 }

@@ -13,7 +13,9 @@ export function triadGeometry(length_m: number, radius_m: number): BufferGeometr
     return [shaft, cone].map(part => {
       if (axis === 0) part.rotateZ(-Math.PI / 2);
       if (axis === 2) part.rotateX(Math.PI / 2);
-      const color = new Color(colour), count = part.getAttribute("position").count, values = new Float32Array(3 * count);
+      const color = new Color(colour);
+      const count = part.getAttribute("position").count;
+      const values = new Float32Array(3 * count);
       for (let i = 0; i < count; i++) color.toArray(values, 3 * i);
       part.setAttribute("color", new Float32BufferAttribute(values, 3));
       part.deleteAttribute("uv");

@@ -9,7 +9,9 @@ export interface Keeper {
   get(key: string): Promise<unknown>;
   set(key: string, value: unknown): Promise<void>;
 }
-export interface Clock { after(ms: number, act: () => void): () => void }
+export interface Clock {
+  after(ms: number, act: () => void): () => void;
+}
 
 /** Two copies in turn and a pointer that is moved last: a page closed while writing leaves the other copy whole. */
 const COPIES = ["twincell.cell.a", "twincell.cell.b"] as const;
@@ -25,7 +27,9 @@ export async function openKept(keeper: Keeper): Promise<void> {
   if (kept.damaged) notify("warn", kept.found ? words.file.damaged : words.file.lost);
 }
 
-async function readKept(keeper: Keeper): Promise<{ readonly document: CellDocument; readonly found: boolean; readonly damaged: boolean }> {
+async function readKept(
+  keeper: Keeper,
+): Promise<{ readonly document: CellDocument; readonly found: boolean; readonly damaged: boolean }> {
   let damaged = false;
   try {
     const pointer = await keeper.get(POINTER);
@@ -45,7 +49,10 @@ async function readKept(keeper: Keeper): Promise<{ readonly document: CellDocume
 
 /** Keeps the document shortly after every change. What could not be kept stays open and is said in one sentence. */
 export function keepDocument(keeper: Keeper, clock: Clock): () => void {
-  let next = 0, cancel: (() => void) | null = null, writing = false, told = "";
+  let next = 0;
+  let cancel: (() => void) | null = null;
+  let writing = false;
+  let told = "";
   const write = async (): Promise<void> => {
     const { document } = cellStore.getState();
     if (!document || writing) return;
@@ -60,7 +67,9 @@ export function keepDocument(keeper: Keeper, clock: Clock): () => void {
       cellStore.setState(state => ({ saving: { kind: state.document === document ? "saved" : "unsaved" } }));
     } catch (trouble) {
       const full = trouble instanceof Error && trouble.name === "QuotaExceededError";
-      const sentence = full ? words.file.fullDisk : words.file.noKeep(trouble instanceof Error ? trouble.message : String(trouble));
+      const sentence = full
+        ? words.file.fullDisk
+        : words.file.noKeep(trouble instanceof Error ? trouble.message : String(trouble));
       cellStore.setState({ saving: { kind: "problem", sentence } });
       if (told !== sentence) notify("bad", sentence, full ? words.file.fullDiskHint : words.file.noKeepHint);
       told = sentence;
@@ -70,9 +79,22 @@ export function keepDocument(keeper: Keeper, clock: Clock): () => void {
   };
   const later = (): void => {
     cancel?.();
-    cancel = clock.after(WAIT_MS, () => { cancel = null; void write(); });
+    cancel = clock.after(WAIT_MS, () => {
+      cancel = null;
+      void write();
+    });
   };
-  void keeper.get(POINTER).then(pointer => { if (pointer === COPIES[0]) next = 1; }, () => undefined);
-  const stop = cellStore.subscribe((now, before) => { if (now.document !== before.document && now.saving.kind !== "saved") later(); });
-  return () => { stop(); cancel?.(); };
+  void keeper.get(POINTER).then(
+    pointer => {
+      if (pointer === COPIES[0]) next = 1;
+    },
+    () => undefined,
+  );
+  const stop = cellStore.subscribe((now, before) => {
+    if (now.document !== before.document && now.saving.kind !== "saved") later();
+  });
+  return () => {
+    stop();
+    cancel?.();
+  };
 }

@@ -10,16 +10,34 @@ export type PadAction = HeldAction | PressedAction | "turn-back" | "tilt";
 /** "x": the stick's coordinate; a leading "-" turns it round. */
 export type StickAction = AxisName | `-${AxisName}`;
 
-export const HELD_ACTIONS: readonly HeldAction[] = AXIS_NAMES.flatMap(axis => [`${axis}+` as const, `${axis}-` as const]);
-export const PAD_ACTIONS: readonly PadAction[] = [...HELD_ACTIONS, "turn-back", "aid-next", "aid-previous", "record", "ready", "camera", "tilt"];
+export const HELD_ACTIONS: readonly HeldAction[] = AXIS_NAMES.flatMap(axis => [
+  `${axis}+` as const,
+  `${axis}-` as const,
+]);
+export const PAD_ACTIONS: readonly PadAction[] = [
+  ...HELD_ACTIONS,
+  "turn-back",
+  "aid-next",
+  "aid-previous",
+  "record",
+  "ready",
+  "camera",
+  "tilt",
+];
 export const STICK_ACTIONS: readonly StickAction[] = AXIS_NAMES.flatMap(axis => [axis, `-${axis}` as const]);
 
 /** Coordinate and direction of a held action. */
 export function axisOf(action: HeldAction): { readonly axis: number; readonly sign: 1 | -1 } {
-  return { axis: AXIS_NAMES.findIndex(name => action === `${name}+` || action === `${name}-`), sign: action.endsWith("+") ? 1 : -1 };
+  return {
+    axis: AXIS_NAMES.findIndex(name => action === `${name}+` || action === `${name}-`),
+    sign: action.endsWith("+") ? 1 : -1,
+  };
 }
 export function axisOfStick(action: StickAction): { readonly axis: number; readonly sign: 1 | -1 } {
-  return { axis: AXIS_NAMES.findIndex(name => action === name || action === `-${name}`), sign: action.startsWith("-") ? -1 : 1 };
+  return {
+    axis: AXIS_NAMES.findIndex(name => action === name || action === `-${name}`),
+    sign: action.startsWith("-") ? -1 : 1,
+  };
 }
 
 export interface Bindings {
@@ -36,18 +54,48 @@ export interface Bindings {
  */
 export const DEFAULT_BINDINGS: Bindings = {
   keyboard: {
-    KeyD: "x+", KeyA: "x-", KeyW: "y+", KeyS: "y-", KeyE: "z+", KeyQ: "z-",
-    KeyI: "rx+", KeyK: "rx-", KeyL: "ry+", KeyJ: "ry-", KeyO: "rz+", KeyU: "rz-",
+    KeyD: "x+",
+    KeyA: "x-",
+    KeyW: "y+",
+    KeyS: "y-",
+    KeyE: "z+",
+    KeyQ: "z-",
+    KeyI: "rx+",
+    KeyK: "rx-",
+    KeyL: "ry+",
+    KeyJ: "ry-",
+    KeyO: "rz+",
+    KeyU: "rz-",
   },
-  buttons: { 0: "ry+", 1: "rx+", 2: "rz+", 3: "aid-next", 4: "turn-back", 5: "record", 7: "tilt", 8: "aid-previous", 9: "ready", 11: "camera", 12: "z+", 13: "z-" },
+  buttons: {
+    0: "ry+",
+    1: "rx+",
+    2: "rz+",
+    3: "aid-next",
+    4: "turn-back",
+    5: "record",
+    7: "tilt",
+    8: "aid-previous",
+    9: "ready",
+    11: "camera",
+    12: "z+",
+    13: "z-",
+  },
   axes: { 0: "x", 1: "-y" },
 };
 
 export interface BindingState extends Bindings {
   /** Keeps what is known of a table read from outside; null when nothing is left. */
-  readonly accept: (keyboard: Readonly<Record<string, string>>, buttons: Readonly<Record<string, string>>, axes: Readonly<Record<string, string>>) => Bindings | null;
+  readonly accept: (
+    keyboard: Readonly<Record<string, string>>,
+    buttons: Readonly<Record<string, string>>,
+    axes: Readonly<Record<string, string>>,
+  ) => Bindings | null;
 }
-const known = <Action extends string>(table: Readonly<Record<string, string>>, actions: readonly Action[]): Readonly<Record<string, Action>> => {
+const known = <Action extends string>(
+  table: Readonly<Record<string, string>>,
+  actions: readonly Action[],
+): Readonly<Record<string, Action>> => {
   const kept: Record<string, Action> = {};
   for (const [key, wanted] of Object.entries(table)) {
     const action = actions.find(candidate => candidate === wanted);
@@ -58,17 +106,32 @@ const known = <Action extends string>(table: Readonly<Record<string, string>>, a
 export const bindingStore = createStore<BindingState>(() => ({
   ...DEFAULT_BINDINGS,
   accept(keyboard, buttons, axes) {
-    const kept = { keyboard: known(keyboard, HELD_ACTIONS), buttons: known(buttons, PAD_ACTIONS), axes: known(axes, STICK_ACTIONS) };
+    const kept = {
+      keyboard: known(keyboard, HELD_ACTIONS),
+      buttons: known(buttons, PAD_ACTIONS),
+      axes: known(axes, STICK_ACTIONS),
+    };
     return Object.keys(kept.keyboard).length + Object.keys(kept.buttons).length === 0 ? null : kept;
   },
 }));
 
 /** One key does one thing: binding it anew takes it from what it did. */
-export const bindKey = (code: string, action: HeldAction): void => bindingStore.setState(({ keyboard }) => ({
-  keyboard: { ...Object.fromEntries(Object.entries(keyboard).filter(([key, bound]) => key !== code && bound !== action)), [code]: action },
-}));
-export const bindButton = (button: number, action: PadAction): void => bindingStore.setState(({ buttons }) => ({
-  buttons: { ...Object.fromEntries(Object.entries(buttons).filter(([key, bound]) => key !== String(button) && bound !== action)), [button]: action },
-}));
-export const bindStick = (axis: number, action: StickAction): void => bindingStore.setState(({ axes }) => ({ axes: { ...axes, [axis]: action } }));
+export const bindKey = (code: string, action: HeldAction): void =>
+  bindingStore.setState(({ keyboard }) => ({
+    keyboard: {
+      ...Object.fromEntries(Object.entries(keyboard).filter(([key, bound]) => key !== code && bound !== action)),
+      [code]: action,
+    },
+  }));
+export const bindButton = (button: number, action: PadAction): void =>
+  bindingStore.setState(({ buttons }) => ({
+    buttons: {
+      ...Object.fromEntries(
+        Object.entries(buttons).filter(([key, bound]) => key !== String(button) && bound !== action),
+      ),
+      [button]: action,
+    },
+  }));
+export const bindStick = (axis: number, action: StickAction): void =>
+  bindingStore.setState(({ axes }) => ({ axes: { ...axes, [axis]: action } }));
 export const resetBindings = (): void => bindingStore.setState(DEFAULT_BINDINGS);

@@ -1,7 +1,11 @@
 import type { CellDocument } from "@twincell/project";
 import { createStore } from "zustand/vanilla";
 
-export type Saving = { readonly kind: "saved" } | { readonly kind: "saving" } | { readonly kind: "unsaved" } | { readonly kind: "problem"; readonly sentence: string };
+export type Saving =
+  | { readonly kind: "saved" }
+  | { readonly kind: "saving" }
+  | { readonly kind: "unsaved" }
+  | { readonly kind: "problem"; readonly sentence: string };
 
 /** The document being worked on. Changed only through `commit`, `undo` and `redo` (in `stores/document.ts`). */
 export interface CellState {
@@ -11,4 +15,9 @@ export interface CellState {
   readonly undo: readonly string[];
   readonly redo: readonly string[];
 }
-export const cellStore = createStore<CellState>(() => ({ document: null, saving: { kind: "saved" }, undo: [], redo: [] }));
+export const cellStore = createStore<CellState>(() => ({
+  document: null,
+  saving: { kind: "saved" },
+  undo: [],
+  redo: [],
+}));

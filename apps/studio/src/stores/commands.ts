@@ -12,7 +12,9 @@ export interface Command {
   /** Absent: always. */
   readonly can?: () => boolean;
 }
-export interface CommandState { readonly commands: ReadonlyMap<string, Command> }
+export interface CommandState {
+  readonly commands: ReadonlyMap<string, Command>;
+}
 export const commandStore = createStore<CommandState>(() => ({ commands: new Map() }));
 
 /** Adds commands, replacing those of the same id. Returns what takes them away again. */
@@ -22,11 +24,12 @@ export function registerCommands(commands: readonly Command[]): () => void {
     for (const command of commands) next.set(command.id, command);
     return { commands: next };
   });
-  return () => commandStore.setState(state => {
-    const next = new Map(state.commands);
-    for (const command of commands) if (next.get(command.id) === command) next.delete(command.id);
-    return { commands: next };
-  });
+  return () =>
+    commandStore.setState(state => {
+      const next = new Map(state.commands);
+      for (const command of commands) if (next.get(command.id) === command) next.delete(command.id);
+      return { commands: next };
+    });
 }
 
 /** Runs the command if there is one and it can run now; says whether it did. */

@@ -19,6 +19,15 @@ export interface ControlState {
   readonly signals: ReadonlyMap<string, boolean | number>;
 }
 export const controlStore = createStore<ControlState>(() => ({
-  controller: "Virtual robot", mode: "automatic", safety: "normal", commander: "you", latency_ms: null,
-  running: false, step: "", line: 0, twinError_rad: 0, message: "", signals: new Map(),
+  controller: "Virtual robot",
+  mode: "automatic",
+  safety: "normal",
+  commander: "you",
+  latency_ms: null,
+  running: false,
+  step: "",
+  line: 0,
+  twinError_rad: 0,
+  message: "",
+  signals: new Map(),
 }));

@@ -8,7 +8,10 @@ function publish(next: History): void {
   const changed = next.document !== history?.document;
   history = next;
   cellStore.setState(state => ({
-    document: next.document, undo: next.undoLabels, redo: next.redoLabels, saving: changed ? { kind: "unsaved" } : state.saving,
+    document: next.document,
+    undo: next.undoLabels,
+    redo: next.redoLabels,
+    saving: changed ? { kind: "unsaved" } : state.saving,
   }));
 }
 
@@ -22,12 +25,16 @@ function inStep(document: CellDocument): CellDocument {
   const programs = document.programs.map(program => {
     // Inside a pallet step the name of a pallet means its places: a frame of that name stays out.
     const free = Object.fromEntries(Object.entries(frames).filter(([name]) => !Object.hasOwn(program.pallets, name)));
-    return agrees(program.tools, tools) && agrees(program.frames, free) ? program : { ...program, tools: { ...program.tools, ...tools }, frames: { ...program.frames, ...free } };
+    return agrees(program.tools, tools) && agrees(program.frames, free)
+      ? program
+      : { ...program, tools: { ...program.tools, ...tools }, frames: { ...program.frames, ...free } };
   });
   return programs.every((program, i) => program === document.programs[i]) ? document : { ...document, programs };
 }
 const agrees = (has: Readonly<Record<string, Pose>>, wants: Readonly<Record<string, Pose>>): boolean =>
-  Object.entries(wants).every(([name, pose]) => has[name] === pose || JSON.stringify(has[name]) === JSON.stringify(pose));
+  Object.entries(wants).every(
+    ([name, pose]) => has[name] === pose || JSON.stringify(has[name]) === JSON.stringify(pose),
+  );
 
 /**
  * The only way to change the document. `change` returns the new document, or the same one when there is nothing to do.
@@ -55,10 +62,14 @@ export function redo(): string | null {
   return label;
 }
 
-export const robotOf = (document: CellDocument | null): Robot | null => (document ? robotById(document.robot.id) ?? null : null);
-export const programOf = (document: CellDocument | null): Program | null => document?.programs.find(program => program.name === document.program) ?? null;
-export const toolOf = (document: CellDocument | null): ToolRecord | null => document?.tools.find(tool => tool.name === document.tool) ?? null;
-export const objectOf = (document: CellDocument | null, id: string): ObjectRecord | null => document?.objects.find(object => object.id === id) ?? null;
+export const robotOf = (document: CellDocument | null): Robot | null =>
+  document ? (robotById(document.robot.id) ?? null) : null;
+export const programOf = (document: CellDocument | null): Program | null =>
+  document?.programs.find(program => program.name === document.program) ?? null;
+export const toolOf = (document: CellDocument | null): ToolRecord | null =>
+  document?.tools.find(tool => tool.name === document.tool) ?? null;
+export const objectOf = (document: CellDocument | null, id: string): ObjectRecord | null =>
+  document?.objects.find(object => object.id === id) ?? null;
 export const theProgram = (): Program | null => programOf(cellStore.getState().document);
 export const theRobot = (): Robot | null => robotOf(cellStore.getState().document);
 
@@ -67,9 +78,15 @@ export function withProgram(document: CellDocument, change: (program: Program) =
   const before = programOf(document);
   if (!before) return document;
   const after = change(before);
-  return after === before ? document : { ...document, programs: document.programs.map(program => (program === before ? after : program)) };
+  return after === before
+    ? document
+    : { ...document, programs: document.programs.map(program => (program === before ? after : program)) };
 }
-export function withObject(document: CellDocument, id: string, change: (object: ObjectRecord) => ObjectRecord): CellDocument {
+export function withObject(
+  document: CellDocument,
+  id: string,
+  change: (object: ObjectRecord) => ObjectRecord,
+): CellDocument {
   const objects = document.objects.map(object => (object.id === id ? change(object) : object));
   return objects.every((object, i) => object === document.objects[i]) ? document : { ...document, objects };
 }
@@ -80,8 +97,17 @@ export function flangeFromTcpOf(document: CellDocument | null): Pose<"flange", "
 
 const WORLD: Pose<"world", "frame"> = { position: [0, 0, 0], quaternion: [0, 0, 0, 1] };
 /** The frame jogging and read-outs count in. A user frame that is not there counts as the world. */
-export function worldFromFrameOf(document: CellDocument | null, frame: "world" | "base" | "user", userFrame: string): Pose<"world", "frame"> {
+export function worldFromFrameOf(
+  document: CellDocument | null,
+  frame: "world" | "base" | "user",
+  userFrame: string,
+): Pose<"world", "frame"> {
   if (!document || frame === "world") return WORLD;
-  if (frame === "base") return { position: document.robot.worldFromBase.position, quaternion: document.robot.worldFromBase.quaternion };
-  return document.frames.find(record => record.name === userFrame)?.worldFromFrame ?? document.frames[0]?.worldFromFrame ?? WORLD;
+  if (frame === "base")
+    return { position: document.robot.worldFromBase.position, quaternion: document.robot.worldFromBase.quaternion };
+  return (
+    document.frames.find(record => record.name === userFrame)?.worldFromFrame ??
+    document.frames[0]?.worldFromFrame ??
+    WORLD
+  );
 }

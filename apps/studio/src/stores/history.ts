@@ -29,10 +29,23 @@ export interface MomentWords {
   /** False in a gap: nothing was recorded then. */
   readonly recorded: boolean;
 }
-const NOTHING: MomentWords = { step: "", mode: "automatic", safety: "normal", gripperClosed: false, message: "", signals: {}, recorded: true };
+const NOTHING: MomentWords = {
+  step: "",
+  mode: "automatic",
+  safety: "normal",
+  gripperClosed: false,
+  message: "",
+  signals: {},
+  recorded: true,
+};
 
 /** Two cycles laid over each other: the ways of the tool in the world, and how they differ. */
-export interface Overlay { readonly first: number; readonly second: number; readonly ways: readonly (readonly Vector3[])[]; readonly comparison: Comparison | null }
+export interface Overlay {
+  readonly first: number;
+  readonly second: number;
+  readonly ways: readonly (readonly Vector3[])[];
+  readonly comparison: Comparison | null;
+}
 
 export interface HistoryState {
   readonly runs: readonly RunRecord[];
@@ -61,7 +74,22 @@ export interface HistoryState {
   readonly past: Pose<"world", "base"> | null;
 }
 const CLOSED = {
-  open: null, name: "", startedAt_ms: 0, opening: false, duration_s: 0, t_s: 0, playing: false, speed: 1, marks: [], cycles: [], troubles: [], window: { from_s: 0, to_s: 0 }, moment: NOTHING, figures: null, overlay: null, past: null,
+  open: null,
+  name: "",
+  startedAt_ms: 0,
+  opening: false,
+  duration_s: 0,
+  t_s: 0,
+  playing: false,
+  speed: 1,
+  marks: [],
+  cycles: [],
+  troubles: [],
+  window: { from_s: 0, to_s: 0 },
+  moment: NOTHING,
+  figures: null,
+  overlay: null,
+  past: null,
 } satisfies Omit<HistoryState, "runs">;
 export const historyStore = createStore<HistoryState>(() => ({ runs: [], ...CLOSED }));
 export const closeHistory = (): void => historyStore.setState(CLOSED);
@@ -69,12 +97,18 @@ export const closeHistory = (): void => historyStore.setState(CLOSED);
 /** The timeline shows so much time about the moment that is looked at; null is all of it. */
 export function zoomTo(length_s: number | null): void {
   const { duration_s, t_s } = historyStore.getState();
-  if (length_s === null || length_s >= duration_s) { historyStore.setState({ window: { from_s: 0, to_s: duration_s } }); return; }
+  if (length_s === null || length_s >= duration_s) {
+    historyStore.setState({ window: { from_s: 0, to_s: duration_s } });
+    return;
+  }
   const from_s = Math.min(Math.max(0, t_s - length_s / 2), duration_s - length_s);
   historyStore.setState({ window: { from_s, to_s: from_s + length_s } });
 }
 /** A moment that left the window takes it along. */
-export function windowAt(t_s: number, { window: { from_s, to_s }, duration_s }: Pick<HistoryState, "window" | "duration_s">): HistoryState["window"] {
+export function windowAt(
+  t_s: number,
+  { window: { from_s, to_s }, duration_s }: Pick<HistoryState, "window" | "duration_s">,
+): HistoryState["window"] {
   const length_s = to_s - from_s;
   if (t_s >= from_s && t_s <= to_s) return { from_s, to_s };
   const begin_s = Math.min(Math.max(0, t_s - length_s / 2), Math.max(0, duration_s - length_s));

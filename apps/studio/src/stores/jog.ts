@@ -19,7 +19,15 @@ export interface JogState {
   readonly moving: boolean;
 }
 export const jogStore = createStore<JogState>(() => ({
-  frame: "world", userFrame: "", manner: "hold", step_m: 0.005, step_rad: Math.PI / 180, speed: 0.5, aid: null, blocked: null, moving: false,
+  frame: "world",
+  userFrame: "",
+  manner: "hold",
+  step_m: 0.005,
+  step_rad: Math.PI / 180,
+  speed: 0.5,
+  aid: null,
+  blocked: null,
+  moving: false,
 }));
 
 export const chooseFrame = (frame: JogFrame): void => jogStore.setState({ frame });

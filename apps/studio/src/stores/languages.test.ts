@@ -3,8 +3,11 @@ import { DIALECTS } from "@twincell/languages";
 import { beforeEach, expect, test } from "vitest";
 import { chooseLanguage, languageOf, languagesOf, languageStore } from "./languages.ts";
 
-const ur = robotById("ur10e")!, rx = robotById("staubli_rx90l")!;
-beforeEach(() => { languageStore.setState({ chosen: {} }); });
+const ur = robotById("ur10e")!;
+const rx = robotById("staubli_rx90l")!;
+beforeEach(() => {
+  languageStore.setState({ chosen: {} });
+});
 
 test("a robot's own language comes first; the others say in a sentence why not", () => {
   expect(languageOf(ur)?.id).toBe("urscript");
@@ -17,7 +20,10 @@ test("a robot's own language comes first; the others say in a sentence why not",
 });
 
 test("the choice is kept for each robot; one that its controller does not understand is not taken", () => {
-  const own = languagesOf(rx).filter(each => each.why === null).map(each => each.dialect.id), last = own.at(-1)!;
+  const own = languagesOf(rx)
+    .filter(each => each.why === null)
+    .map(each => each.dialect.id);
+  const last = own.at(-1)!;
   chooseLanguage(rx.id, last);
   chooseLanguage(ur.id, "v-plus");
   expect(languageOf(rx)?.id).toBe(last);

@@ -5,20 +5,29 @@ import { cellStore } from "./cell.ts";
 import { robotOf } from "./document.ts";
 
 /** Which language a person chose for each robot, by robot id. */
-export interface LanguageState { readonly chosen: Readonly<Record<string, string>> }
+export interface LanguageState {
+  readonly chosen: Readonly<Record<string, string>>;
+}
 export const languageStore = createStore<LanguageState>(() => ({ chosen: {} }));
-export const chooseLanguage = (robot: string, dialect: string): void => languageStore.setState(({ chosen }) => ({ chosen: { ...chosen, [robot]: dialect } }));
+export const chooseLanguage = (robot: string, dialect: string): void =>
+  languageStore.setState(({ chosen }) => ({ chosen: { ...chosen, [robot]: dialect } }));
 
 /** A language, and why a robot's controller does not understand it; null when it does. */
-export interface Spoken { readonly dialect: Dialect; readonly why: string | null }
+export interface Spoken {
+  readonly dialect: Dialect;
+  readonly why: string | null;
+}
 const known = new Map<Robot, readonly Spoken[]>();
 
 /** Every language: those of the robot's controller first, then the others with the reason. */
 export function languagesOf(robot: Robot): readonly Spoken[] {
   let all = known.get(robot);
   if (!all) {
-    const asked = DIALECTS.map((dialect): Spoken => { const empty = dialect.emit(emptyProgram(robot.id), robot); return { dialect, why: empty.kind === "cannot" ? empty.sentence : null }; });
-    known.set(robot, all = [...asked.filter(each => each.why === null), ...asked.filter(each => each.why !== null)]);
+    const asked = DIALECTS.map((dialect): Spoken => {
+      const empty = dialect.emit(emptyProgram(robot.id), robot);
+      return { dialect, why: empty.kind === "cannot" ? empty.sentence : null };
+    });
+    known.set(robot, (all = [...asked.filter(each => each.why === null), ...asked.filter(each => each.why !== null)]));
   }
   return all;
 }

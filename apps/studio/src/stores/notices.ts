@@ -1,8 +1,15 @@
 import { createStore } from "zustand/vanilla";
 
 /** One clear sentence to the person, with the way out. */
-export interface Notice { readonly id: number; readonly tone: "info" | "warn" | "bad" | "done"; readonly sentence: string; readonly hint?: string }
-export interface NoticeState { readonly notices: readonly Notice[] }
+export interface Notice {
+  readonly id: number;
+  readonly tone: "info" | "warn" | "bad" | "done";
+  readonly sentence: string;
+  readonly hint?: string;
+}
+export interface NoticeState {
+  readonly notices: readonly Notice[];
+}
 export const noticeStore = createStore<NoticeState>(() => ({ notices: [] }));
 
 /** What went well is old news as soon as something else goes well; problems stay beside it. */
@@ -13,7 +20,10 @@ let next = 1;
 export function notify(tone: Notice["tone"], sentence: string, hint?: string): number {
   const id = next++;
   const notice: Notice = hint === undefined ? { id, tone, sentence } : { id, tone, sentence, hint };
-  noticeStore.setState(state => ({ notices: [...state.notices.filter(other => stays(other) || !quiet(notice)).slice(-3), notice] }));
+  noticeStore.setState(state => ({
+    notices: [...state.notices.filter(other => stays(other) || !quiet(notice)).slice(-3), notice],
+  }));
   return id;
 }
-export const dismiss = (id: number): void => noticeStore.setState(state => ({ notices: state.notices.filter(notice => notice.id !== id) }));
+export const dismiss = (id: number): void =>
+  noticeStore.setState(state => ({ notices: state.notices.filter(notice => notice.id !== id) }));

@@ -15,9 +15,21 @@ export function openCellText(text: string, name: string): boolean {
   switch (opened.kind) {
     case "opened":
       openCell(opened.document);
-      notify("done", words.file.opened(opened.document.name), opened.lifted.length > 0 ? words.file.lifted(opened.lifted.join(" ")) : undefined);
+      notify(
+        "done",
+        words.file.opened(opened.document.name),
+        opened.lifted.length > 0 ? words.file.lifted(opened.lifted.join(" ")) : undefined,
+      );
       return true;
-    case "too-new": notify("bad", words.file.tooNew(opened.version, opened.newest), words.file.tooNewHint); return false;
-    case "not-a-cell": notify("bad", words.file.notCell(name, opened.why[0] ?? ""), opened.why.length > 1 ? words.check.more(opened.why.length - 1) : words.file.notCellHint); return false;
+    case "too-new":
+      notify("bad", words.file.tooNew(opened.version, opened.newest), words.file.tooNewHint);
+      return false;
+    case "not-a-cell":
+      notify(
+        "bad",
+        words.file.notCell(name, opened.why[0] ?? ""),
+        opened.why.length > 1 ? words.check.more(opened.why.length - 1) : words.file.notCellHint,
+      );
+      return false;
   }
 }

@@ -15,7 +15,15 @@ export interface PhysicsState {
   /** What the results rest on. */
   readonly assumptions: readonly string[];
 }
-export const physicsStore = createStore<PhysicsState>(() => ({ on: false, status: "idle", said: [], t_s: 0, step: "", tripped: [], assumptions: [] }));
+export const physicsStore = createStore<PhysicsState>(() => ({
+  on: false,
+  status: "idle",
+  said: [],
+  t_s: 0,
+  step: "",
+  tripped: [],
+  assumptions: [],
+}));
 
 /** Whether the parts on screen are where physics has them. */
 export const physicsShows = ({ on, status }: PhysicsState): boolean => on && status !== "idle" && status !== "loading";

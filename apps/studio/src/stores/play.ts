@@ -1,7 +1,11 @@
 import type { Plan, StepVerdict, Vector3, Verdict } from "@twincell/core";
 import { createStore } from "zustand/vanilla";
 
-export interface PathStretch { readonly step: string; readonly verdict: StepVerdict; readonly points: readonly Vector3[] }
+export interface PathStretch {
+  readonly step: string;
+  readonly verdict: StepVerdict;
+  readonly points: readonly Vector3[];
+}
 /** The program laid out in time, judged, and where on the timeline we look. */
 export interface PlayState {
   readonly plan: Plan | null;
@@ -23,7 +27,16 @@ export interface PlayState {
   readonly preview: string | null;
 }
 export const playStore = createStore<PlayState>(() => ({
-  plan: null, verdict: null, checking: null, trouble: null, t_s: 0, playing: false, speed: 1, path: [], withOthers: false, preview: null,
+  plan: null,
+  verdict: null,
+  checking: null,
+  trouble: null,
+  t_s: 0,
+  playing: false,
+  speed: 1,
+  path: [],
+  withOthers: false,
+  preview: null,
 }));
 
 /** Worst first wins: bad, warn, unknown, ok. */

@@ -1,6 +1,29 @@
 import {
-  applyRepair, duplicateSteps, everyStep, freshStepId, insertAfter, insertInto, insertSteps, isBlock, moveBefore, moveInto, moveSteps, removeSteps, replaceStep, stepById, withSignal, wrapInRepeat,
-  type Condition, type ListPlace, type MoveStep, type Program, type Repair, type SignalLine, type Speed, type Step, type Verdict,
+  applyRepair,
+  duplicateSteps,
+  everyStep,
+  freshStepId,
+  insertAfter,
+  insertInto,
+  insertSteps,
+  isBlock,
+  moveBefore,
+  moveInto,
+  moveSteps,
+  removeSteps,
+  replaceStep,
+  stepById,
+  withSignal,
+  wrapInRepeat,
+  type Condition,
+  type ListPlace,
+  type MoveStep,
+  type Program,
+  type Repair,
+  type SignalLine,
+  type Speed,
+  type Step,
+  type Verdict,
 } from "@twincell/core";
 import { words } from "../words/index.ts";
 import { commit, theProgram, withProgram } from "./document.ts";
@@ -18,18 +41,27 @@ export function findStep(program: Program, id: string): { readonly step: Step; r
 
 /** Where new steps go: after the selected one, into the selected block, or at the end. */
 function insertSelected(program: Program, steps: readonly Step[]): Program {
-  const { selected } = selectionStore.getState(), found = selected?.kind === "step" ? findStep(program, selected.id)?.step : undefined;
+  const { selected } = selectionStore.getState();
+  const found = selected?.kind === "step" ? findStep(program, selected.id)?.step : undefined;
   if (found === undefined) return insertSteps(program, program.steps.length, steps);
-  return isBlock(found) ? insertInto(program, { block: found.id }, Number.POSITIVE_INFINITY, steps) : insertAfter(program, found.id, steps);
+  return isBlock(found)
+    ? insertInto(program, { block: found.id }, Number.POSITIVE_INFINITY, steps)
+    : insertAfter(program, found.id, steps);
 }
 const edit = (label: string, change: (program: Program) => Program, gesture?: string): boolean =>
   commit(label, document => withProgram(document, change), gesture);
 
 /** Adds steps, selects the last of them and says whether there was a program to add them to. */
-export function addSteps(label: string, make: (program: Program) => readonly Step[], change: (program: Program) => Program = program => program, gesture?: string): boolean {
+export function addSteps(
+  label: string,
+  make: (program: Program) => readonly Step[],
+  change: (program: Program) => Program = program => program,
+  gesture?: string,
+): boolean {
   const program = theProgram();
   if (!program) return false;
-  const steps = make(program), last = steps.at(-1);
+  const steps = make(program);
+  const last = steps.at(-1);
   if (!last || !edit(label, before => change(insertSelected(before, steps)), gesture)) return false;
   select({ kind: "step", id: last.id });
   return true;
@@ -37,111 +69,172 @@ export function addSteps(label: string, make: (program: Program) => readonly Ste
 
 /** Records these joint angles as the target of a move (rows N-32, T-29). Joints leave no doubt about the posture. */
 export function recordPoint(path: MoveStep["path"], q_rad: ArrayLike<number>, tool: string): boolean {
-  const q = Array.from(q_rad), speed: Speed = path === "ptp" ? { ratio: 0.4 } : { mps: 0.1 };
+  const q = Array.from(q_rad);
+  const speed: Speed = path === "ptp" ? { ratio: 0.4 } : { mps: 0.1 };
   if (!q.every(Number.isFinite)) return false;
-  return addSteps(words.undo.recordPoint, program => [{
-    id: freshStepId(program, "p"), type: "move", path, speed, blend_m: 0, target: tool === "flange" ? { q } : { q, tool },
-  }]);
+  return addSteps(words.undo.recordPoint, program => [
+    {
+      id: freshStepId(program, "p"),
+      type: "move",
+      path,
+      speed,
+      blend_m: 0,
+      target: tool === "flange" ? { q } : { q, tool },
+    },
+  ]);
 }
-export const addWait = (s: number): boolean => addSteps(words.undo.addWait, program => [{ id: freshStepId(program, "w"), type: "wait", s }]);
-export const addGripper = (closed: boolean): boolean => addSteps(words.undo.addGripper, program => [{ id: freshStepId(program, "g"), type: "gripper", closed }]);
+export const addWait = (s: number): boolean =>
+  addSteps(words.undo.addWait, program => [{ id: freshStepId(program, "w"), type: "wait", s }]);
+export const addGripper = (closed: boolean): boolean =>
+  addSteps(words.undo.addGripper, program => [{ id: freshStepId(program, "g"), type: "gripper", closed }]);
 
-export const addComment = (): boolean => addSteps(words.undo.addComment, program => [{ id: freshStepId(program, "c"), type: "comment", text: "" }]);
+export const addComment = (): boolean =>
+  addSteps(words.undo.addComment, program => [{ id: freshStepId(program, "c"), type: "comment", text: "" }]);
 /** A signal the program has is taken; one that has none gets its first. */
 export const addSet = (): boolean => {
   const name = lineOf("digital-out") ?? words.step.output;
-  return addSteps(words.undo.addSet, program => [{ id: freshStepId(program, "o"), type: "set", signal: name, to: true }], program => withLine(program, name, { kind: "digital-out", address: 1 }));
+  return addSteps(
+    words.undo.addSet,
+    program => [{ id: freshStepId(program, "o"), type: "set", signal: name, to: true }],
+    program => withLine(program, name, { kind: "digital-out", address: 1 }),
+  );
 };
 export const addWaitFor = (): boolean => {
   const name = lineOf("digital-in") ?? words.step.input;
-  return addSteps(words.undo.addWaitFor, program => [{ id: freshStepId(program, "i"), type: "wait-for", when: { signal: name, is: true } }], program => withLine(program, name, { kind: "digital-in", address: 1001 }));
+  return addSteps(
+    words.undo.addWaitFor,
+    program => [{ id: freshStepId(program, "i"), type: "wait-for", when: { signal: name, is: true } }],
+    program => withLine(program, name, { kind: "digital-in", address: 1001 }),
+  );
 };
-const lineOf = (kind: SignalLine["kind"]): string | undefined => Object.entries(theProgram()?.signals ?? {}).find(([, line]) => line.kind === kind)?.[0];
-const withLine = (program: Program, name: string, line: SignalLine): Program => (Object.hasOwn(program.signals, name) ? program : withSignal(program, name, line));
+const lineOf = (kind: SignalLine["kind"]): string | undefined =>
+  Object.entries(theProgram()?.signals ?? {}).find(([, line]) => line.kind === kind)?.[0];
+const withLine = (program: Program, name: string, line: SignalLine): Program =>
+  Object.hasOwn(program.signals, name) ? program : withSignal(program, name, line);
 /** A loop around the selected step, or an empty one. */
 export function addRepeat(): boolean {
-  const program = theProgram(), { selected } = selectionStore.getState();
+  const program = theProgram();
+  const { selected } = selectionStore.getState();
   if (!program) return false;
-  const id = freshStepId(program, "r"), around = selected?.kind === "step" && findStep(program, selected.id) ? selected.id : undefined;
-  const done = around === undefined
-    ? addSteps(words.undo.addRepeat, () => [{ id, type: "repeat", times: 2, steps: [] }])
-    : edit(words.undo.addRepeat, before => wrapInRepeat(before, [around], 2));
+  const id = freshStepId(program, "r");
+  const around = selected?.kind === "step" && findStep(program, selected.id) ? selected.id : undefined;
+  const done =
+    around === undefined
+      ? addSteps(words.undo.addRepeat, () => [{ id, type: "repeat", times: 2, steps: [] }])
+      : edit(words.undo.addRepeat, before => wrapInRepeat(before, [around], 2));
   if (done) select({ kind: "step", id });
   return done;
 }
 
 export function changeStep(id: string, label: string, change: (step: Step) => Step, gesture?: string): boolean {
-  return edit(label, program => {
-    const before = stepById(program, id);
-    if (!before) return program;
-    const after = change(before);
-    return after === before ? program : replaceStep(program, id, after);
-  }, gesture);
+  return edit(
+    label,
+    program => {
+      const before = stepById(program, id);
+      if (!before) return program;
+      const after = change(before);
+      return after === before ? program : replaceStep(program, id, after);
+    },
+    gesture,
+  );
 }
-export const changeMove = (id: string, label: string, change: (step: MoveStep) => MoveStep, gesture?: string): boolean =>
-  changeStep(id, label, step => (step.type === "move" ? change(step) : step), gesture);
+export const changeMove = (
+  id: string,
+  label: string,
+  change: (step: MoveStep) => MoveStep,
+  gesture?: string,
+): boolean => changeStep(id, label, step => (step.type === "move" ? change(step) : step), gesture);
 /** Row L-42 in its first form: the point becomes where the robot stands. */
-export const touchUp = (id: string, q_rad: ArrayLike<number>, tool: string): boolean => changeMove(id, words.undo.touchUp, step => ({
-  ...step, target: tool === "flange" ? { q: Array.from(q_rad) } : { q: Array.from(q_rad), tool },
-}));
-export const renameStep = (id: string, name: string): boolean => changeStep(id, words.undo.rename, step => {
-  const { name: before, ...rest } = step, wanted = name.trim();
-  if (wanted === (before ?? "")) return step;
-  return wanted === "" ? rest : { ...rest, name: wanted };
-});
+export const touchUp = (id: string, q_rad: ArrayLike<number>, tool: string): boolean =>
+  changeMove(id, words.undo.touchUp, step => ({
+    ...step,
+    target: tool === "flange" ? { q: Array.from(q_rad) } : { q: Array.from(q_rad), tool },
+  }));
+export const renameStep = (id: string, name: string): boolean =>
+  changeStep(id, words.undo.rename, step => {
+    const { name: before, ...rest } = step;
+    const wanted = name.trim();
+    if (wanted === (before ?? "")) return step;
+    return wanted === "" ? rest : { ...rest, name: wanted };
+  });
 
 export function deleteSteps(ids: readonly string[]): boolean {
-  const before = theProgram(), first = before ? Array.from(everyStep(before)).findIndex(step => ids.includes(step.id)) : -1;
+  const before = theProgram();
+  const first = before ? Array.from(everyStep(before)).findIndex(step => ids.includes(step.id)) : -1;
   if (!edit(words.undo.deleteSteps(ids.length), program => removeSteps(program, ids))) return false;
-  const after = theProgram(), left = after ? [...everyStep(after)] : [];
+  const after = theProgram();
+  const left = after ? [...everyStep(after)] : [];
   const next = left[Math.min(Math.max(0, first), left.length - 1)];
   select(next ? { kind: "step", id: next.id } : null);
   return true;
 }
-export const copySteps = (ids: readonly string[]): boolean => edit(words.undo.duplicate, program => duplicateSteps(program, ids));
+export const copySteps = (ids: readonly string[]): boolean =>
+  edit(words.undo.duplicate, program => duplicateSteps(program, ids));
 /** Puts the steps, in their order, before the step `before`, into a list, or at the end when it is null. */
-export const placeSteps = (ids: readonly string[], before: string | null | ListPlace): boolean => edit(words.undo.reorder, program => {
-  if (before === null) return moveSteps(program, ids, program.steps.length);
-  if (typeof before !== "string" || before === "main") return moveInto(program, ids, before, Number.POSITIVE_INFINITY);
-  return ids.includes(before) ? program : moveBefore(program, ids, before);
-});
+export const placeSteps = (ids: readonly string[], before: string | null | ListPlace): boolean =>
+  edit(words.undo.reorder, program => {
+    if (before === null) return moveSteps(program, ids, program.steps.length);
+    if (typeof before !== "string" || before === "main")
+      return moveInto(program, ids, before, Number.POSITIVE_INFINITY);
+    return ids.includes(before) ? program : moveBefore(program, ids, before);
+  });
 export function clearProgram(): boolean {
-  const done = edit(words.undo.clear, program => (program.steps.length === 0 ? program : { ...program, steps: [], groups: {} }));
+  const done = edit(words.undo.clear, program =>
+    program.steps.length === 0 ? program : { ...program, steps: [], groups: {} },
+  );
   if (done) select(null);
   return done;
 }
-export const repairStep = (id: string, repair: Repair): boolean => edit(words.undo.repair, program => applyRepair(program, id, repair));
+export const repairStep = (id: string, repair: Repair): boolean =>
+  edit(words.undo.repair, program => applyRepair(program, id, repair));
 /** Several repairs are one undo step. */
 export const repairAll = (repairs: readonly { readonly id: string; readonly repair: Repair }[]): boolean =>
   edit(words.undo.repairAll, program => repairs.reduce((so, { id, repair }) => applyRepair(so, id, repair), program));
 
 /** The first repair of every step that has one. */
-export const firstRepairs = (verdict: Verdict | null): readonly { readonly id: string; readonly repair: Repair }[] => (verdict?.steps ?? []).flatMap(step => {
-  const repair = step.findings.find(finding => finding.repairs.length > 0)?.repairs[0];
-  return repair ? [{ id: step.id, repair }] : [];
-});
+export const firstRepairs = (verdict: Verdict | null): readonly { readonly id: string; readonly repair: Repair }[] =>
+  (verdict?.steps ?? []).flatMap(step => {
+    const repair = step.findings.find(finding => finding.repairs.length > 0)?.repairs[0];
+    return repair ? [{ id: step.id, repair }] : [];
+  });
 
 /** What a person reads for a step that has no name of its own. */
 export function stepWords(step: Step, index: number): string {
   if (step.name) return step.name;
   switch (step.type) {
-    case "move": return words.step.point(index + 1);
-    case "wait": return words.step.wait(step.s);
-    case "gripper": return step.closed ? words.step.close : words.step.open;
-    case "set": return step.pulse_s === undefined ? words.step.set(step.signal, level(step.to)) : words.step.pulse(step.signal, level(step.to), step.pulse_s);
-    case "wait-for": return words.step.waitFor(conditionWords(step.when));
-    case "payload": return words.step.payload(step.mass_kg);
-    case "message": return words.step.say(step.text);
-    case "stop": return words.step.stop;
-    case "comment": return step.text === "" ? words.step.comment : step.text;
-    case "call": return words.step.call(step.routine);
-    case "repeat": return step.times === "forever" ? words.step.forever : words.step.repeat(step.times);
-    case "if": return words.step.if(conditionWords(step.when));
-    case "pallet": return words.step.pallet(step.pallet);
+    case "move":
+      return words.step.point(index + 1);
+    case "wait":
+      return words.step.wait(step.s);
+    case "gripper":
+      return step.closed ? words.step.close : words.step.open;
+    case "set":
+      return step.pulse_s === undefined
+        ? words.step.set(step.signal, level(step.to))
+        : words.step.pulse(step.signal, level(step.to), step.pulse_s);
+    case "wait-for":
+      return words.step.waitFor(conditionWords(step.when));
+    case "payload":
+      return words.step.payload(step.mass_kg);
+    case "message":
+      return words.step.say(step.text);
+    case "stop":
+      return words.step.stop;
+    case "comment":
+      return step.text === "" ? words.step.comment : step.text;
+    case "call":
+      return words.step.call(step.routine);
+    case "repeat":
+      return step.times === "forever" ? words.step.forever : words.step.repeat(step.times);
+    case "if":
+      return words.step.if(conditionWords(step.when));
+    case "pallet":
+      return words.step.pallet(step.pallet);
   }
 }
 
-const level = (to: boolean | number): string => (typeof to === "number" ? String(to) : to ? words.common.on : words.common.off);
+const level = (to: boolean | number): string =>
+  typeof to === "number" ? String(to) : to ? words.common.on : words.common.off;
 /** A condition as it stands in a sentence. */
 export function conditionWords(when: Condition): string {
   if ("is" in when) return words.step.is(when.signal, level(when.is));

@@ -12,20 +12,50 @@ import { chooseProgram, copyProgram, deleteProgram, nameProgram, newProgram } fr
 
 const robot = robotById("staubli_rx90l")!;
 const names = (): readonly string[] => cellStore.getState().document!.programs.map(program => program.name);
-beforeEach(() => { showDocument(emptyCell()); });
+beforeEach(() => {
+  showDocument(emptyCell());
+});
 
 test("T-71 three programs are stored, the second is selected: the second is what runs", async () => {
-  const turn = (angle: number): void => { recordPoint("ptp", robot.home_rad.map((q, j) => (j === 0 ? angle : q)), "flange"); };
-  turn(0.1); nameProgram("first");
-  newProgram(); nameProgram("second"); turn(0.2);
-  newProgram(); nameProgram("third"); turn(0.3);
+  const turn = (angle: number): void => {
+    recordPoint(
+      "ptp",
+      robot.home_rad.map((q, j) => (j === 0 ? angle : q)),
+      "flange",
+    );
+  };
+  turn(0.1);
+  nameProgram("first");
+  newProgram();
+  nameProgram("second");
+  turn(0.2);
+  newProgram();
+  nameProgram("third");
+  turn(0.3);
   chooseProgram("second");
   expect(names()).toEqual(["first", "second", "third"]);
   const scheduler = manualScheduler();
   showJoints(robot.home_rad);
-  const control = controlCell({ dialect: () => languageOf(robot), write: async wanted => writeProgram(languageOf(robot), wanted, robot, cellStore.getState().document!.robot.worldFromBase), scheduler, shelf: { set: async () => undefined, get: async () => undefined, keys: async () => [], remove: async () => undefined }, clock_ms: () => 0 }, {
-    robot, worldFromBase: cellStore.getState().document!.robot.worldFromBase, flangeFromTcp: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] },
-  });
+  const control = controlCell(
+    {
+      dialect: () => languageOf(robot),
+      write: async wanted =>
+        writeProgram(languageOf(robot), wanted, robot, cellStore.getState().document!.robot.worldFromBase),
+      scheduler,
+      shelf: {
+        set: async () => undefined,
+        get: async () => undefined,
+        keys: async () => [],
+        remove: async () => undefined,
+      },
+      clock_ms: () => 0,
+    },
+    {
+      robot,
+      worldFromBase: cellStore.getState().document!.robot.worldFromBase,
+      flangeFromTcp: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] },
+    },
+  );
   const outcome = control.run(theProgram()!, "Cell");
   await scheduler.elapse(10);
   expect(await outcome).toEqual({ kind: "done" });

@@ -15,12 +15,17 @@ const edit = (label: string, change: Parameters<typeof commit>[1]): boolean => {
 };
 const current = (): string => cellStore.getState().document?.program ?? "";
 
-export const chooseProgram = (name: string): boolean => edit(words.undo.selectProgram(name), document => selectProgram(document, name));
-export const newProgram = (): boolean => edit(words.undo.addProgram, document => addProgram(document, emptyProgram(document.robot.id, words.programs.plain)));
-export const copyProgram = (): boolean => edit(words.undo.duplicateProgram, document => duplicateProgram(document, document.program));
-export const nameProgram = (name: string): boolean => commit(words.undo.renameProgram, document => renameProgram(document, document.program, name));
+export const chooseProgram = (name: string): boolean =>
+  edit(words.undo.selectProgram(name), document => selectProgram(document, name));
+export const newProgram = (): boolean =>
+  edit(words.undo.addProgram, document => addProgram(document, emptyProgram(document.robot.id, words.programs.plain)));
+export const copyProgram = (): boolean =>
+  edit(words.undo.duplicateProgram, document => duplicateProgram(document, document.program));
+export const nameProgram = (name: string): boolean =>
+  commit(words.undo.renameProgram, document => renameProgram(document, document.program, name));
 export function deleteProgram(): boolean {
-  const name = current(), done = edit(words.undo.removeProgram(name), document => removeProgram(document, document.program));
+  const name = current();
+  const done = edit(words.undo.removeProgram(name), document => removeProgram(document, document.program));
   if (done) notify("info", words.programs.removed(name));
   return done;
 }

@@ -8,7 +8,10 @@ import { showDocument, theProgram, undo } from "./document.ts";
 import { noticeStore } from "./notices.ts";
 import { changeRobot, shortName } from "./robot.ts";
 
-beforeEach(() => { noticeStore.setState({ notices: [] }); showDocument(tracedCartonCell()); });
+beforeEach(() => {
+  noticeStore.setState({ notices: [] });
+  showDocument(tracedCartonCell());
+});
 
 test("another robot is one undo step: the cell stays, every program goes over, and the notice counts the points", () => {
   const before = cellStore.getState().document!;
@@ -18,7 +21,9 @@ test("another robot is one undo step: the cell stays, every program goes over, a
   expect(after.objects).toBe(before.objects);
   expect(after.programs.map(program => program.robot)).toEqual(["ur10e"]);
   expect(theProgram()!.steps[0]).toMatchObject({ target: { q: [...robotById("ur10e")!.home_rad] } });
-  expect(noticeStore.getState().notices.at(-1)?.sentence).toContain(`${theProgram()!.steps.filter(step => step.type === "move").length} points`);
+  expect(noticeStore.getState().notices.at(-1)?.sentence).toContain(
+    `${theProgram()!.steps.filter(step => step.type === "move").length} points`,
+  );
   expect(undo()).toContain("UR10e");
   expect(cellStore.getState().document).toEqual(before);
 });
@@ -27,7 +32,9 @@ test("a robot that reaches less says how many points it cannot reach, and keeps 
   changeRobot("abb_irb120");
   const [notice] = noticeStore.getState().notices;
   expect(notice?.tone).toBe("warn");
-  expect(notice?.sentence).toMatch(/^The IRB 120-3\/0\.6 is in the cell; \d+ of 18 points were kept, \d+ cannot be reached\.$/);
+  expect(notice?.sentence).toMatch(
+    /^The IRB 120-3\/0\.6 is in the cell; \d+ of 18 points were kept, \d+ cannot be reached\.$/,
+  );
   expect(theProgram()!.steps).toHaveLength(18);
 });
 

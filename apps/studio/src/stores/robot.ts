@@ -5,16 +5,20 @@ import { commit, robotOf } from "./document.ts";
 import { notify } from "./notices.ts";
 
 /** The robot as it is called beside its maker. */
-export const shortName = ({ name, vendor }: Robot): string => (name.startsWith(`${vendor} `) ? name.slice(vendor.length + 1) : name);
+export const shortName = ({ name, vendor }: Robot): string =>
+  name.startsWith(`${vendor} `) ? name.slice(vendor.length + 1) : name;
 
 /**
  * Another robot takes the place of the one in the cell: base, tools and objects stay, every program is taught anew for it.
  * One undo step. Says whether anything changed.
  */
 export function changeRobot(id: string): boolean {
-  const { document } = cellStore.getState(), from = robotOf(document), to = robotById(id);
+  const { document } = cellStore.getState();
+  const from = robotOf(document);
+  const to = robotById(id);
   if (!document || !to || document.robot.id === id) return false;
-  let points = 0, kept = 0;
+  let points = 0;
+  let kept = 0;
   const programs = document.programs.map(program => {
     const taught = robotById(program.robot) ?? from;
     if (!taught) return program;
@@ -23,7 +27,12 @@ export function changeRobot(id: string): boolean {
     kept += moved.points - moved.unreached.length;
     return moved.program;
   });
-  if (!commit(words.undo.robot(shortName(to)), before => ({ ...before, robot: { ...before.robot, id }, programs }))) return false;
-  notify(kept === points ? "done" : "warn", words.robots.changed(shortName(to), kept, points), kept === points ? undefined : words.robots.changedHint);
+  if (!commit(words.undo.robot(shortName(to)), before => ({ ...before, robot: { ...before.robot, id }, programs })))
+    return false;
+  notify(
+    kept === points ? "done" : "warn",
+    words.robots.changed(shortName(to), kept, points),
+    kept === points ? undefined : words.robots.changedHint,
+  );
   return true;
 }

@@ -40,7 +40,10 @@ export interface StationsState {
 }
 export const stationStore = createStore<StationsState>(() => ({ stations: [], brands: [], server: null }));
 
-export const stationOf = (id: string): StationState | undefined => stationStore.getState().stations.find(station => station.id === id);
+export const stationOf = (id: string): StationState | undefined =>
+  stationStore.getState().stations.find(station => station.id === id);
 export function changeStation(id: string, change: Partial<StationState>): void {
-  stationStore.setState(({ stations }) => ({ stations: stations.map(station => (station.id === id ? { ...station, ...change } : station)) }));
+  stationStore.setState(({ stations }) => ({
+    stations: stations.map(station => (station.id === id ? { ...station, ...change } : station)),
+  }));
 }

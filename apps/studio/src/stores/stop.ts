@@ -19,7 +19,11 @@ export function afterStop(listen: () => void): () => void {
 export function stopEverything(): readonly string[] {
   const troubles: string[] = [];
   for (const bringToRest of stoppers) {
-    try { bringToRest(); } catch (trouble) { troubles.push(trouble instanceof Error ? trouble.message : String(trouble)); }
+    try {
+      bringToRest();
+    } catch (trouble) {
+      troubles.push(trouble instanceof Error ? trouble.message : String(trouble));
+    }
   }
   for (const listen of listeners) listen();
   return troubles;

@@ -16,7 +16,12 @@ export interface TraceOptions {
 export const SHARP_RAD = 0.5;
 
 /** What came of the last trace. */
-export interface TraceResult { readonly points: number; readonly edges: number; readonly inserted: number; readonly deviation_m: number }
+export interface TraceResult {
+  readonly points: number;
+  readonly edges: number;
+  readonly inserted: number;
+  readonly deviation_m: number;
+}
 /** Edge tracing: which edges of which object are under the pointer and chosen. Polylines are in the world [m]. */
 export interface TraceState {
   readonly active: boolean;
@@ -28,6 +33,19 @@ export interface TraceState {
   readonly last: TraceResult | null;
 }
 export const traceStore = createStore<TraceState>(() => ({
-  active: false, wholeLoop: false, hovered: null, chosen: [], working: false, last: null,
-  options: { tilt_rad: Math.PI / 4, leadIn_m: 0.03, leadOut_m: 0.03, chordTolerance_m: 0.0002, pathTolerance_m: 0.0005, motion: "joint", speed_mps: 0.1 },
+  active: false,
+  wholeLoop: false,
+  hovered: null,
+  chosen: [],
+  working: false,
+  last: null,
+  options: {
+    tilt_rad: Math.PI / 4,
+    leadIn_m: 0.03,
+    leadOut_m: 0.03,
+    chordTolerance_m: 0.0002,
+    pathTolerance_m: 0.0005,
+    motion: "joint",
+    speed_mps: 0.1,
+  },
 }));

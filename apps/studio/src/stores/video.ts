@@ -1,7 +1,9 @@
 import { createStore } from "zustand/vanilla";
 
 /** Where a picture comes from: a camera of this computer, or one that shows itself through the server. */
-export type VideoSource = { readonly kind: "here"; readonly device: string } | { readonly kind: "server"; readonly name: string };
+export type VideoSource =
+  | { readonly kind: "here"; readonly device: string }
+  | { readonly kind: "server"; readonly name: string };
 export interface VideoPanel {
   readonly id: string;
   readonly name: string;
@@ -24,9 +26,21 @@ export interface VideoState {
   /** The panel whose latency is being measured, or null. */
   readonly measured: string | null;
 }
-export const videoStore = createStore<VideoState>(() => ({ panels: [], cameras: [], devices: [], links: [], server: "off", sentence: "", heldBy: null, measured: null }));
+export const videoStore = createStore<VideoState>(() => ({
+  panels: [],
+  cameras: [],
+  devices: [],
+  links: [],
+  server: "off",
+  sentence: "",
+  heldBy: null,
+  measured: null,
+}));
 
-export const panelOf = (id: string): VideoPanel | undefined => videoStore.getState().panels.find(panel => panel.id === id);
+export const panelOf = (id: string): VideoPanel | undefined =>
+  videoStore.getState().panels.find(panel => panel.id === id);
 export function changePanel(id: string, change: Partial<VideoPanel>): void {
-  videoStore.setState(({ panels }) => ({ panels: panels.map(panel => (panel.id === id ? { ...panel, ...change } : panel)) }));
+  videoStore.setState(({ panels }) => ({
+    panels: panels.map(panel => (panel.id === id ? { ...panel, ...change } : panel)),
+  }));
 }

@@ -22,15 +22,27 @@ export interface ViewState {
   readonly headsetWish: number;
 }
 export const viewStore = createStore<ViewState>(() => ({
-  mode: "teach", theme: "dark", camera: "main", closeTilt_rad: 0, closePlacement: "offset", muted: false, inHeadset: false,
-  sheet: "jog", plots: false, coachDone: false, headsetWish: 0,
+  mode: "teach",
+  theme: "dark",
+  camera: "main",
+  closeTilt_rad: 0,
+  closePlacement: "offset",
+  muted: false,
+  inHeadset: false,
+  sheet: "jog",
+  plots: false,
+  coachDone: false,
+  headsetWish: 0,
 }));
 
 export const showMode = (mode: StudioMode): void => viewStore.setState({ mode });
-export const toggleTheme = (): void => viewStore.setState(({ theme }) => ({ theme: theme === "dark" ? "light" : "dark" }));
+export const toggleTheme = (): void =>
+  viewStore.setState(({ theme }) => ({ theme: theme === "dark" ? "light" : "dark" }));
 export const toggleMuted = (): void => viewStore.setState(({ muted }) => ({ muted: !muted }));
 /** Row N-36. */
-export const toggleCamera = (): void => viewStore.setState(({ camera }) => ({ camera: camera === "main" ? "close" : "main" }));
+export const toggleCamera = (): void =>
+  viewStore.setState(({ camera }) => ({ camera: camera === "main" ? "close" : "main" }));
 /** Row N-44: an analogue trigger 0 … 1 tilts the close camera 0 … 90°. */
-export const tiltCloseCamera = (trigger: number): void => viewStore.setState({ closeTilt_rad: (Math.min(1, Math.max(0, trigger)) * Math.PI) / 2 });
+export const tiltCloseCamera = (trigger: number): void =>
+  viewStore.setState({ closeTilt_rad: (Math.min(1, Math.max(0, trigger)) * Math.PI) / 2 });
 export const wishHeadset = (): void => viewStore.setState(({ headsetWish }) => ({ headsetWish: headsetWish + 1 }));

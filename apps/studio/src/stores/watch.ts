@@ -12,4 +12,10 @@ export interface WatchState {
   /** Time of one look in the worker. */
   readonly took_ms: number;
 }
-export const watchStore = createStore<WatchState>(() => ({ contacts: [], touched: [], clearance_m: null, nearest: ["", ""], took_ms: 0 }));
+export const watchStore = createStore<WatchState>(() => ({
+  contacts: [],
+  touched: [],
+  clearance_m: null,
+  nearest: ["", ""],
+  took_ms: 0,
+}));

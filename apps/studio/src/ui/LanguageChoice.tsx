@@ -8,9 +8,16 @@ import { words } from "../words/index.ts";
 export function LanguageChoice({ robot, disabled = false }: { readonly robot: Robot; readonly disabled?: boolean }) {
   const dialect = useStore(languageStore, state => languageOf(robot, state));
   return (
-    <Chooser label={words.export.dialect} value={dialect?.id ?? ""} onChange={id => chooseLanguage(robot.id, id)}
+    <Chooser
+      label={words.export.dialect}
+      value={dialect?.id ?? ""}
+      onChange={id => chooseLanguage(robot.id, id)}
       options={languagesOf(robot).map(({ dialect: each, why }) => ({
-        value: each.id, words: `${each.name} · ${each.brand}${each.maturity === "experimental" ? ` · ${words.export.experimentalTag}` : ""}`, disabled: disabled || why !== null, ...(why === null ? {} : { hint: why }),
-      }))} />
+        value: each.id,
+        words: `${each.name} · ${each.brand}${each.maturity === "experimental" ? ` · ${words.export.experimentalTag}` : ""}`,
+        disabled: disabled || why !== null,
+        ...(why === null ? {} : { hint: why }),
+      }))}
+    />
   );
 }

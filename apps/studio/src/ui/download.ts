@@ -1,6 +1,7 @@
 /** Hands the browser a file to keep. */
 export function download(name: string, data: Blob): void {
-  const address = URL.createObjectURL(data), link = document.createElement("a");
+  const address = URL.createObjectURL(data);
+  const link = document.createElement("a");
   link.href = address;
   link.download = name;
   link.click();

@@ -29,7 +29,8 @@ test("relative to what is there", () => {
   expect(length("*2")).toBeCloseTo(0.2, 12);
 });
 test("what cannot be understood says how far it came, and never becomes a number", () => {
-  for (const text of ["", "abc", "1 +", "(2", "1/0", "5 kg", "1 mm mm", "2 mm * 3 mm", "NaN", "Infinity", "*2 mm"]) expect(length(text), text).toBeNull();
+  for (const text of ["", "abc", "1 +", "(2", "1/0", "5 kg", "1 mm mm", "2 mm * 3 mm", "NaN", "Infinity", "*2 mm"])
+    expect(length(text), text).toBeNull();
 });
 test("shown numbers have a true minus and no minus zero", () => {
   expect(showNumber(-0.225_02, "length")).toBe("−225.02");

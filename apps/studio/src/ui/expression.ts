@@ -1,6 +1,8 @@
 /** What a number field is about; decides the unit when none is typed. Inside: metres, radians, seconds, metres a second, 1. */
 export type Quantity = "length" | "angle" | "time" | "speed" | "percent" | "plain";
-export type Typed = { readonly kind: "value"; readonly value: number } | { readonly kind: "not-understood"; readonly at: number };
+export type Typed =
+  | { readonly kind: "value"; readonly value: number }
+  | { readonly kind: "not-understood"; readonly at: number };
 
 /** Unit → factor to the inside unit. The first one is what is shown, and meant when none is typed. */
 const UNITS: Readonly<Record<Quantity, Readonly<Record<string, number>>>> = {
@@ -28,12 +30,21 @@ export function parseTyped(text: string, quantity: Quantity, current: number): T
   const relative = /^(\+=|-=|\*=|\/=|\+|\*|\/)/.exec(source)?.[0] ?? "";
   let at = relative.length;
 
-  const skip = (): void => { while (source[at] === " ") at++; };
+  const skip = (): void => {
+    while (source[at] === " ") at++;
+  };
   /** A value and whether a unit was typed: numbers without one take the shown unit, at the end. */
-  interface Part { value: number; hasUnit: boolean }
+  interface Part {
+    value: number;
+    hasUnit: boolean;
+  }
   const number = (): Part | null => {
     skip();
-    if (source[at] === "-") { at++; const part = number(); return part && { value: -part.value, hasUnit: part.hasUnit }; }
+    if (source[at] === "-") {
+      at++;
+      const part = number();
+      return part && { value: -part.value, hasUnit: part.hasUnit };
+    }
     let part: Part;
     if (source[at] === "(") {
       at++;
@@ -49,7 +60,9 @@ export function parseTyped(text: string, quantity: Quantity, current: number): T
       part = { value: Number(digits), hasUnit: false };
     }
     skip();
-    const unit = Object.keys(UNITS[quantity]).sort((a, b) => b.length - a.length).find(name => name !== "" && source.startsWith(name, at));
+    const unit = Object.keys(UNITS[quantity])
+      .sort((a, b) => b.length - a.length)
+      .find(name => name !== "" && source.startsWith(name, at));
     if (unit === undefined) return part;
     at += unit.length;
     return part.hasUnit ? null : { value: part.value * UNITS[quantity][unit]!, hasUnit: true };
@@ -57,9 +70,13 @@ export function parseTyped(text: string, quantity: Quantity, current: number): T
   const product = (): Part | null => {
     let left = number();
     for (skip(); left && (source[at] === "*" || source[at] === "/"); skip()) {
-      const divide = source[at++] === "/", right = number();
+      const divide = source[at++] === "/";
+      const right = number();
       if (!right || (right.hasUnit && (left.hasUnit || divide))) return null;
-      left = { value: divide ? left.value / right.value : left.value * right.value, hasUnit: left.hasUnit || right.hasUnit };
+      left = {
+        value: divide ? left.value / right.value : left.value * right.value,
+        hasUnit: left.hasUnit || right.hasUnit,
+      };
     }
     return left;
   };
@@ -67,9 +84,12 @@ export function parseTyped(text: string, quantity: Quantity, current: number): T
   function sum(): Part | null {
     let left = product();
     for (skip(); left && (source[at] === "+" || source[at] === "-"); skip()) {
-      const less = source[at++] === "-", right = product();
+      const less = source[at++] === "-";
+      const right = product();
       if (!right) return null;
-      const mixed = left.hasUnit !== right.hasUnit, a: Part = mixed ? inside(left) : left, b = mixed ? inside(right) : right;
+      const mixed = left.hasUnit !== right.hasUnit;
+      const a: Part = mixed ? inside(left) : left;
+      const b = mixed ? inside(right) : right;
       left = { value: less ? a.value - b.value : a.value + b.value, hasUnit: a.hasUnit };
     }
     return left;
@@ -81,13 +101,24 @@ export function parseTyped(text: string, quantity: Quantity, current: number): T
   const scaled = relative.startsWith("*") || relative.startsWith("/");
   if (scaled && part.hasUnit) return { kind: "not-understood", at };
   const amount = scaled ? part.value : inside(part).value;
-  const value = relative.startsWith("+") ? current + amount : relative.startsWith("-") ? current - amount
-    : relative.startsWith("*") ? current * amount : relative.startsWith("/") ? current / amount : amount;
+  const value = relative.startsWith("+")
+    ? current + amount
+    : relative.startsWith("-")
+      ? current - amount
+      : relative.startsWith("*")
+        ? current * amount
+        : relative.startsWith("/")
+          ? current / amount
+          : amount;
   return Number.isFinite(value) ? { kind: "value", value } : { kind: "not-understood", at };
 }
 
 /** As many decimals as the quantity deserves, with a true minus and never "−0". */
-export function showNumber(value: number, quantity: Quantity, decimals = quantity === "time" ? 2 : quantity === "percent" ? 0 : 2): string {
+export function showNumber(
+  value: number,
+  quantity: Quantity,
+  decimals = quantity === "time" ? 2 : quantity === "percent" ? 0 : 2,
+): string {
   const text = (value / shownFactor(quantity)).toFixed(decimals);
   return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
 }

@@ -6,11 +6,18 @@ import { theLive, type Live } from "../live/live.ts";
 export function useLive(write: (live: Readonly<Live>) => void): void {
   const latest = useRef(write);
   const seen = useRef(-1);
-  useEffect(() => { latest.current = write; seen.current = -1; });
-  useEffect(() => onFrame(() => {
-    const live = theLive();
-    if (live.revision === seen.current) return;
-    seen.current = live.revision;
-    latest.current(live);
-  }), []);
+  useEffect(() => {
+    latest.current = write;
+    seen.current = -1;
+  });
+  useEffect(
+    () =>
+      onFrame(() => {
+        const live = theLive();
+        if (live.revision === seen.current) return;
+        seen.current = live.revision;
+        latest.current(live);
+      }),
+    [],
+  );
 }

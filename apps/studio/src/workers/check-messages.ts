@@ -2,8 +2,21 @@ import type { CellGeometry, Plan, Program, Verdict } from "@twincell/core";
 import type { PathStretch } from "../stores/play.ts";
 
 /** One program to judge. The geometry is sent only when it changed since the last question to this worker. */
-export interface ToChecker { readonly id: number; readonly program: Program; readonly robot: string; readonly cell?: CellGeometry; readonly margin_m: number }
+export interface ToChecker {
+  readonly id: number;
+  readonly program: Program;
+  readonly robot: string;
+  readonly cell?: CellGeometry;
+  readonly margin_m: number;
+}
 export type FromChecker =
   | { readonly kind: "progress"; readonly id: number; readonly share: number }
-  | { readonly kind: "checked"; readonly id: number; readonly verdict: Verdict; readonly plan: Plan; readonly path: readonly PathStretch[]; readonly took_ms: number }
+  | {
+      readonly kind: "checked";
+      readonly id: number;
+      readonly verdict: Verdict;
+      readonly plan: Plan;
+      readonly path: readonly PathStretch[];
+      readonly took_ms: number;
+    }
   | { readonly kind: "trouble"; readonly id: number; readonly sentence: string };

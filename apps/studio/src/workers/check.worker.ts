@@ -3,22 +3,41 @@ import { tcpPath } from "../live/tcp-path.ts";
 import type { FromChecker, ToChecker } from "./check-messages.ts";
 
 let cell: CellGeometry | undefined;
-const answer = (message: FromChecker): void => { postMessage(message); };
+const answer = (message: FromChecker): void => {
+  postMessage(message);
+};
 /** Often enough for a bar, seldom enough to cost nothing. */
 const TELL_EVERY_MS = 60;
 
 addEventListener("message", ({ data }: MessageEvent<ToChecker>) => {
-  const { id, program } = data, began = performance.now();
+  const { id, program } = data;
+  const began = performance.now();
   try {
     cell = data.cell ?? cell;
     const robot = robotById(data.robot);
-    if (!robot || !cell) { answer({ kind: "trouble", id, sentence: `The library has no robot called “${data.robot}”.` }); return; }
+    if (!robot || !cell) {
+      answer({ kind: "trouble", id, sentence: `The library has no robot called “${data.robot}”.` });
+      return;
+    }
     let told = began;
     const { verdict, plan } = checkProgram(program, robot, {
-      cell, margin_m: data.margin_m,
-      onProgress: share => { if (performance.now() - told > TELL_EVERY_MS) { told = performance.now(); answer({ kind: "progress", id, share }); } },
+      cell,
+      margin_m: data.margin_m,
+      onProgress: share => {
+        if (performance.now() - told > TELL_EVERY_MS) {
+          told = performance.now();
+          answer({ kind: "progress", id, share });
+        }
+      },
     });
-    answer({ kind: "checked", id, verdict, plan, path: tcpPath(plan, verdict, program, robot, cell.worldFromBase), took_ms: performance.now() - began });
+    answer({
+      kind: "checked",
+      id,
+      verdict,
+      plan,
+      path: tcpPath(plan, verdict, program, robot, cell.worldFromBase),
+      took_ms: performance.now() - began,
+    });
   } catch (trouble) {
     answer({ kind: "trouble", id, sentence: trouble instanceof Error ? trouble.message : String(trouble) });
   }

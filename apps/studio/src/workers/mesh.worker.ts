@@ -10,7 +10,8 @@ addEventListener("message", ({ data: { kind, bytes } }: MessageEvent<ToReader>) 
   try {
     const read = READERS[kind](bytes);
     if (read.kind === "read") {
-      const { likelyScale } = read.report, mesh = { positions: read.mesh.positions.map(length => length * likelyScale), indices: read.mesh.indices };
+      const { likelyScale } = read.report;
+      const mesh = { positions: read.mesh.positions.map(length => length * likelyScale), indices: read.mesh.indices };
       answer = { kind: "read", encoded: encodeMesh(mesh), report: read.report, lowest: meshBounds(mesh).lower };
     } else answer = { kind: "not-understood", sentence: read.sentence };
   } catch (trouble) {

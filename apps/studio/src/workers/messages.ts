@@ -7,7 +7,12 @@ export type ToWatcher =
 
 export type FromWatcher =
   | {
-    readonly kind: "sight"; readonly edition: number; readonly contacts: readonly (readonly [string, string])[];
-    readonly touched: readonly string[]; readonly clearance_m: number; readonly nearest: readonly [string, string]; readonly took_ms: number;
-  }
+      readonly kind: "sight";
+      readonly edition: number;
+      readonly contacts: readonly (readonly [string, string])[];
+      readonly touched: readonly string[];
+      readonly clearance_m: number;
+      readonly nearest: readonly [string, string];
+      readonly took_ms: number;
+    }
   | { readonly kind: "trouble"; readonly sentence: string };

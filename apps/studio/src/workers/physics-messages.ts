@@ -23,6 +23,20 @@ export interface PhysicsFrame {
 }
 
 export type FromPhysics =
-  | { readonly kind: "ready"; readonly edition: number; readonly parts: readonly string[]; readonly assumptions: readonly string[]; readonly frame: PhysicsFrame }
-  | { readonly kind: "frame"; readonly edition: number; readonly state: "running" | "paused" | "done"; readonly stopped: boolean; readonly frame: PhysicsFrame; readonly said: readonly string[]; readonly why: string }
+  | {
+      readonly kind: "ready";
+      readonly edition: number;
+      readonly parts: readonly string[];
+      readonly assumptions: readonly string[];
+      readonly frame: PhysicsFrame;
+    }
+  | {
+      readonly kind: "frame";
+      readonly edition: number;
+      readonly state: "running" | "paused" | "done";
+      readonly stopped: boolean;
+      readonly frame: PhysicsFrame;
+      readonly said: readonly string[];
+      readonly why: string;
+    }
   | { readonly kind: "refused"; readonly edition: number; readonly sentence: string; readonly hint: string };

@@ -2,10 +2,26 @@ import type { CellGeometry, PairMatrix, Program, Untangled, WayRound } from "@tw
 
 /** Searches that take a while. Cancelling ends the worker. */
 export type PlanTask =
-  | { readonly kind: "way"; readonly program: Program; readonly step: string; readonly robot: string; readonly cell: CellGeometry; readonly margin_m: number }
-  | { readonly kind: "go"; readonly robot: string; readonly cell: CellGeometry; readonly from_rad: readonly number[]; readonly to_rad: readonly number[] }
+  | {
+      readonly kind: "way";
+      readonly program: Program;
+      readonly step: string;
+      readonly robot: string;
+      readonly cell: CellGeometry;
+      readonly margin_m: number;
+    }
+  | {
+      readonly kind: "go";
+      readonly robot: string;
+      readonly cell: CellGeometry;
+      readonly from_rad: readonly number[];
+      readonly to_rad: readonly number[];
+    }
   | { readonly kind: "learn"; readonly robot: string; readonly cell: CellGeometry };
-export interface ToPlanner { readonly id: number; readonly task: PlanTask }
+export interface ToPlanner {
+  readonly id: number;
+  readonly task: PlanTask;
+}
 
 export type FromPlanner =
   | { readonly kind: "progress"; readonly id: number; readonly share: number }

@@ -3,7 +3,14 @@ import type { Proof } from "@twincell/languages";
 import type { Written } from "../live/written.ts";
 
 /** `dialect` null: no language speaks for the robot. With `prove` the text is read back after it was answered. */
-export interface ToPoster { readonly id: number; readonly dialect: string | null; readonly program: Program; readonly robot: string; readonly worldFromBase: Pose<"world", "base">; readonly prove: boolean }
+export interface ToPoster {
+  readonly id: number;
+  readonly dialect: string | null;
+  readonly program: Program;
+  readonly robot: string;
+  readonly worldFromBase: Pose<"world", "base">;
+  readonly prove: boolean;
+}
 export type FromPoster =
   | { readonly kind: "written"; readonly id: number; readonly written: Written }
   | { readonly kind: "proven"; readonly id: number; readonly proof: Proof | null }

@@ -3,18 +3,32 @@ import { dialectById, proveText, runnableFile } from "@twincell/languages";
 import { writeProgram } from "../live/written.ts";
 import type { FromPoster, ToPoster } from "./post-messages.ts";
 
-const answer = (message: FromPoster): void => { postMessage(message); };
+const answer = (message: FromPoster): void => {
+  postMessage(message);
+};
 
-addEventListener("message", ({ data: { id, dialect: name, program, robot: robotId, worldFromBase, prove } }: MessageEvent<ToPoster>) => {
-  try {
-    const dialect = name === null ? null : dialectById(name), robot = robotById(robotId);
-    if (dialect === undefined || !robot) { answer({ kind: "trouble", id, sentence: `There is no language “${name}” for the robot “${robotId}”.` }); return; }
-    const written = writeProgram(dialect, program, robot, worldFromBase), { emitted } = written;
-    answer({ kind: "written", id, written });
-    if (!prove) return;
-    const runnable = dialect && emitted?.kind === "emitted" ? runnableFile(dialect, emitted.files) : undefined;
-    answer({ kind: "proven", id, proof: dialect && runnable ? proveText(dialect, runnable, written.program, robot, worldFromBase) : null });
-  } catch (trouble) {
-    answer({ kind: "trouble", id, sentence: trouble instanceof Error ? trouble.message : String(trouble) });
-  }
-});
+addEventListener(
+  "message",
+  ({ data: { id, dialect: name, program, robot: robotId, worldFromBase, prove } }: MessageEvent<ToPoster>) => {
+    try {
+      const dialect = name === null ? null : dialectById(name);
+      const robot = robotById(robotId);
+      if (dialect === undefined || !robot) {
+        answer({ kind: "trouble", id, sentence: `There is no language “${name}” for the robot “${robotId}”.` });
+        return;
+      }
+      const written = writeProgram(dialect, program, robot, worldFromBase);
+      const { emitted } = written;
+      answer({ kind: "written", id, written });
+      if (!prove) return;
+      const runnable = dialect && emitted?.kind === "emitted" ? runnableFile(dialect, emitted.files) : undefined;
+      answer({
+        kind: "proven",
+        id,
+        proof: dialect && runnable ? proveText(dialect, runnable, written.program, robot, worldFromBase) : null,
+      });
+    } catch (trouble) {
+      answer({ kind: "trouble", id, sentence: trouble instanceof Error ? trouble.message : String(trouble) });
+    }
+  },
+);

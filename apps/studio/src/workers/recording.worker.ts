@@ -4,8 +4,15 @@ import { blobFiles } from "../live/recordings.ts";
 import type { FromRecordingReader, ToRecordingReader } from "./recording-messages.ts";
 
 addEventListener("message", ({ data: file }: MessageEvent<ToRecordingReader>) => {
-  const answer = (said: FromRecordingReader["said"]): void => { postMessage({ name: file.name, said } satisfies FromRecordingReader); };
-  zstd().then(packing => catalogue(blobFiles([file]), { name: file.name, bytes: file.blob.size }, packing)).then(answer, (trouble: unknown) => {
-    answer({ kind: "not-a-recording", sentence: `The recording cannot be read: ${trouble instanceof Error ? trouble.message : String(trouble)}.` });
-  });
+  const answer = (said: FromRecordingReader["said"]): void => {
+    postMessage({ name: file.name, said } satisfies FromRecordingReader);
+  };
+  zstd()
+    .then(packing => catalogue(blobFiles([file]), { name: file.name, bytes: file.blob.size }, packing))
+    .then(answer, (trouble: unknown) => {
+      answer({
+        kind: "not-a-recording",
+        sentence: `The recording cannot be read: ${trouble instanceof Error ? trouble.message : String(trouble)}.`,
+      });
+    });
 });

@@ -4,7 +4,8 @@ import { dialectById } from "@twincell/languages";
 import { createHost, type OpenedStation } from "@twincell/messages";
 
 /** How often the world of the page goes on, and the most it goes on by at once [s]. */
-const TICK_S = 0.004, MOST_S = 0.02;
+const TICK_S = 0.004;
+const MOST_S = 0.02;
 
 /**
  * The clock of the virtual controllers, their wires, drivers and guards. A worker that was kept from running is no link that
@@ -23,19 +24,48 @@ const cell = createSharedCell();
 const refused = (why: Refusal): OpenedStation => ({ kind: "refused", why });
 
 const host = createHost({
-  scheduler, version: "",
+  scheduler,
+  version: "",
   brands: BRANDS.map(({ id, name, vendor, dialect, ports }) => ({ id, name, vendor, dialect, ports: { ...ports } })),
   together: (members, onStarted) => startTogether(members, scheduler, onStarted),
   async open(ask): Promise<OpenedStation> {
-    const brand = brandById(ask.brand), robot = robotById(ask.robot), dialect = brand && dialectById(brand.dialect);
-    if (!brand || !dialect || !robot) return refused({ code: "station.none", sentence: `There is no virtual controller “${ask.brand}” for “${ask.robot}”.`, hint: "Choose another robot." });
-    if (ask.address) return refused({ code: "station.no-network", sentence: "A page has no network of its own: real controllers are reached through the server.", hint: "Start Twincell with npx twincell serve and open its address." });
+    const brand = brandById(ask.brand);
+    const robot = robotById(ask.robot);
+    const dialect = brand && dialectById(brand.dialect);
+    if (!brand || !dialect || !robot)
+      return refused({
+        code: "station.none",
+        sentence: `There is no virtual controller “${ask.brand}” for “${ask.robot}”.`,
+        hint: "Choose another robot.",
+      });
+    if (ask.address)
+      return refused({
+        code: "station.no-network",
+        sentence: "A page has no network of its own: real controllers are reached through the server.",
+        hint: "Start Twincell with npx twincell serve and open its address.",
+      });
     return openStation({
-      id: ask.station, brand, robot, scheduler, dialect, ...(ask.stand ? { shared: { cell, stand: ask.stand } } : {}), ...(ask.watch === undefined ? {} : { watching: ask.watch }),
-      ...(ask.name === undefined ? {} : { name: ask.name }), ...(ask.worldFromBase ? { worldFromBase: ask.worldFromBase } : {}),
+      id: ask.station,
+      brand,
+      robot,
+      scheduler,
+      dialect,
+      ...(ask.stand ? { shared: { cell, stand: ask.stand } } : {}),
+      ...(ask.watch === undefined ? {} : { watching: ask.watch }),
+      ...(ask.name === undefined ? {} : { name: ask.name }),
+      ...(ask.worldFromBase ? { worldFromBase: ask.worldFromBase } : {}),
     });
   },
 });
 
-const seat = host.join("you", { send(text) { postMessage(text); }, close() { /* A page's worker ends with the page. */ } });
-addEventListener("message", ({ data }: MessageEvent<string>) => { seat.hear(data); });
+const seat = host.join("you", {
+  send(text) {
+    postMessage(text);
+  },
+  close() {
+    /* A page's worker ends with the page. */
+  },
+});
+addEventListener("message", ({ data }: MessageEvent<string>) => {
+  seat.hear(data);
+});

@@ -5,15 +5,29 @@ import { createRealController } from "../real/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
 
 test("the brand's driver and virtual controller find each other, two pairs on one machine; pendant and restart", async () => {
-  const scheduler = manualScheduler(), network = memoryNetwork(scheduler), brand = brandById("abb")!, robot = robotById("abb_irb120")!;
+  const scheduler = manualScheduler();
+  const network = memoryNetwork(scheduler);
+  const brand = brandById("abb")!;
+  const robot = robotById("abb_irb120")!;
   const pair = async (host: string) => {
-    const started = await brand.virtual({ robot, scheduler, network, host, interpret: () => ({ kind: "not-understood", faults: [] }) });
+    const started = await brand.virtual({
+      robot,
+      scheduler,
+      network,
+      host,
+      interpret: () => ({ kind: "not-understood", faults: [] }),
+    });
     if (started.kind === "taken") throw new Error(started.sentence);
-    const { virtual } = started, real = createRealController({ face: brand.face({ robot, scheduler, network, host, ports: virtual.ports }), scheduler });
+    const { virtual } = started;
+    const real = createRealController({
+      face: brand.face({ robot, scheduler, network, host, ports: virtual.ports }),
+      scheduler,
+    });
     void real.connect();
     return { virtual, real };
   };
-  const one = await pair("127.0.0.1"), two = await pair("127.0.0.2");
+  const one = await pair("127.0.0.1");
+  const two = await pair("127.0.0.2");
   await scheduler.elapse(0.2);
   const moving = [one.real.moveJoint(1, 0.4), two.real.moveJoint(1, -0.4)];
   await scheduler.elapse(3);

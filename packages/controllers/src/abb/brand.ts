@@ -5,27 +5,56 @@ import { abbEgmFace, abbFace } from "./driver/index.ts";
 import { abbPendant } from "./pendant.ts";
 import { createVirtualAbb } from "./virtual/index.ts";
 
-const PORTS = { egm: EGM_PORT, rws: RWS_PORT }, REBOOT_S = 2;
+const PORTS = { egm: EGM_PORT, rws: RWS_PORT };
+const REBOOT_S = 2;
 
 /** IRC5 controllers with RobotWare 6: externally guided motion, to a port of this machine, and Robot Web Services, on one of theirs. */
 export const abb: Brand = {
-  id: "abb", name: "ABB", dialect: "rapid", vendor: "ABB", ports: PORTS, cannot: ABB_CANNOT,
-  otherWays: [{ name: "ABB (EGM alone)", cannot: ABB_EGM_CANNOT, shows: ["T-19", "T-20", "T-21", "T-23", "T-24", "T-25", "T-26", "T-27"], tests: "egm-face.test.ts", face: abbEgmFace }],
+  id: "abb",
+  name: "ABB",
+  dialect: "rapid",
+  vendor: "ABB",
+  ports: PORTS,
+  cannot: ABB_CANNOT,
+  otherWays: [
+    {
+      name: "ABB (EGM alone)",
+      cannot: ABB_EGM_CANNOT,
+      shows: ["T-19", "T-20", "T-21", "T-23", "T-24", "T-25", "T-26", "T-27"],
+      tests: "egm-face.test.ts",
+      face: abbEgmFace,
+    },
+  ],
   face: ({ ports, ...options }) => abbFace({ ...options, ports: { ...PORTS, ...ports } }),
   async virtual({ ports, robot, scheduler, network, host, start_rad, maxSpeed, interpret }) {
     const started = await createVirtualAbb({
-      robot, scheduler, network, host, interpret, sensor: { host, port: ports?.["egm"] ?? EGM_PORT }, rws: ports?.["rws"] ?? RWS_PORT, ...(start_rad ? { start_rad } : {}), ...(maxSpeed === undefined ? {} : { maxSpeed }),
+      robot,
+      scheduler,
+      network,
+      host,
+      interpret,
+      sensor: { host, port: ports?.["egm"] ?? EGM_PORT },
+      rws: ports?.["rws"] ?? RWS_PORT,
+      ...(start_rad ? { start_rad } : {}),
+      ...(maxSpeed === undefined ? {} : { maxSpeed }),
     });
     if (started.kind === "taken") return started;
     const { controller } = started;
     return {
       kind: "started",
       virtual: {
-        name: `Virtual ABB ${robot.name.replace(/^ABB /, "")}`, robot, ports: { ...PORTS, ...ports, rws: controller.rws!.port }, brakingTime_s: controller.brakingTime_s,
+        name: `Virtual ABB ${robot.name.replace(/^ABB /, "")}`,
+        robot,
+        ports: { ...PORTS, ...ports, rws: controller.rws!.port },
+        brakingTime_s: controller.brakingTime_s,
         pendant: abbPendant(controller),
         jointAngles: out => controller.neutral.jointAngles(out),
-        reboot() { controller.reboot(REBOOT_S); },
-        close() { controller.close(); },
+        reboot() {
+          controller.reboot(REBOOT_S);
+        },
+        close() {
+          controller.close();
+        },
       },
     };
   },

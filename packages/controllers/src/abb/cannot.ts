@@ -7,7 +7,11 @@ export const ABB_CANNOT: readonly Cannot[] = [
 
 /** Over externally guided motion alone. */
 export const ABB_EGM_CANNOT: readonly Cannot[] = [
-  { row: "T-10", because: "EGM has no word for the motors: an emergency stop brakes hard and then falls silent, which ends EGM on the controller; a person starts it there again." },
+  {
+    row: "T-10",
+    because:
+      "EGM has no word for the motors: an emergency stop brakes hard and then falls silent, which ends EGM on the controller; a person starts it there again.",
+  },
   { row: "texts", because: "EGM carries targets, no programs." },
   { row: "signals", because: "EGM carries targets, no signals." },
   { row: "payload", because: "EGM carries targets, no loads." },

@@ -5,24 +5,50 @@ import { neutralPendant } from "../virtual/index.ts";
 import type { VirtualAbb } from "./virtual/index.ts";
 
 const KEYS = [
-  { id: "MANR", name: "Manual reduced", mode: "manual" }, { id: "MANF", name: "Manual full speed", mode: "manual" }, { id: "AUTO", name: "Auto", mode: "automatic" },
+  { id: "MANR", name: "Manual reduced", mode: "manual" },
+  { id: "MANF", name: "Manual full speed", mode: "manual" },
+  { id: "AUTO", name: "Auto", mode: "automatic" },
 ] as const satisfies readonly KeyPosition[];
-const REDUCED_MPS = 0.25, FLANGE = identity<"flange", "tcp">();
+const REDUCED_MPS = 0.25;
+const FLANGE = identity<"flange", "tcp">();
 
 /** FlexPendant and operator panel of a virtual ABB controller. */
 export function abbPendant(controller: VirtualAbb): Pendant {
-  const { neutral, robot, pendant, cabinet, programs, lines } = controller, common = neutralPendant(neutral, { keys: KEYS });
-  const digital = (kind: "DI" | "DO"): readonly string[] => lines.all.filter(line => line.kind === kind).map(({ name }) => name);
+  const { neutral, robot, pendant, cabinet, programs, lines } = controller;
+  const common = neutralPendant(neutral, { keys: KEYS });
+  const digital = (kind: "DI" | "DO"): readonly string[] =>
+    lines.all.filter(line => line.kind === kind).map(({ name }) => name);
   let pressed = false;
   const isManual = (): boolean => cabinet.key !== "AUTO";
-  const safety = (): SafetyState => cabinet.state === "emergencystop" ? "emergency-stop" : cabinet.state === "guardstop" ? "guard-stop" : controller.hasFailed ? "protective-stop" : "normal";
-  const alarms = (): readonly string[] => safety() === "normal" && (isManual() || programs.isRunning) ? [] : cabinet.events.filter(({ kind }) => kind > 1).slice(0, 1).map(({ code, text }) => `${code} ${text}`);
+  const safety = (): SafetyState =>
+    cabinet.state === "emergencystop"
+      ? "emergency-stop"
+      : cabinet.state === "guardstop"
+        ? "guard-stop"
+        : controller.hasFailed
+          ? "protective-stop"
+          : "normal";
+  const alarms = (): readonly string[] =>
+    safety() === "normal" && (isManual() || programs.isRunning)
+      ? []
+      : cabinet.events
+          .filter(({ kind }) => kind > 1)
+          .slice(0, 1)
+          .map(({ code, text }) => `${code} ${text}`);
   return {
     ...common,
     labels: { servo: "Motors", reset: "Acknowledge, start" },
     lines: { inputs: digital("DI"), outputs: digital("DO"), read: signal => lines.find(signal)?.value === true },
     get shown(): PendantShown {
-      return { key: cabinet.key, servo: cabinet.motorsOn ? "on" : "off", safety: safety(), override: cabinet.speedRatio / 100, program: programs.names.at(-1) ?? "", running: programs.isRunning, alarms: alarms() };
+      return {
+        key: cabinet.key,
+        servo: cabinet.motorsOn ? "on" : "off",
+        safety: safety(),
+        override: cabinet.speedRatio / 100,
+        program: programs.names.at(-1) ?? "",
+        running: programs.isRunning,
+        alarms: alarms(),
+      };
     },
     turnKey(position) {
       const to = KEYS.find(({ id }) => id === position);
@@ -31,14 +57,19 @@ export function abbPendant(controller: VirtualAbb): Pendant {
       if ((to.mode === "manual") !== isManual()) pendant.setMode(to.mode);
       if (to.mode === "manual") cabinet.setKey(to.id);
     },
-    setMode(mode) { pendant.setMode(mode); },
-    setEnabling(held) { if (!held) common.stopJog(); },
+    setMode(mode) {
+      pendant.setMode(mode);
+    },
+    setEnabling(held) {
+      if (!held) common.stopJog();
+    },
     setServo(on) {
       if (on) return cabinet.switchOn();
       cabinet.motorsOff("The motors were switched off.");
       return null;
     },
-    setOverride: ratio => cabinet.setSpeedRatio(100 * ratio) ? common.setOverride(ratio) : "The speed goes from 0 to 100 %.",
+    setOverride: ratio =>
+      cabinet.setSpeedRatio(100 * ratio) ? common.setOverride(ratio) : "The speed goes from 0 to 100 %.",
     /** Off manual this is also the start of the program, which waits for targets again. */
     reset() {
       if (pressed) return "The emergency stop is pressed.";
@@ -47,13 +78,32 @@ export function abbPendant(controller: VirtualAbb): Pendant {
       return null;
     },
     async jog(q_rad, most = 1) {
-      if (!cabinet.motorsOn) return { kind: "refused", why: { code: "controller.not-ready", sentence: pressed ? "The emergency stop is pressed." : "The motors are off.", hint: "Turn the red button out, and press the enabling switch." } };
+      if (!cabinet.motorsOn)
+        return {
+          kind: "refused",
+          why: {
+            code: "controller.not-ready",
+            sentence: pressed ? "The emergency stop is pressed." : "The motors are off.",
+            hint: "Turn the red button out, and press the enabling switch.",
+          },
+        };
       const full_mps = cabinet.key === "MANR" ? jointMoveSpeed(robot, neutral.jointAngles(), q_rad, FLANGE) : 0;
       return common.jog(q_rad, Math.min(most, full_mps > 0 ? REDUCED_MPS / full_mps : 1));
     },
-    emergencyStop(is) { pressed = is; if (is) common.stopJog(); pendant.emergencyStop(is); },
-    setGuardOpen(open) { pendant.setGuardOpen(open); },
-    protectiveStop(because) { common.stopJog(); pendant.protectiveStop(because); },
-    setInput(signal, value) { pendant.setInput(signal, value); },
+    emergencyStop(is) {
+      pressed = is;
+      if (is) common.stopJog();
+      pendant.emergencyStop(is);
+    },
+    setGuardOpen(open) {
+      pendant.setGuardOpen(open);
+    },
+    protectiveStop(because) {
+      common.stopJog();
+      pendant.protectiveStop(because);
+    },
+    setInput(signal, value) {
+      pendant.setInput(signal, value);
+    },
   };
 }

@@ -1,4 +1,18 @@
-import { CellCollider, copyPose, hardBrakingTime_s, linkSolids, OtherArm, robotAndCell, SolidShelf, type CellObject, type LinkSolid, type Pose, type Refusal, type Robot, type SolidPair } from "@twincell/core";
+import {
+  CellCollider,
+  copyPose,
+  hardBrakingTime_s,
+  linkSolids,
+  OtherArm,
+  robotAndCell,
+  SolidShelf,
+  type CellObject,
+  type LinkSolid,
+  type Pose,
+  type Refusal,
+  type Robot,
+  type SolidPair,
+} from "@twincell/core";
 import { cameNearRobot, wouldStandNear } from "./words.ts";
 
 /** Kept between two robots, the errors of both drawn shapes on top [m]. */
@@ -10,7 +24,10 @@ const NO_NEARER_M = 0.002;
 /** Looks at the way of a robot that goes first, over the time in which the one who yields comes to rest. */
 const LOOKS = 3;
 
-export interface SharedCellOptions { readonly between_m?: number; readonly yielded_m?: number }
+export interface SharedCellOptions {
+  readonly between_m?: number;
+  readonly yielded_m?: number;
+}
 export interface PlaceOptions {
   readonly id: string;
   readonly name: string;
@@ -56,7 +73,9 @@ export interface Seen {
   /** Errors of both drawn shapes; on top of what is kept [m]. */
   readonly error_m: number;
 }
-export interface SharedCell { join(options: PlaceOptions): Place }
+export interface SharedCell {
+  join(options: PlaceOptions): Place;
+}
 
 interface Member extends Place {
   readonly options: PlaceOptions;
@@ -86,8 +105,13 @@ interface Neighbour extends Seen {
  * later yields: it keeps `yielded_m` more, so that it stops first and the other need not. To a robot that nobody here could stop, because
  * it is only watched or jogged at its pendant, everyone yields. Both look at both braking ways, so that who goes first is safe as well.
  */
-export function createSharedCell({ between_m = BETWEEN_ROBOTS_M, yielded_m = YIELDED_M }: SharedCellOptions = {}): SharedCell {
-  const members = new Set<Member>(), shelf = new SolidShelf(), solids = new Map<string, LinkSolid[]>();
+export function createSharedCell({
+  between_m = BETWEEN_ROBOTS_M,
+  yielded_m = YIELDED_M,
+}: SharedCellOptions = {}): SharedCell {
+  const members = new Set<Member>();
+  const shelf = new SolidShelf();
+  const solids = new Map<string, LinkSolid[]>();
   let opened = 0;
   const solidsOf = (robot: Robot): LinkSolid[] => {
     const known = solids.get(robot.id) ?? linkSolids(robot);
@@ -96,20 +120,37 @@ export function createSharedCell({ between_m = BETWEEN_ROBOTS_M, yielded_m = YIE
   };
 
   function join(options: PlaceOptions): Place {
-    const { robot, name, id } = options, n = robot.arm.joints.length, stand = copyPose(options.worldFromBase);
-    const neighbours: Neighbour[] = [], q_rad = Float64Array.from(robot.home_rad), ahead_rad = Float64Array.from(robot.home_rad);
-    const collider = new CellCollider({ worldFromBase: stand, links: solidsOf(robot), objects: [], allowedPairs: [], shapeError_m: robot.shapeError_m }, robot.arm, shelf);
+    const { robot, name, id } = options;
+    const n = robot.arm.joints.length;
+    const stand = copyPose(options.worldFromBase);
+    const neighbours: Neighbour[] = [];
+    const q_rad = Float64Array.from(robot.home_rad);
+    const ahead_rad = Float64Array.from(robot.home_rad);
+    const collider = new CellCollider(
+      { worldFromBase: stand, links: solidsOf(robot), objects: [], allowedPairs: [], shapeError_m: robot.shapeError_m },
+      robot.arm,
+      shelf,
+    );
     const braking_s = options.brakingTime_s ?? hardBrakingTime_s(robot);
 
     /** Distance below what must be kept, with both where they are put; Infinity when it is not below. */
-    function below(to: Neighbour, mine_rad: ArrayLike<number>, its_rad: ArrayLike<number>, kept_m: number, exactly: boolean): number {
+    function below(
+      to: Neighbour,
+      mine_rad: ArrayLike<number>,
+      its_rad: ArrayLike<number>,
+      kept_m: number,
+      exactly: boolean,
+    ): number {
       if (to.picked !== collider.pairs) {
         to.picked = collider.pairs;
-        to.pairs = collider.pairs.filter(pair => robotAndCell(pair) && (pair.a.name.startsWith(`${to.id}/`) || pair.b.name.startsWith(`${to.id}/`)));
+        to.pairs = collider.pairs.filter(
+          pair => robotAndCell(pair) && (pair.a.name.startsWith(`${to.id}/`) || pair.b.name.startsWith(`${to.id}/`)),
+        );
       }
       to.arm.place(its_rad, collider);
       collider.place(mine_rad);
-      let least_m = Infinity, limit_m = kept_m;
+      let least_m = Infinity;
+      let limit_m = kept_m;
       for (const pair of to.pairs) {
         const distance_m = collider.distanceOf(pair, limit_m, exactly ? 0 : limit_m);
         if (distance_m >= limit_m) continue;
@@ -127,20 +168,32 @@ export function createSharedCell({ between_m = BETWEEN_ROBOTS_M, yielded_m = YIE
     function onTheWay(to: Neighbour, kept_m: number, exactly: boolean): number {
       const its = to.member;
       let least_m = below(to, q_rad, its.q_rad, kept_m, exactly);
-      const take = (distance_m: number): void => { least_m = Math.min(least_m, distance_m); };
+      const take = (distance_m: number): void => {
+        least_m = Math.min(least_m, distance_m);
+      };
       if (least_m < kept_m && !exactly) return least_m;
       take(below(to, ahead_rad, its.q_rad, kept_m, exactly));
       if (!its.moving || (least_m < kept_m && !exactly)) return least_m;
       take(below(to, ahead_rad, its.ahead_rad, kept_m, exactly));
       take(below(to, q_rad, its.ahead_rad, kept_m, exactly));
       if (!yields(to) || !its.path) return least_m;
-      for (let k = 1; k <= LOOKS; k++) if (its.path((k / LOOKS) * braking_s, to.scratch)) take(below(to, ahead_rad, to.scratch, kept_m, exactly));
+      for (let k = 1; k <= LOOKS; k++)
+        if (its.path((k / LOOKS) * braking_s, to.scratch)) take(below(to, ahead_rad, to.scratch, kept_m, exactly));
       return least_m;
     }
 
     const member: Member = {
-      id, options, rank: opened++, q_rad, ahead_rad, moving: false, guarded: false, path: null,
-      get others() { return neighbours; },
+      id,
+      options,
+      rank: opened++,
+      q_rad,
+      ahead_rad,
+      moving: false,
+      guarded: false,
+      path: null,
+      get others() {
+        return neighbours;
+      },
       tell(now_rad, stop_rad) {
         let apart_rad = 0;
         for (let i = 0; i < n; i++) {
@@ -152,25 +205,36 @@ export function createSharedCell({ between_m = BETWEEN_ROBOTS_M, yielded_m = YIE
       },
       begin() {
         for (const to of neighbours) {
-          const kept_m = between_m + yielded_m + to.error_m, here_m = below(to, q_rad, to.member.q_rad, kept_m, true);
+          const kept_m = between_m + yielded_m + to.error_m;
+          const here_m = below(to, q_rad, to.member.q_rad, kept_m, true);
           to.floor_m = here_m < kept_m ? here_m - NO_NEARER_M : Infinity;
         }
       },
       tooNear() {
         for (const to of neighbours) {
-          const kept_m = wanted(to), limit_m = Math.min(kept_m, to.floor_m);
-          if (to.floor_m !== Infinity && below(to, q_rad, to.member.q_rad, kept_m, false) >= kept_m) to.floor_m = Infinity;
+          const kept_m = wanted(to);
+          const limit_m = Math.min(kept_m, to.floor_m);
+          if (to.floor_m !== Infinity && below(to, q_rad, to.member.q_rad, kept_m, false) >= kept_m)
+            to.floor_m = Infinity;
           if (limit_m <= 0 || onTheWay(to, limit_m, false) >= limit_m) continue;
-          return cameNearRobot(name, to.name, Math.max(0, onTheWay(to, limit_m, true) - to.error_m), limit_m - to.error_m, yields(to));
+          return cameNearRobot(
+            name,
+            to.name,
+            Math.max(0, onTheWay(to, limit_m, true) - to.error_m),
+            limit_m - to.error_m,
+            yields(to),
+          );
         }
         return null;
       },
       targetRefusal(target_rad) {
         for (const to of neighbours) {
           if (to.member.moving) continue;
-          const kept_m = between_m + to.error_m, there_m = below(to, target_rad, to.member.q_rad, kept_m, true);
+          const kept_m = between_m + to.error_m;
+          const there_m = below(to, target_rad, to.member.q_rad, kept_m, true);
           // Away from where it stands too near already, it may go in small steps.
-          if (there_m < kept_m && there_m < below(to, q_rad, to.member.q_rad, kept_m, true)) return wouldStandNear(name, to.name, Math.max(0, there_m - to.error_m), between_m);
+          if (there_m < kept_m && there_m < below(to, q_rad, to.member.q_rad, kept_m, true))
+            return wouldStandNear(name, to.name, Math.max(0, there_m - to.error_m), between_m);
         }
         return null;
       },
@@ -179,11 +243,29 @@ export function createSharedCell({ between_m = BETWEEN_ROBOTS_M, yielded_m = YIE
         for (const each of members) each.forget(member);
       },
       meet(other) {
-        const arm = new OtherArm(other.id, other.options.name, other.options.robot, solidsOf(other.options.robot), other.options.worldFromBase, other.q_rad);
+        const arm = new OtherArm(
+          other.id,
+          other.options.name,
+          other.options.robot,
+          solidsOf(other.options.robot),
+          other.options.worldFromBase,
+          other.q_rad,
+        );
         const neighbour: Neighbour = {
-          id: other.id, name: other.options.name, joints: other.q_rad.length, member: other, arm, scratch: new Float64Array(other.q_rad.length), pairs: [], picked: null, floor_m: Infinity,
-          get moving() { return other.moving || other.path !== null; },
-          kept_m: between_m, error_m: marginToLinks(robot, other.options.robot),
+          id: other.id,
+          name: other.options.name,
+          joints: other.q_rad.length,
+          member: other,
+          arm,
+          scratch: new Float64Array(other.q_rad.length),
+          pairs: [],
+          picked: null,
+          floor_m: Infinity,
+          get moving() {
+            return other.moving || other.path !== null;
+          },
+          kept_m: between_m,
+          error_m: marginToLinks(robot, other.options.robot),
           expected(in_s, out) {
             if (other.path?.(in_s, out) !== true) out.set(in_s > 0 ? other.ahead_rad : other.q_rad);
           },
@@ -199,7 +281,10 @@ export function createSharedCell({ between_m = BETWEEN_ROBOTS_M, yielded_m = YIE
         neighbours.splice(at, 1);
       },
     };
-    for (const each of members) { each.meet(member); member.meet(each); }
+    for (const each of members) {
+      each.meet(member);
+      member.meet(each);
+    }
     members.add(member);
     return member;
   }

@@ -10,21 +10,53 @@ const PORTS = { connect: RMI_PORT, session: RMI_SESSION_PORT, files: FTP_PORT };
 
 /** FANUC as apps meet it: the Remote Motion Interface of R-30iB controllers and later. */
 export const fanuc: Brand = {
-  id: "fanuc", name: "FANUC", dialect: "fanuc-ls", vendor: "FANUC", ports: PORTS, cannot: FANUC_CANNOT,
-  terminal: ({ kind, address }) => kind === "digital-in" ? `DI[${address}]` : kind === "digital-out" ? `DO[${address}]` : undefined,
-  face: ({ robot, scheduler, network, host, ports }) => createFanucFace({ robot, scheduler, network, host, port: ports?.["connect"] ?? RMI_PORT, ftpPort: ports?.["files"] ?? FTP_PORT }),
+  id: "fanuc",
+  name: "FANUC",
+  dialect: "fanuc-ls",
+  vendor: "FANUC",
+  ports: PORTS,
+  cannot: FANUC_CANNOT,
+  terminal: ({ kind, address }) =>
+    kind === "digital-in" ? `DI[${address}]` : kind === "digital-out" ? `DO[${address}]` : undefined,
+  face: ({ robot, scheduler, network, host, ports }) =>
+    createFanucFace({
+      robot,
+      scheduler,
+      network,
+      host,
+      port: ports?.["connect"] ?? RMI_PORT,
+      ftpPort: ports?.["files"] ?? FTP_PORT,
+    }),
   async virtual({ robot, scheduler, network, host, ports, interpret, start_rad, maxSpeed }) {
     const started = await createVirtualFanuc({
-      robot, scheduler, network, host, port: ports?.["connect"] ?? RMI_PORT, sessionPort: ports?.["session"] ?? RMI_SESSION_PORT, ftpPort: ports?.["files"] ?? FTP_PORT, interpret,
-      ...(start_rad ? { start_rad } : {}), ...(maxSpeed === undefined ? {} : { maxSpeed }),
+      robot,
+      scheduler,
+      network,
+      host,
+      port: ports?.["connect"] ?? RMI_PORT,
+      sessionPort: ports?.["session"] ?? RMI_SESSION_PORT,
+      ftpPort: ports?.["files"] ?? FTP_PORT,
+      interpret,
+      ...(start_rad ? { start_rad } : {}),
+      ...(maxSpeed === undefined ? {} : { maxSpeed }),
     });
     if (started.kind === "taken") return started;
-    const { virtual } = started, { arm } = virtual;
+    const { virtual } = started;
+    const { arm } = virtual;
     return {
       kind: "started",
       virtual: {
-        name: `Virtual ${robot.name}`, robot, ports: virtual.ports, brakingTime_s: arm.brakingTime_s,
-        jointAngles: out => arm.jointAngles(out), reboot() { virtual.reboot(); }, close() { virtual.close(); },
+        name: `Virtual ${robot.name}`,
+        robot,
+        ports: virtual.ports,
+        brakingTime_s: arm.brakingTime_s,
+        jointAngles: out => arm.jointAngles(out),
+        reboot() {
+          virtual.reboot();
+        },
+        close() {
+          virtual.close();
+        },
         pendant: fanucPendant(virtual),
       },
     };

@@ -4,11 +4,15 @@
  */
 export const FTP_PORT = 21;
 /** Longest line, and lines of one answer, that are taken. */
-const LONGEST = 1024, MOST_LINES = 100;
+const LONGEST = 1024;
+const MOST_LINES = 100;
 /** Bytes of a file. */
 export const MOST_FILE = 4_000_000;
 
-export interface FtpReply { readonly code: number; readonly text: string }
+export interface FtpReply {
+  readonly code: number;
+  readonly text: string;
+}
 
 /** Cuts a stream into lines, however it arrives, and holds at most one of them. */
 export class FtpLines {
@@ -40,7 +44,10 @@ export class FtpReplies {
     if (this.open === "" && !match) return "A line came that is no answer of the protocol.";
     this.text.push(match?.[3] ?? line);
     if (this.text.length > MOST_LINES) return `An answer of more than ${MOST_LINES} lines came.`;
-    if (this.open === "" && match![2] === "-") { this.open = match![1]!; return null; }
+    if (this.open === "" && match![2] === "-") {
+      this.open = match![1]!;
+      return null;
+    }
     if (this.open !== "" && (match?.[1] !== this.open || match[2] !== " ")) return null;
     const text = this.text.join("\n");
     this.open = "";
@@ -49,20 +56,29 @@ export class FtpReplies {
   }
 }
 
-export interface FtpCommand { readonly name: string; readonly rest: string }
+export interface FtpCommand {
+  readonly name: string;
+  readonly rest: string;
+}
 /** Null when the line is no command. */
 export function readCommand(line: string): FtpCommand | null {
   const match = /^([A-Za-z]{3,4})(?: (.*))?$/.exec(line);
   return match ? { name: match[1]!.toUpperCase(), rest: match[2] ?? "" } : null;
 }
 
-export const passiveText = (host: string, port: number): string => `Entering Passive Mode (${host.split(".").join(",")},${port >> 8},${port & 255})`;
+export const passiveText = (host: string, port: number): string =>
+  `Entering Passive Mode (${host.split(".").join(",")},${port >> 8},${port & 255})`;
 /** The port of a 227; NaN when there is none. The address is that of the controller itself: what another one says is not followed. */
 export function passivePort(text: string): number {
   const parts = /\(?((?:[0-9]{1,3},){5}[0-9]{1,3})\)?/.exec(text)?.[1]?.split(",").map(Number);
   return parts?.every(part => part <= 255) ? parts[4]! * 256 + parts[5]! : NaN;
 }
-export const lineBytes = (line: string): Uint8Array => Uint8Array.from(`${line.replace(/[\r\n]/g, " ")}\r\n`, sign => { const code = sign.charCodeAt(0); return code < 256 ? code : 63; });
+export const lineBytes = (line: string): Uint8Array =>
+  Uint8Array.from(`${line.replace(/[\r\n]/g, " ")}\r\n`, sign => {
+    const code = sign.charCodeAt(0);
+    return code < 256 ? code : 63;
+  });
 
 /** Name of the program that a listing holds, from `/PROG  NAME`; "" when it is none. */
-export const programOf = (listing: string): string => /^\s*\/PROG\s+([A-Za-z][A-Za-z0-9_]{0,35})\b/.exec(listing)?.[1]?.toUpperCase() ?? "";
+export const programOf = (listing: string): string =>
+  /^\s*\/PROG\s+([A-Za-z][A-Za-z0-9_]{0,35})\b/.exec(listing)?.[1]?.toUpperCase() ?? "";

@@ -5,16 +5,34 @@ import { memoryNetwork } from "../transport/index.ts";
 import { FANUC_CANNOT } from "./cannot.ts";
 import { createFanucFace, createVirtualFanuc, fanucJoints } from "./index.ts";
 
-const robot = robotById("fanuc_lrmate200id")!, HOST = "127.0.0.5";
+const robot = robotById("fanuc_lrmate200id")!;
+const HOST = "127.0.0.5";
 
 describeController("FANUC driver on its virtual controller, over RMI", {
-  robot, scheduler: manualScheduler,
+  robot,
+  scheduler: manualScheduler,
   cannot: FANUC_CANNOT,
   async make({ robot: driven, scheduler, start_rad, maxSpeed, initialize, onMotion }) {
-    const network = memoryNetwork(scheduler), joints = fanucJoints(robot)!;
-    await createVirtualFanuc({ robot: driven, scheduler, network, host: HOST, joints, start_rad, digits: 12, ...(maxSpeed === undefined ? {} : { maxSpeed }) });
+    const network = memoryNetwork(scheduler);
+    const joints = fanucJoints(robot)!;
+    await createVirtualFanuc({
+      robot: driven,
+      scheduler,
+      network,
+      host: HOST,
+      joints,
+      start_rad,
+      digits: 12,
+      ...(maxSpeed === undefined ? {} : { maxSpeed }),
+    });
     const face = createFanucFace({ robot: driven, scheduler, network, host: HOST, joints, period_s: 0.004 });
-    const controller = createRealController({ face, scheduler, ...(initialize ? { initialize } : {}), ...(onMotion ? { onMotion } : {}) }), connecting = controller.connect();
+    const controller = createRealController({
+      face,
+      scheduler,
+      ...(initialize ? { initialize } : {}),
+      ...(onMotion ? { onMotion } : {}),
+    });
+    const connecting = controller.connect();
     await scheduler.elapse(0.05);
     await connecting;
     await scheduler.elapse(0.02);

@@ -4,10 +4,11 @@ import { silenceHoldsNothingUp, twinAgrees } from "../testing/index.ts";
 import { createTwin } from "../twin/index.ts";
 import { bench, HOST, robot, shifted } from "./testing/bench.ts";
 
-const ACCURACY_RAD = 0.001 * Math.PI / 180;
+const ACCURACY_RAD = (0.001 * Math.PI) / 180;
 const far = shifted(0.7);
-const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number => Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
-const codeOf = (outcome: CommandOutcome): string => outcome.kind === "done" ? "done" : outcome.why.code;
+const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number =>
+  Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
+const codeOf = (outcome: CommandOutcome): string => (outcome.kind === "done" ? "done" : outcome.why.code);
 const NOTHING = { tools: {}, frames: {} };
 
 /** A client of lines: what comes back, parsed. */
@@ -16,35 +17,62 @@ async function lines({ scheduler, network }: Awaited<ReturnType<typeof bench>>, 
   await scheduler.elapse(0.01);
   const answer = await connected;
   if (answer.kind === "refused") throw new Error(answer.sentence);
-  let text = "", over = false;
-  answer.stream.onBytes(lent => { text += String.fromCharCode(...lent); });
-  answer.stream.onEnd(() => { over = true; });
+  let text = "";
+  let over = false;
+  answer.stream.onBytes(lent => {
+    text += String.fromCharCode(...lent);
+  });
+  answer.stream.onEnd(() => {
+    over = true;
+  });
   return {
-    over: () => over, close: () => { answer.stream.close(); },
+    over: () => over,
+    close: () => {
+      answer.stream.close();
+    },
     async ask(line: string): Promise<Record<string, unknown>[]> {
       text = "";
       answer.stream.send(Uint8Array.from(line, sign => sign.charCodeAt(0)));
       await scheduler.elapse(0.02);
-      return text.split("\r\n").filter(each => each !== "").map(each => JSON.parse(each) as Record<string, unknown>);
+      return text
+        .split("\r\n")
+        .filter(each => each !== "")
+        .map(each => JSON.parse(each) as Record<string, unknown>);
     },
   };
 }
 
 describe("the controller", () => {
   test("one client is let in: asked for at one port, served at another; the second is told so", async () => {
-    const made = await bench(), door = await lines(made, 16_001);
-    expect(await door.ask('{"Communication":"FRC_Connect"}\r\n')).toEqual([{ Communication: "FRC_Connect", ErrorID: 2556954, PortNumber: 0, MajorVersion: 5, MinorVersion: 0 }]);
+    const made = await bench();
+    const door = await lines(made, 16_001);
+    expect(await door.ask('{"Communication":"FRC_Connect"}\r\n')).toEqual([
+      { Communication: "FRC_Connect", ErrorID: 2556954, PortNumber: 0, MajorVersion: 5, MinorVersion: 0 },
+    ]);
     made.real.disconnect();
     await made.scheduler.elapse(0.1);
     expect(await door.ask('{"Communication":"FRC_Connect"}\r\n')).toMatchObject([{ ErrorID: 0, PortNumber: 16_002 }]);
     const session = await lines(made, 16_002);
-    expect(await session.ask('{"Instruction":"FRC_WaitTime","SequenceID":1,"Time":0.1}\r\n')).toEqual([{ Instruction: "FRC_WaitTime", ErrorID: 2556937, SequenceID: 1 }]);
-    expect(await session.ask('{"Command":"FRC_Initialize","GroupMask":1}\r\n')).toMatchObject([{ Command: "FRC_Initialize", ErrorID: 0 }]);
-    expect(await session.ask('{"Instruction":"FRC_WaitTime","SequenceID":2,"Time":0.1}\r\n')).toMatchObject([{ ErrorID: 2556957, SequenceID: 2 }]);
-    expect(await session.ask('{"Command":"FRC_Continue"}\r\n{"Command":"FRC_Fly"}\r\n')).toMatchObject([{ ErrorID: 2556938 }, { ErrorID: 2556941 }]);
-    expect(await session.ask('{"Command":"FRC_ReadJointAngles","Group":1}\r\n')).toMatchObject([{ JointAngle: { J1: 0, J2: 0, J3: 0, J5: -90 } }]);
+    expect(await session.ask('{"Instruction":"FRC_WaitTime","SequenceID":1,"Time":0.1}\r\n')).toEqual([
+      { Instruction: "FRC_WaitTime", ErrorID: 2556937, SequenceID: 1 },
+    ]);
+    expect(await session.ask('{"Command":"FRC_Initialize","GroupMask":1}\r\n')).toMatchObject([
+      { Command: "FRC_Initialize", ErrorID: 0 },
+    ]);
+    expect(await session.ask('{"Instruction":"FRC_WaitTime","SequenceID":2,"Time":0.1}\r\n')).toMatchObject([
+      { ErrorID: 2556957, SequenceID: 2 },
+    ]);
+    expect(await session.ask('{"Command":"FRC_Continue"}\r\n{"Command":"FRC_Fly"}\r\n')).toMatchObject([
+      { ErrorID: 2556938 },
+      { ErrorID: 2556941 },
+    ]);
+    expect(await session.ask('{"Command":"FRC_ReadJointAngles","Group":1}\r\n')).toMatchObject([
+      { JointAngle: { J1: 0, J2: 0, J3: 0, J5: -90 } },
+    ]);
     // Counted from axis 2: 50 + 335 mm ahead, 330 + 35 − 80 mm up.
-    expect(await session.ask('{"Command":"FRC_ReadCartesianPosition"}\r\n')).toMatchObject([{ Position: { X: 385, Y: 0, Z: 285 } }]);
+    expect(await session.ask('{"Command":"FRC_ReadCartesianPosition"}\r\n')).toMatchObject([
+      { Position: { X: 385, Y: 0, Z: 285 } },
+    ]);
     expect(session.over()).toBe(false);
   });
 
@@ -55,16 +83,23 @@ describe("the controller", () => {
     await made.scheduler.elapse(0.1);
     const door = await lines(made, 16_001);
     await door.ask('{"Communication":"FRC_Connect"}\r\n');
-    const session = await lines(made, 16_002), [said] = await session.ask('{"Command":"FRC_ReadJointAngles"}\r\n');
-    expect((said as { JointAngle: { J3: number } }).JointAngle.J3).toBeCloseTo(-0.3 * 180 / Math.PI, 4);
+    const session = await lines(made, 16_002);
+    const [said] = await session.ask('{"Command":"FRC_ReadJointAngles"}\r\n');
+    expect((said as { JointAngle: { J3: number } }).JointAngle.J3).toBeCloseTo((-0.3 * 180) / Math.PI, 4);
   });
 
   test("any bytes: logged once for each connection, cut off, and the next one is served (200 connections)", async () => {
-    const made = await bench(), random = seededRandom(2);
+    const made = await bench();
+    const random = seededRandom(2);
     made.real.disconnect();
     for (let i = 0; i < 200; i++) {
-      const before = made.log.length, client = await lines(made, 16_001);
-      for (let k = 0; k < 3 && !client.over(); k++) await client.ask(Array.from({ length: 30 }, () => String.fromCharCode(Math.floor(random() * 256))).join("") + (k === 1 ? "\n" : ""));
+      const before = made.log.length;
+      const client = await lines(made, 16_001);
+      for (let k = 0; k < 3 && !client.over(); k++)
+        await client.ask(
+          Array.from({ length: 30 }, () => String.fromCharCode(Math.floor(random() * 256))).join("") +
+            (k === 1 ? "\n" : ""),
+        );
       expect(made.log.length - before).toBeLessThanOrEqual(1);
       client.close();
     }
@@ -76,7 +111,8 @@ describe("the controller", () => {
 
 describe("the driver", () => {
   test("T-19 FANUC: connected only while it is; a cut line is found again, and nothing moves by itself", async () => {
-    const { scheduler, network, real, fanuc, ended } = await bench(), moving = real.moveJoints(far);
+    const { scheduler, network, real, fanuc, ended } = await bench();
+    const moving = real.moveJoints(far);
     await scheduler.elapse(0.2);
     network.cut();
     expect((await ended(moving)).kind).toBe("stopped");
@@ -108,13 +144,16 @@ describe("the driver", () => {
   });
 
   test("T-20 T-27 FANUC: the fence takes the servos off; the fault arrives in the controller's words; a reset is a person's", async () => {
-    const { scheduler, fanuc, real, ended } = await bench(), moving = real.moveJoints(far);
+    const { scheduler, fanuc, real, ended } = await bench();
+    const moving = real.moveJoints(far);
     await scheduler.elapse(0.2);
     fanuc.pendant.setGuardOpen(true);
     expect(await ended(moving)).toMatchObject({ kind: "stopped" });
     await scheduler.elapse(0.5);
     let heard = "";
-    real.onSample(({ safety, message }) => { heard = `${safety}: ${message}`; });
+    real.onSample(({ safety, message }) => {
+      heard = `${safety}: ${message}`;
+    });
     await scheduler.elapse(0.05);
     expect(heard).toBe("protective-stop: SRVO-004 Fence open");
     expect(farthest(real.jointAngles(), fanuc.arm.jointAngles())).toBeLessThanOrEqual(ACCURACY_RAD);
@@ -128,7 +167,8 @@ describe("the driver", () => {
   });
 
   test("T-26 FANUC: with the pendant enabled the twin follows and commands from here are refused", async () => {
-    const { scheduler, fanuc, real, ended } = await bench(), twin = createTwin({ real, scheduler });
+    const { scheduler, fanuc, real, ended } = await bench();
+    const twin = createTwin({ real, scheduler });
     fanuc.pendant.setKey("T1");
     await scheduler.elapse(0.1);
     expect(codeOf(await twin.moveToZero())).toBe("controller.manual-mode");
@@ -163,14 +203,26 @@ describe("the driver", () => {
 
   test("lines end where they should; arcs, other joint counts and unknown joints are refused by name; outputs and inputs by their numbers", async () => {
     const { scheduler, fanuc, real, ended } = await bench({ face: { signals: ["DI[3]"], gripperOutput: 2 } });
-    const from = flangePose(robot.arm, robot.home_rad), [x, y, z] = from.position;
-    const at = (dy: number, dz: number): Target => ({ pose: { position: [x, y + dy, z + dz], quaternion: from.quaternion }, frame: "world", tool: "flange" });
+    const from = flangePose(robot.arm, robot.home_rad);
+    const [x, y, z] = from.position;
+    const at = (dy: number, dz: number): Target => ({
+      pose: { position: [x, y + dy, z + dz], quaternion: from.quaternion },
+      frame: "world",
+      tool: "flange",
+    });
     const line: Step = { id: "line", type: "move", path: "lin", target: at(0.1, 0), speed: { mps: 0.2 }, blend_m: 0 };
     expect(await ended(real.run([line], NOTHING))).toEqual({ kind: "done" });
     expect(flangePose(robot.arm, real.jointAngles()).position[1]).toBeCloseTo(y + 0.1, 5);
     const arc: Step = { ...line, id: "arc", path: "circ", via: at(0.05, 0.05), target: at(0, 0) };
     expect(await real.run([arc], NOTHING)).toMatchObject({ kind: "refused", why: { code: "fanuc.arc" } });
-    const run = real.run([{ id: "a", type: "set", signal: "DO[7]", to: true }, { id: "b", type: "gripper", closed: true }, { id: "c", type: "wait-for", when: { signal: "DI[3]", is: true } }], NOTHING);
+    const run = real.run(
+      [
+        { id: "a", type: "set", signal: "DO[7]", to: true },
+        { id: "b", type: "gripper", closed: true },
+        { id: "c", type: "wait-for", when: { signal: "DI[3]", is: true } },
+      ],
+      NOTHING,
+    );
     await scheduler.elapse(1);
     expect([fanuc.arm.signals.read("DO[7]"), fanuc.arm.signals.read("DO[2]")]).toEqual([true, true]);
     fanuc.pendant.setInput(3, true);
@@ -185,10 +237,12 @@ describe("the driver", () => {
     const lasting = async (maxSpeed: number): Promise<number> => {
       const { fanuc, real, ended } = await bench({ virtual: { maxSpeed } });
       let cycles = 0;
-      fanuc.arm.onSample(({ moving }) => { if (moving) cycles++; });
+      fanuc.arm.onSample(({ moving }) => {
+        if (moving) cycles++;
+      });
       await ended(real.moveJoints(far));
       return 0.004 * cycles;
     };
-    expect(Math.abs(await lasting(0.25) - 4 * await lasting(1))).toBeLessThan(0.0125);
+    expect(Math.abs((await lasting(0.25)) - 4 * (await lasting(1)))).toBeLessThan(0.0125);
   });
 });

@@ -2,7 +2,18 @@ import type { CommandOutcome, EmittedFile, HandedText, JointSample, Refusal, Rob
 import type { Face, FaceEvents, FaceMotion, Opened } from "../real/index.ts";
 import type { ByteStream, Network } from "../transport/index.ts";
 import { FTP_PORT, programOf } from "./codec-ftp.ts";
-import { jointPart, RMI_ERROR, RMI_PORT, RmiReader, rmiBytes, rmiErrorWords, rmiJoints, rmiNumber, type RmiKey, type RmiPacket } from "./codec-rmi.ts";
+import {
+  jointPart,
+  RMI_ERROR,
+  RMI_PORT,
+  RmiReader,
+  rmiBytes,
+  rmiErrorWords,
+  rmiJoints,
+  rmiNumber,
+  type RmiKey,
+  type RmiPacket,
+} from "./codec-rmi.ts";
 import { putFiles } from "./ftp-client.ts";
 import { fanucJoints, JOINTS, jointsOf, shownOf, type FanucJoints } from "./joints.ts";
 import { DONE, refused, stopped } from "../outcomes.ts";
@@ -27,15 +38,31 @@ export interface FanucFaceOptions {
 }
 type Fields = Readonly<Record<string, unknown>>;
 type Lent = { -readonly [K in keyof Omit<JointSample, "step">]: Omit<JointSample, "step">[K] };
-interface Moving { readonly resolve: (outcome: CommandOutcome) => void; /** Not a motion but a program: it moves when it moves. */ readonly isText: boolean; sequence: number; cancelled: boolean; aborted: boolean; outcome: CommandOutcome | null; asOf: number }
+interface Moving {
+  readonly resolve: (outcome: CommandOutcome) => void /** Not a motion but a program: it moves when it moves. */;
+  readonly isText: boolean;
+  sequence: number;
+  cancelled: boolean;
+  aborted: boolean;
+  outcome: CommandOutcome | null;
+  asOf: number;
+}
 
-const DIGITS = 12, PATIENCE_S = 2, STANDS_DEG = 2e-4;
+const DIGITS = 12;
+const PATIENCE_S = 2;
+const STANDS_DEG = 2e-4;
 /** With the watches behind it a stop is commanded within 100 ms of the last state (row X-41) [s]. */
 const STALE_S = 0.08;
 const refusal = (code: string, sentence: string, hint: string): Refusal => ({ code, sentence, hint });
-const noAnswer = (sentence: string): Refusal => refusal("link.refused", sentence, "Look at the address, the cable, and whether option R912 is on the controller.");
-const closedHere = refusal("link.closed", "The connection was closed while the robot moved.", "Connect again, then command the move again.");
-const said = (id: number, hint: string): Refusal => refusal("fanuc.refused", `The controller refused: ${rmiErrorWords(id)}.`, hint);
+const noAnswer = (sentence: string): Refusal =>
+  refusal("link.refused", sentence, "Look at the address, the cable, and whether option R912 is on the controller.");
+const closedHere = refusal(
+  "link.closed",
+  "The connection was closed while the robot moved.",
+  "Connect again, then command the move again.",
+);
+const said = (id: number, hint: string): Refusal =>
+  refusal("fanuc.refused", `The controller refused: ${rmiErrorWords(id)}.`, hint);
 const AT_PENDANT = "Look at the messages on its pendant, reset the robot, then command the move again.";
 
 /**
@@ -44,22 +71,68 @@ const AT_PENDANT = "Look at the messages on its pendant, reset the robot, then c
  * one that is let in, refuses to move until it is reset. It says nothing of the robot's model.
  */
 export function createFanucFace(options: FanucFaceOptions): Face {
-  const { robot, scheduler, network, host } = options, joints = options.joints ?? fanucJoints(robot), period_s = options.period_s ?? 0.02;
-  const values = new Map<string, boolean | number>(), inputs = (options.signals ?? []).filter(signal => /^DI\[[0-9]+\]$/.test(signal)), j_deg = new Float64Array(JOINTS).fill(NaN), before_deg = new Float64Array(JOINTS);
-  const lent: Lent = { sequence: 0, time_s: 0, q_rad: new Float64Array(JOINTS), moving: false, mode: "remote", safety: "normal", override: 1, gripperClosed: false, message: "", signals: values };
-  let stream: ByteStream | null = null, events: FaceEvents | null = null, stopPolling: (() => void) | null = null, life = 0, polling = false;
-  const asked: { readonly key: RmiKey; readonly name: string; readonly since_s: number; readonly answer: (fields: Fields | null) => void }[] = [];
+  const { robot, scheduler, network, host } = options;
+  const joints = options.joints ?? fanucJoints(robot);
+  const period_s = options.period_s ?? 0.02;
+  const values = new Map<string, boolean | number>();
+  const inputs = (options.signals ?? []).filter(signal => /^DI\[[0-9]+\]$/.test(signal));
+  const j_deg = new Float64Array(JOINTS).fill(NaN);
+  const before_deg = new Float64Array(JOINTS);
+  const lent: Lent = {
+    sequence: 0,
+    time_s: 0,
+    q_rad: new Float64Array(JOINTS),
+    moving: false,
+    mode: "remote",
+    safety: "normal",
+    override: 1,
+    gripperClosed: false,
+    message: "",
+    signals: values,
+  };
+  let stream: ByteStream | null = null;
+  let events: FaceEvents | null = null;
+  let stopPolling: (() => void) | null = null;
+  let life = 0;
+  let polling = false;
+  const asked: {
+    readonly key: RmiKey;
+    readonly name: string;
+    readonly since_s: number;
+    readonly answer: (fields: Fields | null) => void;
+  }[] = [];
   let stops = 0;
-  let moving: Moving | null = null, running = false, paused = false, locked = false, servos = true, pendant = false, fault = "", next = 1, time_ms = NaN, polls = 0;
+  let moving: Moving | null = null;
+  let running = false;
+  let paused = false;
+  let locked = false;
+  let servos = true;
+  let pendant = false;
+  let fault = "";
+  let next = 1;
+  let time_ms = NaN;
+  let polls = 0;
 
-  const wasStopped = (): Refusal => refusal("controller.stopped", `${robot.name} was stopped.`, "Command the move again when the way is clear.");
-  const settle = (outcome: CommandOutcome): void => { const ended = moving; moving = null; ended?.resolve(outcome); };
-  const ask = (key: RmiKey, name: string, fields: Fields = {}): Promise<Fields | null> => new Promise(resolve => {
-    if (!stream) { resolve(null); return; }
-    asked.push({ key, name, since_s: scheduler.now_s(), answer: resolve });
-    stream.send(rmiBytes({ key, name, fields }));
-  });
-  const order = async (name: string, fields: Fields = {}): Promise<number> => { const reply = await ask("Command", name, fields); return reply ? rmiNumber(reply, "ErrorID") : NaN; };
+  const wasStopped = (): Refusal =>
+    refusal("controller.stopped", `${robot.name} was stopped.`, "Command the move again when the way is clear.");
+  const settle = (outcome: CommandOutcome): void => {
+    const ended = moving;
+    moving = null;
+    ended?.resolve(outcome);
+  };
+  const ask = (key: RmiKey, name: string, fields: Fields = {}): Promise<Fields | null> =>
+    new Promise(resolve => {
+      if (!stream) {
+        resolve(null);
+        return;
+      }
+      asked.push({ key, name, since_s: scheduler.now_s(), answer: resolve });
+      stream.send(rmiBytes({ key, name, fields }));
+    });
+  const order = async (name: string, fields: Fields = {}): Promise<number> => {
+    const reply = await ask("Command", name, fields);
+    return reply ? rmiNumber(reply, "ErrorID") : NaN;
+  };
 
   function take({ key, name, fields }: RmiPacket): void {
     if (key === "Communication" && name === "FRC_SystemFault") {
@@ -67,19 +140,33 @@ export function createFanucFace(options: FanucFaceOptions): Face {
       void ask("Command", "FRC_ReadError", { Count: 1 }).then(reply => {
         const text = typeof reply?.["ErrorData"] === "string" ? reply["ErrorData"] : "";
         if (text !== "") fault = text;
-        settle(stopped(refusal("fanuc.fault", fault === "" ? "The controller stopped the program." : `The controller stopped the program: ${fault}.`, AT_PENDANT)));
+        settle(
+          stopped(
+            refusal(
+              "fanuc.fault",
+              fault === "" ? "The controller stopped the program." : `The controller stopped the program: ${fault}.`,
+              AT_PENDANT,
+            ),
+          ),
+        );
       });
       return;
     }
     // Commands are answered in order, an instruction when it has been carried out.
-    const sequence = rmiNumber(fields, "SequenceID"), at = asked.findIndex(each => each.key === key && each.name === name);
+    const sequence = rmiNumber(fields, "SequenceID");
+    const at = asked.findIndex(each => each.key === key && each.name === name);
     if (at >= 0) {
       const [mine] = asked.splice(at, 1);
       events?.roundTrip(scheduler.now_s() - mine!.since_s);
       mine!.answer(fields);
     } else if (key === "Instruction" && moving?.sequence === sequence) {
       const id = rmiNumber(fields, "ErrorID");
-      const outcome = id === RMI_ERROR.ok ? DONE : id === RMI_ERROR.position ? stopped(said(id, AT_PENDANT)) : refused(said(id, AT_PENDANT));
+      const outcome =
+        id === RMI_ERROR.ok
+          ? DONE
+          : id === RMI_ERROR.position
+            ? stopped(said(id, AT_PENDANT))
+            : refused(said(id, AT_PENDANT));
       // Where it stands is told by a state that was asked for afterwards.
       moving.outcome = outcome;
       moving.asOf = polls;
@@ -104,10 +191,15 @@ export function createFanucFace(options: FanucFaceOptions): Face {
   }
   function listen(to: ByteStream, mine: number): void {
     const reader = new RmiReader();
-    to.onEnd(({ sentence }) => { if (mine === life) lose(sentence); });
+    to.onEnd(({ sentence }) => {
+      if (mine === life) lose(sentence);
+    });
     to.onBytes(bytes => {
       if (mine !== life) return;
-      const why = reader.push(bytes, packet => { take(packet); return mine === life; });
+      const why = reader.push(bytes, packet => {
+        take(packet);
+        return mine === life;
+      });
       if (why) lose(why);
     });
   }
@@ -115,7 +207,8 @@ export function createFanucFace(options: FanucFaceOptions): Face {
   /** One state out of the answers of a poll; false when it holds none, null when it is not new. */
   function understand(status: Fields, angles: Fields): boolean | null {
     before_deg.set(j_deg);
-    const tag_ms = rmiNumber(angles, "TimeTag"), override = rmiNumber(status, "Override");
+    const tag_ms = rmiNumber(angles, "TimeTag");
+    const override = rmiNumber(status, "Override");
     if (!rmiJoints(angles, j_deg) || Number.isNaN(rmiNumber(status, "ServoReady"))) return false;
     if (tag_ms === time_ms) return null;
     time_ms = tag_ms;
@@ -132,72 +225,145 @@ export function createFanucFace(options: FanucFaceOptions): Face {
     lent.safety = locked ? "emergency-stop" : servos ? "normal" : "protective-stop";
     lent.message = fault !== "" ? fault : servos ? "" : "The servos are off.";
     const moved = j_deg.some((value, i) => Math.abs(value - before_deg[i]!) > STANDS_DEG);
-    lent.moving = (moving !== null && !moving.isText && moving.sequence > 0 && !paused && !moving.aborted && !moving.outcome) || moved;
+    lent.moving =
+      (moving !== null && !moving.isText && moving.sequence > 0 && !paused && !moving.aborted && !moving.outcome) ||
+      moved;
     if (moving?.aborted && !moved) settle(stopped(wasStopped()));
     return true;
   }
 
   function poll(mine: number): void {
     const oldest = asked.find(({ key }) => key === "Command");
-    if (oldest && scheduler.now_s() - oldest.since_s > PATIENCE_S) { lose(`A question was not answered within ${PATIENCE_S} s.`); return; }
+    if (oldest && scheduler.now_s() - oldest.since_s > PATIENCE_S) {
+      lose(`A question was not answered within ${PATIENCE_S} s.`);
+      return;
+    }
     if (polling) return;
     polling = true;
     const number = ++polls;
-    for (const signal of inputs) void ask("Command", "FRC_ReadDIN", { PortNumber: Number(signal.slice(3, -1)) }).then(reply => { if (reply) values.set(signal, rmiNumber(reply, "PortValue") === 1 || reply["PortValue"] === "ON"); });
-    void Promise.all([ask("Command", "FRC_GetStatus"), ask("Command", "FRC_ReadJointAngles", { Group: 1 })]).then(([status, angles]) => {
-      if (mine !== life) return;
-      polling = false;
-      if (!status || !angles || understand(status, angles) !== true) return;
-      if (!servos && fault === "") void ask("Command", "FRC_ReadError", { Count: 1 }).then(reply => { if (typeof reply?.["ErrorData"] === "string" && !servos) fault = reply["ErrorData"]; });
-      events?.sample(lent);
-      if (moving?.outcome && number > moving.asOf) settle(moving.outcome);
-    });
+    for (const signal of inputs)
+      void ask("Command", "FRC_ReadDIN", { PortNumber: Number(signal.slice(3, -1)) }).then(reply => {
+        if (reply) values.set(signal, rmiNumber(reply, "PortValue") === 1 || reply["PortValue"] === "ON");
+      });
+    void Promise.all([ask("Command", "FRC_GetStatus"), ask("Command", "FRC_ReadJointAngles", { Group: 1 })]).then(
+      ([status, angles]) => {
+        if (mine !== life) return;
+        polling = false;
+        if (!status || !angles || understand(status, angles) !== true) return;
+        if (!servos && fault === "")
+          void ask("Command", "FRC_ReadError", { Count: 1 }).then(reply => {
+            if (typeof reply?.["ErrorData"] === "string" && !servos) fault = reply["ErrorData"];
+          });
+        events?.sample(lent);
+        if (moving?.outcome && number > moving.asOf) settle(moving.outcome);
+      },
+    );
   }
 
   async function open(to: FaceEvents): Promise<Opened> {
     close();
-    const mine = life, fail = (why: Refusal, again: boolean): Opened => { if (mine === life) close(); return { kind: "failed", why, again }; };
-    if (robot.arm.joints.length !== JOINTS) return fail(refusal("link.other-robot", `${robot.name} has ${robot.arm.joints.length} joints; a FANUC controller was expected to move ${JOINTS}.`, "Choose the robot that is there."), false);
-    if (!joints) return fail(refusal("link.joints", `How a FANUC controller shows the joints of ${robot.name} is not known.`, "Give the coupling of its joint 3."), false);
+    const mine = life;
+    const fail = (why: Refusal, again: boolean): Opened => {
+      if (mine === life) close();
+      return { kind: "failed", why, again };
+    };
+    if (robot.arm.joints.length !== JOINTS)
+      return fail(
+        refusal(
+          "link.other-robot",
+          `${robot.name} has ${robot.arm.joints.length} joints; a FANUC controller was expected to move ${JOINTS}.`,
+          "Choose the robot that is there.",
+        ),
+        false,
+      );
+    if (!joints)
+      return fail(
+        refusal(
+          "link.joints",
+          `How a FANUC controller shows the joints of ${robot.name} is not known.`,
+          "Give the coupling of its joint 3.",
+        ),
+        false,
+      );
     const door = await network.connect({ host, port: options.port ?? RMI_PORT });
     if (door.kind === "refused") return fail(noAnswer(door.sentence), true);
-    if (mine !== life) { door.stream.close(); return fail(closedHere, true); }
+    if (mine !== life) {
+      door.stream.close();
+      return fail(closedHere, true);
+    }
     stream = door.stream;
     listen(door.stream, mine);
-    const reply = await ask("Communication", "FRC_Connect"), port = reply ? rmiNumber(reply, "PortNumber") : NaN, id = reply ? rmiNumber(reply, "ErrorID") : NaN;
+    const reply = await ask("Communication", "FRC_Connect");
+    const port = reply ? rmiNumber(reply, "PortNumber") : NaN;
+    const id = reply ? rmiNumber(reply, "ErrorID") : NaN;
     if (mine !== life || !reply) return fail(noAnswer("The connection was closed."), true);
-    if (id !== RMI_ERROR.ok || !(port > 0)) return fail(said(id, "One client at a time is let in: close the other one."), true);
+    if (id !== RMI_ERROR.ok || !(port > 0))
+      return fail(said(id, "One client at a time is let in: close the other one."), true);
     life++;
     door.stream.close();
-    const here = life, connected = await network.connect({ host, port });
-    if (connected.kind === "refused") { stream = null; return { kind: "failed", why: noAnswer(connected.sentence), again: true }; }
-    if (here !== life) { connected.stream.close(); return { kind: "failed", why: closedHere, again: true }; }
+    const here = life;
+    const connected = await network.connect({ host, port });
+    if (connected.kind === "refused") {
+      stream = null;
+      return { kind: "failed", why: noAnswer(connected.sentence), again: true };
+    }
+    if (here !== life) {
+      connected.stream.close();
+      return { kind: "failed", why: closedHere, again: true };
+    }
     stream = connected.stream;
     listen(stream, here);
-    const [status, angles] = await Promise.all([ask("Command", "FRC_GetStatus"), ask("Command", "FRC_ReadJointAngles", { Group: 1 })]);
+    const [status, angles] = await Promise.all([
+      ask("Command", "FRC_GetStatus"),
+      ask("Command", "FRC_ReadJointAngles", { Group: 1 }),
+    ]);
     time_ms = NaN;
     if (here !== life || !status || !angles || understand(status, angles) !== true) {
       if (here === life) close();
       return { kind: "failed", why: noAnswer("The controller does not tell its state."), again: true };
     }
     events = to;
-    stopPolling = scheduler.every(period_s, () => { poll(here); });
+    stopPolling = scheduler.every(period_s, () => {
+      poll(here);
+    });
     return { kind: "open" };
   }
 
   async function move(motion: FaceMotion): Promise<CommandOutcome> {
-    if (motion.path === "arc") return refused(refusal("fanuc.arc", "Arcs are not sent over this interface: their points need FANUC's words for a posture, which have not been tried.", "Run the program as text of the controller's own language, or use lines."));
-    const isLine = motion.path === "line", shown = shownOf(motion.q_rad, joints!, new Float64Array(JOINTS));
-    return instruct(isLine ? "FRC_LinearMotionJRep" : "FRC_JointMotionJRep", {
-      JointAngle: jointPart(shown, DIGITS), SpeedType: isLine ? "mmSec" : "Percent",
-      Speed: isLine ? 1000 * motion.speed_mps : Math.min(100, Math.max(1, Math.round(100 * motion.ratio))), TermType: "FINE", TermValue: 100,
-      ...(motion.acceleration < 1 ? { ACC: Math.max(1, Math.round(100 * motion.acceleration)) } : {}),
-    }, false);
+    if (motion.path === "arc")
+      return refused(
+        refusal(
+          "fanuc.arc",
+          "Arcs are not sent over this interface: their points need FANUC's words for a posture, which have not been tried.",
+          "Run the program as text of the controller's own language, or use lines.",
+        ),
+      );
+    const isLine = motion.path === "line";
+    const shown = shownOf(motion.q_rad, joints!, new Float64Array(JOINTS));
+    return instruct(
+      isLine ? "FRC_LinearMotionJRep" : "FRC_JointMotionJRep",
+      {
+        JointAngle: jointPart(shown, DIGITS),
+        SpeedType: isLine ? "mmSec" : "Percent",
+        Speed: isLine ? 1000 * motion.speed_mps : Math.min(100, Math.max(1, Math.round(100 * motion.ratio))),
+        TermType: "FINE",
+        TermValue: 100,
+        ...(motion.acceleration < 1 ? { ACC: Math.max(1, Math.round(100 * motion.acceleration)) } : {}),
+      },
+      false,
+    );
   }
   /** Appends an instruction to RMI_MOVE, which is started where it does not run, and waits until it has been carried out. */
   async function instruct(name: string, fields: Fields, isText: boolean): Promise<CommandOutcome> {
     if (!stream) return refused(closedHere);
-    if (!servos) return refused(refusal("fanuc.servo-off", fault === "" ? "The servos are off." : `The servos are off: ${fault}.`, "Reset the robot, then command the move again."));
+    if (!servos)
+      return refused(
+        refusal(
+          "fanuc.servo-off",
+          fault === "" ? "The servos are off." : `The servos are off: ${fault}.`,
+          "Reset the robot, then command the move again.",
+        ),
+      );
     return new Promise(resolve => {
       const mine: Moving = { resolve, isText, sequence: 0, cancelled: false, aborted: false, outcome: null, asOf: 0 };
       moving = mine;
@@ -205,13 +371,19 @@ export function createFanucFace(options: FanucFaceOptions): Face {
         if (!running) {
           const id = await order("FRC_Initialize", { GroupMask: 1 });
           if (moving !== mine) return;
-          if (id !== RMI_ERROR.ok) { settle(refused(said(id, AT_PENDANT))); return; }
+          if (id !== RMI_ERROR.ok) {
+            settle(refused(said(id, AT_PENDANT)));
+            return;
+          }
           running = true;
           next = 1;
         }
         if (paused) await order("FRC_Pause");
         if (moving !== mine) return;
-        if (mine.cancelled) { settle(stopped(wasStopped())); return; }
+        if (mine.cancelled) {
+          settle(stopped(wasStopped()));
+          return;
+        }
         mine.sequence = next++;
         stream?.send(rmiBytes({ key: "Instruction", name, fields: { SequenceID: mine.sequence, ...fields } }));
       })();
@@ -219,29 +391,74 @@ export function createFanucFace(options: FanucFaceOptions): Face {
   }
   /** Puts the listings on the controller; started, the first one is called and runs to its end. */
   async function handText(files: readonly EmittedFile[]): Promise<HandedText> {
-    const listings = files.filter(({ name }) => /\.ls$/i.test(name)).map(({ text }) => ({ program: programOf(text), text })), [first] = listings, before = stops;
-    if (!first || listings.some(({ program }) => program === "")) return { kind: "refused", why: refusal("fanuc.no-listing", "There is no TP listing among the files that begins with /PROG and a name.", "Hand over .LS files, the program to be run first.") };
+    const listings = files
+      .filter(({ name }) => /\.ls$/i.test(name))
+      .map(({ text }) => ({ program: programOf(text), text }));
+    const [first] = listings;
+    const before = stops;
+    if (!first || listings.some(({ program }) => program === ""))
+      return {
+        kind: "refused",
+        why: refusal(
+          "fanuc.no-listing",
+          "There is no TP listing among the files that begins with /PROG and a name.",
+          "Hand over .LS files, the program to be run first.",
+        ),
+      };
     if (!stream) return { kind: "refused", why: closedHere };
     const login = options.login ?? { user: "anonymous", password: "" };
-    const why = await putFiles({ network, scheduler, to: { host, port: options.ftpPort ?? FTP_PORT }, ...login }, listings.map(({ program, text }) => ({ name: `${program}.LS`, bytes: Uint8Array.from(text, sign => sign.charCodeAt(0) & 255) })));
-    if (why !== null) return { kind: "refused", why: refusal("fanuc.files", `The program was not put on the controller: ${why}`, "Look at the FTP server of the controller (port 21) and at the option for ASCII programs.") };
-    return { kind: "handed", start: () => call(first.program, before), drop() { /* A listing that lies there moves nothing. */ } };
+    const why = await putFiles(
+      { network, scheduler, to: { host, port: options.ftpPort ?? FTP_PORT }, ...login },
+      listings.map(({ program, text }) => ({
+        name: `${program}.LS`,
+        bytes: Uint8Array.from(text, sign => sign.charCodeAt(0) & 255),
+      })),
+    );
+    if (why !== null)
+      return {
+        kind: "refused",
+        why: refusal(
+          "fanuc.files",
+          `The program was not put on the controller: ${why}`,
+          "Look at the FTP server of the controller (port 21) and at the option for ASCII programs.",
+        ),
+      };
+    return {
+      kind: "handed",
+      start: () => call(first.program, before),
+      drop() {
+        /* A listing that lies there moves nothing. */
+      },
+    };
   }
   async function call(program: string, before: number): Promise<CommandOutcome> {
     if (stops !== before) return stopped(wasStopped());
     const outcome = await instruct("FRC_Call", { ProgramName: program }, true);
     if (outcome.kind !== "refused" || !stream) return outcome;
-    const reply = await ask("Command", "FRC_ReadError", { Count: 1 }), text = typeof reply?.["ErrorData"] === "string" ? reply["ErrorData"] : "";
-    return text === "" ? outcome : refused({ ...outcome.why, sentence: `${outcome.why.sentence.replace(/\.$/, "")}: ${text}` });
+    const reply = await ask("Command", "FRC_ReadError", { Count: 1 });
+    const text = typeof reply?.["ErrorData"] === "string" ? reply["ErrorData"] : "";
+    return text === ""
+      ? outcome
+      : refused({ ...outcome.why, sentence: `${outcome.why.sentence.replace(/\.$/, "")}: ${text}` });
   }
 
   return {
-    brand: "FANUC", robot, stale_s: options.stale_s ?? Math.max(STALE_S, 4 * period_s), open, close, move, handText,
+    brand: "FANUC",
+    robot,
+    stale_s: options.stale_s ?? Math.max(STALE_S, 4 * period_s),
+    open,
+    close,
+    move,
+    handText,
     async runText(files: readonly EmittedFile[]) {
       const handed = await handText(files);
       return handed.kind === "refused" ? handed : handed.start();
     },
-    watchdog: { kind: "none", because: "The interface carries a motion that was sent out to its end, whoever is still there: streamed motion is refused." },
+    watchdog: {
+      kind: "none",
+      because:
+        "The interface carries a motion that was sent out to its end, whoever is still there: streamed motion is refused.",
+    },
     stop(emergency) {
       if (emergency) locked = true;
       stops++;
@@ -253,9 +470,16 @@ export function createFanucFace(options: FanucFaceOptions): Face {
       });
     },
     setOverride(ratio) {
-      if (ratio === 0) { paused = true; void order("FRC_Pause"); return null; }
+      if (ratio === 0) {
+        paused = true;
+        void order("FRC_Pause");
+        return null;
+      }
       void order("FRC_SetOverRide", { Value: Math.max(1, Math.round(100 * ratio)) });
-      if (paused) { paused = false; void order("FRC_Continue"); }
+      if (paused) {
+        paused = false;
+        void order("FRC_Continue");
+      }
       return null;
     },
     async reset() {
@@ -267,13 +491,19 @@ export function createFanucFace(options: FanucFaceOptions): Face {
     },
     setSignal(signal, value) {
       const n = /^DO\[([0-9]{1,4})\]$/.exec(signal);
-      if (!n || typeof value !== "boolean") return refusal("fanuc.line", `“${signal}” is no digital output of the controller.`, "Name it DO[1] and so on.");
+      if (!n || typeof value !== "boolean")
+        return refusal("fanuc.line", `“${signal}” is no digital output of the controller.`, "Name it DO[1] and so on.");
       void order("FRC_WriteDOUT", { PortNumber: Number(n[1]), PortValue: value ? "ON" : "OFF" });
       values.set(signal, value);
       return null;
     },
     setGripper(closed) {
-      if (options.gripperOutput === undefined) return refusal("fanuc.gripper", "Which output the gripper hangs on is not given.", "Give the number of its DO.");
+      if (options.gripperOutput === undefined)
+        return refusal(
+          "fanuc.gripper",
+          "Which output the gripper hangs on is not given.",
+          "Give the number of its DO.",
+        );
       void order("FRC_WriteDOUT", { PortNumber: options.gripperOutput, PortValue: closed ? "ON" : "OFF" });
       lent.gripperClosed = closed;
       return null;

@@ -1,4 +1,10 @@
 export { fanuc } from "./brand.ts";
 export { createFanucFace, type FanucFaceOptions } from "./driver.ts";
 export { fanucJoints, type FanucJoints } from "./joints.ts";
-export { createVirtualFanuc, type FanucPendant, type FanucStarted, type VirtualFanuc, type VirtualFanucOptions } from "./virtual/controller.ts";
+export {
+  createVirtualFanuc,
+  type FanucPendant,
+  type FanucStarted,
+  type VirtualFanuc,
+  type VirtualFanucOptions,
+} from "./virtual/controller.ts";

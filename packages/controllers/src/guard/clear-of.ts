@@ -1,4 +1,12 @@
-import { CellCollider, marginOf, robotAndCell, WayChecker, type CellGeometry, type Contact, type Robot } from "@twincell/core";
+import {
+  CellCollider,
+  marginOf,
+  robotAndCell,
+  WayChecker,
+  type CellGeometry,
+  type Contact,
+  type Robot,
+} from "@twincell/core";
 
 export interface ClearOfOptions {
   /** Room to keep between robot and cell [m]; 0 asks for no contact only. */
@@ -20,10 +28,19 @@ export interface ClearOf {
  * Protection from the model alone (rows T-45, T-68): one call makes of a robot's and a cell's meshes what the guard asks. The robot's own
  * shape error and the error of registration are added to the margin, so that what is kept is never less than what is not known.
  */
-export function clearOf(cell: CellGeometry, robot: Robot, { margin_m = 0, registrationError_m = 0 }: ClearOfOptions = {}): ClearOf {
-  const collider = new CellCollider(cell, robot.arm), wanted_m = margin_m + registrationError_m;
+export function clearOf(
+  cell: CellGeometry,
+  robot: Robot,
+  { margin_m = 0, registrationError_m = 0 }: ClearOfOptions = {},
+): ClearOf {
+  const collider = new CellCollider(cell, robot.arm);
+  const wanted_m = margin_m + registrationError_m;
   collider.allowContactsAt(robot.home_rad);
   const checker = new WayChecker(collider, robot.arm, { margin_m: wanted_m, keepsMargin: robotAndCell });
   const pair = collider.pairs.find(each => each.a.kind === "link" && each.b.kind === "object");
-  return { isSafe: q_rad => checker.free(q_rad), inTheWay: q_rad => checker.inTheWay(q_rad), kept_m: pair === undefined ? wanted_m : marginOf(pair, wanted_m, cell.shapeError_m) };
+  return {
+    isSafe: q_rad => checker.free(q_rad),
+    inTheWay: q_rad => checker.inTheWay(q_rad),
+    kept_m: pair === undefined ? wanted_m : marginOf(pair, wanted_m, cell.shapeError_m),
+  };
 }

@@ -1,4 +1,13 @@
-import { distance, flangePose, identity, manualScheduler, robotById, type JointSample, type RobotController, type Vector3 } from "@twincell/core";
+import {
+  distance,
+  flangePose,
+  identity,
+  manualScheduler,
+  robotById,
+  type JointSample,
+  type RobotController,
+  type Vector3,
+} from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { describeController } from "../testing/index.ts";
 import { createTwin } from "../twin/index.ts";
@@ -12,18 +21,26 @@ const START = [0, -0.6, 1.8, 0, 0.4, 0];
 const turned = (by: number): number[] => [by, ...START.slice(1)];
 
 describeController("guarded virtual RX90L", {
-  robot, scheduler: manualScheduler,
+  robot,
+  scheduler: manualScheduler,
   make: options => {
-    const seat = createGuard({ controller: createVirtualController(options), scheduler: options.scheduler }).seat("test");
+    const seat = createGuard({ controller: createVirtualController(options), scheduler: options.scheduler }).seat(
+      "test",
+    );
     seat.take();
     return seat.robot;
   },
 });
 
 describeController("guarded twin of a virtual RX90L, dead-man pressed", {
-  robot, scheduler: manualScheduler,
+  robot,
+  scheduler: manualScheduler,
   make: options => {
-    const { scheduler } = options, seat = createGuard({ controller: createTwin({ real: createVirtualController(options), scheduler }), scheduler }).seat("test");
+    const { scheduler } = options;
+    const seat = createGuard({
+      controller: createTwin({ real: createVirtualController(options), scheduler }),
+      scheduler,
+    }).seat("test");
     seat.take();
     seat.hold(true);
     return seat.robot;
@@ -36,17 +53,26 @@ function cable(inner: RobotController, now_s: () => number) {
   const link = { up: true, stops_s };
   const controller: RobotController = {
     ...inner,
-    onSample: listen => inner.onSample(sample => { if (link.up) listen(sample); }),
-    stop(emergency) { stops_s.push(now_s()); inner.stop(emergency); },
+    onSample: listen =>
+      inner.onSample(sample => {
+        if (link.up) listen(sample);
+      }),
+    stop(emergency) {
+      stops_s.push(now_s());
+      inner.stop(emergency);
+    },
   };
   return { link, controller };
 }
 
 function bench(options: Partial<GuardOptions> = {}) {
-  const scheduler = manualScheduler(), real = createVirtualController({ robot, scheduler, start_rad: START });
+  const scheduler = manualScheduler();
+  const real = createVirtualController({ robot, scheduler, start_rad: START });
   const { link, controller } = cable(real, () => scheduler.now_s());
   const guard = createGuard({ controller, scheduler, deadMan: true, ...options });
-  const me = guard.seat("me"), other = guard.seat("other"), notices: string[] = [];
+  const me = guard.seat("me");
+  const other = guard.seat("other");
+  const notices: string[] = [];
   guard.onNotice(why => notices.push(why.code));
   me.take();
   me.hold(true);
@@ -56,7 +82,10 @@ function bench(options: Partial<GuardOptions> = {}) {
 describe("guard", () => {
   test("one commander at a time; anyone may stop", async () => {
     const { scheduler, me, other } = bench();
-    expect(other.take()).toMatchObject({ kind: "refused", why: { code: "guard.lease-taken", sentence: `${robot.name} is commanded by me.` } });
+    expect(other.take()).toMatchObject({
+      kind: "refused",
+      why: { code: "guard.lease-taken", sentence: `${robot.name} is commanded by me.` },
+    });
     expect(await other.robot.moveToZero()).toMatchObject({ kind: "refused", why: { code: "guard.lease-taken" } });
     expect(other.robot.setSpeed(10).kind).toBe("refused");
     const command = me.robot.moveJoints(turned(1));
@@ -85,8 +114,13 @@ describe("guard", () => {
   });
 
   test("a real robot wants a dead-man unless told otherwise, a virtual one does not", async () => {
-    const scheduler = manualScheduler(), virtual = createVirtualController({ robot, scheduler });
-    for (const [kind, outcome] of [["virtual", "done"], ["real", "refused"], ["twin", "refused"]] as const) {
+    const scheduler = manualScheduler();
+    const virtual = createVirtualController({ robot, scheduler });
+    for (const [kind, outcome] of [
+      ["virtual", "done"],
+      ["real", "refused"],
+      ["twin", "refused"],
+    ] as const) {
       const seat = createGuard({ controller: { ...virtual, kind }, scheduler }).seat("me");
       seat.take();
       const command = seat.robot.moveJoint(1, 0.1);
@@ -125,7 +159,9 @@ describe("guard", () => {
 
   test("X-41 a commander who falls silent is answered the same way", async () => {
     const { scheduler, link, me, notices } = bench({ heartbeat_s: 0.06 });
-    const beat = scheduler.every(0.02, () => { me.alive(); });
+    const beat = scheduler.every(0.02, () => {
+      me.alive();
+    });
     const command = me.robot.moveJoints(turned(2));
     await scheduler.elapse(0.3);
     expect(link.stops_s).toEqual([]);
@@ -143,7 +179,8 @@ describe("guard", () => {
     /** A post beside the robot, in the way of the flange when joint 1 turns through 1 rad. */
     const post: Vector3 = [...flangePose(robot.arm, turned(1)).position];
     const RADIUS_M = 0.1;
-    const clearance_m = (q_rad: ArrayLike<number>): number => distance(flangePose(robot.arm, q_rad).position, post) - RADIUS_M;
+    const clearance_m = (q_rad: ArrayLike<number>): number =>
+      distance(flangePose(robot.arm, q_rad).position, post) - RADIUS_M;
     const isSafe = (q_rad: Float64Array): boolean => clearance_m(q_rad) >= MARGIN_M;
 
     test("T-42 a point too near is refused with the reason, as a target and for a program", async () => {
@@ -158,7 +195,9 @@ describe("guard", () => {
     test("T-43, T-63 driven at an obstacle at full speed it stops before the margin, goes back, and is clear", async () => {
       const { scheduler, real, me, guard, notices } = bench({ isSafe });
       let least_m = Infinity;
-      real.onSample(lent => { least_m = Math.min(least_m, clearance_m(lent.q_rad)); });
+      real.onSample(lent => {
+        least_m = Math.min(least_m, clearance_m(lent.q_rad));
+      });
       const command = me.robot.moveJoints(turned(2));
       await scheduler.elapse(0.6);
       const outcome = await command;
@@ -180,7 +219,10 @@ describe("guard", () => {
       const { scheduler, real, me, guard } = bench({ isSafe });
       const command = me.robot.moveJoints(turned(2));
       let before = -1;
-      while (guard.state.trip === "none" && before !== scheduler.now_s()) { before = scheduler.now_s(); await scheduler.elapse(0.004); }
+      while (guard.state.trip === "none" && before !== scheduler.now_s()) {
+        before = scheduler.now_s();
+        await scheduler.elapse(0.004);
+      }
       me.hold(false);
       await scheduler.elapse(2);
       expect((await command).kind).toBe("stopped");
@@ -215,12 +257,17 @@ describe("guard", () => {
       const stand = (q_rad: ArrayLike<number>): boolean => flangePose(robot.arm, q_rad).position[2] > 0.1;
       const { scheduler, real, me, guard } = bench({ isSafe: stand });
       let lowest_m = Infinity;
-      real.onSample(lent => { lowest_m = Math.min(lowest_m, flangePose(robot.arm, lent.q_rad).position[2]); });
+      real.onSample(lent => {
+        lowest_m = Math.min(lowest_m, flangePose(robot.arm, lent.q_rad).position[2]);
+      });
       const low = [0, 0.75, 1.5, 0, 0, 0];
       expect(stand(START)).toBe(true);
       expect(await me.robot.moveJoints(low)).toMatchObject({ kind: "refused", why: { code: "guard.clearance" } });
       // Steps are not looked at beforehand; the motion is.
-      const command = me.robot.run([{ id: "down", type: "move", path: "ptp", target: { q: low }, speed: { ratio: 1 }, blend_m: 0 }], { tools: {}, frames: {} });
+      const command = me.robot.run(
+        [{ id: "down", type: "move", path: "ptp", target: { q: low }, speed: { ratio: 1 }, blend_m: 0 }],
+        { tools: {}, frames: {} },
+      );
       await scheduler.elapse(3);
       expect(await command).toMatchObject({ kind: "stopped", why: { code: "guard.clearance" } });
       expect(lowest_m).toBeGreaterThan(0.1);
@@ -241,7 +288,9 @@ describe("guard", () => {
 
   describe("manual mode", () => {
     const fastest = (real: ReturnType<typeof createVirtualController>) => {
-      const before = identity<"base", "flange">(), here = identity<"base", "flange">(), most = { mps: 0 };
+      const before = identity<"base", "flange">();
+      const here = identity<"base", "flange">();
+      const most = { mps: 0 };
       let known = false;
       real.onSample((lent: JointSample) => {
         flangePose(robot.arm, lent.q_rad, here);
@@ -253,8 +302,19 @@ describe("guard", () => {
     };
     /** Reports manual mode while it takes commands, as robots with an external enabling switch do. */
     const manualBench = () => {
-      const scheduler = manualScheduler(), real = createVirtualController({ robot, scheduler, start_rad: START });
-      const guard = createGuard({ scheduler, deadMan: false, controller: { ...real, onSample: listen => real.onSample(lent => { listen({ ...lent, mode: "manual" }); }) } });
+      const scheduler = manualScheduler();
+      const real = createVirtualController({ robot, scheduler, start_rad: START });
+      const guard = createGuard({
+        scheduler,
+        deadMan: false,
+        controller: {
+          ...real,
+          onSample: listen =>
+            real.onSample(lent => {
+              listen({ ...lent, mode: "manual" });
+            }),
+        },
+      });
       const me = guard.seat("me");
       me.take();
       return { scheduler, real, me, most: fastest(real) };
@@ -275,7 +335,10 @@ describe("guard", () => {
     test("programs stay below it too", async () => {
       const { scheduler, me, most } = manualBench();
       await scheduler.elapse(0.1);
-      const command = me.robot.run([{ id: "a", type: "move", path: "ptp", target: { q: turned(0.05) }, speed: { ratio: 1 }, blend_m: 0 }], { tools: {}, frames: {} });
+      const command = me.robot.run(
+        [{ id: "a", type: "move", path: "ptp", target: { q: turned(0.05) }, speed: { ratio: 1 }, blend_m: 0 }],
+        { tools: {}, frames: {} },
+      );
       await scheduler.elapse(30);
       expect(await command).toEqual({ kind: "done" });
       expect(most.mps).toBeGreaterThan(0);
@@ -283,11 +346,25 @@ describe("guard", () => {
     });
 
     test("a robot that goes faster all the same is stopped", async () => {
-      const scheduler = manualScheduler(), real = createVirtualController({ robot, scheduler, start_rad: START }), stops: number[] = [];
-      const guard = createGuard({ scheduler, deadMan: false, controller: {
-        ...real, setSpeed: () => ({ kind: "done" }), stop: () => { stops.push(scheduler.now_s()); real.stop(); },
-        onSample: listen => real.onSample(lent => { listen({ ...lent, mode: "manual" }); }),
-      } });
+      const scheduler = manualScheduler();
+      const real = createVirtualController({ robot, scheduler, start_rad: START });
+      const stops: number[] = [];
+      const guard = createGuard({
+        scheduler,
+        deadMan: false,
+        controller: {
+          ...real,
+          setSpeed: () => ({ kind: "done" }),
+          stop: () => {
+            stops.push(scheduler.now_s());
+            real.stop();
+          },
+          onSample: listen =>
+            real.onSample(lent => {
+              listen({ ...lent, mode: "manual" });
+            }),
+        },
+      });
       const me = guard.seat("me");
       me.take();
       await scheduler.elapse(0.1);
@@ -298,7 +375,9 @@ describe("guard", () => {
     });
 
     test("the speed of a joint move agrees with its measured peak; the bound is above it", () => {
-      const tool = identity<"flange", "tcp">(), speed = robot.arm.joints[0]!.limits.speed_rad_s, [x, y] = flangePose(robot.arm, START).position;
+      const tool = identity<"flange", "tcp">();
+      const speed = robot.arm.joints[0]!.limits.speed_rad_s;
+      const [x, y] = flangePose(robot.arm, START).position;
       expect(jointMoveSpeed(robot, START, turned(1), tool)).toBeCloseTo(speed * Math.hypot(x, y), 2);
       expect(jointMoveSpeed(robot, START, START, tool)).toBe(0);
       expect(speedBound(robot, tool)).toBeGreaterThan(speed * Math.hypot(x, y));
@@ -323,9 +402,18 @@ describe("guard", () => {
   });
 
   test("a driver that throws leaves the robot stopped and the guard ready", async () => {
-    const scheduler = manualScheduler(), real = createVirtualController({ robot, scheduler }), stops: number[] = [];
-    const controller: RobotController = { ...real, stop: () => { stops.push(scheduler.now_s()); }, moveJoints: () => Promise.reject(new Error("The cable was pulled.")) };
-    const guard = createGuard({ controller, scheduler }), me = guard.seat("me");
+    const scheduler = manualScheduler();
+    const real = createVirtualController({ robot, scheduler });
+    const stops: number[] = [];
+    const controller: RobotController = {
+      ...real,
+      stop: () => {
+        stops.push(scheduler.now_s());
+      },
+      moveJoints: () => Promise.reject(new Error("The cable was pulled.")),
+    };
+    const guard = createGuard({ controller, scheduler });
+    const me = guard.seat("me");
     me.take();
     await expect(me.robot.moveJoints(START)).rejects.toThrow("The cable was pulled.");
     expect(stops.length).toBe(1);

@@ -1,12 +1,31 @@
 import {
-  distance, hardBrakingTime_s, identity, type CommandOutcome, type JointSample, type Pose, type Refusal, type RobotController, type Scheduler, type Signals,
+  distance,
+  hardBrakingTime_s,
+  identity,
+  type CommandOutcome,
+  type JointSample,
+  type Pose,
+  type Refusal,
+  type RobotController,
+  type Scheduler,
+  type Signals,
 } from "@twincell/core";
 import type { Place } from "../cell/index.ts";
 import { listeners } from "../listeners.ts";
 import { jointNumberRefusal, jointRefusal, percentRefusal } from "../refusals.ts";
 import { jointMoveSpeed, speedBound, tcpOf } from "./speed.ts";
 import { AT_FIRST, guardStep, type GuardEvent, type GuardState } from "./state.ts";
-import { cameTooNear, commanderWentSilent, denialRefusal, leaseGivenBack, linkWentDown, switchLetGo, targetTooNear, tooFast, watchedLinkDown } from "./words.ts";
+import {
+  cameTooNear,
+  commanderWentSilent,
+  denialRefusal,
+  leaseGivenBack,
+  linkWentDown,
+  switchLetGo,
+  targetTooNear,
+  tooFast,
+  watchedLinkDown,
+} from "./words.ts";
 import { DONE, refused } from "../outcomes.ts";
 
 export interface GuardOptions {
@@ -68,7 +87,8 @@ export interface Guard {
 }
 
 /** To be shown wherever the guard's state is shown. */
-export const GUARD_NOTICE = "Not a certified safety function: it may refuse or stop a motion, it can never guarantee one.";
+export const GUARD_NOTICE =
+  "Not a certified safety function: it may refuse or stop a motion, it can never guarantee one.";
 
 const WATCH_S = 0.02;
 /** From seeing to the stop taking effect. */
@@ -79,20 +99,39 @@ const SPEED_SLACK = 1.1;
 
 /** Stands between any input and any robot. Everything it does on its own can only stop the robot or lead it back where it was safe. */
 export function createGuard(options: GuardOptions): Guard {
-  const { controller, scheduler, place } = options, { robot, jumpTo } = controller, n = robot.arm.joints.length;
+  const { controller, scheduler, place } = options;
+  const { robot, jumpTo } = controller;
+  const n = robot.arm.joints.length;
   const rules = { deadMan: options.deadMan ?? controller.kind !== "virtual" };
-  const isSafe = options.isSafe ?? (() => true), silence = options.silence_s ?? 0.06, silence_s = typeof silence === "number" ? (): number => silence : silence, cap_mps = options.manualCap_mps ?? MANUAL_CAP_MPS;
+  const isSafe = options.isSafe ?? (() => true);
+  const silence = options.silence_s ?? 0.06;
+  const silence_s = typeof silence === "number" ? (): number => silence : silence;
+  const cap_mps = options.manualCap_mps ?? MANUAL_CAP_MPS;
   const braking_s = options.brakingTime_s ?? hardBrakingTime_s(robot);
-  const flangeFromTcp = options.flangeFromTcp ?? identity<"flange", "tcp">(), tcp = tcpOf(robot.arm, flangeFromTcp), bound_mps = speedBound(robot, flangeFromTcp);
-  const changes = listeners<GuardState>(), notices = listeners<Refusal>();
+  const flangeFromTcp = options.flangeFromTcp ?? identity<"flange", "tcp">();
+  const tcp = tcpOf(robot.arm, flangeFromTcp);
+  const bound_mps = speedBound(robot, flangeFromTcp);
+  const changes = listeners<GuardState>();
+  const notices = listeners<Refusal>();
 
   // A link that never was cannot be lost: silence counts from the first sample.
-  let state: GuardState = { ...AT_FIRST, watching: options.watching ?? false }, heard_s = Infinity, alive_s = scheduler.now_s(), because: Refusal | null = null, manual = false;
+  let state: GuardState = { ...AT_FIRST, watching: options.watching ?? false };
+  let heard_s = Infinity;
+  let alive_s = scheduler.now_s();
+  let because: Refusal | null = null;
+  let manual = false;
   /** Wanted override, and the part of it that the cap leaves in this move. */
-  let percent = 100, capped = 1, applied = 100;
+  let percent = 100;
+  let capped = 1;
+  let applied = 100;
   // What is known of the motion: latest angles, where it would stand if stopped now, the last pose that was safe with room to stop.
-  const q_rad = controller.jointAngles(), ahead_rad = new Float64Array(n), safe_rad = Float64Array.from(q_rad);
-  let time_s = NaN, leaving = false, tip = identity<"base", "tcp">(), tipBefore = identity<"base", "tcp">();
+  const q_rad = controller.jointAngles();
+  const ahead_rad = new Float64Array(n);
+  const safe_rad = Float64Array.from(q_rad);
+  let time_s = NaN;
+  let leaving = false;
+  let tip = identity<"base", "tcp">();
+  let tipBefore = identity<"base", "tcp">();
 
   /** Only when it changes: an override set at the pendant is not overwritten by the way. */
   function applySpeed(): CommandOutcome {
@@ -104,7 +143,8 @@ export function createGuard(options: GuardOptions): Guard {
   }
 
   function send(event: GuardEvent): Refusal | null {
-    const answer = guardStep(state, event, rules), changed = answer.state !== state;
+    const answer = guardStep(state, event, rules);
+    const changed = answer.state !== state;
     const holder = state.holder;
     state = answer.state;
     for (const effect of answer.effects) {
@@ -136,8 +176,16 @@ export function createGuard(options: GuardOptions): Guard {
   };
 
   /** Asks, then lets the robot do it, then says how it ended and why. */
-  async function command(who: string, target_rad: ArrayLike<number> | null, go: () => Promise<CommandOutcome>): Promise<CommandOutcome> {
-    const why = watchedOnly() ?? (target_rad ? jointRefusal(robot, target_rad) ?? pointRefusal(target_rad) ?? place?.targetRefusal(target_rad) ?? null : null);
+  async function command(
+    who: string,
+    target_rad: ArrayLike<number> | null,
+    go: () => Promise<CommandOutcome>,
+  ): Promise<CommandOutcome> {
+    const why =
+      watchedOnly() ??
+      (target_rad
+        ? (jointRefusal(robot, target_rad) ?? pointRefusal(target_rad) ?? place?.targetRefusal(target_rad) ?? null)
+        : null);
     if (why) return refused(why);
     const denied = send({ type: "ask", who });
     if (denied) return refused(denied);
@@ -151,7 +199,10 @@ export function createGuard(options: GuardOptions): Guard {
       outcome = await go();
     } finally {
       // A driver that throws leaves nobody to say what the robot does: it is stopped.
-      if (!outcome) { send({ type: "stop", emergency: false }); send({ type: "ended" }); }
+      if (!outcome) {
+        send({ type: "stop", emergency: false });
+        send({ type: "ended" });
+      }
     }
     const reason: Refusal | null = because;
     if (state.motion !== "returning") {
@@ -162,7 +213,7 @@ export function createGuard(options: GuardOptions): Guard {
     return outcome.kind === "stopped" && reason ? { kind: "stopped", why: reason } : outcome;
   }
 
-  const watchedOnly = (): Refusal | null => state.watching ? denialRefusal("watching", robot.name, null) : null;
+  const watchedOnly = (): Refusal | null => (state.watching ? denialRefusal("watching", robot.name, null) : null);
   const silent = (silent_s: number): Refusal => (state.watching ? watchedLinkDown : linkWentDown)(robot.name, silent_s);
 
   function pointRefusal(target_rad: ArrayLike<number>): Refusal | null {
@@ -173,7 +224,8 @@ export function createGuard(options: GuardOptions): Guard {
   function watch(lent: JointSample): void {
     heard_s = scheduler.now_s();
     if (state.link === "lost") send({ type: "link-back" });
-    const dt_s = lent.time_s - time_s, known = dt_s > 0;
+    const dt_s = lent.time_s - time_s;
+    const known = dt_s > 0;
     manual = lent.mode === "manual";
     let part = 0;
     for (let i = 0; i < n; i++) {
@@ -184,34 +236,54 @@ export function createGuard(options: GuardOptions): Guard {
     // From a part of full speed a joint stops in that part of the braking time, half as far as it would go in it.
     // From where it is commanded to be by now, where the controller says so: what was commanded will come.
     const from_rad = lent.target_rad ?? lent.q_rad;
-    for (let i = 0; i < n; i++) ahead_rad[i] = from_rad[i]! + ahead_rad[i]! * (part * braking_s / 2 + REACTION_S);
+    for (let i = 0; i < n; i++) ahead_rad[i] = from_rad[i]! + ahead_rad[i]! * ((part * braking_s) / 2 + REACTION_S);
     time_s = lent.time_s;
     [tip, tipBefore] = [tipBefore, tip];
     tcp(q_rad, tip);
     const underWay = state.motion === "moving" || state.motion === "returning";
     if (underWay && manual && known) {
       const speed_mps = distance(tip.position, tipBefore.position) / dt_s;
-      if (speed_mps > SPEED_SLACK * cap_mps) { notice(tooFast(speed_mps, cap_mps)); send({ type: "stop", emergency: false }); }
+      if (speed_mps > SPEED_SLACK * cap_mps) {
+        notice(tooFast(speed_mps, cap_mps));
+        send({ type: "stop", emergency: false });
+      }
     }
     if (place) {
       place.guarded = state.motion !== "at-rest";
       place.tell(q_rad, ahead_rad);
       const near = underWay ? place.tooNear() : null;
-      if (near) { notice(near); send({ type: "stop", emergency: false }); }
+      if (near) {
+        notice(near);
+        send({ type: "stop", emergency: false });
+      }
     }
     const here = isSafe(q_rad);
-    if (leaving) { leaving = !here; return; }
+    if (leaving) {
+      leaving = !here;
+      return;
+    }
     const kept = here && (!underWay || isSafe(ahead_rad));
-    if (kept) { if (state.trip === "none") safe_rad.set(q_rad); return; }
-    if (state.motion === "moving") { notice(cameTooNear); send({ type: "too-near" }); }
+    if (kept) {
+      if (state.trip === "none") safe_rad.set(q_rad);
+      return;
+    }
+    if (state.motion === "moving") {
+      notice(cameTooNear);
+      send({ type: "too-near" });
+    }
   }
 
   const unsubscribe = controller.onSample(watch);
   const stopWatching = scheduler.every(WATCH_S, () => {
     const now_s = scheduler.now_s();
     if (state.link === "lost") return;
-    if (now_s - heard_s > silence_s()) { notice(silent(now_s - heard_s)); send({ type: "link-lost" }); return; }
-    const { heartbeat_s } = options, { holder } = state;
+    if (now_s - heard_s > silence_s()) {
+      notice(silent(now_s - heard_s));
+      send({ type: "link-lost" });
+      return;
+    }
+    const { heartbeat_s } = options;
+    const { holder } = state;
     if (heartbeat_s !== undefined && holder !== null && state.link === "up" && now_s - alive_s > heartbeat_s) {
       notice(commanderWentSilent(holder, now_s - alive_s));
       send({ type: "link-lost" });
@@ -223,7 +295,8 @@ export function createGuard(options: GuardOptions): Guard {
     read: signal => signals.read(signal),
     write(signal, value) {
       const why = watchedOnly();
-      if (why) notices.call(why); else signals.write(signal, value);
+      if (why) notices.call(why);
+      else signals.write(signal, value);
     },
   });
 
@@ -235,7 +308,10 @@ export function createGuard(options: GuardOptions): Guard {
   function seat(who: string): Seat {
     return {
       name: who,
-      take() { alive_s = scheduler.now_s(); return act({ type: "take", who }); },
+      take() {
+        alive_s = scheduler.now_s();
+        return act({ type: "take", who });
+      },
       release() {
         if (state.holder === who && state.motion === "moving") because = leaseGivenBack;
         return act({ type: "release", who });
@@ -252,18 +328,32 @@ export function createGuard(options: GuardOptions): Guard {
         const { denied } = guardStep(state, { type: "ask", who }, rules);
         return denied ? denialRefusal(denied, robot.name, state.holder) : null;
       },
-      confirm() { alive_s = scheduler.now_s(); return act({ type: "confirm", who }); },
-      alive() { if (state.holder === who) alive_s = scheduler.now_s(); },
+      confirm() {
+        alive_s = scheduler.now_s();
+        return act({ type: "confirm", who });
+      },
+      alive() {
+        if (state.holder === who) alive_s = scheduler.now_s();
+      },
       robot: {
-        kind: controller.kind, name: controller.name, robot,
+        kind: controller.kind,
+        name: controller.name,
+        robot,
         ...(controller.signals === undefined ? {} : { signals: linesOf(controller.signals) }),
         onSample: listen => controller.onSample(listen),
-        close: () => { act({ type: "release", who }); },
+        close: () => {
+          act({ type: "release", who });
+        },
         isMoving: () => controller.isMoving(),
         jointAngle: joint => controller.jointAngle(joint),
         jointAngles: out => controller.jointAngles(out),
         setSpeed(to) {
-          const why = percentRefusal(to) ?? watchedOnly() ?? (state.holder === who ? null : denialRefusal(state.holder === null ? "no-lease" : "lease-taken", robot.name, state.holder));
+          const why =
+            percentRefusal(to) ??
+            watchedOnly() ??
+            (state.holder === who
+              ? null
+              : denialRefusal(state.holder === null ? "no-lease" : "lease-taken", robot.name, state.holder));
           if (why) return refused(why);
           percent = to;
           return applySpeed();
@@ -282,7 +372,9 @@ export function createGuard(options: GuardOptions): Guard {
         moveToPose: baseFromFlange => command(who, null, () => controller.moveToPose(baseFromFlange)),
         moveToZero: () => command(who, new Float64Array(n), () => controller.moveToZero()),
         run: (steps, context) => command(who, null, () => controller.run(steps, context)),
-        stop: emergency => { guard.stop(emergency); },
+        stop: emergency => {
+          guard.stop(emergency);
+        },
         reset() {
           const watched = watchedOnly();
           if (watched) return refused(watched);
@@ -290,24 +382,35 @@ export function createGuard(options: GuardOptions): Guard {
           const outcome = controller.reset();
           return outcome.kind === "done" ? act({ type: "reset", who }) : outcome;
         },
-        ...(jumpTo ? {
-          jumpTo(target_rad: ArrayLike<number>): CommandOutcome {
-            const why = watchedOnly() ?? pointRefusal(target_rad) ?? send({ type: "ask", who });
-            if (why) return refused(why);
-            const outcome = jumpTo(target_rad);
-            send({ type: "ended" });
-            return outcome;
-          },
-        } : {}),
+        ...(jumpTo
+          ? {
+              jumpTo(target_rad: ArrayLike<number>): CommandOutcome {
+                const why = watchedOnly() ?? pointRefusal(target_rad) ?? send({ type: "ask", who });
+                if (why) return refused(why);
+                const outcome = jumpTo(target_rad);
+                send({ type: "ended" });
+                return outcome;
+              },
+            }
+          : {}),
       },
     };
   }
 
   const guard: Guard = {
-    get state() { return state; },
+    get state() {
+      return state;
+    },
     seat,
-    stop(emergency = false) { send({ type: "stop", emergency }); },
-    linkLost() { if (state.link !== "lost") { notice(silent(scheduler.now_s() - Math.min(heard_s, scheduler.now_s()))); send({ type: "link-lost" }); } },
+    stop(emergency = false) {
+      send({ type: "stop", emergency });
+    },
+    linkLost() {
+      if (state.link !== "lost") {
+        notice(silent(scheduler.now_s() - Math.min(heard_s, scheduler.now_s())));
+        send({ type: "link-lost" });
+      }
+    },
     pointRefusal,
     onChange: listen => changes.add(listen),
     onNotice: listen => notices.add(listen),

@@ -1,4 +1,14 @@
 export { createGuard, GUARD_NOTICE, type Guard, type GuardOptions, type Seat } from "./guard.ts";
-export { AT_FIRST, guardStep, mayMove, type GuardAnswer, type GuardDenial, type GuardEffect, type GuardEvent, type GuardRules, type GuardState } from "./state.ts";
+export {
+  AT_FIRST,
+  guardStep,
+  mayMove,
+  type GuardAnswer,
+  type GuardDenial,
+  type GuardEffect,
+  type GuardEvent,
+  type GuardRules,
+  type GuardState,
+} from "./state.ts";
 export { jointMoveSpeed, slowed, speedBound } from "./speed.ts";
 export { clearOf, type ClearOf, type ClearOfOptions } from "./clear-of.ts";

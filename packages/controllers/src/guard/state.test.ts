@@ -1,17 +1,37 @@
 import { describe, expect, test } from "vitest";
-import { AT_FIRST, guardStep, mayMove, type GuardAnswer, type GuardEvent, type GuardRules, type GuardState } from "./state.ts";
+import {
+  AT_FIRST,
+  guardStep,
+  mayMove,
+  type GuardAnswer,
+  type GuardEvent,
+  type GuardRules,
+  type GuardState,
+} from "./state.ts";
 
 const people = ["a", "b"];
 const EVENTS: readonly GuardEvent[] = [
-  ...people.flatMap(who => (["take", "release", "press", "let-go", "ask", "confirm", "reset"] as const).map(type => ({ type, who }))),
+  ...people.flatMap(who =>
+    (["take", "release", "press", "let-go", "ask", "confirm", "reset"] as const).map(type => ({ type, who })),
+  ),
   ...people.flatMap(who => [true, false].map(on => ({ type: "watch" as const, who, on }))),
-  { type: "stop", emergency: false }, { type: "stop", emergency: true }, { type: "ended" }, { type: "too-near" }, { type: "link-lost" }, { type: "link-back" },
+  { type: "stop", emergency: false },
+  { type: "stop", emergency: true },
+  { type: "ended" },
+  { type: "too-near" },
+  { type: "link-lost" },
+  { type: "link-back" },
 ];
-interface Edge { readonly from: GuardState; readonly event: GuardEvent; readonly answer: GuardAnswer }
+interface Edge {
+  readonly from: GuardState;
+  readonly event: GuardEvent;
+  readonly answer: GuardAnswer;
+}
 
 /** Every state that can come about, and every step between them. */
 function explore(rules: GuardRules): { states: GuardState[]; edges: Edge[] } {
-  const known = new Map([[JSON.stringify(AT_FIRST), AT_FIRST]]), edges: Edge[] = [];
+  const known = new Map([[JSON.stringify(AT_FIRST), AT_FIRST]]);
+  const edges: Edge[] = [];
   for (const from of known.values()) {
     for (const event of EVENTS) {
       const answer = guardStep(from, event, rules);
@@ -33,7 +53,8 @@ describe.each([{ deadMan: true }, { deadMan: false }])("guard, all states × all
   test("nothing moves without lease, dead-man and link, nor with the drives off", () => {
     for (const state of states) if (underWay(state)) expect(mayMove(state, rules), JSON.stringify(state)).toBe(true);
     for (const { answer } of edges) {
-      if (answer.effects.includes("forward") || answer.effects.includes("return")) expect(mayMove(answer.state, rules)).toBe(true);
+      if (answer.effects.includes("forward") || answer.effects.includes("return"))
+        expect(mayMove(answer.state, rules)).toBe(true);
     }
   });
   test("only the holder's own asking sets a move going; only his confirming or the guard's own stop sends it back", () => {
@@ -41,7 +62,12 @@ describe.each([{ deadMan: true }, { deadMan: false }])("guard, all states × all
       if (answer.effects.includes("forward")) expect(event).toEqual({ type: "ask", who: from.holder });
       if (!answer.effects.includes("return")) continue;
       if (event.type === "confirm") expect(event.who).toBe(from.holder);
-      else expect({ event, motion: from.motion, trip: from.trip }).toEqual({ event: { type: "ended" }, motion: "stopping", trip: "return-due" });
+      else
+        expect({ event, motion: from.motion, trip: from.trip }).toEqual({
+          event: { type: "ended" },
+          motion: "stopping",
+          trip: "return-due",
+        });
     }
   });
   test("motion never begins from anything but standstill", () => {
@@ -79,9 +105,15 @@ describe.each([{ deadMan: true }, { deadMan: false }])("guard, all states × all
     for (const { from, event, answer } of edges) {
       if (answer.state.watching) expect(answer.state).toMatchObject({ holder: null, pressed: false, trip: "none" });
       if (!from.watching) continue;
-      if (event.type === "stop") expect(answer.effects.length).toBe(1); else expect(answer.effects).toEqual([]);
+      if (event.type === "stop") expect(answer.effects.length).toBe(1);
+      else expect(answer.effects).toEqual([]);
       if ("who" in event && event.type !== "watch") expect(answer.denied).toBe("watching");
-      if (!answer.state.watching) expect({ type: event.type, motion: underWay(answer.state), holder: answer.state.holder }).toEqual({ type: "watch", motion: false, holder: null });
+      if (!answer.state.watching)
+        expect({ type: event.type, motion: underWay(answer.state), holder: answer.state.holder }).toEqual({
+          type: "watch",
+          motion: false,
+          holder: null,
+        });
     }
   });
   test("one who commands gives the robot up to be watched; it is stopped, and nobody takes it from him", () => {

@@ -20,7 +20,15 @@ export interface GuardState {
   /** Somebody else moves the robot, and from here it is only looked at: nothing is sent but a person's stop. */
   readonly watching: boolean;
 }
-export const AT_FIRST: GuardState = { holder: null, pressed: false, link: "up", motion: "at-rest", trip: "none", emergency: false, watching: false };
+export const AT_FIRST: GuardState = {
+  holder: null,
+  pressed: false,
+  link: "up",
+  motion: "at-rest",
+  trip: "none",
+  emergency: false,
+  watching: false,
+};
 
 export type GuardEvent =
   | { readonly type: "take" | "release" | "press" | "let-go" | "ask" | "confirm" | "reset"; readonly who: string }
@@ -36,9 +44,23 @@ export type GuardEvent =
 /** What must be done at once. "forward": the asked move. "return": move to the last safe pose. */
 export type GuardEffect = "forward" | "return" | "stop" | "emergency-stop";
 /** Why an event was turned down. */
-export type GuardDenial = "lease-taken" | "no-lease" | "dead-man" | "link-lost" | "link-unconfirmed" | "emergency" | "return-wanted" | "busy" | "still-moving" | "watching";
+export type GuardDenial =
+  | "lease-taken"
+  | "no-lease"
+  | "dead-man"
+  | "link-lost"
+  | "link-unconfirmed"
+  | "emergency"
+  | "return-wanted"
+  | "busy"
+  | "still-moving"
+  | "watching";
 
-export interface GuardAnswer { readonly state: GuardState; readonly effects: readonly GuardEffect[]; readonly denied?: GuardDenial }
+export interface GuardAnswer {
+  readonly state: GuardState;
+  readonly effects: readonly GuardEffect[];
+  readonly denied?: GuardDenial;
+}
 export interface GuardRules {
   /** Motion only while the holder keeps a switch pressed. */
   readonly deadMan: boolean;
@@ -46,27 +68,49 @@ export interface GuardRules {
 
 /** All that motion needs. Holds in every state in which the robot is moved. */
 export const mayMove = (state: GuardState, rules: GuardRules): boolean =>
-  !state.watching && state.holder !== null && (state.pressed || !rules.deadMan) && state.link === "up" && !state.emergency;
+  !state.watching &&
+  state.holder !== null &&
+  (state.pressed || !rules.deadMan) &&
+  state.link === "up" &&
+  !state.emergency;
 
 export function guardStep(state: GuardState, event: GuardEvent, rules: GuardRules): GuardAnswer {
   const underWay = state.motion === "moving" || state.motion === "returning";
   /** The robot is stopped; what it had still to do on its own now needs a person. */
   const halted = (to: Partial<GuardState>, effects: readonly GuardEffect[]): GuardAnswer => ({
-    state: { ...state, ...to, motion: underWay ? "stopping" : state.motion, trip: state.trip === "none" ? "none" : "return-wanted" }, effects,
+    state: {
+      ...state,
+      ...to,
+      motion: underWay ? "stopping" : state.motion,
+      trip: state.trip === "none" ? "none" : "return-wanted",
+    },
+    effects,
   });
   const deny = (denied: GuardDenial): GuardAnswer => ({ state, effects: [], denied });
-  const to = (change: Partial<GuardState>, ...effects: GuardEffect[]): GuardAnswer => ({ state: { ...state, ...change }, effects });
+  const to = (change: Partial<GuardState>, ...effects: GuardEffect[]): GuardAnswer => ({
+    state: { ...state, ...change },
+    effects,
+  });
 
   if (state.watching && onlyCommands(event)) return deny("watching");
   switch (event.type) {
     case "watch":
       if (!event.on) return to({ watching: false });
       if (state.holder !== null && state.holder !== event.who) return deny("lease-taken");
-      return { ...halted({}, underWay ? ["stop"] : []), state: { ...halted({}, []).state, holder: null, pressed: false, trip: "none", watching: true } };
+      return {
+        ...halted({}, underWay ? ["stop"] : []),
+        state: { ...halted({}, []).state, holder: null, pressed: false, trip: "none", watching: true },
+      };
     case "take":
-      return state.holder === null ? to({ holder: event.who, pressed: false }) : state.holder === event.who ? to({}) : deny("lease-taken");
+      return state.holder === null
+        ? to({ holder: event.who, pressed: false })
+        : state.holder === event.who
+          ? to({})
+          : deny("lease-taken");
     case "release":
-      return state.holder === event.who ? halted({ holder: null, pressed: false }, underWay ? ["stop"] : []) : deny("no-lease");
+      return state.holder === event.who
+        ? halted({ holder: null, pressed: false }, underWay ? ["stop"] : [])
+        : deny("no-lease");
     case "press":
       return state.holder === event.who ? to({ pressed: true }) : deny("no-lease");
     case "let-go":
@@ -82,14 +126,18 @@ export function guardStep(state: GuardState, event: GuardEvent, rules: GuardRule
       if (state.holder !== event.who) return deny("no-lease");
       if (state.link === "unconfirmed") return to({ link: "up" });
       if (state.trip !== "return-wanted") return to({});
-      return state.motion !== "at-rest" ? deny("busy") : allowed(event.who, () => to({ motion: "returning", trip: "return-due" }, "return"));
+      return state.motion !== "at-rest"
+        ? deny("busy")
+        : allowed(event.who, () => to({ motion: "returning", trip: "return-due" }, "return"));
     case "stop":
       return halted({ emergency: state.emergency || event.emergency }, [event.emergency ? "emergency-stop" : "stop"]);
     case "reset":
       return state.motion === "at-rest" ? to({ emergency: false }) : deny("still-moving");
     case "ended":
       if (state.motion === "stopping" && state.trip === "return-due") {
-        return mayMove(state, rules) ? to({ motion: "returning" }, "return") : to({ motion: "at-rest", trip: "return-wanted" });
+        return mayMove(state, rules)
+          ? to({ motion: "returning" }, "return")
+          : to({ motion: "at-rest", trip: "return-wanted" });
       }
       return to({ motion: "at-rest", trip: state.motion === "returning" ? "none" : state.trip });
     case "too-near":
@@ -110,7 +158,13 @@ export function guardStep(state: GuardState, event: GuardEvent, rules: GuardRule
 
 /** Whether only one who commands says that. */
 const onlyCommands = ({ type }: GuardEvent): boolean =>
-  type === "take" || type === "release" || type === "press" || type === "let-go" || type === "ask" || type === "confirm" || type === "reset";
+  type === "take" ||
+  type === "release" ||
+  type === "press" ||
+  type === "let-go" ||
+  type === "ask" ||
+  type === "confirm" ||
+  type === "reset";
 
 function whyNot(state: GuardState, who: string, rules: GuardRules): GuardDenial | null {
   if (state.link === "lost") return "link-lost";

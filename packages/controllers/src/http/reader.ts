@@ -1,14 +1,26 @@
 import { latin1Text, type Fields, type HttpRequest, type HttpResponse } from "./message.ts";
 
-export interface HttpLimits { readonly head: number; readonly fields: number; readonly body: number }
+export interface HttpLimits {
+  readonly head: number;
+  readonly fields: number;
+  readonly body: number;
+}
 export const HTTP_LIMITS: HttpLimits = { head: 16_384, fields: 64, body: 4_000_000 };
 
 /** A message whose head is known and whose body is still coming. */
-interface Head { readonly first: readonly [string, string, string]; readonly fields: Fields; /** -1 for chunks. */ readonly length: number }
+interface Head {
+  readonly first: readonly [string, string, string];
+  readonly fields: Fields /** -1 for chunks. */;
+  readonly length: number;
+}
 
-const CR = 13, LF = 10, NONE = new Uint8Array(0);
-const REQUEST = /^([A-Z]{1,16}) ([\x21-\x7E]{1,8192}) HTTP\/1\.([01])$/, RESPONSE = /^HTTP\/1\.([01]) ([1-5][0-9]{2})(?: ([\x20-\x7E\x80-\xFF]*))?$/;
-const NAME = /^[!#$%&'*+.^_`|~0-9A-Za-z-]{1,128}$/, CHUNK = /^([0-9A-Fa-f]{1,7})(?:;[\x20-\x7E]{0,256})?$/;
+const CR = 13;
+const LF = 10;
+const NONE = new Uint8Array(0);
+const REQUEST = /^([A-Z]{1,16}) ([\x21-\x7E]{1,8192}) HTTP\/1\.([01])$/;
+const RESPONSE = /^HTTP\/1\.([01]) ([1-5][0-9]{2})(?: ([\x20-\x7E\x80-\xFF]*))?$/;
+const NAME = /^[!#$%&'*+.^_`|~0-9A-Za-z-]{1,128}$/;
+const CHUNK = /^([0-9A-Fa-f]{1,7})(?:;[\x20-\x7E]{0,256})?$/;
 /** Longest line that gives the size of a chunk. */
 const MOST_CHUNK_LINE = 300;
 
@@ -32,7 +44,9 @@ abstract class HttpReader<T> {
   private trailers = 0;
   private broken = "";
 
-  constructor(limits: Partial<HttpLimits> = {}) { this.limits = { ...HTTP_LIMITS, ...limits }; }
+  constructor(limits: Partial<HttpLimits> = {}) {
+    this.limits = { ...HTTP_LIMITS, ...limits };
+  }
 
   protected abstract readonly firstLine: RegExp;
   protected abstract message(first: readonly [string, string, string], fields: Fields, body: Uint8Array): T;
@@ -41,9 +55,13 @@ abstract class HttpReader<T> {
   protected abstract readonly needsLength: boolean;
 
   /** Bytes that were not read because the taker wanted no more. */
-  get rest(): Uint8Array { return this.held.slice(this.at, this.size); }
+  get rest(): Uint8Array {
+    return this.held.slice(this.at, this.size);
+  }
   /** Whether a message has begun. */
-  get isInside(): boolean { return this.head !== null || this.size > this.at; }
+  get isInside(): boolean {
+    return this.head !== null || this.size > this.at;
+  }
 
   /** @param take  told each message; false takes no more. @returns why the bytes are no messages, or null. */
   push(lent: Uint8Array, take: (message: T) => boolean): string | null {
@@ -51,7 +69,12 @@ abstract class HttpReader<T> {
     this.keep(lent);
     for (;;) {
       const got = this.next();
-      if (typeof got === "string") { this.broken = got; this.held = NONE; this.size = this.at = 0; return got; }
+      if (typeof got === "string") {
+        this.broken = got;
+        this.held = NONE;
+        this.size = this.at = 0;
+        return got;
+      }
       if (got === null) break;
       if (!take(got.message)) return null;
     }
@@ -59,7 +82,8 @@ abstract class HttpReader<T> {
   }
 
   private keep(lent: Uint8Array): void {
-    const kept = this.size - this.at, wanted = kept + lent.length;
+    const kept = this.size - this.at;
+    const wanted = kept + lent.length;
     if (wanted > this.held.length || this.at > 65_536) {
       const room = new Uint8Array(Math.max(4096, wanted * 2));
       room.set(this.held.subarray(this.at, this.size));
@@ -78,7 +102,8 @@ abstract class HttpReader<T> {
   private next(): { readonly message: T } | string | null {
     if (!this.head) {
       const end = this.endOfHead();
-      if (end < 0) return this.size - this.at > this.limits.head ? `A head of more than ${this.limits.head} bytes came.` : null;
+      if (end < 0)
+        return this.size - this.at > this.limits.head ? `A head of more than ${this.limits.head} bytes came.` : null;
       const head = this.readHead(latin1Text(this.held.subarray(this.at, end)));
       if (typeof head === "string") return head;
       this.at = end + 4;
@@ -93,39 +118,58 @@ abstract class HttpReader<T> {
     if (body === null || typeof body === "string") return body;
     const { first, fields } = this.head;
     this.head = this.chunks = null;
-    if (this.at === this.size) { this.held = NONE; this.at = this.size = 0; }
+    if (this.at === this.size) {
+      this.held = NONE;
+      this.at = this.size = 0;
+    }
     return { message: this.message(first, fields, body) };
   }
 
   private endOfHead(): number {
-    const { held } = this, last = Math.min(this.size, this.at + this.limits.head) - 3;
-    for (let i = this.at + this.looked; i < last; i++) if (held[i] === CR && held[i + 1] === LF && held[i + 2] === CR && held[i + 3] === LF) { this.looked = 0; return i; }
+    const { held } = this;
+    const last = Math.min(this.size, this.at + this.limits.head) - 3;
+    for (let i = this.at + this.looked; i < last; i++)
+      if (held[i] === CR && held[i + 1] === LF && held[i + 2] === CR && held[i + 3] === LF) {
+        this.looked = 0;
+        return i;
+      }
     this.looked = Math.max(0, last - this.at);
     return -1;
   }
 
   private readHead(text: string): Head | string {
-    const [line = "", ...lines] = text.split("\r\n"), first = this.firstLine.exec(line);
+    const [line = "", ...lines] = text.split("\r\n");
+    const first = this.firstLine.exec(line);
     if (!first) return "The first line is none of HTTP/1.1.";
     if (lines.length > this.limits.fields) return `More than ${this.limits.fields} fields came.`;
     const fields: (readonly [string, string])[] = [];
     for (const each of lines) {
-      const colon = each.indexOf(":"), name = each.slice(0, Math.max(0, colon)), value = each.slice(colon + 1).trim();
-       
+      const colon = each.indexOf(":");
+      const name = each.slice(0, Math.max(0, colon));
+      const value = each.slice(colon + 1).trim();
+
       if (!NAME.test(name) || /[\x00-\x08\x0A-\x1F\x7F]/.test(value)) return "A field is none of HTTP/1.1.";
       fields.push([name.toLowerCase(), value]);
     }
     const triple = [first[1] ?? "", first[2] ?? "", first[3] ?? ""] as const;
     const all = (name: string): string[] => fields.filter(([is]) => is === name).map(([, value]) => value);
-    const lengths = all("content-length"), codings = all("transfer-encoding"), [length] = lengths;
+    const lengths = all("content-length");
+    const codings = all("transfer-encoding");
+    const [length] = lengths;
     if (this.isBare(triple)) return { first: triple, fields, length: 0 };
     if (codings.length > 0) {
       if (lengths.length > 0) return "A message has a length and chunks as well.";
-      return codings.length === 1 && codings[0]!.toLowerCase() === "chunked" ? { first: triple, fields, length: -1 } : `The transfer coding "${codings[0]!.slice(0, 40)}" is not read here.`;
+      return codings.length === 1 && codings[0]!.toLowerCase() === "chunked"
+        ? { first: triple, fields, length: -1 }
+        : `The transfer coding "${codings[0]!.slice(0, 40)}" is not read here.`;
     }
-    if (length === undefined) return this.needsLength ? "A message has neither length nor chunks." : { first: triple, fields, length: 0 };
-    if (lengths.some(each => each !== length) || !/^[0-9]{1,10}$/.test(length)) return "The length of a message is no number.";
-    return Number(length) > this.limits.body ? `A body of more than ${this.limits.body} bytes was announced.` : { first: triple, fields, length: Number(length) };
+    if (length === undefined)
+      return this.needsLength ? "A message has neither length nor chunks." : { first: triple, fields, length: 0 };
+    if (lengths.some(each => each !== length) || !/^[0-9]{1,10}$/.test(length))
+      return "The length of a message is no number.";
+    return Number(length) > this.limits.body
+      ? `A body of more than ${this.limits.body} bytes was announced.`
+      : { first: triple, fields, length: Number(length) };
   }
 
   private readWhole(length: number): Uint8Array | null {
@@ -140,12 +184,20 @@ abstract class HttpReader<T> {
         const line = this.line();
         if (line === null) return this.size - this.at > MOST_CHUNK_LINE ? "The size of a chunk is no number." : null;
         // Fields behind the last chunk are read over, up to an empty line.
-        if (this.trailing) { if (line === "") return this.chunks!.slice(0, this.chunked); if (++this.trailers > this.limits.fields) return "Too many fields came behind a body."; continue; }
+        if (this.trailing) {
+          if (line === "") return this.chunks!.slice(0, this.chunked);
+          if (++this.trailers > this.limits.fields) return "Too many fields came behind a body.";
+          continue;
+        }
         const size = CHUNK.exec(line);
         if (!size) return "The size of a chunk is no number.";
         this.left = parseInt(size[1]!, 16);
         if (this.chunked + this.left > this.limits.body) return `A body of more than ${this.limits.body} bytes came.`;
-        if (this.left === 0) { this.trailing = true; this.left = -1; continue; }
+        if (this.left === 0) {
+          this.trailing = true;
+          this.left = -1;
+          continue;
+        }
       }
       if (this.size - this.at < this.left + 2) return null;
       const end = this.at + this.left;
@@ -180,12 +232,28 @@ abstract class HttpReader<T> {
 export class RequestReader extends HttpReader<HttpRequest> {
   protected readonly firstLine = REQUEST;
   protected readonly needsLength = false;
-  protected isBare(): boolean { return false; }
-  protected message([method, target]: readonly [string, string, string], fields: Fields, body: Uint8Array): HttpRequest { return { method, target, fields, body }; }
+  protected isBare(): boolean {
+    return false;
+  }
+  protected message(
+    [method, target]: readonly [string, string, string],
+    fields: Fields,
+    body: Uint8Array,
+  ): HttpRequest {
+    return { method, target, fields, body };
+  }
 }
 export class ResponseReader extends HttpReader<HttpResponse> {
   protected readonly firstLine = RESPONSE;
   protected readonly needsLength = true;
-  protected isBare([, status]: readonly [string, string, string]): boolean { return status.startsWith("1") || status === "204" || status === "304"; }
-  protected message([, status, reason]: readonly [string, string, string], fields: Fields, body: Uint8Array): HttpResponse { return { status: Number(status), reason, fields, body }; }
+  protected isBare([, status]: readonly [string, string, string]): boolean {
+    return status.startsWith("1") || status === "204" || status === "304";
+  }
+  protected message(
+    [, status, reason]: readonly [string, string, string],
+    fields: Fields,
+    body: Uint8Array,
+  ): HttpResponse {
+    return { status: Number(status), reason, fields, body };
+  }
 }

@@ -10,39 +10,87 @@ import { RSI_NAME } from "./loop.ts";
 import { kukaPendant } from "./pendant.ts";
 import { createVirtualKuka, startLoop } from "./virtual/controller.ts";
 
-const TERMINALS: Readonly<Record<SignalLine["kind"], string>> = { "digital-in": "$IN", "digital-out": "$OUT", "analogue-in": "$ANIN", "analogue-out": "$ANOUT" };
+const TERMINALS: Readonly<Record<SignalLine["kind"], string>> = {
+  "digital-in": "$IN",
+  "digital-out": "$OUT",
+  "analogue-in": "$ANIN",
+  "analogue-out": "$ANOUT",
+};
 
 const RSI = axisConfig("127.0.0.2", 49_152);
-const overRsi = ({ robot, scheduler, network, host, ports }: FaceOptions): Face => createKukaRsiFace({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT, config: RSI });
+const overRsi = ({ robot, scheduler, network, host, ports }: FaceOptions): Face =>
+  createKukaRsiFace({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT, config: RSI });
 
 /** KUKA as apps meet it. The virtual controller begins in EXT with its drives on and the program TWINCELL running. */
 export const kuka: Brand = {
-  id: "kuka", name: "KUKA", dialect: "krl", ports: { variables: C3_PORT }, vendor: "KUKA", cannot: KUKA_CANNOT, drives: robot => kukaAxes(robot) !== undefined,
-  otherWays: [{ name: "KUKA (RSI)", cannot: KUKA_RSI_CANNOT, shows: ["T-21", "T-23", "T-27"], tests: "rsi.test.ts", face: overRsi }],
+  id: "kuka",
+  name: "KUKA",
+  dialect: "krl",
+  ports: { variables: C3_PORT },
+  vendor: "KUKA",
+  cannot: KUKA_CANNOT,
+  drives: robot => kukaAxes(robot) !== undefined,
+  otherWays: [
+    {
+      name: "KUKA (RSI)",
+      cannot: KUKA_RSI_CANNOT,
+      shows: ["T-21", "T-23", "T-27"],
+      tests: "rsi.test.ts",
+      face: overRsi,
+    },
+  ],
   terminal: ({ kind, address }) => `${TERMINALS[kind]}[${address}]`,
-  face: ({ robot, scheduler, network, host, ports }) => createKukaFace({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT }),
+  face: ({ robot, scheduler, network, host, ports }) =>
+    createKukaFace({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT }),
   virtual: options => start(options, false),
 };
 /** The same controllers, moved by increments of RSI where its sensor file names this computer; a virtual one sends to 127.0.0.2. */
 export const kukaOverRsi: Brand = {
-  ...kuka, id: "kuka-rsi", name: "KUKA over RSI", cannot: KUKA_RSI_CANNOT,
+  ...kuka,
+  id: "kuka-rsi",
+  name: "KUKA over RSI",
+  cannot: KUKA_RSI_CANNOT,
   face: overRsi,
   virtual: options => start(options, true),
 };
 
-async function start({ robot, scheduler, network, host, ports, interpret, start_rad, maxSpeed }: BrandVirtualOptions, overRsi: boolean): Promise<BrandStarted> {
-  if (!kukaAxes(robot)) return { kind: "taken", sentence: `How a KUKA controller counts the axes of ${robot.name} is not known.` };
+async function start(
+  { robot, scheduler, network, host, ports, interpret, start_rad, maxSpeed }: BrandVirtualOptions,
+  overRsi: boolean,
+): Promise<BrandStarted> {
+  if (!kukaAxes(robot))
+    return { kind: "taken", sentence: `How a KUKA controller counts the axes of ${robot.name} is not known.` };
   const virtual = await createVirtualKuka({
-    robot, scheduler, network, host, interpret, port: ports?.["variables"] ?? C3_PORT, ...(start_rad ? { start_rad } : {}), ...(maxSpeed === undefined ? {} : { maxSpeed }), ...(overRsi ? { rsi: { config: RSI } } : {}),
+    robot,
+    scheduler,
+    network,
+    host,
+    interpret,
+    port: ports?.["variables"] ?? C3_PORT,
+    ...(start_rad ? { start_rad } : {}),
+    ...(maxSpeed === undefined ? {} : { maxSpeed }),
+    ...(overRsi ? { rsi: { config: RSI } } : {}),
   });
   const { listening, arm } = virtual;
-  if (listening.kind === "taken") { virtual.close(); return { kind: "taken", sentence: listening.sentence }; }
+  if (listening.kind === "taken") {
+    virtual.close();
+    return { kind: "taken", sentence: listening.sentence };
+  }
   startLoop(virtual, overRsi ? RSI_NAME : undefined);
   return {
     kind: "started",
     virtual: {
-      name: `Virtual ${robot.name}`, robot, ports: { variables: listening.address.port }, brakingTime_s: arm.brakingTime_s,
-      jointAngles: out => arm.jointAngles(out), reboot() { virtual.reboot(); }, close() { virtual.close(); },
+      name: `Virtual ${robot.name}`,
+      robot,
+      ports: { variables: listening.address.port },
+      brakingTime_s: arm.brakingTime_s,
+      jointAngles: out => arm.jointAngles(out),
+      reboot() {
+        virtual.reboot();
+      },
+      close() {
+        virtual.close();
+      },
       pendant: kukaPendant(virtual, scheduler),
     },
   };

@@ -1,6 +1,16 @@
 import { seededRandom } from "@twincell/core";
 import { expect, test } from "vitest";
-import { boolIn, enumIn, krlReal, krlStruct, krlText, numberIn, partsIn, readKrlValue, textIn } from "./codec-values.ts";
+import {
+  boolIn,
+  enumIn,
+  krlReal,
+  krlStruct,
+  krlText,
+  numberIn,
+  partsIn,
+  readKrlValue,
+  textIn,
+} from "./codec-values.ts";
 
 test("values as controllers print them", () => {
   expect(numberIn("12.5")).toBe(12.5);
@@ -13,7 +23,7 @@ test("values as controllers print them", () => {
   expect(boolIn("1")).toBeUndefined();
   expect(enumIn("#EX")).toBe("EX");
   expect(enumIn("EX")).toBe("");
-  expect(textIn("\"KR6\"")).toBe("KR6");
+  expect(textIn('"KR6"')).toBe("KR6");
   expect(textIn("KR6")).toBe("KR6");
 });
 
@@ -25,7 +35,10 @@ test("structures, with their type and without, in any order and case", () => {
   expect([...out]).toEqual([2, 3, 1]);
   expect(partsIn("{A1 1,A2 2}", ["A1", "A2", "A3"], out)).toBe(false);
   expect(partsIn("12", ["A1"], out)).toBe(false);
-  expect(readKrlValue("{PDAT: VEL 100.0,MODE #CPTP,ON TRUE,AT {X 1,Y 2},POINT[] \" \"}")).toMatchObject({ kind: "value", value: { kind: "struct", type: "PDAT" } });
+  expect(readKrlValue('{PDAT: VEL 100.0,MODE #CPTP,ON TRUE,AT {X 1,Y 2},POINT[] " "}')).toMatchObject({
+    kind: "value",
+    value: { kind: "struct", type: "PDAT" },
+  });
 });
 
 test("written with seven digits, as a 32-bit REAL holds them, or as many as asked for", () => {
@@ -34,12 +47,24 @@ test("written with seven digits, as a 32-bit REAL holds them, or as many as aske
   expect(krlReal(123.456789)).toBe("123.4568");
   expect(krlReal(123.456789, 12)).toBe("123.456789");
   expect(krlReal(1e-9)).toBe("1E-9");
-  expect(krlStruct("E6POS", [["X", 1.5], ["S", 2], ["T", 35]], 7, ["S", "T"])).toBe("{E6POS: X 1.5, S 2, T 35}");
-  expect(krlText("a \"b\"")).toBe("\"a 'b'\"");
+  expect(
+    krlStruct(
+      "E6POS",
+      [
+        ["X", 1.5],
+        ["S", 2],
+        ["T", 35],
+      ],
+      7,
+      ["S", "T"],
+    ),
+  ).toBe("{E6POS: X 1.5, S 2, T 35}");
+  expect(krlText('a "b"')).toBe("\"a 'b'\"");
 });
 
 test("T-23 an axis written and read again is off by less than 0.0001°, 20,000 angles", () => {
-  const random = seededRandom(7), out = new Float64Array(1);
+  const random = seededRandom(7);
+  const out = new Float64Array(1);
   for (let i = 0; i < 20_000; i++) {
     const angle = 720 * random() - 360;
     expect(partsIn(krlStruct("E6AXIS", [["A1", angle]]), ["A1"], out)).toBe(true);
@@ -55,9 +80,13 @@ test("what is no value says where and what was expected", () => {
 });
 
 test("any text: an answer, never an exception (20,000 inputs)", () => {
-  const random = seededRandom(3), signs = "{}:,#\"' A1.-+E\tXYZTRUEFALSE$[]0é";
+  const random = seededRandom(3);
+  const signs = "{}:,#\"' A1.-+E\tXYZTRUEFALSE$[]0é";
   for (let i = 0; i < 20_000; i++) {
-    const text = Array.from({ length: Math.floor(random() * 40) }, () => signs[Math.floor(random() * signs.length)]).join("");
+    const text = Array.from(
+      { length: Math.floor(random() * 40) },
+      () => signs[Math.floor(random() * signs.length)],
+    ).join("");
     expect(["value", "not-understood"]).toContain(readKrlValue(text).kind);
   }
 });

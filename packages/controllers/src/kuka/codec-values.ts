@@ -8,10 +8,16 @@ export type KrlValue =
   | { readonly kind: "enum"; readonly name: string }
   | { readonly kind: "text"; readonly value: string }
   | { readonly kind: "struct"; readonly type: string; readonly parts: ReadonlyMap<string, KrlValue> };
-export type KrlRead = { readonly kind: "value"; readonly value: KrlValue } | { readonly kind: "not-understood"; readonly column: number; readonly expected: string };
+export type KrlRead =
+  | { readonly kind: "value"; readonly value: KrlValue }
+  | { readonly kind: "not-understood"; readonly column: number; readonly expected: string };
 
 const DEEPEST = 8;
-const NUMBER = /[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?/y, NAME = /[A-Za-z_$][A-Za-z0-9_$]*(?:\[[0-9]*\])?/y, RADIX = /'([BbHh])([0-9A-Fa-f]+)'/y, BLANK = /[ \t]*/y, QUOTED = /"([^"]*)"/y;
+const NUMBER = /[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?/y;
+const NAME = /[A-Za-z_$][A-Za-z0-9_$]*(?:\[[0-9]*\])?/y;
+const RADIX = /'([BbHh])([0-9A-Fa-f]+)'/y;
+const BLANK = /[ \t]*/y;
+const QUOTED = /"([^"]*)"/y;
 
 /** Reads one value and nothing behind it. Never throws; nesting is bounded. */
 export function readKrlValue(text: string): KrlRead {
@@ -22,7 +28,9 @@ export function readKrlValue(text: string): KrlRead {
     if (found) at = pattern.lastIndex;
     return found;
   };
-  const skip = (): void => { match(BLANK); };
+  const skip = (): void => {
+    match(BLANK);
+  };
   const fail = (expected: string): KrlRead => ({ kind: "not-understood", column: at + 1, expected });
   const taken = (sign: string): boolean => {
     skip();
@@ -33,7 +41,8 @@ export function readKrlValue(text: string): KrlRead {
 
   function value(depth: number): KrlRead {
     skip();
-    if (text[at] === "{") return depth >= DEEPEST ? fail(`at most ${DEEPEST} structures inside each other`) : struct(depth);
+    if (text[at] === "{")
+      return depth >= DEEPEST ? fail(`at most ${DEEPEST} structures inside each other`) : struct(depth);
     const number = match(NUMBER);
     if (number) return finite(Number(number[0]));
     const radix = match(RADIX);
@@ -45,18 +54,23 @@ export function readKrlValue(text: string): KrlRead {
       const name = match(NAME);
       return name ? { kind: "value", value: { kind: "enum", name: name[0].toUpperCase() } } : fail("a name after #");
     }
-    const before = at, word = match(NAME)?.[0].toUpperCase();
+    const before = at;
+    const word = match(NAME)?.[0].toUpperCase();
     if (word === "TRUE" || word === "FALSE") return { kind: "value", value: { kind: "bool", value: word === "TRUE" } };
     at = before;
     return fail("a value");
   }
-  const finite = (number: number): KrlRead => Number.isFinite(number) ? { kind: "value", value: { kind: "number", value: number } } : fail("a number that can be held");
+  const finite = (number: number): KrlRead =>
+    Number.isFinite(number)
+      ? { kind: "value", value: { kind: "number", value: number } }
+      : fail("a number that can be held");
 
   function struct(depth: number): KrlRead {
     at++;
     const parts = new Map<string, KrlValue>();
     skip();
-    let name = match(NAME)?.[0].toUpperCase(), type = "";
+    let name = match(NAME)?.[0].toUpperCase();
+    let type = "";
     if (name !== undefined && taken(":")) {
       type = name;
       skip();
@@ -84,13 +98,20 @@ export function readKrlValue(text: string): KrlRead {
 export const REAL_DIGITS = 7;
 /** A REAL as text: always with a point, in the digits that a 32-bit number holds unless more are asked for. */
 export function krlReal(value: number, digits = REAL_DIGITS): string {
-  const text = String(Number((digits <= REAL_DIGITS ? Math.fround(value) : value).toPrecision(digits)) + 0).toUpperCase();
+  const text = String(
+    Number((digits <= REAL_DIGITS ? Math.fround(value) : value).toPrecision(digits)) + 0,
+  ).toUpperCase();
   return /[.E]/.test(text) ? text : `${text}.0`;
 }
-export const krlBool = (value: boolean): string => value ? "TRUE" : "FALSE";
-export const krlText = (value: string): string => `"${value.replaceAll("\"", "'")}"`;
+export const krlBool = (value: boolean): string => (value ? "TRUE" : "FALSE");
+export const krlText = (value: string): string => `"${value.replaceAll('"', "'")}"`;
 /** `{TYPE: NAME 1.0, …}` of numbers; integers stay without a point where `whole` names them. */
-export const krlStruct = (type: string, parts: readonly (readonly [string, number])[], digits = REAL_DIGITS, whole: readonly string[] = []): string =>
+export const krlStruct = (
+  type: string,
+  parts: readonly (readonly [string, number])[],
+  digits = REAL_DIGITS,
+  whole: readonly string[] = [],
+): string =>
   `{${type}: ${parts.map(([name, value]) => `${name} ${whole.includes(name) ? String(Math.round(value)) : krlReal(value, digits)}`).join(", ")}}`;
 
 /** The number in a text, NaN when it holds none. */

@@ -3,19 +3,46 @@ import { createRealController } from "../real/index.ts";
 import { describeController } from "../testing/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
 import { KUKA_CANNOT, KUKA_RSI_CANNOT } from "./cannot.ts";
-import { axisConfig, createKukaFace, createKukaRsiFace, createVirtualKuka, kukaAxes, RSI_NAME, startLoop } from "./index.ts";
+import {
+  axisConfig,
+  createKukaFace,
+  createKukaRsiFace,
+  createVirtualKuka,
+  kukaAxes,
+  RSI_NAME,
+  startLoop,
+} from "./index.ts";
 import { HOST, interpretMoves, KR6 } from "./testing/bench.ts";
 
 describeController("KUKA driver on its virtual controller, over variables", {
-  robot: KR6, scheduler: manualScheduler,
+  robot: KR6,
+  scheduler: manualScheduler,
   cannot: KUKA_CANNOT,
   async make({ robot, scheduler, start_rad, maxSpeed, initialize, onMotion }) {
-    const network = memoryNetwork(scheduler), axes = kukaAxes(KR6)!, model = "#KR6R900SIXX";
+    const network = memoryNetwork(scheduler);
+    const axes = kukaAxes(KR6)!;
+    const model = "#KR6R900SIXX";
     // As many digits as there are: what is compared here is the driver, not the rounding of a 32-bit REAL (that is T-23's).
-    const kuka = await createVirtualKuka({ robot, scheduler, network, host: HOST, interpret: interpretMoves, axes, model, start_rad, digits: 14, ...(maxSpeed === undefined ? {} : { maxSpeed }) });
+    const kuka = await createVirtualKuka({
+      robot,
+      scheduler,
+      network,
+      host: HOST,
+      interpret: interpretMoves,
+      axes,
+      model,
+      start_rad,
+      digits: 14,
+      ...(maxSpeed === undefined ? {} : { maxSpeed }),
+    });
     startLoop(kuka);
     const face = createKukaFace({ robot, scheduler, network, host: HOST, axes, model, period_s: 0.004 });
-    const controller = createRealController({ face, scheduler, ...(initialize ? { initialize } : {}), ...(onMotion ? { onMotion } : {}) });
+    const controller = createRealController({
+      face,
+      scheduler,
+      ...(initialize ? { initialize } : {}),
+      ...(onMotion ? { onMotion } : {}),
+    });
     const connecting = controller.connect();
     await scheduler.elapse(0.05);
     await connecting;
@@ -25,14 +52,45 @@ describeController("KUKA driver on its virtual controller, over variables", {
 });
 
 describeController("KUKA driver on its virtual controller, over RSI", {
-  robot: KR6, scheduler: manualScheduler,
+  robot: KR6,
+  scheduler: manualScheduler,
   cannot: KUKA_RSI_CANNOT,
   async make({ robot, scheduler, start_rad, maxSpeed, initialize, onMotion }) {
-    const network = memoryNetwork(scheduler), axes = kukaAxes(KR6)!, model = "#KR6R900SIXX", config = axisConfig("127.0.0.1", 49_152);
-    const kuka = await createVirtualKuka({ robot, scheduler, network, host: HOST, interpret: interpretMoves, axes, model, start_rad, digits: 14, rsi: { config, decimals: 10 }, ...(maxSpeed === undefined ? {} : { maxSpeed }) });
+    const network = memoryNetwork(scheduler);
+    const axes = kukaAxes(KR6)!;
+    const model = "#KR6R900SIXX";
+    const config = axisConfig("127.0.0.1", 49_152);
+    const kuka = await createVirtualKuka({
+      robot,
+      scheduler,
+      network,
+      host: HOST,
+      interpret: interpretMoves,
+      axes,
+      model,
+      start_rad,
+      digits: 14,
+      rsi: { config, decimals: 10 },
+      ...(maxSpeed === undefined ? {} : { maxSpeed }),
+    });
     startLoop(kuka, RSI_NAME);
-    const face = createKukaRsiFace({ robot, scheduler, network, host: HOST, axes, model, period_s: 0.012, config, decimals: 10 });
-    const controller = createRealController({ face, scheduler, ...(initialize ? { initialize } : {}), ...(onMotion ? { onMotion } : {}) });
+    const face = createKukaRsiFace({
+      robot,
+      scheduler,
+      network,
+      host: HOST,
+      axes,
+      model,
+      period_s: 0.012,
+      config,
+      decimals: 10,
+    });
+    const controller = createRealController({
+      face,
+      scheduler,
+      ...(initialize ? { initialize } : {}),
+      ...(onMotion ? { onMotion } : {}),
+    });
     const connecting = controller.connect();
     await scheduler.elapse(0.05);
     await connecting;

@@ -1,7 +1,13 @@
 export { kukaAxes, type KukaAxes } from "./axes.ts";
 export { C3_PORT } from "./codec-c3.ts";
 export { LOOP_FILES, LOOP_NAME, RSI_FILE, RSI_NAME } from "./loop.ts";
-export { createVirtualKuka, startLoop, type KukaPendant, type VirtualKuka, type VirtualKukaOptions } from "./virtual/controller.ts";
+export {
+  createVirtualKuka,
+  startLoop,
+  type KukaPendant,
+  type VirtualKuka,
+  type VirtualKukaOptions,
+} from "./virtual/controller.ts";
 export { createKukaFace, type KukaFaceOptions } from "./driver/face.ts";
 export { createKukaRsiFace, type KukaRsiFaceOptions } from "./driver/rsi-face.ts";
 export { axisConfig, readRsiConfig, rsiConfigText, type RsiConfig } from "./codec-rsi.ts";

@@ -14,9 +14,22 @@ import type { EmittedFile } from "@twincell/core";
 export const LOOP_NAME = "TWINCELL";
 export const LOOP_VERSION = 1;
 export const TWC = {
-  version: "TWC_VERSION", kind: "TWC_KIND", axis: "TWC_AXIS", position: "TWC_POS", via: "TWC_VIA", ratio: "TWC_RATIO", acceleration: "TWC_ACC", speed: "TWC_SPEED",
-  command: "TWC_CMD", done: "TWC_DONE", result: "TWC_RESULT", stop: "TWC_STOP", lock: "TWC_LOCK", watch: "TWC_WATCH",
-  drivesOn: "TWC_ON", drivesOff: "TWC_OFF",
+  version: "TWC_VERSION",
+  kind: "TWC_KIND",
+  axis: "TWC_AXIS",
+  position: "TWC_POS",
+  via: "TWC_VIA",
+  ratio: "TWC_RATIO",
+  acceleration: "TWC_ACC",
+  speed: "TWC_SPEED",
+  command: "TWC_CMD",
+  done: "TWC_DONE",
+  result: "TWC_RESULT",
+  stop: "TWC_STOP",
+  lock: "TWC_LOCK",
+  watch: "TWC_WATCH",
+  drivesOn: "TWC_ON",
+  drivesOff: "TWC_OFF",
 } as const;
 export const TWC_KIND = { joints: 1, line: 2, arc: 3, rsi: 4 } as const;
 export const TWC_RESULT = { running: 0, done: 1, stopped: 2, refused: 3, silent: 4 } as const;
@@ -114,18 +127,43 @@ const NO_AXES = "A1 0.0,A2 0.0,A3 0.0,A4 0.0,A5 0.0,A6 0.0,E1 0.0,E2 0.0,E3 0.0,
 const NO_PLACE = "X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0,E1 0.0,E2 0.0,E3 0.0,E4 0.0,E5 0.0,E6 0.0";
 /** Every global with the value it has on delivery. TWC_NOW is the program's own. */
 export const LOOP_GLOBALS: readonly (readonly [string, "INT" | "REAL" | "BOOL" | "E6AXIS" | "E6POS", string])[] = [
-  [TWC.version, "INT", String(LOOP_VERSION)], [TWC.kind, "INT", "0"], [TWC.axis, "E6AXIS", `{${NO_AXES}}`], [TWC.position, "E6POS", `{${NO_PLACE}}`], [TWC.via, "E6POS", `{${NO_PLACE}}`],
-  [TWC.ratio, "INT", "10"], [TWC.acceleration, "INT", "100"], [TWC.speed, "REAL", "0.1"], [TWC.command, "INT", "0"], ["TWC_NOW", "INT", "0"], [TWC.done, "INT", "0"], [TWC.result, "INT", "0"],
-  [TWC.stop, "BOOL", "FALSE"], [TWC.lock, "BOOL", "FALSE"], [TWC.watch, "INT", "500"],
-  [TWC.drivesOn, "INT", "0"], [TWC.drivesOff, "INT", "0"],
+  [TWC.version, "INT", String(LOOP_VERSION)],
+  [TWC.kind, "INT", "0"],
+  [TWC.axis, "E6AXIS", `{${NO_AXES}}`],
+  [TWC.position, "E6POS", `{${NO_PLACE}}`],
+  [TWC.via, "E6POS", `{${NO_PLACE}}`],
+  [TWC.ratio, "INT", "10"],
+  [TWC.acceleration, "INT", "100"],
+  [TWC.speed, "REAL", "0.1"],
+  [TWC.command, "INT", "0"],
+  ["TWC_NOW", "INT", "0"],
+  [TWC.done, "INT", "0"],
+  [TWC.result, "INT", "0"],
+  [TWC.stop, "BOOL", "FALSE"],
+  [TWC.lock, "BOOL", "FALSE"],
+  [TWC.watch, "INT", "500"],
+  [TWC.drivesOn, "INT", "0"],
+  [TWC.drivesOff, "INT", "0"],
 ];
-const DAT = [...HEADER, "DEFDAT TWINCELL PUBLIC", "EXT BAS(BAS_COMMAND :IN,REAL :IN)", ...LOOP_GLOBALS.map(([name, type, value]) => `DECL GLOBAL ${type} ${name}=${value}`), "ENDDAT"];
+const DAT = [
+  ...HEADER,
+  "DEFDAT TWINCELL PUBLIC",
+  "EXT BAS(BAS_COMMAND :IN,REAL :IN)",
+  ...LOOP_GLOBALS.map(([name, type, value]) => `DECL GLOBAL ${type} ${name}=${value}`),
+  "ENDDAT",
+];
 
-const file = (name: string, lines: readonly string[]): EmittedFile => ({ name, text: `${lines.join("\r\n")}\r\n`, lines: lines.map(() => "") });
+const file = (name: string, lines: readonly string[]): EmittedFile => ({
+  name,
+  text: `${lines.join("\r\n")}\r\n`,
+  lines: lines.map(() => ""),
+});
 /** The program under which a sensor moves the robot by corrections; it needs the RSI option and the signal flow TWINCELL.rsi. */
 export const RSI_NAME = "TWINCELL_RSI";
 export const RSI_FILE: EmittedFile = file("TWINCELL_RSI.src", [
-  "&ACCESS RVP", "&REL 1", "&COMMENT Lets Twincell move the robot by RSI",
+  "&ACCESS RVP",
+  "&REL 1",
+  "&COMMENT Lets Twincell move the robot by RSI",
   "DEF TWINCELL_RSI( )",
   "DECL INT RET",
   "INTERRUPT DECL 20 WHEN TWC_STOP==TRUE DO TWC_RSI_END( )",
@@ -136,7 +174,7 @@ export const RSI_FILE: EmittedFile = file("TWINCELL_RSI.src", [
   "INTERRUPT ON 20",
   ";Coincidence with the path where the robot stands",
   "PTP $AXIS_ACT",
-  "RET=RSI_CREATE(\"TWINCELL.rsi\")",
+  'RET=RSI_CREATE("TWINCELL.rsi")',
   "RET=RSI_ON(#RELATIVE)",
   "RSI_MOVECORR( )",
   "RET=RSI_OFF( )",

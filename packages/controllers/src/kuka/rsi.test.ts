@@ -4,29 +4,61 @@ import { createRealController } from "../real/index.ts";
 import { manualScheduler } from "../testing/index.ts";
 import { memoryNetwork, type DatagramSocket } from "../transport/index.ts";
 import { readRsi, rsiNumber, type RsiConfig, type RsiElement } from "./codec-rsi.ts";
-import { axisConfig, createKukaRsiFace, createVirtualKuka, RSI_FILE, RSI_NAME, startLoop, type RsiOptions } from "./index.ts";
+import {
+  axisConfig,
+  createKukaRsiFace,
+  createVirtualKuka,
+  RSI_FILE,
+  RSI_NAME,
+  startLoop,
+  type RsiOptions,
+} from "./index.ts";
 import { ended, HOST, interpretMoves, KR6 } from "./testing/bench.ts";
 
-const CONFIG = axisConfig("127.0.0.1", 49_152), ACCURACY_RAD = 0.001 * Math.PI / 180;
-const shifted = (by_rad: number): number[] => Array.from(KR6.home_rad, (q, i) => i === 4 ? q - by_rad : q + by_rad);
-const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number => Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
-const codeOf = (outcome: CommandOutcome): string => outcome.kind === "done" ? "done" : outcome.why.code;
+const CONFIG = axisConfig("127.0.0.1", 49_152);
+const ACCURACY_RAD = (0.001 * Math.PI) / 180;
+const shifted = (by_rad: number): number[] => Array.from(KR6.home_rad, (q, i) => (i === 4 ? q - by_rad : q + by_rad));
+const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number =>
+  Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
+const codeOf = (outcome: CommandOutcome): string => (outcome.kind === "done" ? "done" : outcome.why.code);
 
 async function robotSide(rsi: Partial<RsiOptions> = {}, mode: "EX" | "T1" = "EX") {
-  const scheduler = manualScheduler(), network = memoryNetwork(scheduler, 5), log: string[] = [];
-  const kuka = await createVirtualKuka({ robot: KR6, scheduler, network, host: HOST, interpret: interpretMoves, mode, rsi: { config: CONFIG, ...rsi }, log: sentence => { log.push(sentence); } });
+  const scheduler = manualScheduler();
+  const network = memoryNetwork(scheduler, 5);
+  const log: string[] = [];
+  const kuka = await createVirtualKuka({
+    robot: KR6,
+    scheduler,
+    network,
+    host: HOST,
+    interpret: interpretMoves,
+    mode,
+    rsi: { config: CONFIG, ...rsi },
+    log: sentence => {
+      log.push(sentence);
+    },
+  });
   return { scheduler, network, kuka, log };
 }
 async function driven(rsi: Partial<RsiOptions> = {}) {
-  const bench = await robotSide(rsi), { scheduler, network } = bench;
+  const bench = await robotSide(rsi);
+  const { scheduler, network } = bench;
   startLoop(bench.kuka, RSI_NAME);
-  const real = createRealController({ face: createKukaRsiFace({ robot: KR6, scheduler, network, host: HOST, config: CONFIG }), scheduler }), connecting = real.connect();
+  const real = createRealController({
+    face: createKukaRsiFace({ robot: KR6, scheduler, network, host: HOST, config: CONFIG }),
+    scheduler,
+  });
+  const connecting = real.connect();
   await scheduler.elapse(0.1);
   expect(await connecting).toEqual({ kind: "done" });
   return { ...bench, real };
 }
 /** A sensor of the test's own: answers each telegram as it is told to. */
-async function sensor(bench: Awaited<ReturnType<typeof robotSide>>, config: RsiConfig, answer: (ipoc: number, count: number) => string | null) {
+async function sensor(
+  bench: Awaited<ReturnType<typeof robotSide>>,
+  config: RsiConfig,
+  answer: (ipoc: number, count: number) => string | null,
+) {
   const got: { ipoc: number; delay: number; a1: number; x: number; at_s: number }[] = [];
   const bound = await bench.network.bind({ host: config.ip, port: config.port });
   if (bound.kind === "taken") throw new Error(bound.sentence);
@@ -34,20 +66,32 @@ async function sensor(bench: Awaited<ReturnType<typeof robotSide>>, config: RsiC
   socket.onDatagram((lent, from) => {
     const read = readRsi(String.fromCharCode(...lent), "Rob");
     if (read.kind !== "telegram") throw new Error(read.sentence);
-    got.push({ ipoc: read.ipoc, delay: rsiNumber(read.values, "Delay.D"), a1: rsiNumber(read.values, "AIPos.A1"), x: rsiNumber(read.values, "RIst.X"), at_s: bench.scheduler.now_s() });
+    got.push({
+      ipoc: read.ipoc,
+      delay: rsiNumber(read.values, "Delay.D"),
+      a1: rsiNumber(read.values, "AIPos.A1"),
+      x: rsiNumber(read.values, "RIst.X"),
+      at_s: bench.scheduler.now_s(),
+    });
     const text = answer(read.ipoc, got.length);
-    if (text !== null) socket.send(Uint8Array.from(text, sign => sign.charCodeAt(0)), from);
+    if (text !== null)
+      socket.send(
+        Uint8Array.from(text, sign => sign.charCodeAt(0)),
+        from,
+      );
   });
   expect(startLoop(bench.kuka, RSI_NAME)).toBeNull();
   return got;
 }
-const sen = (ipoc: number, inside: string, type = "Twincell"): string => `<Sen Type="${type}">${inside}<IPOC>${ipoc}</IPOC></Sen>`;
+const sen = (ipoc: number, inside: string, type = "Twincell"): string =>
+  `<Sen Type="${type}">${inside}<IPOC>${ipoc}</IPOC></Sen>`;
 const element = (tag: string, index: number, holdOn: 0 | 1): RsiElement => ({ tag, type: "DOUBLE", index, holdOn });
 
 describe("the robot's side", () => {
   test("a telegram every 4 ms with its own clock, or every 12 ms; increments add up", async () => {
     for (const cycle_s of [0.004, 0.012] as const) {
-      const bench = await robotSide({ cycle_s }), got = await sensor(bench, CONFIG, (ipoc, count) => sen(ipoc, `<AKorr A1="${count <= 10 ? 0.1 : 0}"/>`));
+      const bench = await robotSide({ cycle_s });
+      const got = await sensor(bench, CONFIG, (ipoc, count) => sen(ipoc, `<AKorr A1="${count <= 10 ? 0.1 : 0}"/>`));
       await bench.scheduler.elapse(1.2);
       expect(got.length).toBeGreaterThanOrEqual(Math.floor(1.2 / cycle_s) - 1);
       expect(got.length).toBeLessThanOrEqual(Math.ceil(1.2 / cycle_s) + 1);
@@ -59,20 +103,31 @@ describe("the robot's side", () => {
 
   test("absolute corrections are offsets from where RSI began; RKorr moves the flange", async () => {
     const config = { ...CONFIG, receive: [element("RKorr.X", 1, 0), element("AKorr.A1", 2, 0)] };
-    const one = await robotSide({ mode: "absolute" }), a = await sensor(one, CONFIG, (ipoc, count) => sen(ipoc, `<AKorr A1="${Math.min(2, count * 0.1)}"/>`));
+    const one = await robotSide({ mode: "absolute" });
+    const a = await sensor(one, CONFIG, (ipoc, count) => sen(ipoc, `<AKorr A1="${Math.min(2, count * 0.1)}"/>`));
     await one.scheduler.elapse(0.5);
     expect(a.at(-1)!.a1).toBeCloseTo(2, 6);
-    const two = await robotSide({ config }), r = await sensor(two, config, (ipoc, count) => sen(ipoc, `<RKorr X="${count <= 20 ? 0.5 : 0}"/>`)), from = flangePose(KR6.arm, two.kuka.arm.jointAngles());
+    const two = await robotSide({ config });
+    const r = await sensor(two, config, (ipoc, count) => sen(ipoc, `<RKorr X="${count <= 20 ? 0.5 : 0}"/>`));
+    const from = flangePose(KR6.arm, two.kuka.arm.jointAngles());
     await two.scheduler.elapse(0.5);
     const to = flangePose(KR6.arm, two.kuka.arm.jointAngles());
     expect(r.at(-1)!.x - r[0]!.x).toBeCloseTo(10, 3);
-    expect([to.position[1] - from.position[1], to.position[2] - from.position[2]].every(by => Math.abs(by) < 1e-6)).toBe(true);
+    expect(
+      [to.position[1] - from.position[1], to.position[2] - from.position[2]].every(by => Math.abs(by) < 1e-6),
+    ).toBe(true);
   });
 
   test("HOLDON 1 leaves the last value in force when an answer is missing, 0 takes it away; both are counted as late", async () => {
-    for (const [holdOn, wanted] of [[1, 2], [0, 1]] as const) {
-      const config = { ...CONFIG, receive: [element("AKorr.A1", 1, holdOn)] }, bench = await robotSide({ config });
-      const got = await sensor(bench, config, (ipoc, count) => count <= 10 ? sen(ipoc, '<AKorr A1="0.1"/>') : count <= 20 ? null : sen(ipoc, '<AKorr A1="0"/>'));
+    for (const [holdOn, wanted] of [
+      [1, 2],
+      [0, 1],
+    ] as const) {
+      const config = { ...CONFIG, receive: [element("AKorr.A1", 1, holdOn)] };
+      const bench = await robotSide({ config });
+      const got = await sensor(bench, config, (ipoc, count) =>
+        count <= 10 ? sen(ipoc, '<AKorr A1="0.1"/>') : count <= 20 ? null : sen(ipoc, '<AKorr A1="0"/>'),
+      );
       await bench.scheduler.elapse(0.3);
       expect(got.at(-1)!.a1).toBeCloseTo(wanted, 6);
       expect([got.at(-1)!.delay, bench.kuka.rsiDelay]).toEqual([10, 10]);
@@ -80,8 +135,14 @@ describe("the robot's side", () => {
   });
 
   test("an answer of somebody else, of another clock, or none at all is late; above the Timeout RSI breaks off and the robot stops", async () => {
-    for (const wrong of [(ipoc: number) => sen(ipoc, '<AKorr A1="0.1"/>', "Somebody"), (ipoc: number) => sen(ipoc + 4, '<AKorr A1="0.1"/>'), () => "garbage <", () => null]) {
-      const bench = await robotSide({ timeout: 20 }), got = await sensor(bench, CONFIG, wrong);
+    for (const wrong of [
+      (ipoc: number) => sen(ipoc, '<AKorr A1="0.1"/>', "Somebody"),
+      (ipoc: number) => sen(ipoc + 4, '<AKorr A1="0.1"/>'),
+      () => "garbage <",
+      () => null,
+    ]) {
+      const bench = await robotSide({ timeout: 20 });
+      const got = await sensor(bench, CONFIG, wrong);
       await bench.scheduler.elapse(0.5);
       expect(got.length).toBe(21);
       expect(got.at(-1)).toMatchObject({ delay: 20, a1: 0 });
@@ -91,23 +152,35 @@ describe("the robot's side", () => {
   });
 
   test("what goes beyond the limits of the corrections, of an axis, of its speed or of T1 ends RSI with the number", async () => {
-    const after = async (rsi: Partial<RsiOptions>, inside: (count: number) => string, mode: "EX" | "T1" = "EX"): Promise<string> => {
+    const after = async (
+      rsi: Partial<RsiOptions>,
+      inside: (count: number) => string,
+      mode: "EX" | "T1" = "EX",
+    ): Promise<string> => {
       const bench = await robotSide(rsi, mode);
       if (mode === "T1") bench.kuka.pendant.setEnabling(true);
       await sensor(bench, rsi.config ?? CONFIG, (ipoc, count) => sen(ipoc, inside(count)));
       await bench.scheduler.elapse(4);
       return bench.kuka.messages.at(-1)?.text ?? "";
     };
-    expect(await after({ limits: { axes_deg: 5, position_mm: 5, rotation_deg: 5 } }, () => '<AKorr A1="-0.1"/>')).toMatch(/^RSI: the correction of A1 is -5\.\d+°; its limit is 5°$/);
-    expect(await after({}, () => '<AKorr A2="1.0"/>')).toMatch(/^RSI: Joint 2 would turn to 4[56]\.\d°; its limit is 45\.0°/);
+    expect(
+      await after({ limits: { axes_deg: 5, position_mm: 5, rotation_deg: 5 } }, () => '<AKorr A1="-0.1"/>'),
+    ).toMatch(/^RSI: the correction of A1 is -5\.\d+°; its limit is 5°$/);
+    expect(await after({}, () => '<AKorr A2="1.0"/>')).toMatch(
+      /^RSI: Joint 2 would turn to 4[56]\.\d°; its limit is 45\.0°/,
+    );
     expect(await after({}, () => '<AKorr A2="2"/>')).toBe("RSI: A2 would turn at 500°/s; its limit is 300°/s");
     expect(await after({}, () => '<AKorr A1="0.5"/>', "T1")).toBe("RSI: faster than T1 allows");
     const config = { ...CONFIG, receive: [element("RKorr.X", 1, 0)] };
-    expect(await after({ config }, () => '<RKorr X="4"/>')).toMatch(/RSI: (the corrected place is out of reach|A\d would turn)/);
+    expect(await after({ config }, () => '<RKorr X="4"/>')).toMatch(
+      /RSI: (the corrected place is out of reach|A\d would turn)/,
+    );
   });
 
   test("ONLYSEND: nothing is expected and nothing taken", async () => {
-    const config = { ...CONFIG, onlySend: true }, bench = await robotSide({ config, timeout: 5 }), got = await sensor(bench, config, ipoc => sen(ipoc, '<AKorr A1="0.1"/>'));
+    const config = { ...CONFIG, onlySend: true };
+    const bench = await robotSide({ config, timeout: 5 });
+    const got = await sensor(bench, config, ipoc => sen(ipoc, '<AKorr A1="0.1"/>'));
     await bench.scheduler.elapse(0.5);
     expect(got.at(-1)).toMatchObject({ delay: 0, a1: 0 });
     expect(got.length).toBeGreaterThan(100);
@@ -116,13 +189,15 @@ describe("the robot's side", () => {
   test("the program for the controller: blocks closed, RSI on and off", () => {
     const lines = RSI_FILE.text.split("\r\n");
     expect(lines.filter(line => line.startsWith("DEF "))).toHaveLength(lines.filter(line => line === "END").length);
-    for (const call of ["RSI_CREATE(", "RSI_ON(#RELATIVE)", "RSI_MOVECORR(", "RSI_OFF("]) expect(RSI_FILE.text).toContain(call);
+    for (const call of ["RSI_CREATE(", "RSI_ON(#RELATIVE)", "RSI_MOVECORR(", "RSI_OFF("])
+      expect(RSI_FILE.text).toContain(call);
   });
 });
 
 describe("the driver over RSI", () => {
   test("T-23 KUKA: 250 states a second, commanded and measured angles agree to 0.001°", async () => {
-    const bench = await driven(), { real, kuka, scheduler } = bench;
+    const bench = await driven();
+    const { real, kuka, scheduler } = bench;
     await scheduler.elapse(2);
     expect(real.link.rate_Hz).toBe(250);
     for (const by of [0.4, -0.2, 0.1234567]) {
@@ -134,7 +209,8 @@ describe("the driver over RSI", () => {
   });
 
   test("one of twenty telegrams lost, some twice, some overtaken: the target is reached all the same", async () => {
-    const bench = await driven({ timeout: 10_000 }), { real, kuka, network } = bench;
+    const bench = await driven({ timeout: 10_000 });
+    const { real, kuka, network } = bench;
     Object.assign(network.weather, { loss: 0.05, duplicates: 0.05, jitter_s: 0.001 });
     expect(await ended(bench, real.moveJoints(shifted(0.5)))).toEqual({ kind: "done" });
     expect(farthest(kuka.arm.jointAngles(), shifted(0.5))).toBeLessThanOrEqual(ACCURACY_RAD);
@@ -143,7 +219,9 @@ describe("the driver over RSI", () => {
   });
 
   test("X-41 KUKA over RSI: the line dies without a word: the robot stands within two cycles, RSI ends by its Timeout, nothing goes on afterwards", async () => {
-    const bench = await driven(), { real, kuka, network, scheduler } = bench, moving = real.moveJoints(shifted(0.6));
+    const bench = await driven();
+    const { real, kuka, network, scheduler } = bench;
+    const moving = real.moveJoints(shifted(0.6));
     expect(real.watchdog).toEqual({ kind: "robot", within_s: 0.4 });
     await scheduler.elapse(0.2);
     network.weather.frozen = true;
@@ -163,7 +241,9 @@ describe("the driver over RSI", () => {
   });
 
   test("T-27 KUKA over RSI: the gate ends the motion and says why; a stop brakes along the path", async () => {
-    const bench = await driven(), { real, kuka, scheduler } = bench, first = real.moveJoints(shifted(0.6));
+    const bench = await driven();
+    const { real, kuka, scheduler } = bench;
+    const first = real.moveJoints(shifted(0.6));
     await scheduler.elapse(0.2);
     real.stop();
     expect((await ended(bench, first)).kind).toBe("stopped");
@@ -177,8 +257,11 @@ describe("the driver over RSI", () => {
   });
 
   test("X-41 KUKA over RSI: a stop reaches a text that the controller runs", async () => {
-    const bench = await driven(), { real, kuka, scheduler } = bench;
-    const running = real.runText!([{ name: "JOB.src", text: "DEF JOB( )\nPTP 60 -90 90 0 0 0\nPTP -60 -90 90 0 0 0\nEND\n", lines: [] }]);
+    const bench = await driven();
+    const { real, kuka, scheduler } = bench;
+    const running = real.runText!([
+      { name: "JOB.src", text: "DEF JOB( )\nPTP 60 -90 90 0 0 0\nPTP -60 -90 90 0 0 0\nEND\n", lines: [] },
+    ]);
     await scheduler.elapse(0.6);
     expect(kuka.arm.isMoving()).toBe(true);
     real.stop();

@@ -1,4 +1,12 @@
-import type { CommandOutcome, Interpreted, OperatingMode, Robot, SafetyState, Scheduler, SignalLine } from "@twincell/core";
+import type {
+  CommandOutcome,
+  Interpreted,
+  OperatingMode,
+  Robot,
+  SafetyState,
+  Scheduler,
+  SignalLine,
+} from "@twincell/core";
 import type { Network } from "../transport/index.ts";
 import type { Cannot } from "./cannot.ts";
 import type { Face } from "./face.ts";
@@ -38,7 +46,11 @@ export interface BrandVirtualOptions extends FaceOptions {
 }
 
 /** A position of the mode key, by the brand's own name for it. */
-export interface KeyPosition { readonly id: string; readonly name: string; readonly mode: OperatingMode }
+export interface KeyPosition {
+  readonly id: string;
+  readonly name: string;
+  readonly mode: OperatingMode;
+}
 
 /** What lamps and screen of a pendant show now. */
 export interface PendantShown {
@@ -110,7 +122,9 @@ export interface BrandVirtual {
   readonly reboot: () => void;
   close(): void;
 }
-export type BrandStarted = { readonly kind: "started"; readonly virtual: BrandVirtual } | { readonly kind: "taken"; readonly sentence: string };
+export type BrandStarted =
+  | { readonly kind: "started"; readonly virtual: BrandVirtual }
+  | { readonly kind: "taken"; readonly sentence: string };
 
 /** Another driver of a brand's controllers. */
 export interface OtherWay {

@@ -1,9 +1,30 @@
 import {
-  explainReach, solveAll, type CommandOutcome, type EmittedFile, type HandedText, type JointSample, type Pose, type RealController, type Refusal, type Scheduler,
-  type Signals, type Step,
+  explainReach,
+  solveAll,
+  type CommandOutcome,
+  type EmittedFile,
+  type HandedText,
+  type JointSample,
+  type Pose,
+  type RealController,
+  type Refusal,
+  type Scheduler,
+  type Signals,
+  type Step,
 } from "@twincell/core";
 import { listeners } from "../listeners.ts";
-import { busy, closed, drivesOff, guardOpen, jointNumberRefusal, jointRefusal, manualMode, percentRefusal, programFault, protective } from "../refusals.ts";
+import {
+  busy,
+  closed,
+  drivesOff,
+  guardOpen,
+  jointNumberRefusal,
+  jointRefusal,
+  manualMode,
+  percentRefusal,
+  programFault,
+  protective,
+} from "../refusals.ts";
 import type { Face } from "./face.ts";
 import { keepLink } from "./link.ts";
 import { sendSteps } from "./steps.ts";
@@ -23,27 +44,60 @@ export interface RealOptions {
 }
 
 type Lent = { -readonly [K in keyof JointSample]: JointSample[K] };
-interface Command { readonly settle: (outcome: CommandOutcome) => void; stopping: Refusal | null; seenMoving: boolean; moves: boolean; step: string; over: boolean }
+interface Command {
+  readonly settle: (outcome: CommandOutcome) => void;
+  stopping: Refusal | null;
+  seenMoving: boolean;
+  moves: boolean;
+  step: string;
+  over: boolean;
+}
 
 /** A stop is over when the robot says so this many times, should the answer to the motion itself be lost. */
 const STANDS = 3;
 
 /** What all drivers have in common, in front of one brand's face. Nothing here waits for the wire. */
 export function createRealController(options: RealOptions): RealController {
-  const { face, scheduler } = options, { robot } = face, n = robot.arm.joints.length, name = options.name ?? `${face.brand} ${robot.name}`;
-  const samples = listeners<JointSample>(), q_rad = Float64Array.from(robot.home_rad);
+  const { face, scheduler } = options;
+  const { robot } = face;
+  const n = robot.arm.joints.length;
+  const name = options.name ?? `${face.brand} ${robot.name}`;
+  const samples = listeners<JointSample>();
+  const q_rad = Float64Array.from(robot.home_rad);
   const lent: Lent = {
-    sequence: 0, time_s: 0, q_rad, moving: false, mode: "automatic", safety: "normal", override: 1, gripperClosed: false, step: "", message: "",
+    sequence: 0,
+    time_s: 0,
+    q_rad,
+    moving: false,
+    mode: "automatic",
+    safety: "normal",
+    override: 1,
+    gripperClosed: false,
+    step: "",
+    message: "",
   };
-  let command: Command | null = null, isClosed = false, said = "", moving = false, standing = 0, override = 1;
+  let command: Command | null = null;
+  let isClosed = false;
+  let said = "";
+  let moving = false;
+  let standing = 0;
+  let override = 1;
 
   const link = keepLink(face, scheduler, name, {
-    losing() { if (command) face.stop(false); },
-    lost(why) { end({ kind: "stopped", why }); },
+    losing() {
+      if (command) face.stop(false);
+    },
+    lost(why) {
+      end({ kind: "stopped", why });
+    },
     sample(sample) {
       q_rad.set(sample.q_rad);
-      lent.sequence = sample.sequence; lent.time_s = sample.time_s; lent.mode = sample.mode; lent.safety = sample.safety;
-      lent.override = sample.override; lent.gripperClosed = sample.gripperClosed;
+      lent.sequence = sample.sequence;
+      lent.time_s = sample.time_s;
+      lent.mode = sample.mode;
+      lent.safety = sample.safety;
+      lent.override = sample.override;
+      lent.gripperClosed = sample.gripperClosed;
       if (sample.signals) lent.signals = sample.signals;
       if (sample.target_rad) lent.target_rad = sample.target_rad;
       lent.message = sample.message === "" ? said : sample.message;
@@ -90,9 +144,17 @@ export function createRealController(options: RealOptions): RealController {
       const mine: Command = { settle: resolve, stopping: null, seenMoving: false, moves: false, step: "", over: false };
       command = mine;
       body(mine).then(
-        outcome => { if (command === mine) end(mine.stopping && outcome.kind !== "refused" ? { kind: "stopped", why: mine.stopping } : outcome); },
+        outcome => {
+          if (command === mine)
+            end(mine.stopping && outcome.kind !== "refused" ? { kind: "stopped", why: mine.stopping } : outcome);
+        },
         // Steps may come from a running program text, and that may fault.
-        (reason: unknown) => { if (command === mine) { face.stop(false); end({ kind: "stopped", why: programFault(reason) }); } },
+        (reason: unknown) => {
+          if (command === mine) {
+            face.stop(false);
+            end({ kind: "stopped", why: programFault(reason) });
+          }
+        },
       );
     });
   }
@@ -100,19 +162,36 @@ export function createRealController(options: RealOptions): RealController {
   /** Everything that moves the robot move by move goes through here (rows T-12, T-13). */
   function send(steps: Iterable<Step>, context: Parameters<RealController["run"]>[1]): Promise<CommandOutcome> {
     const plan = options.worldFromBase ? { ...context, worldFromBase: options.worldFromBase } : context;
-    return carryOut(mine => sendSteps(steps, {
-      robot, face, scheduler, signals, context: plan,
-      measured_rad: () => q_rad.slice(),
-      ended: () => mine.over || mine.stopping !== null,
-      onStep(id) { mine.step = id; },
-      onMessage(text) { said = text; },
-      onMotion(target_rad) { mine.moves = true; mine.seenMoving = false; options.onMotion?.(target_rad); },
-    }));
+    return carryOut(mine =>
+      sendSteps(steps, {
+        robot,
+        face,
+        scheduler,
+        signals,
+        context: plan,
+        measured_rad: () => q_rad.slice(),
+        ended: () => mine.over || mine.stopping !== null,
+        onStep(id) {
+          mine.step = id;
+        },
+        onMessage(text) {
+          said = text;
+        },
+        onMotion(target_rad) {
+          mine.moves = true;
+          mine.seenMoving = false;
+          options.onMotion?.(target_rad);
+        },
+      }),
+    );
   }
   async function moveRobotJoints(target_rad: ArrayLike<number>): Promise<CommandOutcome> {
     const why = unfit() ?? jointRefusal(robot, target_rad);
     if (why) return refuse(why);
-    return send([{ id: "", type: "move", path: "ptp", target: { q: Array.from(target_rad) }, speed: { ratio: 1 }, blend_m: 0 }], { tools: {}, frames: {} });
+    return send(
+      [{ id: "", type: "move", path: "ptp", target: { q: Array.from(target_rad) }, speed: { ratio: 1 }, blend_m: 0 }],
+      { tools: {}, frames: {} },
+    );
   }
 
   const signals: Signals = {
@@ -126,10 +205,19 @@ export function createRealController(options: RealOptions): RealController {
   options.initialize?.();
   const { runText, handText } = face;
   return {
-    kind: "real", name, robot, signals, watchdog: face.watchdog, link: link.report,
-    get isConnected() { return link.isOpen; },
-    connect: () => isClosed ? Promise.resolve(refused(closed(name))) : link.open(),
-    disconnect() { link.close(); },
+    kind: "real",
+    name,
+    robot,
+    signals,
+    watchdog: face.watchdog,
+    link: link.report,
+    get isConnected() {
+      return link.isOpen;
+    },
+    connect: () => (isClosed ? Promise.resolve(refused(closed(name))) : link.open()),
+    disconnect() {
+      link.close();
+    },
     onLink: listen => link.onChange(listen),
     onSample: listen => samples.add(listen),
     close() {
@@ -147,7 +235,10 @@ export function createRealController(options: RealOptions): RealController {
       return DONE;
     },
     jointAngle: joint => q_rad[joint - 1] ?? NaN,
-    jointAngles(out = new Float64Array(n)) { out.set(q_rad); return out; },
+    jointAngles(out = new Float64Array(n)) {
+      out.set(q_rad);
+      return out;
+    },
     async moveJoint(joint, angle_rad) {
       const why = jointNumberRefusal(robot, joint);
       if (why) return refuse(why);
@@ -158,8 +249,14 @@ export function createRealController(options: RealOptions): RealController {
     moveJoints: target_rad => moveRobotJoints(target_rad),
     moveToZero: () => moveRobotJoints(new Float64Array(n)),
     async moveToPose(baseFromFlange) {
-      const reach = solveAll(robot, baseFromFlange, { near: q_rad }), nearest = reach.kind === "reached" ? reach.solutions[0] : undefined;
-      if (!nearest) return refuse({ code: `reach.${reach.kind}`, sentence: explainReach(reach), hint: "Choose a pose within reach." });
+      const reach = solveAll(robot, baseFromFlange, { near: q_rad });
+      const nearest = reach.kind === "reached" ? reach.solutions[0] : undefined;
+      if (!nearest)
+        return refuse({
+          code: `reach.${reach.kind}`,
+          sentence: explainReach(reach),
+          hint: "Choose a pose within reach.",
+        });
       return moveRobotJoints(nearest.q_rad);
     },
     async run(steps, context) {
@@ -176,30 +273,56 @@ export function createRealController(options: RealOptions): RealController {
     reset() {
       if (!link.isOpen) return refuse(isClosed ? closed(name) : notOpen(name));
       said = "";
-      void face.reset().then(outcome => { if (outcome.kind !== "done") said = outcome.why.sentence; });
+      void face.reset().then(outcome => {
+        if (outcome.kind !== "done") said = outcome.why.sentence;
+      });
       return DONE;
     },
-    ...(runText ? {
-      async runText(files: readonly EmittedFile[]): Promise<CommandOutcome> {
-        const why = unfit();
-        return why ? refuse(why) : carryOut(mine => { mine.moves = true; return runText.call(face, files); });
-      },
-    } : {}),
-    ...(handText ? {
-      async handText(files: readonly EmittedFile[]): Promise<HandedText> {
-        const why = unfit();
-        if (why) { said = why.sentence; return { kind: "refused", why }; }
-        const handed = await handText.call(face, files);
-        if (handed.kind === "refused") { said = handed.why.sentence; return handed; }
-        return {
-          kind: "handed", drop: () => { handed.drop(); },
-          start() {
-            const unready = unfit();
-            if (unready) { handed.drop(); return Promise.resolve(refuse(unready)); }
-            return carryOut(mine => { mine.moves = true; return handed.start(); });
+    ...(runText
+      ? {
+          async runText(files: readonly EmittedFile[]): Promise<CommandOutcome> {
+            const why = unfit();
+            return why
+              ? refuse(why)
+              : carryOut(mine => {
+                  mine.moves = true;
+                  return runText.call(face, files);
+                });
           },
-        };
-      },
-    } : {}),
+        }
+      : {}),
+    ...(handText
+      ? {
+          async handText(files: readonly EmittedFile[]): Promise<HandedText> {
+            const why = unfit();
+            if (why) {
+              said = why.sentence;
+              return { kind: "refused", why };
+            }
+            const handed = await handText.call(face, files);
+            if (handed.kind === "refused") {
+              said = handed.why.sentence;
+              return handed;
+            }
+            return {
+              kind: "handed",
+              drop: () => {
+                handed.drop();
+              },
+              start() {
+                const unready = unfit();
+                if (unready) {
+                  handed.drop();
+                  return Promise.resolve(refuse(unready));
+                }
+                return carryOut(mine => {
+                  mine.moves = true;
+                  return handed.start();
+                });
+              },
+            };
+          },
+        }
+      : {}),
   };
 }

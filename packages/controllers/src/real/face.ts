@@ -1,4 +1,13 @@
-import type { CommandOutcome, EmittedFile, HandedText, JointSample, Pose, Refusal, Robot, Watchdog } from "@twincell/core";
+import type {
+  CommandOutcome,
+  EmittedFile,
+  HandedText,
+  JointSample,
+  Pose,
+  Refusal,
+  Robot,
+  Watchdog,
+} from "@twincell/core";
 
 interface MotionBase {
   /** Where it ends [rad]: for a line or an arc the posture that it leads to. */
@@ -11,9 +20,18 @@ interface MotionBase {
 /** One motion from rest to rest, as a controller takes it, counted from its base. What the controller cannot do it refuses with a reason. */
 export type FaceMotion =
   /** `ratio`: share of the joint speeds of the robot, more than 0 and up to 1. */
-  | MotionBase & { readonly path: "joints"; readonly ratio: number }
-  | MotionBase & { readonly path: "line"; readonly baseFromFlange: Pose<"base", "flange">; readonly speed_mps: number }
-  | MotionBase & { readonly path: "arc"; readonly baseFromVia: Pose<"base", "flange">; readonly baseFromFlange: Pose<"base", "flange">; readonly speed_mps: number };
+  | (MotionBase & { readonly path: "joints"; readonly ratio: number })
+  | (MotionBase & {
+      readonly path: "line";
+      readonly baseFromFlange: Pose<"base", "flange">;
+      readonly speed_mps: number;
+    })
+  | (MotionBase & {
+      readonly path: "arc";
+      readonly baseFromVia: Pose<"base", "flange">;
+      readonly baseFromFlange: Pose<"base", "flange">;
+      readonly speed_mps: number;
+    });
 
 /** What a connection tells. `lent` is only valid during the call. */
 export interface FaceEvents {
@@ -25,7 +43,9 @@ export interface FaceEvents {
   lost(sentence: string): void;
 }
 /** `again`: whether another try may succeed without a person's doing; a robot of another model will not change by itself. */
-export type Opened = { readonly kind: "open" } | { readonly kind: "failed"; readonly why: Refusal; readonly again: boolean };
+export type Opened =
+  | { readonly kind: "open" }
+  | { readonly kind: "failed"; readonly why: Refusal; readonly again: boolean };
 
 /**
  * What differs between brands: how to open a connection, to say a motion, a stop, an override, and to read states. All

@@ -5,12 +5,14 @@ import { Meter } from "./meter.ts";
 import { cameLate, noAnswer, notOpen } from "./words.ts";
 
 /** First pause before a lost link is tried again [s]; each failure doubles it up to the longest. */
-const FIRST_PAUSE_S = 0.25, LONGEST_PAUSE_S = 8;
+const FIRST_PAUSE_S = 0.25;
+const LONGEST_PAUSE_S = 8;
 /** An attempt that says nothing for this long has failed [s]. */
 const ATTEMPT_S = 10;
 /** A robot may stand beyond a limit; a joint that says so of more than a turn, or a metre, says no angle [rad, m]. */
 const BEYOND = 2 * Math.PI;
-const isPose = (q_rad: ArrayLike<number>, { arm }: Robot): boolean => arm.joints.every(({ limits }, i) => q_rad[i]! >= limits.lower_rad - BEYOND && q_rad[i]! <= limits.upper_rad + BEYOND);
+const isPose = (q_rad: ArrayLike<number>, { arm }: Robot): boolean =>
+  arm.joints.every(({ limits }, i) => q_rad[i]! >= limits.lower_rad - BEYOND && q_rad[i]! <= limits.upper_rad + BEYOND);
 /** A robot that was there does not become another one by itself: what says so was spoilt on its way, unless it says so again. */
 const HEARD_TWICE = 1;
 /** How often the watch looks, as a part of the time after which samples are stale. */
@@ -37,14 +39,42 @@ export interface LinkListener {
  * growing pauses until somebody closes the link. What an old connection still says is not listened to.
  */
 export function keepLink(face: Face, scheduler: Scheduler, name: string, listener: LinkListener): Link {
-  const meter = new Meter(), changes = listeners<LinkReport>();
-  let state: LinkState = "closed", sentence = notOpen(name).sentence, attempts = 0, roundTrip_s = NaN, heard_s = 0, life = 0, wasThere = false;
-  let stopWaiting: () => void = () => { /* Nothing waits yet. */ }, giveUp: () => void = stopWaiting;
+  const meter = new Meter();
+  const changes = listeners<LinkReport>();
+  let state: LinkState = "closed";
+  let sentence = notOpen(name).sentence;
+  let attempts = 0;
+  let roundTrip_s = NaN;
+  let heard_s = 0;
+  let life = 0;
+  let wasThere = false;
+  let stopWaiting: () => void = () => {
+    /* Nothing waits yet. */
+  };
+  let giveUp: () => void = stopWaiting;
 
   const report: LinkReport = {
-    get state() { return state; }, get sentence() { return sentence; }, get attempts() { return attempts; },
-    get rate_Hz() { return meter.now.rate_Hz; }, get late_s() { return meter.now.late_s; }, get missing() { return meter.now.missing; },
-    get roundTrip_s() { return roundTrip_s; },
+    get state() {
+      return state;
+    },
+    get sentence() {
+      return sentence;
+    },
+    get attempts() {
+      return attempts;
+    },
+    get rate_Hz() {
+      return meter.now.rate_Hz;
+    },
+    get late_s() {
+      return meter.now.late_s;
+    },
+    get missing() {
+      return meter.now.missing;
+    },
+    get roundTrip_s() {
+      return roundTrip_s;
+    },
   };
   const become = (to: LinkState, says: string): void => {
     state = to;
@@ -53,7 +83,10 @@ export function keepLink(face: Face, scheduler: Scheduler, name: string, listene
   };
   const after = (seconds: number, then: () => void): void => {
     stopWaiting();
-    const stop = scheduler.every(seconds, () => { stop(); then(); });
+    const stop = scheduler.every(seconds, () => {
+      stop();
+      then();
+    });
     stopWaiting = stop;
   };
 
@@ -64,18 +97,27 @@ export function keepLink(face: Face, scheduler: Scheduler, name: string, listene
     listener.lost(why);
     again();
   }
-  const again = (): void => { after(Math.min(LONGEST_PAUSE_S, FIRST_PAUSE_S * 2 ** Math.max(0, attempts - 1)), () => { void attempt(); }); };
+  const again = (): void => {
+    after(Math.min(LONGEST_PAUSE_S, FIRST_PAUSE_S * 2 ** Math.max(0, attempts - 1)), () => {
+      void attempt();
+    });
+  };
 
   function watch(): void {
     stopWaiting();
     const every_s = face.stale_s / LOOKS;
     let looked_s = scheduler.now_s();
     stopWaiting = scheduler.every(every_s, () => {
-      const now_s = scheduler.now_s(), silent_s = now_s - heard_s, wasAway = now_s - looked_s > 2 * every_s;
+      const now_s = scheduler.now_s();
+      const silent_s = now_s - heard_s;
+      const wasAway = now_s - looked_s > 2 * every_s;
       looked_s = now_s;
       // After a stall of our own what came meanwhile is still to be read: it is looked again before anybody is blamed.
       if (wasAway) return;
-      if (silent_s > face.stale_s) { listener.losing(); lose(cameLate(name, silent_s)); }
+      if (silent_s > face.stale_s) {
+        listener.losing();
+        lose(cameLate(name, silent_s));
+      }
     });
   }
 
@@ -94,10 +136,20 @@ export function keepLink(face: Face, scheduler: Scheduler, name: string, listene
         heard_s = now_s;
         listener.sample(lent);
       },
-      roundTrip(seconds) { if (isMine()) roundTrip_s = seconds; },
-      lost(says) { if (isMine() && state === "open") lose({ code: "link.lost", sentence: says, hint: "It is tried again by itself; motion is not." }); },
+      roundTrip(seconds) {
+        if (isMine()) roundTrip_s = seconds;
+      },
+      lost(says) {
+        if (isMine() && state === "open")
+          lose({ code: "link.lost", sentence: says, hint: "It is tried again by itself; motion is not." });
+      },
     });
-    const tooLong = new Promise<null>(resolve => { giveUp = () => { resolve(null); }; after(ATTEMPT_S, giveUp); });
+    const tooLong = new Promise<null>(resolve => {
+      giveUp = () => {
+        resolve(null);
+      };
+      after(ATTEMPT_S, giveUp);
+    });
     const opened = await Promise.race([opening, tooLong]);
     if (!isMine()) return { kind: "refused", why: notOpen(name) };
     if (opened?.kind === "open") {
@@ -111,13 +163,21 @@ export function keepLink(face: Face, scheduler: Scheduler, name: string, listene
     life++;
     face.close();
     const why = opened?.why ?? noAnswer(name, ATTEMPT_S);
-    if (opened?.again === false && (!wasThere || attempts > HEARD_TWICE)) { stopWaiting(); become("closed", why.sentence); } else { become("lost", why.sentence); again(); }
+    if (opened?.again === false && (!wasThere || attempts > HEARD_TWICE)) {
+      stopWaiting();
+      become("closed", why.sentence);
+    } else {
+      become("lost", why.sentence);
+      again();
+    }
     return { kind: "refused", why };
   }
 
   return {
     report,
-    get isOpen() { return state === "open"; },
+    get isOpen() {
+      return state === "open";
+    },
     async open() {
       if (state === "open") return { kind: "done" };
       attempts = 0;

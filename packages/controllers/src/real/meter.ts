@@ -1,7 +1,11 @@
 /** Clocks run apart slowly: the fastest way ever seen is forgotten after this long [s]. */
 const WINDOW_S = 10;
 
-export interface Metered { rate_Hz: number; late_s: number; missing: number }
+export interface Metered {
+  rate_Hz: number;
+  late_s: number;
+  missing: number;
+}
 
 /**
  * How steadily samples come. `late_s` maps the controller's clock to ours by the sample that came fastest in the last
@@ -26,8 +30,10 @@ export class Meter {
    */
   take(sequence: number, time_s: number, received_s: number): boolean {
     const booted = time_s < this.time_s - BOOTED_S;
-    if (booted) { this.least_s = this.leastBefore_s = Infinity; this.sequence = NaN; }
-    else if (sequence <= this.sequence) return false;
+    if (booted) {
+      this.least_s = this.leastBefore_s = Infinity;
+      this.sequence = NaN;
+    } else if (sequence <= this.sequence) return false;
     if (sequence > this.sequence + 1) this.now.missing += sequence - this.sequence - 1;
     this.sequence = sequence;
     this.time_s = time_s;

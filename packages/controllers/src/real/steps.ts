@@ -1,5 +1,13 @@
 import {
-  GRIPPER_S, holds, type CommandOutcome, type PlanContext, type Refusal, type Robot, type Scheduler, type Signals, type Step,
+  GRIPPER_S,
+  holds,
+  type CommandOutcome,
+  type PlanContext,
+  type Refusal,
+  type Robot,
+  type Scheduler,
+  type Signals,
+  type Step,
 } from "@twincell/core";
 import type { Face, FaceMotion } from "./face.ts";
 import { MotionMaker } from "./motion.ts";
@@ -7,7 +15,7 @@ import { noPayload, notPrimitive, waitedInVain } from "./words.ts";
 import { DONE } from "../outcomes.ts";
 
 const LOOK_S = 0.004;
-const refusedBy = (why: Refusal | null): CommandOutcome => why ? { kind: "refused", why } : DONE;
+const refusedBy = (why: Refusal | null): CommandOutcome => (why ? { kind: "refused", why } : DONE);
 
 export interface StepsOptions {
   readonly robot: Robot;
@@ -26,12 +34,22 @@ export interface StepsOptions {
 
 /** Sends one primitive step after the other, each when the one before has ended. Ends with the first that is not done. */
 export async function sendSteps(steps: Iterable<Step>, options: StepsOptions): Promise<CommandOutcome> {
-  const { face, robot, scheduler, signals, ended } = options, maker = new MotionMaker(robot);
+  const { face, robot, scheduler, signals, ended } = options;
+  const maker = new MotionMaker(robot);
 
-  const until = (so: () => boolean): Promise<void> => new Promise(resolve => {
-    if (so() || ended()) { resolve(); return; }
-    const stop = scheduler.every(LOOK_S, () => { if (so() || ended()) { stop(); resolve(); } });
-  });
+  const until = (so: () => boolean): Promise<void> =>
+    new Promise(resolve => {
+      if (so() || ended()) {
+        resolve();
+        return;
+      }
+      const stop = scheduler.every(LOOK_S, () => {
+        if (so() || ended()) {
+          stop();
+          resolve();
+        }
+      });
+    });
   const pause = (seconds: number): Promise<void> => {
     const end_s = scheduler.now_s() + seconds;
     return until(() => scheduler.now_s() >= end_s - 1e-9);
@@ -47,7 +65,9 @@ export async function sendSteps(steps: Iterable<Step>, options: StepsOptions): P
         const made = maker.make(step, options.context, options.measured_rad());
         return made.kind === "refused" ? made : move(made.motion);
       }
-      case "wait": await pause(step.s); return DONE;
+      case "wait":
+        await pause(step.s);
+        return DONE;
       case "gripper": {
         const why = face.setGripper(step.closed);
         if (!why) await pause(GRIPPER_S);
@@ -56,19 +76,31 @@ export async function sendSteps(steps: Iterable<Step>, options: StepsOptions): P
       case "set": {
         const why = face.setSignal(step.signal, step.to);
         if (!why && step.pulse_s !== undefined) {
-          const stop = scheduler.every(step.pulse_s, () => { stop(); face.setSignal(step.signal, typeof step.to === "number" ? 0 : !step.to); });
+          const stop = scheduler.every(step.pulse_s, () => {
+            stop();
+            face.setSignal(step.signal, typeof step.to === "number" ? 0 : !step.to);
+          });
         }
         return refusedBy(why);
       }
       case "wait-for": {
-        const { timeout_s = Infinity } = step, begun_s = scheduler.now_s();
+        const { timeout_s = Infinity } = step;
+        const begun_s = scheduler.now_s();
         await until(() => holds(step.when, signals) || scheduler.now_s() - begun_s >= timeout_s - 1e-9);
-        return ended() || holds(step.when, signals) ? DONE : { kind: "stopped", why: waitedInVain(step.id, step.when.signal, timeout_s) };
+        return ended() || holds(step.when, signals)
+          ? DONE
+          : { kind: "stopped", why: waitedInVain(step.id, step.when.signal, timeout_s) };
       }
-      case "payload": return refusedBy(face.setPayload ? face.setPayload(step.mass_kg, step.center_m) : noPayload(robot));
-      case "message": options.onMessage(step.text); return DONE;
-      case "comment": case "stop": return DONE;
-      default: return { kind: "refused", why: notPrimitive(step) };
+      case "payload":
+        return refusedBy(face.setPayload ? face.setPayload(step.mass_kg, step.center_m) : noPayload(robot));
+      case "message":
+        options.onMessage(step.text);
+        return DONE;
+      case "comment":
+      case "stop":
+        return DONE;
+      default:
+        return { kind: "refused", why: notPrimitive(step) };
     }
   }
 

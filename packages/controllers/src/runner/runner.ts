@@ -21,9 +21,17 @@ export interface PacedOptions {
  * next. A late clock is made good at the next gap, so that the mean gap stays what it should be. Ends with the first
  * command that is not done. A wait lasts as long as it says; the gap comes on top.
  */
-export async function runPaced(steps: Iterable<Step>, context: Pick<Program, "tools" | "frames">, options: PacedOptions): Promise<PacedRun> {
-  const { robot, scheduler } = options, gap_s = options.gap_s ?? COMMAND_GAP_S, sent_s: number[] = [], ended_s: number[] = [];
-  let owed_s = 0, outcome: CommandOutcome = { kind: "done" };
+export async function runPaced(
+  steps: Iterable<Step>,
+  context: Pick<Program, "tools" | "frames">,
+  options: PacedOptions,
+): Promise<PacedRun> {
+  const { robot, scheduler } = options;
+  const gap_s = options.gap_s ?? COMMAND_GAP_S;
+  const sent_s: number[] = [];
+  const ended_s: number[] = [];
+  let owed_s = 0;
+  let outcome: CommandOutcome = { kind: "done" };
   for (const step of steps) {
     const last_s = ended_s.at(-1);
     if (last_s !== undefined) {
@@ -40,10 +48,22 @@ export async function runPaced(steps: Iterable<Step>, context: Pick<Program, "to
 }
 
 /** Joint points as steps that a paced run sends. */
-export const pointSteps = (points_rad: readonly ArrayLike<number>[], ratio = 1): Step[] => points_rad.map((q, i) => ({
-  id: `point ${i + 1}`, type: "move", path: "ptp", target: { q: Array.from(q) }, speed: { ratio }, blend_m: 0,
-}));
+export const pointSteps = (points_rad: readonly ArrayLike<number>[], ratio = 1): Step[] =>
+  points_rad.map((q, i) => ({
+    id: `point ${i + 1}`,
+    type: "move",
+    path: "ptp",
+    target: { q: Array.from(q) },
+    speed: { ratio },
+    blend_m: 0,
+  }));
 
-const pause = (scheduler: Scheduler, seconds: number): Promise<void> => seconds <= 0 ? Promise.resolve() : new Promise(resolve => {
-  const stop = scheduler.every(seconds, () => { stop(); resolve(); });
-});
+const pause = (scheduler: Scheduler, seconds: number): Promise<void> =>
+  seconds <= 0
+    ? Promise.resolve()
+    : new Promise(resolve => {
+        const stop = scheduler.every(seconds, () => {
+          stop();
+          resolve();
+        });
+      });

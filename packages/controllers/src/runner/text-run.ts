@@ -14,7 +14,9 @@ export class TextRun {
   /** The line of the oldest step that has not ended. */
   line = 0;
 
-  constructor(text: Iterator<Executed, void>) { this.text = text; }
+  constructor(text: Iterator<Executed, void>) {
+    this.text = text;
+  }
 
   /** Steps from here on: what is open first. */
   *rest(): Generator<Step, void> {
@@ -22,8 +24,10 @@ export class TextRun {
     for (let next = this.text.next(); !next.done; next = this.text.next()) {
       const { line, step } = next.value;
       // A text that only counts does not stop the clock.
-      if (step !== undefined) { this.idle = 0; yield this.opened(step, line); }
-      else if (++this.idle % LINES_PER_CYCLE === 0) yield this.opened({ id: "", type: "wait", s: CYCLE_S }, line);
+      if (step !== undefined) {
+        this.idle = 0;
+        yield this.opened(step, line);
+      } else if (++this.idle % LINES_PER_CYCLE === 0) yield this.opened({ id: "", type: "wait", s: CYCLE_S }, line);
     }
   }
   /** A step is being executed: those before it have ended. */

@@ -11,7 +11,10 @@ export interface AheadWords {
   readonly problem: Foreseen | null;
 }
 /** How far a robot is on its plan, and how fast it goes on it. */
-export interface Progress { readonly at_s: number; readonly rate: number }
+export interface Progress {
+  readonly at_s: number;
+  readonly rate: number;
+}
 
 export interface Ahead {
   /** How far ahead is looked [s], between half a second and ten. */
@@ -26,13 +29,27 @@ export interface Ahead {
 }
 
 /** Told this often [s], and so many instants of the way looked at each time. */
-const TELL_S = 0.05, LOOKS = 12;
+const TELL_S = 0.05;
+const LOOKS = 12;
 /** Two seconds are what a person follows with the eyes. */
 const AT_FIRST_S = 2;
 
-export function createAhead({ robot, name, scheduler, place }: { readonly robot: Robot; readonly name: string; readonly scheduler: Scheduler; readonly place: Place | null }): Ahead {
-  const changes = listeners<AheadWords | null>(), q_rad = new Float64Array(robot.arm.joints.length), words = { q_rad, in_s: 0, problem: null as Foreseen | null };
-  let horizon_s = AT_FIRST_S, stop: (() => void) | null = null;
+export function createAhead({
+  robot,
+  name,
+  scheduler,
+  place,
+}: {
+  readonly robot: Robot;
+  readonly name: string;
+  readonly scheduler: Scheduler;
+  readonly place: Place | null;
+}): Ahead {
+  const changes = listeners<AheadWords | null>();
+  const q_rad = new Float64Array(robot.arm.joints.length);
+  const words = { q_rad, in_s: 0, problem: null as Foreseen | null };
+  let horizon_s = AT_FIRST_S;
+  let stop: (() => void) | null = null;
 
   const end = (): void => {
     if (!stop) return;
@@ -42,23 +59,34 @@ export function createAhead({ robot, name, scheduler, place }: { readonly robot:
   };
   function begin(look: LookAhead, tick: () => Progress | null): () => void {
     end();
-    const mine = stop = scheduler.every(TELL_S, () => {
+    const mine = (stop = scheduler.every(TELL_S, () => {
       const progress = tick();
-      if (!progress) { end(); return; }
+      if (!progress) {
+        end();
+        return;
+      }
       look.look(progress.at_s, progress.rate, horizon_s, LOOKS);
       words.in_s = look.ghost(progress.at_s, progress.rate, horizon_s, q_rad);
       words.problem = look.problem;
       changes.call(words);
-    });
-    return () => { if (stop === mine) end(); };
+    }));
+    return () => {
+      if (stop === mine) end();
+    };
   }
 
   return {
-    get horizon_s() { return horizon_s; },
-    set horizon_s(to) { horizon_s = Math.min(MOST_AHEAD_S, Math.max(LEAST_AHEAD_S, to)); },
-    follow: (plan, findings, progress) => begin(new LookAhead({ name, plan, findings, place, joints: q_rad.length }), progress),
+    get horizon_s() {
+      return horizon_s;
+    },
+    set horizon_s(to) {
+      horizon_s = Math.min(MOST_AHEAD_S, Math.max(LEAST_AHEAD_S, to));
+    },
+    follow: (plan, findings, progress) =>
+      begin(new LookAhead({ name, plan, findings, place, joints: q_rad.length }), progress),
     preview(plan, findings) {
-      const look = new LookAhead({ name, plan, findings, place, joints: q_rad.length }), from_s = scheduler.now_s();
+      const look = new LookAhead({ name, plan, findings, place, joints: q_rad.length });
+      const from_s = scheduler.now_s();
       // The ghost runs ahead of where the robot would be.
       begin(look, () => {
         const at_s = scheduler.now_s() - from_s;
@@ -67,6 +95,9 @@ export function createAhead({ robot, name, scheduler, place }: { readonly robot:
       return look.preview();
     },
     onChange: listen => changes.add(listen),
-    close() { end(); changes.clear(); },
+    close() {
+      end();
+      changes.clear();
+    },
   };
 }

@@ -6,22 +6,40 @@ import { endedOn } from "../testing/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
 import { openCabinet, type CabinetAct } from "./index.ts";
 
-const HOST = "127.0.0.9", ME = "me";
+const HOST = "127.0.0.9";
+const ME = "me";
 /** A brand's virtual controller with its cabinet, and its driver at the other end of a network in memory. */
 async function bench(brand: Brand) {
-  const robot = robotsOf(brand).find(({ arm }) => arm.joints.length === 6)!, scheduler = manualScheduler(), network = memoryNetwork(scheduler);
-  const opened = await openCabinet({ brand, robot, scheduler, network, host: HOST, interpret: () => ({ kind: "not-understood", faults: [] }) });
+  const robot = robotsOf(brand).find(({ arm }) => arm.joints.length === 6)!;
+  const scheduler = manualScheduler();
+  const network = memoryNetwork(scheduler);
+  const opened = await openCabinet({
+    brand,
+    robot,
+    scheduler,
+    network,
+    host: HOST,
+    interpret: () => ({ kind: "not-understood", faults: [] }),
+  });
   if (opened.kind === "taken") throw new Error(opened.sentence);
-  const { cabinet, virtual } = opened, real = createRealController({ face: brand.face({ robot, scheduler, network, host: HOST, ports: virtual.ports }), scheduler });
+  const { cabinet, virtual } = opened;
+  const real = createRealController({
+    face: brand.face({ robot, scheduler, network, host: HOST, ports: virtual.ports }),
+    scheduler,
+  });
   const ended = endedOn(scheduler);
-  const act = (what: CabinetAct): Promise<CommandOutcome> => cabinet.act(ME, what), key = (mode: string) => cabinet.words.keys.find(each => each.mode === mode)!.id;
+  const act = (what: CabinetAct): Promise<CommandOutcome> => cabinet.act(ME, what);
+  const key = (mode: string) => cabinet.words.keys.find(each => each.mode === mode)!.id;
   let beats = true;
-  scheduler.every(0.025, () => { if (beats) cabinet.alive(ME); });
+  scheduler.every(0.025, () => {
+    if (beats) cabinet.alive(ME);
+  });
   expect(await ended(real.connect())).toEqual({ kind: "done" });
   await scheduler.elapse(0.2);
   /** How long the arm goes on from now on [s]. */
   const untilRest = async (): Promise<number> => {
-    const begun_s = scheduler.now_s(), before = virtual.jointAngles().slice();
+    const begun_s = scheduler.now_s();
+    const before = virtual.jointAngles().slice();
     let moved_s = begun_s;
     for (let t = 0; t < 1; t += 0.004) {
       await scheduler.elapse(0.004);
@@ -38,22 +56,56 @@ async function bench(brand: Brand) {
     await act({ do: "enable", pressed: true });
     await scheduler.elapse(1);
   };
-  return { robot, scheduler, virtual, cabinet, real, ended, act, key, untilRest, byHand, silence() { beats = false; }, close() { opened.close(); real.close(); } };
+  return {
+    robot,
+    scheduler,
+    virtual,
+    cabinet,
+    real,
+    ended,
+    act,
+    key,
+    untilRest,
+    byHand,
+    silence() {
+      beats = false;
+    },
+    close() {
+      opened.close();
+      real.close();
+    },
+  };
 }
-const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number => Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
+const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number =>
+  Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
 
 describe.each(BRANDS.map(brand => [brand.id, brand] as const))("the cabinet of a virtual %s", (_, brand) => {
   test("T-26 a jog key moves its joint, at 250 mm/s at most, while it and the enabling switch are held; the twin follows, others are refused", async () => {
     const { robot, scheduler, virtual, cabinet, real, act, untilRest, byHand, close } = await bench(brand);
-    expect(await act({ do: "jog", joint: 1, direction: 1 })).toMatchObject({ kind: "refused", why: { code: "controller.not-manual" } });
+    expect(await act({ do: "jog", joint: 1, direction: 1 })).toMatchObject({
+      kind: "refused",
+      why: { code: "controller.not-manual" },
+    });
     await act({ do: "key", position: cabinet.words.keys.find(({ mode }) => mode === "manual")!.id });
     await scheduler.elapse(1);
-    expect(await act({ do: "jog", joint: 1, direction: 1 })).toMatchObject({ kind: "refused", why: { code: "cabinet.enabling" } });
+    expect(await act({ do: "jog", joint: 1, direction: 1 })).toMatchObject({
+      kind: "refused",
+      why: { code: "cabinet.enabling" },
+    });
     await byHand();
-    expect(await act({ do: "jog", joint: 9, direction: 1 })).toMatchObject({ kind: "refused", why: { code: "controller.no-joint" } });
-    for (const [joint, direction] of [[1, 1], [2, -1], [6, 1]] as const) {
-      const before = virtual.jointAngles().slice(), held = act({ do: "jog", joint, direction });
-      let fastest_mps = 0, place = flangePose(robot.arm, before);
+    expect(await act({ do: "jog", joint: 9, direction: 1 })).toMatchObject({
+      kind: "refused",
+      why: { code: "controller.no-joint" },
+    });
+    for (const [joint, direction] of [
+      [1, 1],
+      [2, -1],
+      [6, 1],
+    ] as const) {
+      const before = virtual.jointAngles().slice();
+      const held = act({ do: "jog", joint, direction });
+      let fastest_mps = 0;
+      let place = flangePose(robot.arm, before);
       for (let t = 0; t < 0.6; t += 0.02) {
         await scheduler.elapse(0.02);
         const next = flangePose(robot.arm, virtual.jointAngles());
@@ -66,7 +118,9 @@ describe.each(BRANDS.map(brand => [brand.id, brand] as const))("the cabinet of a
       expect(await held).toEqual({ kind: "done" });
       expect(await untilRest()).toBeLessThanOrEqual(0.1);
       const after = virtual.jointAngles();
-      after.forEach((q, i) => { expect(Math.abs(q - before[i]!) > 0.01, `joint ${i + 1} after jogging joint ${joint}`).toBe(i === joint - 1); });
+      after.forEach((q, i) => {
+        expect(Math.abs(q - before[i]!) > 0.01, `joint ${i + 1} after jogging joint ${joint}`).toBe(i === joint - 1);
+      });
       expect(Math.sign(after[joint - 1]! - before[joint - 1]!)).toBe(direction);
       expect(fastest_mps).toBeLessThan(0.2505);
       expect(farthest(real.jointAngles(), after)).toBeLessThan(2e-5);
@@ -88,14 +142,17 @@ describe.each(BRANDS.map(brand => [brand.id, brand] as const))("the cabinet of a
       expect(await held).toEqual({ kind: "done" });
       expect(cabinet.shown).toMatchObject({ enabled: false, jog: null, moving: false });
       if (how === "silent") expect(cabinet.shown.says).toContain("80 ms");
-      expect(await act({ do: "jog", joint: 1, direction: 1 })).toMatchObject({ kind: "refused", why: { code: "cabinet.enabling" } });
+      expect(await act({ do: "jog", joint: 1, direction: 1 })).toMatchObject({
+        kind: "refused",
+        why: { code: "cabinet.enabling" },
+      });
       close();
     }
   });
 
   test("T-27 somebody near the robot stops a move from outside, both at equal joints; gate and sensor are one circuit", async () => {
     const { robot, scheduler, virtual, cabinet, real, ended, act, close } = await bench(brand);
-    const moving = real.moveJoints(Array.from(robot.home_rad, (q, i) => i < 3 ? q + 0.6 : q));
+    const moving = real.moveJoints(Array.from(robot.home_rad, (q, i) => (i < 3 ? q + 0.6 : q)));
     await scheduler.elapse(0.3);
     expect(cabinet.shown.moving).toBe(true);
     await act({ do: "near", somebody: true });
@@ -147,7 +204,8 @@ describe.each(BRANDS.map(brand => [brand.id, brand] as const))("the cabinet of a
       await scheduler.elapse(0.5);
       return virtual.jointAngles()[0]! - from;
     };
-    const full = await way(100), half = await way(50);
+    const full = await way(100);
+    const half = await way(50);
     expect(half / full).toBeGreaterThan(0.4);
     expect(half / full).toBeLessThan(0.62);
     expect(cabinet.shown.override).toBe(0.5);
@@ -164,8 +222,13 @@ describe.each(BRANDS.map(brand => [brand.id, brand] as const))("the cabinet of a
   test("X-41 faults: the plug is out, the controller hangs, a late line: the driver says so, and the connection comes back", async () => {
     const { cabinet, scheduler, virtual, real, robot, act, close } = await bench(brand);
     expect(cabinet.shown.peers.length).toBeGreaterThan(0);
-    for (const [out, back] of [[{ unplugged: true }, { unplugged: false }], [{ hangs: true }, { hangs: false }]] as const) {
-      const moving = real.moveJoints(Array.from(robot.home_rad, (q, i) => i < 3 ? virtual.jointAngles()[i]! + 0.5 : q));
+    for (const [out, back] of [
+      [{ unplugged: true }, { unplugged: false }],
+      [{ hangs: true }, { hangs: false }],
+    ] as const) {
+      const moving = real.moveJoints(
+        Array.from(robot.home_rad, (q, i) => (i < 3 ? virtual.jointAngles()[i]! + 0.5 : q)),
+      );
       await scheduler.elapse(0.2);
       await act({ do: "trouble", ...out });
       const there = virtual.jointAngles().slice();

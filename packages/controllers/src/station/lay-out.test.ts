@@ -4,24 +4,48 @@ import { brandById } from "../brands.ts";
 import { endedOn } from "../testing/index.ts";
 import { layOut, openStation, type LayOut } from "./index.ts";
 
-const robot = robotById("ur10e")!, to = (by_rad: number): number[] => robot.home_rad.map((q, i) => (i === 0 ? q + by_rad : q));
-const move = (id: string, by_rad: number): MoveStep => ({ id, type: "move", path: "ptp", target: { q: to(by_rad) }, speed: { ratio: 0.5 }, blend_m: 0 });
+const robot = robotById("ur10e")!;
+const to = (by_rad: number): number[] => robot.home_rad.map((q, i) => (i === 0 ? q + by_rad : q));
+const move = (id: string, by_rad: number): MoveStep => ({
+  id,
+  type: "move",
+  path: "ptp",
+  target: { q: to(by_rad) },
+  speed: { ratio: 0.5 },
+  blend_m: 0,
+});
 const program: Program = { ...emptyProgram(robot.id, "To and fro"), steps: [move("a", 0.3), move("b", 0)] };
-const dialect = { name: "None", interpret: () => ({ kind: "not-understood", faults: [] }), emit: () => ({ kind: "cannot", step: "a", sentence: "it has no words.", hint: "Choose another." }) } as unknown as Dialect;
+const dialect = {
+  name: "None",
+  interpret: () => ({ kind: "not-understood", faults: [] }),
+  emit: () => ({ kind: "cannot", step: "a", sentence: "it has no words.", hint: "Choose another." }),
+} as unknown as Dialect;
 
 test("a program that cannot be written is told as such, with its plan; one whose steps are sent is not written at all", () => {
   const question = { program, robot, start_rad: Float64Array.from(robot.home_rad) };
-  expect(layOut({ ...question, dialect })).toMatchObject({ files: null, unwritten: { code: "station.not-emitted", sentence: "None cannot say this program: it has no words." } });
+  expect(layOut({ ...question, dialect })).toMatchObject({
+    files: null,
+    unwritten: { code: "station.not-emitted", sentence: "None cannot say this program: it has no words." },
+  });
   expect(layOut(question)).toMatchObject({ files: null, unwritten: null, stuck: null, findings: [] });
 });
 
 test("T-63 a robot that is moved while its program is planned elsewhere does not begin it from where it is no more", async () => {
-  const scheduler = manualScheduler(), ended = endedOn(scheduler);
-  let go = (): void => { /* Nothing waits yet. */ };
-  const slow: LayOut = question => new Promise(resolve => { go = () => { resolve(layOut(question)); }; });
+  const scheduler = manualScheduler();
+  const ended = endedOn(scheduler);
+  let go = (): void => {
+    /* Nothing waits yet. */
+  };
+  const slow: LayOut = question =>
+    new Promise(resolve => {
+      go = () => {
+        resolve(layOut(question));
+      };
+    });
   const opened = await openStation({ id: "s", brand: brandById("ur")!, robot, scheduler, dialect, layOut: slow });
   if (opened.kind === "refused") throw new Error(opened.why.sentence);
-  const { station } = opened, seat = station.seat("you");
+  const { station } = opened;
+  const seat = station.seat("you");
   expect(await ended(station.connect())).toEqual({ kind: "done" });
   seat.take();
   await scheduler.elapse(0.2);

@@ -1,5 +1,18 @@
 import {
-  checkProgram, identity, linkSolids, planProgram, withBranches, type CellGeometry, type Dialect, type EmittedFile, type Finding, type Plan, type Pose, type Program, type Refusal, type Robot,
+  checkProgram,
+  identity,
+  linkSolids,
+  planProgram,
+  withBranches,
+  type CellGeometry,
+  type Dialect,
+  type EmittedFile,
+  type Finding,
+  type Plan,
+  type Pose,
+  type Program,
+  type Refusal,
+  type Robot,
 } from "@twincell/core";
 import { notEmitted } from "./words.ts";
 
@@ -31,15 +44,33 @@ export type LayOut = (question: LayOutQuestion) => Promise<LaidOut>;
 
 /** Plans, checks and writes a program. Pure. */
 export function layOut({ program, robot, start_rad, worldFromBase, dialect }: LayOutQuestion): LaidOut {
-  const from = { start_rad, ...(worldFromBase ? { worldFromBase } : {}) }, answer = planProgram(program, robot, from);
-  const own: CellGeometry = { worldFromBase: worldFromBase ?? identity(), links: linkSolids(robot), objects: [], allowedPairs: [], shapeError_m: robot.shapeError_m };
-  const findings = answer.plan.segments.length > MOST_CHECKED ? []
-    : checkProgram(program, robot, { ...from, cell: own }).verdict.steps.flatMap(step => step.findings).sort((a, b) => a.at_s - b.at_s);
-  const written = dialect?.emit(withBranches(program, robot, { where: "needed", ...(worldFromBase ? { worldFromBase } : {}) }), robot, worldFromBase);
+  const from = { start_rad, ...(worldFromBase ? { worldFromBase } : {}) };
+  const answer = planProgram(program, robot, from);
+  const own: CellGeometry = {
+    worldFromBase: worldFromBase ?? identity(),
+    links: linkSolids(robot),
+    objects: [],
+    allowedPairs: [],
+    shapeError_m: robot.shapeError_m,
+  };
+  const findings =
+    answer.plan.segments.length > MOST_CHECKED
+      ? []
+      : checkProgram(program, robot, { ...from, cell: own })
+          .verdict.steps.flatMap(step => step.findings)
+          .sort((a, b) => a.at_s - b.at_s);
+  const written = dialect?.emit(
+    withBranches(program, robot, { where: "needed", ...(worldFromBase ? { worldFromBase } : {}) }),
+    robot,
+    worldFromBase,
+  );
   return {
     findings,
     plan: answer.kind === "planned" ? answer.plan : null,
-    stuck: answer.kind === "planned" ? null : { code: answer.stuck.code, sentence: answer.stuck.sentence, hint: answer.stuck.hint },
+    stuck:
+      answer.kind === "planned"
+        ? null
+        : { code: answer.stuck.code, sentence: answer.stuck.sentence, hint: answer.stuck.hint },
     files: written && written.kind !== "cannot" ? written.files : null,
     unwritten: written?.kind === "cannot" ? notEmitted(dialect!.name, written.sentence, written.hint) : null,
   };

@@ -1,4 +1,15 @@
-import { unrolled, type CommandOutcome, type Dialect, type Pose, type Program, type Refusal, type Robot, type Scheduler, type Signals, type Step } from "@twincell/core";
+import {
+  unrolled,
+  type CommandOutcome,
+  type Dialect,
+  type Pose,
+  type Program,
+  type Refusal,
+  type Robot,
+  type Scheduler,
+  type Signals,
+  type Step,
+} from "@twincell/core";
 import { createRealController, type Brand, type ControllerData, type PortNumbers } from "../real/index.ts";
 import { memoryNetwork, type Network } from "../transport/index.ts";
 import { withLines } from "../runner/index.ts";
@@ -21,7 +32,12 @@ export interface OpenOptions {
   readonly name?: string;
   readonly worldFromBase?: Pose<"world", "base">;
   /** Where the controller is. Left out, a virtual one is started beside its driver, in memory. */
-  readonly at?: { readonly network: Network; readonly host: string; readonly ports?: PortNumbers; readonly data?: ControllerData };
+  readonly at?: {
+    readonly network: Network;
+    readonly host: string;
+    readonly ports?: PortNumbers;
+    readonly data?: ControllerData;
+  };
   /** The cell it shares with other robots, and where it stands there; `worldFromBase` is where its programs take it to stand. */
   readonly shared?: { readonly cell: SharedCell; readonly stand: Pose<"world", "base"> };
   readonly deadMan?: boolean;
@@ -38,7 +54,14 @@ const STANDS_RAD = 1e-3;
 /** A station of a brand, and what a person can do at its cabinet where that is virtual. */
 export interface BrandStation extends Station {
   /** What is said of it. */
-  readonly words: { readonly id: string; readonly name: string; readonly brand: string; readonly robot: string; readonly virtual: boolean; readonly watchdog: string };
+  readonly words: {
+    readonly id: string;
+    readonly name: string;
+    readonly brand: string;
+    readonly robot: string;
+    readonly virtual: boolean;
+    readonly watchdog: string;
+  };
   /** null where a person stands before a real one. */
   readonly pendant: Cabinet | null;
   /** Pulls the plug of the wire to a virtual controller, or puts it back. */
@@ -53,45 +76,114 @@ export interface BrandStation extends Station {
   /** Only to watch it from now on, or to command it again. */
   watch(seat: Seat, on: boolean): Promise<CommandOutcome>;
 }
-export type OpenedBrand = { readonly kind: "opened"; readonly station: BrandStation } | { readonly kind: "refused"; readonly why: Refusal };
+export type OpenedBrand =
+  | { readonly kind: "opened"; readonly station: BrandStation }
+  | { readonly kind: "refused"; readonly why: Refusal };
 
 /** Opens a station of that brand. It is not connected yet. */
 export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
   const { brand, robot, scheduler, dialect, worldFromBase } = options;
   if (robot.vendor !== brand.vendor) {
-    return { kind: "refused", why: { code: "station.other-brand", sentence: `${robot.name} is a robot of ${robot.vendor}; controllers of ${brand.name} drive those of ${brand.vendor}.`, hint: "Choose a robot of that brand." } };
+    return {
+      kind: "refused",
+      why: {
+        code: "station.other-brand",
+        sentence: `${robot.name} is a robot of ${robot.vendor}; controllers of ${brand.name} drive those of ${brand.vendor}.`,
+        hint: "Choose a robot of that brand.",
+      },
+    };
   }
   if (brand.drives?.(robot) === false) {
-    return { kind: "refused", why: { code: "station.other-brand", sentence: `${robot.name} does not stand on a controller of ${brand.name}.`, hint: `Choose another controller of ${brand.vendor}, or another robot.` } };
+    return {
+      kind: "refused",
+      why: {
+        code: "station.other-brand",
+        sentence: `${robot.name} does not stand on a controller of ${brand.name}.`,
+        hint: `Choose another controller of ${brand.vendor}, or another robot.`,
+      },
+    };
   }
   const deaf = brand.cannot.find(({ row }) => row === "watch");
   if (deaf && options.watching === true) return cannotWatch(brand.name, deaf.because);
-  const near = options.at === undefined ? memoryNetwork(scheduler) : null, network = options.at?.network ?? near!, host = options.at?.host ?? "127.0.0.1";
+  const near = options.at === undefined ? memoryNetwork(scheduler) : null;
+  const network = options.at?.network ?? near!;
+  const host = options.at?.host ?? "127.0.0.1";
   let opened: Extract<CabinetOpened, { kind: "opened" }> | null = null;
   if (near) {
-    const started = await openCabinet({ brand, robot, scheduler, network, host, interpret: text => dialect.interpret(text, robot, worldFromBase) });
-    if (started.kind === "taken") { near.close(); return { kind: "refused", why: { code: "station.taken", sentence: started.sentence, hint: "Try it again." } }; }
+    const started = await openCabinet({
+      brand,
+      robot,
+      scheduler,
+      network,
+      host,
+      interpret: text => dialect.interpret(text, robot, worldFromBase),
+    });
+    if (started.kind === "taken") {
+      near.close();
+      return { kind: "refused", why: { code: "station.taken", sentence: started.sentence, hint: "Try it again." } };
+    }
     opened = started;
   }
-  const virtual = opened?.virtual, cabinet = opened?.cabinet ?? null;
-  const ports = options.at?.ports ?? virtual?.ports, name = options.name ?? `${near ? "Virtual " : ""}${robot.name}`;
+  const virtual = opened?.virtual;
+  const cabinet = opened?.cabinet ?? null;
+  const ports = options.at?.ports ?? virtual?.ports;
+  const name = options.name ?? `${near ? "Virtual " : ""}${robot.name}`;
   let isWatched = options.watching === true;
-  const face = brand.face({ robot, scheduler, network, host, ...(ports ? { ports } : {}), ...(options.at?.data ? { data: options.at.data } : {}), isWatched: () => isWatched });
+  const face = brand.face({
+    robot,
+    scheduler,
+    network,
+    host,
+    ...(ports ? { ports } : {}),
+    ...(options.at?.data ? { data: options.at.data } : {}),
+    isWatched: () => isWatched,
+  });
   const controller = createRealController({ face, scheduler, name, ...(worldFromBase ? { worldFromBase } : {}) });
-  const place = options.shared?.cell.join({ id: options.id, name, robot, worldFromBase: options.shared.stand, ...(virtual ? { brakingTime_s: virtual.brakingTime_s } : {}) });
+  const place = options.shared?.cell.join({
+    id: options.id,
+    name,
+    robot,
+    worldFromBase: options.shared.stand,
+    ...(virtual ? { brakingTime_s: virtual.brakingTime_s } : {}),
+  });
   const station = createStation({
-    controller, scheduler, name, silence_s: () => face.stale_s, ...(place ? { place } : {}), ...(options.watching === undefined ? {} : { watching: options.watching }),
-    ...(worldFromBase ? { worldFromBase } : {}), ...(virtual ? { brakingTime_s: virtual.brakingTime_s } : {}),
+    controller,
+    scheduler,
+    name,
+    silence_s: () => face.stale_s,
+    ...(place ? { place } : {}),
+    ...(options.watching === undefined ? {} : { watching: options.watching }),
+    ...(worldFromBase ? { worldFromBase } : {}),
+    ...(virtual ? { brakingTime_s: virtual.brakingTime_s } : {}),
     ...(options.heartbeat_s === undefined ? {} : { heartbeat_s: options.heartbeat_s }),
     deadMan: options.deadMan ?? near === null,
   });
   /** The program with its plan from where the robot stands, what the check finds on it, and its text; or why it is not sent. */
-  async function jobOf(program: Program, asText: boolean): Promise<{ readonly kind: "job"; readonly job: StationJob; readonly stuck: Refusal | null } | { readonly kind: "refused"; readonly why: Refusal }> {
+  async function jobOf(
+    program: Program,
+    asText: boolean,
+  ): Promise<
+    | { readonly kind: "job"; readonly job: StationJob; readonly stuck: Refusal | null }
+    | { readonly kind: "refused"; readonly why: Refusal }
+  > {
     const start_rad = controller.jointAngles().slice();
-    const laid = await (options.layOut ?? (question => Promise.resolve(layOut(question))))({ program, robot, start_rad, ...(worldFromBase ? { worldFromBase } : {}), ...(asText && controller.runText ? { dialect } : {}) });
+    const laid = await (options.layOut ?? (question => Promise.resolve(layOut(question))))({
+      program,
+      robot,
+      start_rad,
+      ...(worldFromBase ? { worldFromBase } : {}),
+      ...(asText && controller.runText ? { dialect } : {}),
+    });
     if (laid.unwritten) return { kind: "refused", why: laid.unwritten };
-    if (controller.jointAngles().some((q, i) => Math.abs(q - start_rad[i]!) > STANDS_RAD)) return { kind: "refused", why: movedMeanwhile(name) };
-    const job: StationJob = { program, steps: () => atTerminals(program, brand, controller.signals), findings: laid.findings, ...(laid.plan ? { plan: laid.plan } : {}), ...(laid.files ? { files: laid.files } : {}) };
+    if (controller.jointAngles().some((q, i) => Math.abs(q - start_rad[i]!) > STANDS_RAD))
+      return { kind: "refused", why: movedMeanwhile(name) };
+    const job: StationJob = {
+      program,
+      steps: () => atTerminals(program, brand, controller.signals),
+      findings: laid.findings,
+      ...(laid.plan ? { plan: laid.plan } : {}),
+      ...(laid.files ? { files: laid.files } : {}),
+    };
     return { kind: "job", job, stuck: laid.stuck };
   }
   return {
@@ -99,12 +191,25 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
     station: {
       ...station,
       words: {
-        id: options.id, name, brand: brand.id, robot: robot.id, virtual: cabinet !== null,
-        watchdog: face.watchdog.kind === "robot" ? `The robot stops by itself within ${Math.round(face.watchdog.within_s * 1000)} ms.` : `The robot does not stop by itself: ${face.watchdog.because}`,
+        id: options.id,
+        name,
+        brand: brand.id,
+        robot: robot.id,
+        virtual: cabinet !== null,
+        watchdog:
+          face.watchdog.kind === "robot"
+            ? `The robot stops by itself within ${Math.round(face.watchdog.within_s * 1000)} ms.`
+            : `The robot does not stop by itself: ${face.watchdog.because}`,
       },
       pendant: cabinet,
-      plug: cabinet && (pulled => { void cabinet.act("", { do: "trouble", unplugged: pulled }); }),
-      stop(emergency) { station.guard.stop(emergency); },
+      plug:
+        cabinet &&
+        (pulled => {
+          void cabinet.act("", { do: "trouble", unplugged: pulled });
+        }),
+      stop(emergency) {
+        station.guard.stop(emergency);
+      },
       async watch(seat, on) {
         const { state } = station.guard;
         if (on === state.watching) return DONE;
@@ -120,16 +225,36 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
       async run(seat, program, asText) {
         const answer = await jobOf(program, asText);
         if (answer.kind === "refused") return answer;
-        const { job } = answer, blocked = job.plan && new LookAhead({ name, plan: job.plan, findings: job.findings ?? [], place: place ?? null, joints: robot.arm.joints.length }).preview().blocked;
+        const { job } = answer;
+        const blocked =
+          job.plan &&
+          new LookAhead({
+            name,
+            plan: job.plan,
+            findings: job.findings ?? [],
+            place: place ?? null,
+            joints: robot.arm.joints.length,
+          }).preview().blocked;
         return blocked ? refused(wayBlocked(blocked)) : station.carryOut(seat, job);
       },
       async preview(program) {
         const answer = await jobOf(program, false);
         if (answer.kind === "refused") return answer;
-        const { job: { plan, findings = [] }, stuck } = answer;
+        const {
+          job: { plan, findings = [] },
+          stuck,
+        } = answer;
         if (!plan) return refused(stuck!);
-        const { blocked, told } = station.ahead.preview(plan, findings), first = blocked ?? told;
-        return first ? refused({ ...wayBlocked(first), hint: blocked ? "It would not be sent. Clear the way, or change the program." : "It would be sent all the same; this is only told." }) : DONE;
+        const { blocked, told } = station.ahead.preview(plan, findings);
+        const first = blocked ?? told;
+        return first
+          ? refused({
+              ...wayBlocked(first),
+              hint: blocked
+                ? "It would not be sent. Clear the way, or change the program."
+                : "It would be sent all the same; this is only told.",
+            })
+          : DONE;
       },
       async prepare(seat, program, asText) {
         const answer = await jobOf(program, asText);
@@ -151,11 +276,23 @@ function* atTerminals(program: Program, brand: Brand, signals?: Signals): Genera
     const line = program.signals[name];
     return (line?.address === undefined ? undefined : brand.terminal?.({ ...line, address: line.address })) ?? name;
   };
-  const read = signals && { read: (name: string) => signals.read(terminal(name)), write: (name: string, value: boolean | number) => { signals.write(terminal(name), value); } };
+  const read = signals && {
+    read: (name: string) => signals.read(terminal(name)),
+    write: (name: string, value: boolean | number) => {
+      signals.write(terminal(name), value);
+    },
+  };
   for (const step of unrolled(program, read)) yield withLines(step, terminal);
 }
 
-const cannotWatch = (brand: string, because: string): { readonly kind: "refused"; readonly why: Refusal } => ({ kind: "refused", why: { code: "station.no-watching", sentence: `Controllers of ${brand} cannot only be watched: ${because}`, hint: "Open it to command; it moves only when it is told to." } });
+const cannotWatch = (brand: string, because: string): { readonly kind: "refused"; readonly why: Refusal } => ({
+  kind: "refused",
+  why: {
+    code: "station.no-watching",
+    sentence: `Controllers of ${brand} cannot only be watched: ${because}`,
+    hint: "Open it to command; it moves only when it is told to.",
+  },
+});
 
 /** Closes an open link and opens it again; resolves with the first state that comes over it. */
 async function rejoin(station: Station): Promise<CommandOutcome> {
@@ -165,9 +302,16 @@ async function rejoin(station: Station): Promise<CommandOutcome> {
   if (connected.kind !== "done") return connected;
   return new Promise(resolve => {
     const offs = [
-      station.onSample(() => { end(DONE); }),
-      station.onLink(({ state, sentence }) => { if (state !== "open") end(refused({ code: "link.lost", sentence, hint: "Connect it, then try again." })); }),
+      station.onSample(() => {
+        end(DONE);
+      }),
+      station.onLink(({ state, sentence }) => {
+        if (state !== "open") end(refused({ code: "link.lost", sentence, hint: "Connect it, then try again." }));
+      }),
     ];
-    const end = (outcome: CommandOutcome): void => { for (const off of offs) off(); resolve(outcome); };
+    const end = (outcome: CommandOutcome): void => {
+      for (const off of offs) off();
+      resolve(outcome);
+    };
   });
 }

@@ -1,4 +1,12 @@
-import { emptyProgram, manualScheduler, planProgram, robotById, samplePlan, type MoveStep, type Program } from "@twincell/core";
+import {
+  emptyProgram,
+  manualScheduler,
+  planProgram,
+  robotById,
+  samplePlan,
+  type MoveStep,
+  type Program,
+} from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { createRealController } from "../real/index.ts";
 import { nearFace } from "../testing/index.ts";
@@ -7,16 +15,35 @@ import { createStation } from "./index.ts";
 
 const robot = robotById("staubli_rx90l")!;
 const shifted = (by_rad: number): number[] => Array.from(robot.home_rad, q => q + by_rad);
-const move = (id: string, q: readonly number[]): MoveStep => ({ id, type: "move", path: "ptp", target: { q }, speed: { ratio: 0.5 }, blend_m: 0 });
-const program: Program = { ...emptyProgram(robot.id), steps: [move("there", shifted(0.4)), move("back", [...robot.home_rad])] };
+const move = (id: string, q: readonly number[]): MoveStep => ({
+  id,
+  type: "move",
+  path: "ptp",
+  target: { q },
+  speed: { ratio: 0.5 },
+  blend_m: 0,
+});
+const program: Program = {
+  ...emptyProgram(robot.id),
+  steps: [move("there", shifted(0.4)), move("back", [...robot.home_rad])],
+};
 
 async function bench() {
-  const scheduler = manualScheduler(), face = nearFace(robot, scheduler);
-  const station = createStation({ controller: createRealController({ face, scheduler, name: "Cell 1" }), scheduler, deadMan: false, alarm_rad: 0.02 });
+  const scheduler = manualScheduler();
+  const face = nearFace(robot, scheduler);
+  const station = createStation({
+    controller: createRealController({ face, scheduler, name: "Cell 1" }),
+    scheduler,
+    deadMan: false,
+    alarm_rad: 0.02,
+  });
   await station.connect();
   await scheduler.elapse(0.1);
-  const seat = station.seat("you"), notices: string[] = [];
-  station.onNotice(why => { notices.push(why.code); });
+  const seat = station.seat("you");
+  const notices: string[] = [];
+  station.onNotice(why => {
+    notices.push(why.code);
+  });
   seat.take();
   return { scheduler, face, station, seat, notices };
 }
@@ -31,7 +58,9 @@ describe("a station", () => {
     const { scheduler, station, seat } = await bench();
     const running = station.carryOut(seat, { program, steps: () => program.steps, plan: planned() });
     let worst_rad = 0;
-    station.onSample(() => { worst_rad = Math.max(worst_rad, station.deviation.plan_rad || 0); });
+    station.onSample(() => {
+      worst_rad = Math.max(worst_rad, station.deviation.plan_rad || 0);
+    });
     await scheduler.elapse(0.5);
     seat.robot.setSpeed(30);
     await scheduler.elapse(30);
@@ -44,7 +73,12 @@ describe("a station", () => {
 
   test("a robot that leaves its plan is said aloud, once", async () => {
     const { scheduler, face, station, seat, notices } = await bench();
-    const other = [move("there", shifted(0.4).map((q, i) => i === 2 ? q - 0.3 : q))];
+    const other = [
+      move(
+        "there",
+        shifted(0.4).map((q, i) => (i === 2 ? q - 0.3 : q)),
+      ),
+    ];
     const running = station.carryOut(seat, { program, steps: () => other, plan: planned() });
     await scheduler.elapse(10);
     await running;
@@ -71,8 +105,15 @@ describe("a station", () => {
   });
 
   test("X-41 a line that breaks and is back sooner than anybody would call it silent asks for a person's word all the same", async () => {
-    const scheduler = manualScheduler(), face = nearFace(robot, scheduler);
-    const station = createStation({ controller: createRealController({ face, scheduler, name: "Cell 1" }), scheduler, deadMan: false, silence_s: 5 }), seat = station.seat("you");
+    const scheduler = manualScheduler();
+    const face = nearFace(robot, scheduler);
+    const station = createStation({
+      controller: createRealController({ face, scheduler, name: "Cell 1" }),
+      scheduler,
+      deadMan: false,
+      silence_s: 5,
+    });
+    const seat = station.seat("you");
     await station.connect();
     await scheduler.elapse(0.1);
     seat.take();
@@ -99,7 +140,9 @@ describe("a station", () => {
 });
 
 test("the place on a plan is found again sample by sample, also where the plan turns back", () => {
-  const plan = planned(), follower = new PlanFollower(plan, 6), q = new Float64Array(6);
+  const plan = planned();
+  const follower = new PlanFollower(plan, 6);
+  const q = new Float64Array(6);
   let worst_rad = 0;
   for (let t_s = 0; t_s <= plan.duration_s; t_s += 0.02) {
     samplePlan(plan, t_s, q);

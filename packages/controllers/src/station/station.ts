@@ -1,4 +1,19 @@
-import { samplePlan, type CommandOutcome, type EmittedFile, type Finding, type JointSample, type LinkReport, type Plan, type Pose, type Program, type RealController, type Refusal, type RobotController, type Scheduler, type Step } from "@twincell/core";
+import {
+  samplePlan,
+  type CommandOutcome,
+  type EmittedFile,
+  type Finding,
+  type JointSample,
+  type LinkReport,
+  type Plan,
+  type Pose,
+  type Program,
+  type RealController,
+  type Refusal,
+  type RobotController,
+  type Scheduler,
+  type Step,
+} from "@twincell/core";
 import type { Place } from "../cell/index.ts";
 import { createGuard, type Guard, type GuardState, type Seat } from "../guard/index.ts";
 import { listeners } from "../listeners.ts";
@@ -40,7 +55,13 @@ export interface StationJob {
 
 /** A program that a controller has and is ready for. */
 export type Armed =
-  | { readonly kind: "armed"; /** Its program begins with a motion: whether it begins can be seen. */ readonly movesAtOnce: boolean; /** Why it would be turned down now. */ readiness(): Refusal | null; start(): Promise<CommandOutcome>; /** It is not started after all. */ drop(): void }
+  | {
+      readonly kind: "armed" /** Its program begins with a motion: whether it begins can be seen. */;
+      readonly movesAtOnce: boolean /** Why it would be turned down now. */;
+      readiness(): Refusal | null;
+      start(): Promise<CommandOutcome> /** It is not started after all. */;
+      drop(): void;
+    }
   | { readonly kind: "refused"; readonly why: Refusal };
 
 /** One controller of the cell as the studio has it: behind its guard, with its twin, its link and how far it is from what it should do. */
@@ -71,8 +92,12 @@ export interface Station {
 /** A program as text on its way through the guard: no step of it is taken here. */
 class TextOnItsWay implements Iterable<Step> {
   readonly start: () => Promise<CommandOutcome>;
-  constructor(start: () => Promise<CommandOutcome>) { this.start = start; }
-  [Symbol.iterator](): Iterator<Step> { return [][Symbol.iterator](); }
+  constructor(start: () => Promise<CommandOutcome>) {
+    this.start = start;
+  }
+  [Symbol.iterator](): Iterator<Step> {
+    return [][Symbol.iterator]();
+  }
 }
 
 const ALARM_RAD = Math.PI / 180;
@@ -84,22 +109,36 @@ const SOON_S = 0.1;
  * lease, dead-man and link rules hold for them as for any motion.
  */
 export function createStation(options: StationOptions): Station {
-  const { controller, scheduler } = options, { robot } = controller, n = robot.arm.joints.length, alarm_rad = options.alarm_rad ?? ALARM_RAD;
-  const name = options.name ?? controller.name, notices = listeners<Refusal>();
+  const { controller, scheduler } = options;
+  const { robot } = controller;
+  const n = robot.arm.joints.length;
+  const alarm_rad = options.alarm_rad ?? ALARM_RAD;
+  const name = options.name ?? controller.name;
+  const notices = listeners<Refusal>();
   const real: RealController | null = "link" in controller ? controller : null;
-  let follower: PlanFollower | null = null, alarmed = false, override = 1;
+  let follower: PlanFollower | null = null;
+  let alarmed = false;
+  let override = 1;
   /** The same controller, which takes a text where steps are asked for. */
-  const handing: RobotController = real?.runText === undefined ? controller : {
-    ...controller,
-    isMoving: () => controller.isMoving(),
-    run: (steps, context) => steps instanceof TextOnItsWay ? steps.start() : controller.run(steps, context),
-  };
+  const handing: RobotController =
+    real?.runText === undefined
+      ? controller
+      : {
+          ...controller,
+          isMoving: () => controller.isMoving(),
+          run: (steps, context) => (steps instanceof TextOnItsWay ? steps.start() : controller.run(steps, context)),
+        };
   const guard = createGuard({
-    controller: handing, scheduler,
-    ...(options.flangeFromTcp ? { flangeFromTcp: options.flangeFromTcp } : {}), ...(options.isSafe ? { isSafe: options.isSafe } : {}),
-    ...(options.place ? { place: options.place } : {}), ...(options.watching === undefined ? {} : { watching: options.watching }),
-    ...(options.deadMan === undefined ? {} : { deadMan: options.deadMan }), ...(options.silence_s === undefined ? {} : { silence_s: options.silence_s }),
-    ...(options.heartbeat_s === undefined ? {} : { heartbeat_s: options.heartbeat_s }), ...(options.brakingTime_s === undefined ? {} : { brakingTime_s: options.brakingTime_s }),
+    controller: handing,
+    scheduler,
+    ...(options.flangeFromTcp ? { flangeFromTcp: options.flangeFromTcp } : {}),
+    ...(options.isSafe ? { isSafe: options.isSafe } : {}),
+    ...(options.place ? { place: options.place } : {}),
+    ...(options.watching === undefined ? {} : { watching: options.watching }),
+    ...(options.deadMan === undefined ? {} : { deadMan: options.deadMan }),
+    ...(options.silence_s === undefined ? {} : { silence_s: options.silence_s }),
+    ...(options.heartbeat_s === undefined ? {} : { heartbeat_s: options.heartbeat_s }),
+    ...(options.brakingTime_s === undefined ? {} : { brakingTime_s: options.brakingTime_s }),
   });
   const twin = createTwin({ real: controller, scheduler, name });
   const ahead = createAhead({ robot, name, scheduler, place: options.place ?? null });
@@ -113,13 +152,21 @@ export function createStation(options: StationOptions): Station {
     if (worst_rad > alarm_rad && !alarmed) notices.call(deviates(name, worst_rad, alarm_rad));
     alarmed = worst_rad > alarm_rad;
   });
-  const unlink = real?.onLink(({ state }) => { if (state === "lost") guard.linkLost(); });
-  const unnotice = guard.onNotice(why => { notices.call(why); });
+  const unlink = real?.onLink(({ state }) => {
+    if (state === "lost") guard.linkLost();
+  });
+  const unnotice = guard.onNotice(why => {
+    notices.call(why);
+  });
 
   /** Its text, where there is one and the controller takes texts. */
   const textOf = ({ files }: StationJob): readonly EmittedFile[] | null => (real?.runText && files ? files : null);
   /** Lets the robot do it, compared with its plan all the way. */
-  async function follow(seat: Seat, steps: Iterable<Step>, { program, plan, findings = [] }: StationJob): Promise<CommandOutcome> {
+  async function follow(
+    seat: Seat,
+    steps: Iterable<Step>,
+    { program, plan, findings = [] }: StationJob,
+  ): Promise<CommandOutcome> {
     const following = plan ? new PlanFollower(plan, n) : null;
     follower = following;
     if (options.place && plan && following) {
@@ -129,11 +176,14 @@ export function createStation(options: StationOptions): Station {
       };
     }
     const progress = { at_s: 0, rate: 1 };
-    const stopLooking = plan && following ? ahead.follow(plan, findings, () => {
-      progress.at_s = following.at_s;
-      progress.rate = override;
-      return progress;
-    }) : null;
+    const stopLooking =
+      plan && following
+        ? ahead.follow(plan, findings, () => {
+            progress.at_s = following.at_s;
+            progress.rate = override;
+            return progress;
+          })
+        : null;
     try {
       return await seat.robot.run(steps, program);
     } finally {
@@ -144,11 +194,18 @@ export function createStation(options: StationOptions): Station {
   }
 
   return {
-    name, controller, guard, twin, deviation, ahead,
+    name,
+    controller,
+    guard,
+    twin,
+    deviation,
+    ahead,
     link: real?.link ?? null,
     seat: who => guard.seat(who),
     connect: () => real?.connect() ?? Promise.resolve(DONE),
-    disconnect() { real?.disconnect(); },
+    disconnect() {
+      real?.disconnect();
+    },
     async carryOut(seat, job) {
       const files = textOf(job);
       return follow(seat, files ? new TextOnItsWay(() => real!.runText!(files)) : job.steps(), job);
@@ -156,7 +213,8 @@ export function createStation(options: StationOptions): Station {
     async arm(seat, job) {
       const why = seat.readiness();
       if (why) return { kind: "refused", why };
-      const files = textOf(job), handed = files ? await real?.handText?.(files) : undefined;
+      const files = textOf(job);
+      const handed = files ? await real?.handText?.(files) : undefined;
       if (handed?.kind === "refused") return handed;
       if (!handed) {
         // No step of it is carried out: it only says whether one would be.
@@ -165,7 +223,15 @@ export function createStation(options: StationOptions): Station {
       }
       const start = handed ? handed.start : files ? () => real!.runText!(files) : null;
       return {
-        kind: "armed", movesAtOnce: job.plan?.segments.some(({ kind, start_s, duration_s }) => kind === "motion" && start_s < SOON_S && duration_s > SOON_S) ?? false, readiness: () => seat.readiness(), drop() { handed?.drop(); },
+        kind: "armed",
+        movesAtOnce:
+          job.plan?.segments.some(
+            ({ kind, start_s, duration_s }) => kind === "motion" && start_s < SOON_S && duration_s > SOON_S,
+          ) ?? false,
+        readiness: () => seat.readiness(),
+        drop() {
+          handed?.drop();
+        },
         start: () => follow(seat, start ? new TextOnItsWay(start) : job.steps(), job),
       };
     },
@@ -186,7 +252,7 @@ export function createStation(options: StationOptions): Station {
   };
 }
 
-const orZero = (value: number): number => Number.isNaN(value) ? 0 : value;
+const orZero = (value: number): number => (Number.isNaN(value) ? 0 : value);
 function largest(a: ArrayLike<number>, b: ArrayLike<number>, n: number): number {
   let most = 0;
   for (let i = 0; i < n; i++) most = Math.max(most, Math.abs(a[i]! - b[i]!));

@@ -10,21 +10,61 @@ const PORTS = { line: LINE_PORT };
 
 /** CS7 and Adept MV as apps meet them: the monitor of V+ on a raw line. */
 export const staubliCs7: Brand = {
-  id: "staubli-cs7", name: "Stäubli CS7 (V+)", dialect: "v-plus", vendor: "Stäubli", ports: PORTS, cannot: CS7_CANNOT, drives: robot => vPlusJoints(robot) !== undefined,
-  data: [{ id: "baud", name: "Speed of the serial line", where: "In baud, as at the controller's terminal port and the adapter; 1000000 for AdeptNet.", count: 1, usual: [9600] }],
+  id: "staubli-cs7",
+  name: "Stäubli CS7 (V+)",
+  dialect: "v-plus",
+  vendor: "Stäubli",
+  ports: PORTS,
+  cannot: CS7_CANNOT,
+  drives: robot => vPlusJoints(robot) !== undefined,
+  data: [
+    {
+      id: "baud",
+      name: "Speed of the serial line",
+      where: "In baud, as at the controller's terminal port and the adapter; 1000000 for AdeptNet.",
+      count: 1,
+      usual: [9600],
+    },
+  ],
   face({ robot, scheduler, network, host, ports, data }) {
     const baud = data?.["baud"]?.[0];
-    return createCs7Face({ robot, scheduler, network, host, port: ports?.["line"] ?? LINE_PORT, ...(baud !== undefined && baud > 0 ? { baud } : {}) });
+    return createCs7Face({
+      robot,
+      scheduler,
+      network,
+      host,
+      port: ports?.["line"] ?? LINE_PORT,
+      ...(baud !== undefined && baud > 0 ? { baud } : {}),
+    });
   },
   async virtual({ robot, scheduler, network, host, ports, interpret, start_rad, maxSpeed }) {
-    const started = await createVirtualCs7({ robot, scheduler, network, host, interpret, port: ports?.["line"] ?? LINE_PORT, ...(start_rad ? { start_rad } : {}), ...(maxSpeed === undefined ? {} : { maxSpeed }) });
+    const started = await createVirtualCs7({
+      robot,
+      scheduler,
+      network,
+      host,
+      interpret,
+      port: ports?.["line"] ?? LINE_PORT,
+      ...(start_rad ? { start_rad } : {}),
+      ...(maxSpeed === undefined ? {} : { maxSpeed }),
+    });
     if (started.kind === "taken") return started;
-    const { virtual } = started, { arm } = virtual;
+    const { virtual } = started;
+    const { arm } = virtual;
     return {
       kind: "started",
       virtual: {
-        name: `Virtual ${robot.name}`, robot, ports: virtual.ports, brakingTime_s: arm.brakingTime_s,
-        jointAngles: out => arm.jointAngles(out), reboot() { virtual.reboot(); }, close() { virtual.close(); },
+        name: `Virtual ${robot.name}`,
+        robot,
+        ports: virtual.ports,
+        brakingTime_s: arm.brakingTime_s,
+        jointAngles: out => arm.jointAngles(out),
+        reboot() {
+          virtual.reboot();
+        },
+        close() {
+          virtual.close();
+        },
         pendant: cs7Pendant(virtual, scheduler),
       },
     };

@@ -4,9 +4,12 @@ import { createTwin } from "../twin/index.ts";
 import { twinAgrees } from "../testing/index.ts";
 import { bench, RX90L, shifted } from "./testing/bench.ts";
 
-const ACCURACY_RAD = 0.001 * Math.PI / 180, NOTHING = { tools: {}, frames: {} }, far = shifted(0.7);
-const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number => Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
-const codeOf = (outcome: CommandOutcome): string => outcome.kind === "done" ? "done" : outcome.why.code;
+const ACCURACY_RAD = (0.001 * Math.PI) / 180;
+const NOTHING = { tools: {}, frames: {} };
+const far = shifted(0.7);
+const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number =>
+  Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
+const codeOf = (outcome: CommandOutcome): string => (outcome.kind === "done" ? "done" : outcome.why.code);
 
 describe("the driver", () => {
   test("T-19 X-41 CS7: connected only while it is; a cut line is found again, what was left is stopped then, and nothing moves by itself", async () => {
@@ -29,7 +32,8 @@ describe("the driver", () => {
   });
 
   test("X-41 CS7: no watchdog: a pulled cable is noticed here, and the motion goes on to its end there", async () => {
-    const { scheduler, network, real, cs7, ended } = await bench(), moving = real.moveJoints(far);
+    const { scheduler, network, real, cs7, ended } = await bench();
+    const moving = real.moveJoints(far);
     await scheduler.elapse(0.2);
     network.weather.frozen = true;
     expect(codeOf(await ended(moving))).toMatch(/^link\./);
@@ -54,15 +58,22 @@ describe("the driver", () => {
   });
 
   test("T-20 T-27 CS7: an open gate takes high power; the state arrives in words; power alone brings no motion back", async () => {
-    const { scheduler, cs7, real, ended } = await bench(), moving = real.moveJoints(far);
+    const { scheduler, cs7, real, ended } = await bench();
+    const moving = real.moveJoints(far);
     await scheduler.elapse(0.2);
     cs7.pendant.setGuardOpen(true);
     expect(await ended(moving)).toMatchObject({ kind: "stopped", why: { code: "safety.power" } });
     let heard = "";
-    real.onSample(({ safety, message }) => { heard = `${safety}: ${message}`; });
+    real.onSample(({ safety, message }) => {
+      heard = `${safety}: ${message}`;
+    });
     real.reset();
     await scheduler.elapse(1);
-    expect([heard.startsWith("protective-stop: "), cs7.isPowered, codeOf(await real.moveToZero())]).toEqual([true, false, "safety.protective-stop"]);
+    expect([heard.startsWith("protective-stop: "), cs7.isPowered, codeOf(await real.moveToZero())]).toEqual([
+      true,
+      false,
+      "safety.protective-stop",
+    ]);
     cs7.pendant.setGuardOpen(false);
     const rest = cs7.arm.jointAngles();
     real.reset();
@@ -72,7 +83,8 @@ describe("the driver", () => {
   });
 
   test("T-26 CS7: by hand the twin follows and commands from here are refused", async () => {
-    const { scheduler, cs7, real, ended } = await bench(), twin = createTwin({ real, scheduler });
+    const { scheduler, cs7, real, ended } = await bench();
+    const twin = createTwin({ real, scheduler });
     cs7.pendant.setManual(true);
     await scheduler.elapse(0.2);
     expect(codeOf(await twin.moveToZero())).toBe("controller.manual-mode");
@@ -85,7 +97,8 @@ describe("the driver", () => {
   });
 
   test("T-46 T-47 CS7: a controller that does not answer holds nothing up here, and the stop still goes out; PANIC takes high power", async () => {
-    const { scheduler, cs7, real, ended } = await bench(), moving = real.moveJoints(far);
+    const { scheduler, cs7, real, ended } = await bench();
+    const moving = real.moveJoints(far);
     await scheduler.elapse(0.2);
     cs7.faults.silent = true;
     const from_s = scheduler.now_s();
@@ -99,7 +112,8 @@ describe("the driver", () => {
   });
 
   test("a boot is survived; the calibration is a person's, and a reset from here says so", async () => {
-    const { scheduler, cs7, real, ended } = await bench(), moving = real.moveJoints(far);
+    const { scheduler, cs7, real, ended } = await bench();
+    const moving = real.moveJoints(far);
     await scheduler.elapse(0.2);
     cs7.reboot();
     expect((await ended(moving)).kind).toBe("stopped");
@@ -109,7 +123,9 @@ describe("the driver", () => {
     await scheduler.elapse(2);
     expect([cs7.isPowered, codeOf(await real.moveToZero())]).toEqual([true, "safety.protective-stop"]);
     let heard = "";
-    real.onSample(({ message }) => { heard = message; });
+    real.onSample(({ message }) => {
+      heard = message;
+    });
     await scheduler.elapse(0.1);
     expect(heard).toContain("not calibrated");
     cs7.pendant.type("CALIBRATE");
@@ -118,32 +134,60 @@ describe("the driver", () => {
   });
 
   test("lines end where they should; arcs, other joint counts, unknown joints and wrong places are refused by name; outputs by their numbers", async () => {
-    const start = [0, -1.2, 2.2, 0, 0.8, 0], { cs7, real, ended } = await bench({ virtual: { start_rad: start } }), from = flangePose(RX90L.arm, start), [x, y, z] = from.position;
-    const at = (dy: number, dz: number): Target => ({ pose: { position: [x, y + dy, z + dz], quaternion: from.quaternion }, frame: "world", tool: "flange" });
+    const start = [0, -1.2, 2.2, 0, 0.8, 0];
+    const { cs7, real, ended } = await bench({ virtual: { start_rad: start } });
+    const from = flangePose(RX90L.arm, start);
+    const [x, y, z] = from.position;
+    const at = (dy: number, dz: number): Target => ({
+      pose: { position: [x, y + dy, z + dz], quaternion: from.quaternion },
+      frame: "world",
+      tool: "flange",
+    });
     const line: Step = { id: "line", type: "move", path: "lin", target: at(0.1, 0), speed: { mps: 0.2 }, blend_m: 0 };
-    expect(await ended(real.run([line, { id: "set", type: "set", signal: "out_7", to: true }], NOTHING))).toEqual({ kind: "done" });
+    expect(await ended(real.run([line, { id: "set", type: "set", signal: "out_7", to: true }], NOTHING))).toEqual({
+      kind: "done",
+    });
     expect(flangePose(RX90L.arm, real.jointAngles()).position[1]).toBeCloseTo(y + 0.1, 4);
     expect(cs7.arm.signals.read("out_7")).toBe(true);
     const arc: Step = { ...line, id: "arc", path: "circ", via: at(0.05, 0.05), target: at(0, 0) };
     expect(await real.run([arc], NOTHING)).toMatchObject({ kind: "refused", why: { code: "cs7.arc" } });
-    expect(await real.run([{ id: "set", type: "set", signal: "DO[1]", to: true }], NOTHING)).toMatchObject({ kind: "refused", why: { code: "cs7.line" } });
+    expect(await real.run([{ id: "set", type: "set", signal: "DO[1]", to: true }], NOTHING)).toMatchObject({
+      kind: "refused",
+      why: { code: "cs7.line" },
+    });
     const seven = await bench({ face: { robot: robotById("kuka_lbr_iiwa_14_r820")! } });
     expect(seven.real.link.sentence).toMatch(/6 joints; .* has 7/);
     const other = await bench({ face: { robot: robotById("staubli_rx160")! } });
     expect(other.real.link.sentence).toContain("How V+ counts the joints of Stäubli RX160");
-    const small: Robot = { ...RX90L, name: "Stäubli RX60", arm: { ...RX90L.arm, joints: RX90L.arm.joints.map(joint => ({ ...joint, limits: { ...joint.limits, lower_rad: -1, upper_rad: 1 } })) } };
+    const small: Robot = {
+      ...RX90L,
+      name: "Stäubli RX60",
+      arm: {
+        ...RX90L.arm,
+        joints: RX90L.arm.joints.map(joint => ({ ...joint, limits: { ...joint.limits, lower_rad: -1, upper_rad: 1 } })),
+      },
+    };
     const elsewhere = await bench({ face: { robot: small } });
-    expect(elsewhere.real.link.sentence).toBe("Joint 2 of the controller's robot stands at -90.0°, where a Stäubli RX60 cannot be.");
+    expect(elsewhere.real.link.sentence).toBe(
+      "Joint 2 of the controller's robot stands at -90.0°, where a Stäubli RX60 cannot be.",
+    );
   });
 
   test("connecting disturbs nothing: a program that somebody started at the controller goes on under the eyes of who watches", async () => {
-    const { scheduler, cs7, real, ended } = await bench(), { pendant } = cs7, there = [20, -80, 80, 0, 0, 0];
+    const { scheduler, cs7, real, ended } = await bench();
+    const { pendant } = cs7;
+    const there = [20, -80, 80, 0, 0, 0];
     real.disconnect();
     pendant.write("JOB.V2", `.PROGRAM job()\nMOVE #PPOINT(${there.join(",")})\n.END\n`);
     expect([pendant.type("LOAD job"), pendant.type("EXECUTE 1 job")]).toEqual(["", ""]);
     expect(await ended(real.connect())).toEqual({ kind: "done" });
     await scheduler.elapse(3);
-    expect(farthest(real.jointAngles(), there.map(value => value * Math.PI / 180))).toBeLessThanOrEqual(ACCURACY_RAD);
+    expect(
+      farthest(
+        real.jointAngles(),
+        there.map(value => (value * Math.PI) / 180),
+      ),
+    ).toBeLessThanOrEqual(ACCURACY_RAD);
   });
 
   test("X-41 a slow serial line, 0.3 s an answer: it stays open, says how late a break is noticed, motions come and end, the stop is typed at once", async () => {
@@ -151,7 +195,9 @@ describe("the driver", () => {
     cs7.faults.delay_s = 0.3;
     await scheduler.elapse(1);
     let states = 0;
-    real.onSample(() => { states++; });
+    real.onSample(() => {
+      states++;
+    });
     await scheduler.elapse(10);
     expect(states).toBeGreaterThan(20);
     expect(states).toBeLessThan(40);

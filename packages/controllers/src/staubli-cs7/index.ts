@@ -1,4 +1,10 @@
 export { staubliCs7 } from "./brand.ts";
 export { createCs7Face, type Cs7FaceOptions } from "./driver/index.ts";
 export { vPlusJoints, type VPlusJoints } from "./joints.ts";
-export { createVirtualCs7, type Cs7Pendant, type Cs7Started, type VirtualCs7, type VirtualCs7Options } from "./virtual/index.ts";
+export {
+  createVirtualCs7,
+  type Cs7Pendant,
+  type Cs7Started,
+  type VirtualCs7,
+  type VirtualCs7Options,
+} from "./virtual/index.ts";

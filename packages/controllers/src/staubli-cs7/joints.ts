@@ -2,7 +2,9 @@ import { degrees, radians, type Robot } from "@twincell/core";
 
 export const JOINTS = 6;
 /** How V+ counts the joints:  joint_deg = degrees(q) + offset_deg. */
-export interface VPlusJoints { readonly offsets_deg: readonly number[] }
+export interface VPlusJoints {
+  readonly offsets_deg: readonly number[];
+}
 const KNOWN: Readonly<Record<string, VPlusJoints>> = { staubli_rx90l: { offsets_deg: [0, 0, 0, 0, 0, 0] } };
 
 /** Undefined for a robot of which it is not known. */

@@ -2,7 +2,8 @@ import { seededRandom } from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { bench, HOST, RX90L, shifted, type Cs7Bench } from "./testing/bench.ts";
 
-const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number => Math.max(...Array.from(b, (q, i) => Math.abs(q - a[i]!)));
+const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number =>
+  Math.max(...Array.from(b, (q, i) => Math.abs(q - a[i]!)));
 const DEG = Math.PI / 180;
 
 /** A terminal: what comes back after a line was typed. */
@@ -11,12 +12,24 @@ async function terminal({ scheduler, network }: Cs7Bench) {
   await scheduler.elapse(0.01);
   const answer = await connected;
   if (answer.kind === "refused") throw new Error(answer.sentence);
-  let text = "", over = false;
-  answer.stream.onBytes(lent => { text += String.fromCharCode(...lent); });
-  answer.stream.onEnd(() => { over = true; });
-  const send = (bytes: Uint8Array): void => { answer.stream.send(bytes); };
+  let text = "";
+  let over = false;
+  answer.stream.onBytes(lent => {
+    text += String.fromCharCode(...lent);
+  });
+  answer.stream.onEnd(() => {
+    over = true;
+  });
+  const send = (bytes: Uint8Array): void => {
+    answer.stream.send(bytes);
+  };
   return {
-    over: () => over, close: () => { answer.stream.close(); }, send, heard: () => text,
+    over: () => over,
+    close: () => {
+      answer.stream.close();
+    },
+    send,
+    heard: () => text,
     async type(line: string, s = 0.02): Promise<string> {
       text = "";
       send(Uint8Array.from(`${line}\r`, sign => sign.charCodeAt(0)));
@@ -35,14 +48,18 @@ async function alone(more: Parameters<typeof bench>[0] = {}) {
 describe("the monitor", () => {
   test("commands are echoed, answered and prompted for, in capitals or not, whole or shortened; errors stand between asterisks", async () => {
     const { at } = await alone();
-    expect((await at.type("where")).replaceAll("-0.000", " 0.000")).toBe("where\r\n   X         Y         Z         y         p         r       Hand\r\n     0.000     0.000  1185.000     0.000     0.000     0.000     0.000\r\n   J1        J2        J3        J4        J5        J6     \r\n     0.000   -90.000    90.000     0.000     0.000     0.000\r\n.");
+    expect((await at.type("where")).replaceAll("-0.000", " 0.000")).toBe(
+      "where\r\n   X         Y         Z         y         p         r       Hand\r\n     0.000     0.000  1185.000     0.000     0.000     0.000     0.000\r\n   J1        J2        J3        J4        J5        J6     \r\n     0.000   -90.000    90.000     0.000     0.000     0.000\r\n.",
+    );
     expect(await at.type("")).toBe("\r\n.");
     expect(await at.type("en po")).toBe("en po\r\n.");
     expect(await at.type("speed 10.00")).toBe("speed 10.00\r\n.");
     expect(await at.type("SPEED 0")).toBe("SPEED 0\r\n*Illegal value*\r\n.");
     expect(await at.type("FLY")).toBe("FLY\r\n*Illegal monitor command*\r\n.");
     expect(await at.type("DO a.b = 12.5")).toBe("DO a.b = 12.5\r\n.");
-    expect(await at.type("LISTR a.b,STATE(1),STATE(2)")).toBe("LISTR a.b,STATE(1),STATE(2)\r\na.b = 12.5\r\nSTATE(1) = 7\r\nSTATE(2) = 2\r\n.");
+    expect(await at.type("LISTR a.b,STATE(1),STATE(2)")).toBe(
+      "LISTR a.b,STATE(1),STATE(2)\r\na.b = 12.5\r\nSTATE(1) = 7\r\nSTATE(2) = 2\r\n.",
+    );
     expect(await at.type("LISTR nothing")).toContain("*Undefined value*");
     expect(await at.type("EXECUTE 1 nothing")).toContain("*Undefined program or variable name*");
     expect(await at.type("SIGNAL 5,-6")).toBe("SIGNAL 5,-6\r\n.");
@@ -56,7 +73,12 @@ describe("the monitor", () => {
     expect(await at.type("DO MOVE #Q", 0.3)).toBe("DO MOVE #Q\r\n");
     await scheduler.elapse(5);
     expect(at.heard()).toBe("DO MOVE #Q\r\n.");
-    expect(farthest(cs7.arm.jointAngles(), [30, -80, 80, 0, 10, 0].map(value => value * DEG))).toBeLessThan(1e-9);
+    expect(
+      farthest(
+        cs7.arm.jointAngles(),
+        [30, -80, 80, 0, 10, 0].map(value => value * DEG),
+      ),
+    ).toBeLessThan(1e-9);
     await at.type("DO MOVE #PPOINT(-30,-80,80,0,10,0)", 0.04);
     await at.type("WHERE", 0.04);
     expect(at.heard()).toBe("");
@@ -68,7 +90,10 @@ describe("the monitor", () => {
 
   test("N-62 a V+ text is loaded from the disk and replayed in a task beside the monitor; ABORT stops it, PROCEED takes it up", async () => {
     const { scheduler, cs7, at } = await alone();
-    cs7.pendant.write("JOB.V2", ".PROGRAM other()\n.END\n.PROGRAM job()\nMOVE #PPOINT(20,-80,80,0,0,0)\nMOVE #PPOINT(-20,-90,90,0,0,0)\n.END\n");
+    cs7.pendant.write(
+      "JOB.V2",
+      ".PROGRAM other()\n.END\n.PROGRAM job()\nMOVE #PPOINT(20,-80,80,0,0,0)\nMOVE #PPOINT(-20,-90,90,0,0,0)\n.END\n",
+    );
     expect(await at.type("LOAD nothing")).toContain("*Nonexistent file*");
     expect(await at.type("LOAD job")).toBe("LOAD job\r\n.");
     expect(await at.type("DIR")).toContain(" .PROGRAM job");
@@ -80,7 +105,12 @@ describe("the monitor", () => {
     await scheduler.elapse(1);
     expect(cs7.arm.jointAngles()).toEqual(rest);
     expect(await at.type("PROCEED 1", 6)).toContain("Program completed\r\n.");
-    expect(farthest(cs7.arm.jointAngles(), [-20, -90, 90, 0, 0, 0].map(value => value * DEG))).toBeLessThan(1e-9);
+    expect(
+      farthest(
+        cs7.arm.jointAngles(),
+        [-20, -90, 90, 0, 0, 0].map(value => value * DEG),
+      ),
+    ).toBeLessThan(1e-9);
     cs7.pendant.write("BAD.V2", ".PROGRAM bad()\nJUMP HIGH\n.END\n");
     await at.type("LOAD bad");
     expect(await at.type("EXECUTE bad")).toContain("*Unexpected text* line 2");
@@ -105,8 +135,13 @@ describe("the monitor", () => {
     again.cs7.reboot();
     await again.scheduler.elapse(3);
     const booted = await terminal(again);
-    expect([fresh.over(), await booted.type("ENABLE POWER", 1)]).toEqual([true, "ENABLE POWER\r\nPress HIGH POWER button to enable power\r\n."]);
-    expect(await booted.type(`DO MOVE #PPOINT(${RX90L.home_rad.map(q => q / DEG).join(",")})`)).toContain("*Robot not calibrated*");
+    expect([fresh.over(), await booted.type("ENABLE POWER", 1)]).toEqual([
+      true,
+      "ENABLE POWER\r\nPress HIGH POWER button to enable power\r\n.",
+    ]);
+    expect(await booted.type(`DO MOVE #PPOINT(${RX90L.home_rad.map(q => q / DEG).join(",")})`)).toContain(
+      "*Robot not calibrated*",
+    );
     expect(await booted.type("CALIBRATE")).toBe("CALIBRATE\r\nAre you sure (Y/N)? ");
     expect(await booted.type("N")).toBe("N\r\n.");
     await booted.type("CALIBRATE");
@@ -115,10 +150,15 @@ describe("the monitor", () => {
   });
 
   test("any bytes: logged once for each connection, cut off, and the next one is served (200 connections)", async () => {
-    const made = await alone(), random = seededRandom(5);
+    const made = await alone();
+    const random = seededRandom(5);
     for (let i = 0; i < 200; i++) {
-      const before = made.log.length, one = await terminal(made);
-      for (let k = 0; k < 3 && !one.over(); k++) { one.send(Uint8Array.from({ length: 60 }, () => Math.floor(random() * 256))); await made.scheduler.elapse(0.01); }
+      const before = made.log.length;
+      const one = await terminal(made);
+      for (let k = 0; k < 3 && !one.over(); k++) {
+        one.send(Uint8Array.from({ length: 60 }, () => Math.floor(random() * 256)));
+        await made.scheduler.elapse(0.01);
+      }
       expect(made.log.length - before).toBeLessThanOrEqual(1);
       one.close();
     }

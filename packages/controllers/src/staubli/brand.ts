@@ -10,20 +10,45 @@ const PORTS = { motion: MOTION_PORT, feedback: FEEDBACK_PORT };
 
 /** CS8 and CS9 as apps meet them: simple_message with the open VAL 3 program ros_server. */
 export const staubli: Brand = {
-  id: "staubli", name: "Stäubli (VAL 3)", dialect: "val3", vendor: "Stäubli", ports: PORTS, cannot: STAUBLI_CANNOT, drives: speaksSimpleMessage,
-  face: ({ robot, scheduler, network, host, ports }) => createStaubliFace({ robot, scheduler, network, host, ports: { ...PORTS, ...ports } }),
+  id: "staubli",
+  name: "Stäubli (VAL 3)",
+  dialect: "val3",
+  vendor: "Stäubli",
+  ports: PORTS,
+  cannot: STAUBLI_CANNOT,
+  drives: speaksSimpleMessage,
+  face: ({ robot, scheduler, network, host, ports }) =>
+    createStaubliFace({ robot, scheduler, network, host, ports: { ...PORTS, ...ports } }),
   async virtual({ robot, scheduler, network, host, ports, interpret, start_rad, maxSpeed }) {
-    if (robot.arm.joints.length === JOINTS && !speaksSimpleMessage(robot)) return { kind: "taken", sentence: `${robot.name} counts its joints as V+ does: it stands on a CS7.` };
+    if (robot.arm.joints.length === JOINTS && !speaksSimpleMessage(robot))
+      return { kind: "taken", sentence: `${robot.name} counts its joints as V+ does: it stands on a CS7.` };
     const started = await createVirtualStaubli({
-      robot, scheduler, network, host, interpret, ports: { ...PORTS, ...ports }, ...(start_rad ? { start_rad } : {}), ...(maxSpeed === undefined ? {} : { maxSpeed }),
+      robot,
+      scheduler,
+      network,
+      host,
+      interpret,
+      ports: { ...PORTS, ...ports },
+      ...(start_rad ? { start_rad } : {}),
+      ...(maxSpeed === undefined ? {} : { maxSpeed }),
     });
     if (started.kind === "taken") return started;
     const { virtual } = started;
     return {
       kind: "started",
       virtual: {
-        name: `Virtual ${robot.name}`, robot, ports: virtual.ports, brakingTime_s: virtual.arm.brakingTime_s, pendant: staubliPendant(virtual, scheduler),
-        jointAngles: out => virtual.arm.jointAngles(out), reboot() { virtual.reboot(); }, close() { virtual.close(); },
+        name: `Virtual ${robot.name}`,
+        robot,
+        ports: virtual.ports,
+        brakingTime_s: virtual.arm.brakingTime_s,
+        pendant: staubliPendant(virtual, scheduler),
+        jointAngles: out => virtual.arm.jointAngles(out),
+        reboot() {
+          virtual.reboot();
+        },
+        close() {
+          virtual.close();
+        },
       },
     };
   },

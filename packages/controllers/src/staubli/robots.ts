@@ -6,4 +6,5 @@ export const JOINTS = 6;
 const OTHERWISE: ReadonlySet<string> = new Set(["staubli_rx90l"]);
 
 /** simple_message says the joint angles of a robot's URDF as they are. The RX90L of the library counts as V+ does and stands on a CS7. */
-export const speaksSimpleMessage = (robot: Robot): boolean => robot.arm.joints.length === JOINTS && !OTHERWISE.has(robot.id);
+export const speaksSimpleMessage = (robot: Robot): boolean =>
+  robot.arm.joints.length === JOINTS && !OTHERWISE.has(robot.id);

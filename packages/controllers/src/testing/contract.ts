@@ -1,5 +1,9 @@
 import {
-  flangePose, type CommandOutcome, type ManualScheduler, type Robot, type RobotController,
+  flangePose,
+  type CommandOutcome,
+  type ManualScheduler,
+  type Robot,
+  type RobotController,
 } from "@twincell/core";
 import { afterEach, describe, expect, test } from "vitest";
 import type { Cannot } from "../real/index.ts";
@@ -31,11 +35,12 @@ export interface Contract {
 }
 
 const FRAME_S = 1 / 90;
-const ACCURACY_RAD = 0.001 * Math.PI / 180;
+const ACCURACY_RAD = (0.001 * Math.PI) / 180;
 
 /** One suite for every controller: rows T-01 … T-18. */
 export function describeController(name: string, contract: Contract): void {
-  const { robot, answer_s = 0, resolution = { q_rad: 0, position_m: 5e-7, angle_rad: 2e-6 } } = contract, n = robot.arm.joints.length;
+  const { robot, answer_s = 0, resolution = { q_rad: 0, position_m: 5e-7, angle_rad: 2e-6 } } = contract;
+  const n = robot.arm.joints.length;
   const open: RobotController[] = [];
   const row = (title: string, body: () => Promise<void>): void => {
     const exception = contract.cannot?.find(entry => title.startsWith(`${entry.row} `));
@@ -44,7 +49,10 @@ export function describeController(name: string, contract: Contract): void {
   };
   /** Angles at the given part of each joint's range. */
   const at = (part: number): Float64Array =>
-    Float64Array.from(robot.arm.joints, ({ limits }) => limits.lower_rad + part * (limits.upper_rad - limits.lower_rad));
+    Float64Array.from(
+      robot.arm.joints,
+      ({ limits }) => limits.lower_rad + part * (limits.upper_rad - limits.lower_rad),
+    );
 
   async function bench(options: Partial<BenchOptions> = {}) {
     const scheduler = contract.scheduler();
@@ -53,8 +61,12 @@ export function describeController(name: string, contract: Contract): void {
     /** Lets a command run to its end and says how long that took. */
     const carryOut = async (command: Promise<CommandOutcome>): Promise<{ outcome: CommandOutcome; took_s: number }> => {
       const begun_s = scheduler.now_s();
-      let outcome: CommandOutcome | undefined, took_s = 0;
-      void command.then(value => { outcome = value; took_s = scheduler.now_s() - begun_s; });
+      let outcome: CommandOutcome | undefined;
+      let took_s = 0;
+      void command.then(value => {
+        outcome = value;
+        took_s = scheduler.now_s() - begun_s;
+      });
       for (let i = 0; i < 600 && !outcome; i++) await scheduler.elapse(0.1);
       if (!outcome) throw new Error("The command took more than a minute.");
       return { outcome, took_s };
@@ -63,18 +75,30 @@ export function describeController(name: string, contract: Contract): void {
   }
   const expectAngles = (controller: RobotController, wanted: ArrayLike<number>): void => {
     const is = controller.jointAngles();
-    for (let i = 0; i < n; i++) expect(Math.abs(is[i]! - wanted[i]!), `joint ${i + 1}`).toBeLessThanOrEqual(ACCURACY_RAD);
+    for (let i = 0; i < n; i++)
+      expect(Math.abs(is[i]! - wanted[i]!), `joint ${i + 1}`).toBeLessThanOrEqual(ACCURACY_RAD);
   };
 
   describe(name, () => {
-    afterEach(() => { for (const controller of open.splice(0)) controller.close(); });
+    afterEach(() => {
+      for (const controller of open.splice(0)) controller.close();
+    });
 
     row("T-01 one interface: every method answers on every controller", async () => {
       const { controller, carryOut } = await bench();
-      const step = { id: "a", type: "move", path: "ptp", target: { q: [...at(0.5)] }, speed: { ratio: 1 }, blend_m: 0 } as const;
+      const step = {
+        id: "a",
+        type: "move",
+        path: "ptp",
+        target: { q: [...at(0.5)] },
+        speed: { ratio: 1 },
+        blend_m: 0,
+      } as const;
       expect((await carryOut(controller.moveJoint(1, 0.1))).outcome).toEqual({ kind: "done" });
       expect((await carryOut(controller.moveJoints(at(0.5)))).outcome).toEqual({ kind: "done" });
-      expect((await carryOut(controller.moveToPose(flangePose(robot.arm, at(0.52))))).outcome).toEqual({ kind: "done" });
+      expect((await carryOut(controller.moveToPose(flangePose(robot.arm, at(0.52))))).outcome).toEqual({
+        kind: "done",
+      });
       expect((await carryOut(controller.moveToZero())).outcome).toEqual({ kind: "done" });
       expect((await carryOut(controller.run([step], { tools: {}, frames: {} }))).outcome).toEqual({ kind: "done" });
       expect(controller.setSpeed(50)).toEqual({ kind: "done" });
@@ -89,7 +113,8 @@ export function describeController(name: string, contract: Contract): void {
     row("T-02 the moving flag is up during a move and down after it", async () => {
       const { controller, scheduler, carryOut } = await bench();
       expect(controller.isMoving()).toBe(false);
-      const command = controller.moveJoints(at(0.6)), flags: boolean[] = [];
+      const command = controller.moveJoints(at(0.6));
+      const flags: boolean[] = [];
       await scheduler.elapse(0.05);
       expect(controller.isMoving()).toBe(true);
       const stop = onSpoiledSample(controller, sample => flags.push(sample.moving));
@@ -151,7 +176,8 @@ export function describeController(name: string, contract: Contract): void {
       const wanted = flangePose(robot.arm, at(0.6));
       expect((await carryOut(controller.moveToPose(wanted))).outcome).toEqual({ kind: "done" });
       const is = flangePose(robot.arm, controller.jointAngles());
-      for (let i = 0; i < 3; i++) expect(Math.abs(is.position[i]! - wanted.position[i]!)).toBeLessThan(resolution.position_m);
+      for (let i = 0; i < 3; i++)
+        expect(Math.abs(is.position[i]! - wanted.position[i]!)).toBeLessThan(resolution.position_m);
       const cosine = Math.abs(is.quaternion.reduce((sum, value, i) => sum + value * wanted.quaternion[i]!, 0));
       // The cosine of half the angle between them.
       expect(cosine).toBeGreaterThan(1 - resolution.angle_rad ** 2 / 8 - 5e-13);
@@ -166,7 +192,9 @@ export function describeController(name: string, contract: Contract): void {
     row("T-10 a stop leaves the drives on, an emergency stop takes them off until reset", async () => {
       const { controller, scheduler, carryOut } = await bench();
       const safety: string[] = [];
-      const stopListening = onSpoiledSample(controller, sample => { if (safety.at(-1) !== sample.safety) safety.push(sample.safety); });
+      const stopListening = onSpoiledSample(controller, sample => {
+        if (safety.at(-1) !== sample.safety) safety.push(sample.safety);
+      });
       const first = controller.moveJoints(at(0.9));
       await scheduler.elapse(0.2);
       controller.stop();
@@ -182,7 +210,12 @@ export function describeController(name: string, contract: Contract): void {
       await scheduler.elapse(0.05);
       expect(safety).toEqual(["normal", "emergency-stop"]);
       const rest = controller.jointAngles();
-      for (const command of [controller.moveJoints(at(0.5)), controller.moveJoint(1, 0), controller.moveToZero(), controller.moveToPose(flangePose(robot.arm, at(0.5)))]) {
+      for (const command of [
+        controller.moveJoints(at(0.5)),
+        controller.moveJoint(1, 0),
+        controller.moveToZero(),
+        controller.moveToPose(flangePose(robot.arm, at(0.5))),
+      ]) {
         const outcome = await command;
         expect(outcome.kind).toBe("refused");
         if (outcome.kind === "refused") expect(outcome.why.code).toBe("safety.emergency-stop");
@@ -199,7 +232,11 @@ export function describeController(name: string, contract: Contract): void {
 
     row("T-11 the set-up hook is called once, on load", async () => {
       let calls = 0;
-      const { controller, scheduler, carryOut } = await bench({ initialize: () => { calls++; } });
+      const { controller, scheduler, carryOut } = await bench({
+        initialize: () => {
+          calls++;
+        },
+      });
       expect(calls).toBe(1);
       await scheduler.elapse(0.1);
       await carryOut(controller.moveToZero());
@@ -208,7 +245,12 @@ export function describeController(name: string, contract: Contract): void {
 
     row("T-12 four public moves, one primitive", async () => {
       let calls = 0;
-      const { controller, carryOut } = await bench({ onMotion: () => { calls++; }, start_rad: at(0.55) });
+      const { controller, carryOut } = await bench({
+        onMotion: () => {
+          calls++;
+        },
+        start_rad: at(0.55),
+      });
       await carryOut(controller.moveToPose(flangePose(robot.arm, at(0.56))));
       expect(calls).toBe(1);
       await carryOut(controller.moveJoint(1, 0.2));
@@ -219,24 +261,45 @@ export function describeController(name: string, contract: Contract): void {
       expect(calls).toBe(4);
     });
 
-    const overManyCycles = async (controller: RobotController, scheduler: ManualScheduler, command: () => Promise<CommandOutcome>): Promise<void> => {
-      const before = controller.jointAngles(), largest = new Float64Array(n), last = Float64Array.from(before);
-      let samples = 0, cycle_s = 0, time_s = NaN, steady = true;
+    const overManyCycles = async (
+      controller: RobotController,
+      scheduler: ManualScheduler,
+      command: () => Promise<CommandOutcome>,
+    ): Promise<void> => {
+      const before = controller.jointAngles();
+      const largest = new Float64Array(n);
+      const last = Float64Array.from(before);
+      let samples = 0;
+      let cycle_s = 0;
+      let time_s = NaN;
+      let steady = true;
       const stop = onSpoiledSample(controller, sample => {
-        if (samples++ > 0) { cycle_s = Math.max(cycle_s, sample.time_s - time_s); steady &&= sample.time_s > time_s; }
+        if (samples++ > 0) {
+          cycle_s = Math.max(cycle_s, sample.time_s - time_s);
+          steady &&= sample.time_s > time_s;
+        }
         time_s = sample.time_s;
-        sample.q_rad.forEach((q, i) => { largest[i] = Math.max(largest[i]!, Math.abs(q - last[i]!)); last[i] = q; });
+        sample.q_rad.forEach((q, i) => {
+          largest[i] = Math.max(largest[i]!, Math.abs(q - last[i]!));
+          last[i] = q;
+        });
       });
       const pending = command();
       expectAngles(controller, before);
       let ended = false;
-      void pending.then(() => { ended = true; });
+      void pending.then(() => {
+        ended = true;
+      });
       for (let i = 0; i < 600 && !ended; i++) await scheduler.elapse(0.1);
       stop();
       expect(ended).toBe(true);
       expect(samples).toBeGreaterThan(20);
       expect(steady).toBe(true);
-      robot.arm.joints.forEach(({ limits }, i) => expect(largest[i], `joint ${i + 1}`).toBeLessThanOrEqual(limits.speed_rad_s * cycle_s * (1 + 1e-6) + 2 * resolution.q_rad));
+      robot.arm.joints.forEach(({ limits }, i) =>
+        expect(largest[i], `joint ${i + 1}`).toBeLessThanOrEqual(
+          limits.speed_rad_s * cycle_s * (1 + 1e-6) + 2 * resolution.q_rad,
+        ),
+      );
     };
     row("T-13 a joint move runs over many cycles, never faster than a joint may turn", async () => {
       const { controller, scheduler } = await bench({ start_rad: at(0.1) });
@@ -251,13 +314,18 @@ export function describeController(name: string, contract: Contract): void {
       const { controller, scheduler } = await bench();
       const before = controller.jointAngles();
       for (let i = 0; i < n; i++) {
-        const target = at(0.5), limit = robot.arm.joints[i]!.limits.upper_rad;
+        const target = at(0.5);
+        const limit = robot.arm.joints[i]!.limits.upper_rad;
         target[i] = limit + 0.1;
         for (const outcome of [await controller.moveJoints(target), await controller.moveJoint(i + 1, limit + 0.1)]) {
-          expect(outcome).toMatchObject({ kind: "refused", why: { code: "limits.joint", joint: i + 1, value: limit + 0.1, limit } });
+          expect(outcome).toMatchObject({
+            kind: "refused",
+            why: { code: "limits.joint", joint: i + 1, value: limit + 0.1, limit },
+          });
         }
       }
-      for (const wrong of [[], new Float64Array(n + 1), new Float64Array(n).fill(NaN)]) expect((await controller.moveJoints(wrong)).kind).toBe("refused");
+      for (const wrong of [[], new Float64Array(n + 1), new Float64Array(n).fill(NaN)])
+        expect((await controller.moveJoints(wrong)).kind).toBe("refused");
       await scheduler.elapse(0.2);
       expectAngles(controller, before);
     });
@@ -270,7 +338,8 @@ export function describeController(name: string, contract: Contract): void {
     });
 
     row("T-17 the greatest speed of a robot scales how long it takes", async () => {
-      const full = await bench({ maxSpeed: 1 }), quarter = await bench({ maxSpeed: 0.25 });
+      const full = await bench({ maxSpeed: 1 });
+      const quarter = await bench({ maxSpeed: 0.25 });
       const fast = await full.carryOut(full.controller.moveJoints(at(0.8)));
       const slow = await quarter.carryOut(quarter.controller.moveJoints(at(0.8)));
       expect(Math.abs(slow.took_s - 4 * fast.took_s)).toBeLessThanOrEqual(FRAME_S + 3 * answer_s);

@@ -17,27 +17,43 @@ export function describeNetwork(name: string, make: () => NetworkBench): void {
     const row = (title: string, body: (bench: NetworkBench) => Promise<void>): void => {
       test(title, async () => {
         const bench = make();
-        try { await body(bench); } finally { bench.close(); }
+        try {
+          await body(bench);
+        } finally {
+          bench.close();
+        }
       });
     };
     const connected = async ({ network, until }: NetworkBench): Promise<readonly [ByteStream, ByteStream]> => {
       let server: ByteStream | null = null;
-      const listening = await network.listen(ANY, stream => { server = stream; });
+      const listening = await network.listen(ANY, stream => {
+        server = stream;
+      });
       if (listening.kind === "taken") throw new Error(listening.sentence);
       let client: ByteStream | null = null;
-      void network.connect(listening.address).then(answer => { if (answer.kind === "connected") client = answer.stream; });
+      void network.connect(listening.address).then(answer => {
+        if (answer.kind === "connected") client = answer.stream;
+      });
       await until(() => server !== null && client !== null);
       return [client!, server!];
     };
     const collected = (stream: ByteStream): number[] => {
       const all: number[] = [];
-      stream.onBytes(lent => { all.push(...lent); });
+      stream.onBytes(lent => {
+        all.push(...lent);
+      });
       return all;
     };
 
     row("bytes arrive in order, both ways, and a sender may use its own again at once", async bench => {
-      const [client, server] = await connected(bench), there = collected(server), back = collected(client), buffer = new Uint8Array(3);
-      for (let i = 0; i < 100; i++) { buffer.fill(i); client.send(buffer); }
+      const [client, server] = await connected(bench);
+      const there = collected(server);
+      const back = collected(client);
+      const buffer = new Uint8Array(3);
+      for (let i = 0; i < 100; i++) {
+        buffer.fill(i);
+        client.send(buffer);
+      }
       server.send(bytes(9, 8, 7));
       await bench.until(() => there.length === 300 && back.length === 3);
       expect(there).toEqual(Array.from({ length: 300 }, (_, i) => Math.floor(i / 3)));
@@ -56,9 +72,15 @@ export function describeNetwork(name: string, make: () => NetworkBench): void {
     });
 
     row("an end is told to the other side once, after the last byte, and never to who closed", async bench => {
-      const [client, server] = await connected(bench), there = collected(server), ends: Ending[] = [];
-      server.onEnd(ending => { ends.push(ending); });
-      client.onEnd(ending => { ends.push({ ...ending, sentence: "told to who closed" }); });
+      const [client, server] = await connected(bench);
+      const there = collected(server);
+      const ends: Ending[] = [];
+      server.onEnd(ending => {
+        ends.push(ending);
+      });
+      client.onEnd(ending => {
+        ends.push({ ...ending, sentence: "told to who closed" });
+      });
       client.send(bytes(1, 2, 3));
       client.close();
       client.close();
@@ -73,27 +95,42 @@ export function describeNetwork(name: string, make: () => NetworkBench): void {
     });
 
     row("nobody listens: refused with the address in the sentence; listened on already: taken", async bench => {
-      const { network, until } = bench, listening = await network.listen(ANY, () => { /* Nobody comes. */ });
+      const { network, until } = bench;
+      const listening = await network.listen(ANY, () => {
+        /* Nobody comes. */
+      });
       if (listening.kind === "taken") throw new Error(listening.sentence);
-      expect(await network.listen(listening.address, () => { /* Nobody comes. */ })).toMatchObject({ kind: "taken" });
+      expect(
+        await network.listen(listening.address, () => {
+          /* Nobody comes. */
+        }),
+      ).toMatchObject({ kind: "taken" });
       listening.close();
       let answer: Awaited<ReturnType<Network["connect"]>> | null = null;
-      void network.connect(listening.address).then(is => { answer = is; });
+      void network.connect(listening.address).then(is => {
+        answer = is;
+      });
       await until(() => answer !== null);
       expect(answer).toMatchObject({ kind: "refused" });
       expect((answer as unknown as { sentence: string }).sentence).toContain(String(listening.address.port));
     });
 
     row("datagrams arrive whole, with who sent them; to nobody they are lost without a word", async bench => {
-      const one = await bench.network.bind(ANY), two = await bench.network.bind(ANY);
+      const one = await bench.network.bind(ANY);
+      const two = await bench.network.bind(ANY);
       if (one.kind === "taken" || two.kind === "taken") throw new Error("No port.");
       const got: { readonly data: number[]; readonly from: Address }[] = [];
-      two.socket.onDatagram((lent, from) => { got.push({ data: [...lent], from }); });
+      two.socket.onDatagram((lent, from) => {
+        got.push({ data: [...lent], from });
+      });
       one.socket.send(bytes(1, 2, 3), two.socket.address);
       one.socket.send(bytes(4), { host: "127.0.0.1", port: 9 });
       one.socket.send(bytes(5, 6), two.socket.address);
       await bench.until(() => got.length === 2);
-      expect(got).toEqual([{ data: [1, 2, 3], from: one.socket.address }, { data: [5, 6], from: one.socket.address }]);
+      expect(got).toEqual([
+        { data: [1, 2, 3], from: one.socket.address },
+        { data: [5, 6], from: one.socket.address },
+      ]);
       expect(await bench.network.bind(two.socket.address)).toMatchObject({ kind: "taken" });
       one.socket.close();
       one.socket.close();

@@ -10,19 +10,25 @@ export interface Driven {
   readonly arm: Pick<VirtualController, "jointAngles">;
   readonly ended: <T>(command: Promise<T>) => Promise<T>;
 }
-const ACCURACY_RAD = 0.001 * Math.PI / 180;
-const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number => Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
+const ACCURACY_RAD = (0.001 * Math.PI) / 180;
+const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number =>
+  Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
 
 /** Rows T-23, T-24 and T-25: commanded, measured and mirrored angles agree to 0.001°, and the robot is commanded before the twin moves. */
-export async function twinAgrees({ scheduler, real, arm, ended }: Driven, shifted: (by_rad: number) => readonly number[]): Promise<void> {
+export async function twinAgrees(
+  { scheduler, real, arm, ended }: Driven,
+  shifted: (by_rad: number) => readonly number[],
+): Promise<void> {
   const twin = createTwin({ real, scheduler });
   for (const by of [0.4, -0.3, 0.123456]) {
     expect(await ended(twin.moveJoints(shifted(by)))).toEqual({ kind: "done" });
-    for (const is of [arm.jointAngles(), real.jointAngles()]) expect(farthest(is, shifted(by))).toBeLessThanOrEqual(ACCURACY_RAD);
+    for (const is of [arm.jointAngles(), real.jointAngles()])
+      expect(farthest(is, shifted(by))).toBeLessThanOrEqual(ACCURACY_RAD);
   }
   expect(twin.accuracy.mirror_rad).toBeLessThanOrEqual(ACCURACY_RAD);
   expect(twin.accuracy.command_rad).toBeLessThanOrEqual(ACCURACY_RAD);
-  const command = twin.log.find(({ what }) => what === "command")!, pose = twin.log.find(({ what }) => what === "pose")!;
+  const command = twin.log.find(({ what }) => what === "command")!;
+  const pose = twin.log.find(({ what }) => what === "pose")!;
   expect(command.at_s).toBeLessThan(pose.at_s);
 }
 
@@ -33,7 +39,11 @@ export async function twinAgrees({ scheduler, real, arm, ended }: Driven, shifte
  * @param faults   of the controller: silent, it takes what comes and answers nothing.
  * @param far_rad  a target so far that the robot is still on its way after `after_s`.
  */
-export async function silenceHoldsNothingUp({ scheduler, real, arm, faults, ended }: Driven & { readonly faults: { silent: boolean } }, far_rad: readonly number[], after_s: number): Promise<void> {
+export async function silenceHoldsNothingUp(
+  { scheduler, real, arm, faults, ended }: Driven & { readonly faults: { silent: boolean } },
+  far_rad: readonly number[],
+  after_s: number,
+): Promise<void> {
   const moving = real.moveJoints(far_rad);
   await scheduler.elapse(after_s);
   faults.silent = true;

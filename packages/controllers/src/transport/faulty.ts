@@ -17,9 +17,20 @@ export interface LineFaults {
   /** States stand still while the controller goes on answering. */
   frozen: boolean;
 }
-export const noLineFaults = (): LineFaults => ({ refusing: false, silent: false, delay_s: 0, garbage: 0, split: false, dropAfter: Infinity, frozen: false });
+export const noLineFaults = (): LineFaults => ({
+  refusing: false,
+  silent: false,
+  delay_s: 0,
+  garbage: 0,
+  split: false,
+  dropAfter: Infinity,
+  frozen: false,
+});
 
-export interface FaultyLine { send(bytes: Uint8Array, out: (bytes: Uint8Array) => void): void; readonly random: Random }
+export interface FaultyLine {
+  send(bytes: Uint8Array, out: (bytes: Uint8Array) => void): void;
+  readonly random: Random;
+}
 
 /** Sends bytes as the faults have it. `bytes` may be used again at once. */
 export function faultyLine(faults: LineFaults, scheduler: Scheduler, seed: number): FaultyLine {
@@ -34,11 +45,21 @@ export function faultyLine(faults: LineFaults, scheduler: Scheduler, seed: numbe
         now[Math.floor(random() * now.length)] = Math.floor(random() * 256);
       }
       const say = (said: Uint8Array): void => {
-        if (!faults.split) { out(said); return; }
+        if (!faults.split) {
+          out(said);
+          return;
+        }
         for (let i = 0; i < said.length; i++) out(said.subarray(i, i + 1));
       };
-      if (!(faults.delay_s > 0)) { say(now); return; }
-      const kept = now.slice(), stop = scheduler.every(faults.delay_s, () => { stop(); say(kept); });
+      if (!(faults.delay_s > 0)) {
+        say(now);
+        return;
+      }
+      const kept = now.slice();
+      const stop = scheduler.every(faults.delay_s, () => {
+        stop();
+        say(kept);
+      });
     },
   };
 }

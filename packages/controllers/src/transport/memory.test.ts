@@ -4,9 +4,13 @@ import { describeNetwork } from "../testing/network.ts";
 import { memoryNetwork, type Address, type ByteStream } from "./index.ts";
 
 describeNetwork("memory network", () => {
-  const scheduler = manualScheduler(), network = memoryNetwork(scheduler);
+  const scheduler = manualScheduler();
+  const network = memoryNetwork(scheduler);
   return {
-    network, close: () => { network.close(); },
+    network,
+    close: () => {
+      network.close();
+    },
     async until(so) {
       for (let i = 0; i < 1000 && !so(); i++) await scheduler.elapse(0.001);
       if (!so()) throw new Error("It never came about.");
@@ -16,12 +20,23 @@ describeNetwork("memory network", () => {
 
 const SERVER: Address = { host: "127.0.0.2", port: 30_004 };
 async function line(seed = 1) {
-  const scheduler = manualScheduler(), network = memoryNetwork(scheduler, seed), accepted: ByteStream[] = [], connected: ByteStream[] = [];
-  await network.listen(SERVER, stream => { accepted.push(stream); });
-  void network.connect(SERVER).then(answer => { if (answer.kind === "connected") connected.push(answer.stream); });
+  const scheduler = manualScheduler();
+  const network = memoryNetwork(scheduler, seed);
+  const accepted: ByteStream[] = [];
+  const connected: ByteStream[] = [];
+  await network.listen(SERVER, stream => {
+    accepted.push(stream);
+  });
+  void network.connect(SERVER).then(answer => {
+    if (answer.kind === "connected") connected.push(answer.stream);
+  });
   await scheduler.elapse(0.01);
-  const got: number[] = [], chunks: number[] = [];
-  accepted[0]!.onBytes(lent => { got.push(...lent); chunks.push(lent.length); });
+  const got: number[] = [];
+  const chunks: number[] = [];
+  accepted[0]!.onBytes(lent => {
+    got.push(...lent);
+    chunks.push(lent.length);
+  });
   return { scheduler, network, client: connected[0]!, server: accepted[0]!, got, chunks };
 }
 
@@ -29,7 +44,10 @@ test("a delayed, jittery stream keeps its order", async () => {
   const { scheduler, network, client, got } = await line(7);
   network.weather.delay_s = 0.02;
   network.weather.jitter_s = 0.05;
-  for (let i = 0; i < 200; i++) { client.send(Uint8Array.of(i)); await scheduler.elapse(0.001); }
+  for (let i = 0; i < 200; i++) {
+    client.send(Uint8Array.of(i));
+    await scheduler.elapse(0.001);
+  }
   expect(got.length).toBeGreaterThan(0);
   expect(got.length).toBeLessThan(200);
   await scheduler.elapse(0.1);
@@ -37,13 +55,20 @@ test("a delayed, jittery stream keeps its order", async () => {
 });
 
 test("jittery datagrams overtake each other, get lost and come twice, as often as asked", async () => {
-  const scheduler = manualScheduler(), network = memoryNetwork(scheduler, 3);
-  const one = await network.bind({ host: "127.0.0.1", port: 0 }), two = await network.bind({ host: "127.0.0.1", port: 0 });
+  const scheduler = manualScheduler();
+  const network = memoryNetwork(scheduler, 3);
+  const one = await network.bind({ host: "127.0.0.1", port: 0 });
+  const two = await network.bind({ host: "127.0.0.1", port: 0 });
   if (one.kind === "taken" || two.kind === "taken") throw new Error("No port.");
   const got: number[] = [];
-  two.socket.onDatagram(lent => { got.push(lent[0]! | (lent[1]! << 8)); });
+  two.socket.onDatagram(lent => {
+    got.push(lent[0]! | (lent[1]! << 8));
+  });
   Object.assign(network.weather, { jitter_s: 0.02, loss: 0.1, duplicates: 0.1 });
-  for (let i = 0; i < 2000; i++) { one.socket.send(Uint8Array.of(i & 255, i >> 8), two.socket.address); await scheduler.elapse(0.001); }
+  for (let i = 0; i < 2000; i++) {
+    one.socket.send(Uint8Array.of(i & 255, i >> 8), two.socket.address);
+    await scheduler.elapse(0.001);
+  }
   await scheduler.elapse(1);
   const different = new Set(got).size;
   expect(different / 2000).toBeCloseTo(0.9, 1);
@@ -69,7 +94,9 @@ test("pieces of one byte arrive one by one; garbage changes bytes, never their n
 test("frozen: a stream delivers nothing and everything afterwards, a datagram is gone; nobody is told", async () => {
   const { scheduler, network, client, server, got } = await line();
   let ended = 0;
-  server.onEnd(() => { ended++; });
+  server.onEnd(() => {
+    ended++;
+  });
   network.weather.frozen = true;
   client.send(Uint8Array.of(1));
   await scheduler.elapse(10);
@@ -83,16 +110,25 @@ test("frozen: a stream delivers nothing and everything afterwards, a datagram is
 });
 
 test("a cut line is told to both sides; a half-open one to neither, and what is sent piles up", async () => {
-  const told = await line(), endings: string[] = [];
-  told.client.onEnd(({ sentence }) => { endings.push(sentence); });
-  told.server.onEnd(({ sentence }) => { endings.push(sentence); });
+  const told = await line();
+  const endings: string[] = [];
+  told.client.onEnd(({ sentence }) => {
+    endings.push(sentence);
+  });
+  told.server.onEnd(({ sentence }) => {
+    endings.push(sentence);
+  });
   told.network.cut();
   expect(endings).toEqual(["The connection broke.", "The connection broke."]);
 
   const silent = await line();
   let ended = 0;
-  silent.client.onEnd(() => { ended++; });
-  silent.server.onEnd(() => { ended++; });
+  silent.client.onEnd(() => {
+    ended++;
+  });
+  silent.server.onEnd(() => {
+    ended++;
+  });
   silent.network.cut(true);
   silent.client.send(new Uint8Array(100));
   await silent.scheduler.elapse(5);
@@ -105,7 +141,9 @@ test("while connections are refused nobody gets in", async () => {
   const { scheduler, network } = await line();
   network.weather.refusing = true;
   let kind = "";
-  void network.connect(SERVER).then(answer => { kind = answer.kind; });
+  void network.connect(SERVER).then(answer => {
+    kind = answer.kind;
+  });
   await scheduler.elapse(0.01);
   expect(kind).toBe("refused");
 });

@@ -1,8 +1,14 @@
 /** Where a controller listens. Several virtual ones live on one machine by address: 127.0.0.1, 127.0.0.2, … */
-export interface Address { readonly host: string; readonly port: number }
+export interface Address {
+  readonly host: string;
+  readonly port: number;
+}
 
 /** Why a connection ended: a sentence for a log, and whether the other side did it. */
-export interface Ending { readonly sentence: string; readonly byPeer: boolean }
+export interface Ending {
+  readonly sentence: string;
+  readonly byPeer: boolean;
+}
 
 /**
  * Bytes in order, both ways: a TCP connection, or a pipe in memory. Where one `send` ends says nothing about where a
@@ -30,9 +36,15 @@ export interface DatagramSocket {
   close(): void;
 }
 
-export type Connected = { readonly kind: "connected"; readonly stream: ByteStream } | { readonly kind: "refused"; readonly sentence: string };
-export type Listening = { readonly kind: "listening"; readonly address: Address; readonly close: () => void } | { readonly kind: "taken"; readonly sentence: string };
-export type Bound = { readonly kind: "bound"; readonly socket: DatagramSocket } | { readonly kind: "taken"; readonly sentence: string };
+export type Connected =
+  | { readonly kind: "connected"; readonly stream: ByteStream }
+  | { readonly kind: "refused"; readonly sentence: string };
+export type Listening =
+  | { readonly kind: "listening"; readonly address: Address; readonly close: () => void }
+  | { readonly kind: "taken"; readonly sentence: string };
+export type Bound =
+  | { readonly kind: "bound"; readonly socket: DatagramSocket }
+  | { readonly kind: "taken"; readonly sentence: string };
 
 /**
  * The network a driver or a virtual controller is given: the system's sockets in Node, memory in the page and in tests.

@@ -25,18 +25,29 @@ export interface Surroundings {
 const AGAIN_S = 0.2;
 /** Who has sent a datagram within this time counts as connected [s]. */
 const LATELY_S = 2;
-const TICK_S = 0.002, MOST_WAITING = 1 << 20, MOST_PEERS = 64;
+const TICK_S = 0.002;
+const MOST_WAITING = 1 << 20;
+const MOST_PEERS = 64;
 
-interface Parcel { due_s: number; readonly bytes: number; readonly deliver: () => void }
+interface Parcel {
+  due_s: number;
+  readonly bytes: number;
+  readonly deliver: () => void;
+}
 
 /**
  * Puts a network and a clock between a controller and the world, on which things go wrong by switch: whatever the brand, and
  * whatever the network is. A controller made on `network` and `scheduler` need not know of it.
  */
 export function surround(inner: Network, clock: Scheduler, seed = 1): Surroundings {
-  const trouble: Trouble = { delay_s: 0, loss: 0, hangs: false, unplugged: false }, random = seededRandom(seed);
-  const streams = new Map<ByteStream, string>(), heard = new Map<string, number>(), lines = new Set<Line>();
-  let hung_s = 0, since_s = 0, wasHung = false;
+  const trouble: Trouble = { delay_s: 0, loss: 0, hangs: false, unplugged: false };
+  const random = seededRandom(seed);
+  const streams = new Map<ByteStream, string>();
+  const heard = new Map<string, number>();
+  const lines = new Set<Line>();
+  let hung_s = 0;
+  let since_s = 0;
+  let wasHung = false;
   const still = (): boolean => trouble.hangs || trouble.unplugged;
 
   /** Parcels of one direction of one connection, in order. */
@@ -47,10 +58,20 @@ export function surround(inner: Network, clock: Scheduler, seed = 1): Surroundin
     post(bytes: Uint8Array, deliver: (bytes: Uint8Array) => void, lossy: boolean): boolean {
       if (lossy && (still() || random() < trouble.loss)) return true;
       const late_s = trouble.delay_s + (!lossy && trouble.loss > 0 && random() < trouble.loss ? AGAIN_S : 0);
-      if (this.parcels.length === 0 && late_s === 0 && !still()) { deliver(bytes); return true; }
-      const copy = bytes.slice(), last = this.parcels.at(-1);
+      if (this.parcels.length === 0 && late_s === 0 && !still()) {
+        deliver(bytes);
+        return true;
+      }
+      const copy = bytes.slice();
+      const last = this.parcels.at(-1);
       this.waiting += copy.length;
-      this.parcels.push({ due_s: Math.max(clock.now_s() + late_s, last?.due_s ?? 0), bytes: copy.length, deliver: () => { deliver(copy); } });
+      this.parcels.push({
+        due_s: Math.max(clock.now_s() + late_s, last?.due_s ?? 0),
+        bytes: copy.length,
+        deliver: () => {
+          deliver(copy);
+        },
+      });
       return this.waiting <= MOST_WAITING;
     }
     flush(now_s: number): void {
@@ -60,33 +81,76 @@ export function surround(inner: Network, clock: Scheduler, seed = 1): Surroundin
         parcel.deliver();
       }
     }
-    clear(): void { this.parcels.length = 0; this.waiting = 0; }
+    clear(): void {
+      this.parcels.length = 0;
+      this.waiting = 0;
+    }
   }
 
   const stop = clock.every(TICK_S, () => {
     if (trouble.hangs !== wasHung) {
       wasHung = trouble.hangs;
-      if (wasHung) since_s = clock.now_s(); else hung_s += clock.now_s() - since_s;
+      if (wasHung) since_s = clock.now_s();
+      else hung_s += clock.now_s() - since_s;
     }
     if (still()) return;
     for (const line of lines) if (line.waiting > 0) line.flush(clock.now_s());
   });
   const scheduler: Scheduler = {
     now_s: () => (wasHung ? since_s : clock.now_s()) - hung_s,
-    every: (period_s, tick) => clock.every(period_s, () => { if (!wasHung) tick(); }),
+    every: (period_s, tick) =>
+      clock.every(period_s, () => {
+        if (!wasHung) tick();
+      }),
   };
 
   function around(stream: ByteStream, where: string): ByteStream {
-    const out = new Line(), into = new Line();
-    const end = (): void => { lines.delete(out); lines.delete(into); streams.delete(mine); out.clear(); into.clear(); };
-    const tooMuch = (fits: boolean): void => { if (!fits) { end(); stream.close(); } };
+    const out = new Line();
+    const into = new Line();
+    const end = (): void => {
+      lines.delete(out);
+      lines.delete(into);
+      streams.delete(mine);
+      out.clear();
+      into.clear();
+    };
+    const tooMuch = (fits: boolean): void => {
+      if (!fits) {
+        end();
+        stream.close();
+      }
+    };
     const mine: ByteStream = {
       peer: stream.peer,
-      get waiting() { return stream.waiting + out.waiting; },
-      send(bytes) { tooMuch(out.post(bytes, late => { stream.send(late); }, false)); },
-      onBytes(listen) { stream.onBytes(lent => { tooMuch(into.post(lent, listen, false)); }); },
-      onEnd(listen) { stream.onEnd(ending => { end(); listen(ending); }); },
-      close() { end(); stream.close(); },
+      get waiting() {
+        return stream.waiting + out.waiting;
+      },
+      send(bytes) {
+        tooMuch(
+          out.post(
+            bytes,
+            late => {
+              stream.send(late);
+            },
+            false,
+          ),
+        );
+      },
+      onBytes(listen) {
+        stream.onBytes(lent => {
+          tooMuch(into.post(lent, listen, false));
+        });
+      },
+      onEnd(listen) {
+        stream.onEnd(ending => {
+          end();
+          listen(ending);
+        });
+      },
+      close() {
+        end();
+        stream.close();
+      },
     };
     lines.add(out);
     lines.add(into);
@@ -94,31 +158,56 @@ export function surround(inner: Network, clock: Scheduler, seed = 1): Surroundin
     return mine;
   }
   function aroundSocket(socket: DatagramSocket): DatagramSocket {
-    const out = new Line(), into = new Line();
+    const out = new Line();
+    const into = new Line();
     lines.add(out);
     lines.add(into);
     return {
       address: socket.address,
-      send(bytes, to) { out.post(bytes, late => { socket.send(late, to); }, true); },
+      send(bytes, to) {
+        out.post(
+          bytes,
+          late => {
+            socket.send(late, to);
+          },
+          true,
+        );
+      },
       onDatagram(listen) {
         socket.onDatagram((lent, from: Address) => {
           const who = `${addressText(from)} at ${socket.address.port}`;
           if (!still() && (heard.has(who) || heard.size < MOST_PEERS)) heard.set(who, clock.now_s());
-          into.post(lent, late => { listen(late, from); }, true);
+          into.post(
+            lent,
+            late => {
+              listen(late, from);
+            },
+            true,
+          );
         });
       },
-      close() { lines.delete(out); lines.delete(into); socket.close(); },
+      close() {
+        lines.delete(out);
+        lines.delete(into);
+        socket.close();
+      },
     };
   }
 
   return {
-    trouble, scheduler,
+    trouble,
+    scheduler,
     network: {
       connect: async to => {
         const connected = await inner.connect(to);
-        return connected.kind === "refused" ? connected : { kind: "connected", stream: around(connected.stream, addressText(to)) };
+        return connected.kind === "refused"
+          ? connected
+          : { kind: "connected", stream: around(connected.stream, addressText(to)) };
       },
-      listen: (at, accept) => inner.listen(at, stream => { accept(around(stream, String(at.port))); }),
+      listen: (at, accept) =>
+        inner.listen(at, stream => {
+          accept(around(stream, String(at.port)));
+        }),
       bind: async at => {
         const bound = await inner.bind(at);
         return bound.kind === "taken" ? bound : { kind: "bound", socket: aroundSocket(bound.socket) };
@@ -129,6 +218,12 @@ export function surround(inner: Network, clock: Scheduler, seed = 1): Surroundin
       for (const [who, at_s] of heard) if (now_s - at_s > LATELY_S) heard.delete(who);
       return [...streams.values(), ...heard.keys()];
     },
-    close() { stop(); for (const line of lines) line.clear(); lines.clear(); streams.clear(); heard.clear(); },
+    close() {
+      stop();
+      for (const line of lines) line.clear();
+      lines.clear();
+      streams.clear();
+      heard.clear();
+    },
   };
 }

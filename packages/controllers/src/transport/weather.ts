@@ -24,4 +24,15 @@ export interface Weather {
   refusing: boolean;
 }
 
-export const calm = (): Weather => ({ delay_s: 0, jitter_s: 0, loss: 0, duplicates: 0, garbage: 0, absurd: 0, pieces: 0, frozen: false, deaf: null, refusing: false });
+export const calm = (): Weather => ({
+  delay_s: 0,
+  jitter_s: 0,
+  loss: 0,
+  duplicates: 0,
+  garbage: 0,
+  absurd: 0,
+  pieces: 0,
+  frozen: false,
+  deaf: null,
+  refusing: false,
+});

@@ -1,7 +1,10 @@
 import { samplePlan, type Plan } from "@twincell/core";
 
 /** How far ahead and back along the plan the robot is looked for, in steps of this long [s]. */
-const STEP_S = 0.05, BACK = 2, AHEAD = 8, HALVINGS = 5;
+const STEP_S = 0.05;
+const BACK = 2;
+const AHEAD = 8;
+const HALVINGS = 5;
 
 /** Largest differences of any joint [rad]; NaN where one of both is not known. */
 export interface Deviation {
@@ -27,20 +30,30 @@ export class PlanFollower {
   }
 
   /** The plan's time at which it passes nearest to where the robot last was. */
-  get at_s(): number { return this.t_s; }
+  get at_s(): number {
+    return this.t_s;
+  }
 
   /** min over t near the last of max over joints of |q(t) − measured| [rad]. */
   take(measured_rad: ArrayLike<number>): number {
-    let best = Infinity, best_s = this.t_s;
+    let best = Infinity;
+    let best_s = this.t_s;
     for (let k = -BACK; k <= AHEAD; k++) {
-      const t_s = Math.min(this.plan.duration_s, Math.max(0, this.t_s + k * STEP_S)), far = this.far(t_s, measured_rad);
-      if (far < best) { best = far; best_s = t_s; }
+      const t_s = Math.min(this.plan.duration_s, Math.max(0, this.t_s + k * STEP_S));
+      const far = this.far(t_s, measured_rad);
+      if (far < best) {
+        best = far;
+        best_s = t_s;
+      }
     }
     for (let width = STEP_S / 2, i = 0; i < HALVINGS; i++, width /= 2) {
       for (const t_s of [best_s - width, best_s + width]) {
         if (t_s < 0 || t_s > this.plan.duration_s) continue;
         const far = this.far(t_s, measured_rad);
-        if (far < best) { best = far; best_s = t_s; }
+        if (far < best) {
+          best = far;
+          best_s = t_s;
+        }
       }
     }
     this.t_s = best_s;

@@ -8,10 +8,15 @@ export const PREVIEW_S = 60;
 /** Findings that keep a program from being sent; the others are told. */
 const BLOCKS = /^(collision\.|limits\.joint$|reach\.)/;
 /** How far ahead a person may look [s]. */
-export const LEAST_AHEAD_S = 0.5, MOST_AHEAD_S = 10;
+export const LEAST_AHEAD_S = 0.5;
+export const MOST_AHEAD_S = 10;
 
 /** What stands in the way ahead, and when it is reached as fast as the robot goes now. */
-export interface Foreseen { readonly code: string; readonly sentence: string; readonly in_s: number }
+export interface Foreseen {
+  readonly code: string;
+  readonly sentence: string;
+  readonly in_s: number;
+}
 
 export interface LookAheadOptions {
   readonly name: string;
@@ -46,7 +51,8 @@ export class LookAhead {
 
   /** Where the robot will be in so many seconds; returns how many seconds of the way there are left, if that is less. */
   ghost(at_s: number, rate: number, in_s: number, out: Float64Array): number {
-    const { plan } = this.#options, left_s = rate > 0 ? (plan.duration_s - at_s) / rate : Infinity;
+    const { plan } = this.#options;
+    const left_s = rate > 0 ? (plan.duration_s - at_s) / rate : Infinity;
     samplePlan(plan, Math.min(plan.duration_s, at_s + in_s * rate), out);
     return Math.min(in_s, left_s);
   }
@@ -61,9 +67,14 @@ export class LookAhead {
   look(at_s: number, rate: number, horizon_s: number, looks: number): void {
     const { plan } = this.#options;
     for (let i = 0; i < looks; i++) {
-      const in_s = this.#next_s, t_s = at_s + in_s * rate;
+      const in_s = this.#next_s;
+      const t_s = at_s + in_s * rate;
       // Nobody is met by one who is held; others that come near are their own guards' matter.
-      if (in_s > horizon_s || t_s > plan.duration_s || rate <= 0) { this.#next_s = 0; this.#robot = null; break; }
+      if (in_s > horizon_s || t_s > plan.duration_s || rate <= 0) {
+        this.#next_s = 0;
+        this.#robot = null;
+        break;
+      }
       this.#next_s += STEP_S;
       const met = this.#meets(t_s, in_s, false);
       if (!met) continue;
@@ -76,8 +87,10 @@ export class LookAhead {
 
   /** The first thing in the way from the start on, at full override: what keeps it from being sent, and what is only told. */
   preview(): { readonly blocked: Foreseen | null; readonly told: Foreseen | null } {
-    const { plan, findings } = this.#options, end_s = Math.min(PREVIEW_S, plan.duration_s);
-    let standing: Foreseen | null = null, met: Foreseen | null = null;
+    const { plan, findings } = this.#options;
+    const end_s = Math.min(PREVIEW_S, plan.duration_s);
+    let standing: Foreseen | null = null;
+    let met: Foreseen | null = null;
     // Who begins too near to a robot may go away from it: its guard sees to it that it comes no nearer.
     let from_s = 0;
     while (from_s <= end_s && this.#meets(from_s, 0, true)) from_s += STEP_S;
@@ -87,7 +100,10 @@ export class LookAhead {
       met ??= standing ?? this.#meets(t_s, t_s, false);
     }
     const bad = findings.find(({ code, at_s }) => BLOCKS.test(code) && at_s <= end_s);
-    return { blocked: earlier(bad ? { code: bad.code, sentence: bad.sentence, in_s: bad.at_s } : null, standing), told: earlier(this.#found(0, 1, end_s), met) };
+    return {
+      blocked: earlier(bad ? { code: bad.code, sentence: bad.sentence, in_s: bad.at_s } : null, standing),
+      told: earlier(this.#found(0, 1, end_s), met),
+    };
   }
 
   #found(at_s: number, rate: number, horizon_s: number): Foreseen | null {
@@ -107,18 +123,26 @@ export class LookAhead {
     for (const other of place.others) {
       if (standing && other.moving) continue;
       let its = this.#others.get(other.id);
-      if (!its) this.#others.set(other.id, its = new Float64Array(other.joints));
+      if (!its) this.#others.set(other.id, (its = new Float64Array(other.joints)));
       other.expected(in_s, its);
       const distance_m = other.distance(this.#q, its, other.kept_m + other.error_m);
-      if (distance_m < Infinity) return { code: "ahead.robot", in_s, sentence: `${name} comes within ${Math.round(1000 * Math.max(0, distance_m - other.error_m))} mm of ${other.name}; ${Math.round(1000 * other.kept_m)} mm are kept.` };
+      if (distance_m < Infinity)
+        return {
+          code: "ahead.robot",
+          in_s,
+          sentence: `${name} comes within ${Math.round(1000 * Math.max(0, distance_m - other.error_m))} mm of ${other.name}; ${Math.round(1000 * other.kept_m)} mm are kept.`,
+        };
     }
     return null;
   }
 }
 
-const earlier = (a: Foreseen | null, b: Foreseen | null): Foreseen | null => (!a ? b : !b ? a : b.in_s < a.in_s ? b : a);
+const earlier = (a: Foreseen | null, b: Foreseen | null): Foreseen | null =>
+  !a ? b : !b ? a : b.in_s < a.in_s ? b : a;
 
 /** Why a way is not begun. */
 export const wayBlocked = ({ code, sentence, in_s }: Foreseen): Refusal => ({
-  code, sentence: `After ${in_s.toFixed(1)} s: ${sentence}`, hint: "It was not sent. Clear the way, or change the program.",
+  code,
+  sentence: `After ${in_s.toFixed(1)} s: ${sentence}`,
+  hint: "It was not sent. Clear the way, or change the program.",
 });

@@ -6,15 +6,18 @@ import { createTwin, type Mirror } from "./twin.ts";
 
 const robot = robotById("staubli_rx90l")!;
 const near = (by: number): number[] => robot.home_rad.map(q => q + by);
-const ACCURACY_RAD = 0.001 * Math.PI / 180;
+const ACCURACY_RAD = (0.001 * Math.PI) / 180;
 
 describeController("twin of a virtual RX90L", {
-  robot, scheduler: manualScheduler, make: options => createTwin({ real: createVirtualController(options), scheduler: options.scheduler }),
+  robot,
+  scheduler: manualScheduler,
+  make: options => createTwin({ real: createVirtualController(options), scheduler: options.scheduler }),
 });
 
 describe("twin", () => {
   function bench(mirror?: Mirror) {
-    const scheduler = manualScheduler(), real = createVirtualController({ robot, scheduler });
+    const scheduler = manualScheduler();
+    const real = createVirtualController({ robot, scheduler });
     return { scheduler, real, twin: createTwin({ real, scheduler, ...(mirror ? { mirror } : {}) }) };
   }
 
@@ -33,7 +36,16 @@ describe("twin", () => {
 
   test("T-23 a mirror that shows something else is found out", async () => {
     const q_rad = new Float64Array(6);
-    const crooked: Mirror = { show: lent => { q_rad.set(lent.q_rad); q_rad[3]! += 2 * ACCURACY_RAD; }, read: out => { out.set(q_rad); return out; } };
+    const crooked: Mirror = {
+      show: lent => {
+        q_rad.set(lent.q_rad);
+        q_rad[3]! += 2 * ACCURACY_RAD;
+      },
+      read: out => {
+        out.set(q_rad);
+        return out;
+      },
+    };
     const { scheduler, twin } = bench(crooked);
     await scheduler.elapse(0.1);
     expect(twin.accuracy.mirror_rad).toBeCloseTo(2 * ACCURACY_RAD, 9);
@@ -42,7 +54,9 @@ describe("twin", () => {
   test("T-24 what moves the real robot moves the twin, sample by sample", async () => {
     const { scheduler, real, twin } = bench();
     const pairs: [number[], number[]][] = [];
-    onSpoiledSample(twin, lent => { pairs.push([[...lent.q_rad], [...real.jointAngles()]]); });
+    onSpoiledSample(twin, lent => {
+      pairs.push([[...lent.q_rad], [...real.jointAngles()]]);
+    });
     void real.moveJoints(near(0.5));
     await scheduler.elapse(2);
     expect(pairs.length).toBe(500);
@@ -53,7 +67,8 @@ describe("twin", () => {
   test("T-25 the real robot is commanded before the twin's pose changes", async () => {
     const { scheduler, twin } = bench();
     await scheduler.elapse(0.01);
-    const before = twin.jointAngles(), command = twin.moveJoints(near(0.3));
+    const before = twin.jointAngles();
+    const command = twin.moveJoints(near(0.3));
     expect(twin.jointAngles()).toEqual(before);
     await scheduler.elapse(3);
     await command;
@@ -70,7 +85,13 @@ describe("twin", () => {
     await scheduler.elapse(0.01);
     twin.clearLog();
     const jog = real.atTheRobot.jog(near(0.2));
-    for (const command of [twin.moveToZero(), twin.moveJoints(near(0)), twin.moveJoint(1, 0), twin.run([], { tools: {}, frames: {} }), twin.moveToPose({ position: [0.5, 0, 0.5], quaternion: [0, 0, 0, 1] })]) {
+    for (const command of [
+      twin.moveToZero(),
+      twin.moveJoints(near(0)),
+      twin.moveJoint(1, 0),
+      twin.run([], { tools: {}, frames: {} }),
+      twin.moveToPose({ position: [0.5, 0, 0.5], quaternion: [0, 0, 0, 1] }),
+    ]) {
       expect(await command).toMatchObject({ kind: "refused", why: { code: "controller.manual-mode" } });
     }
     expect(twin.setSpeed(10).kind).toBe("refused");
@@ -88,7 +109,9 @@ describe("twin", () => {
   test("T-27 a sensor in the stand stops both at equal joints; anyone may still stop while it lasts", async () => {
     const { scheduler, real, twin } = bench();
     const seen: JointSample["safety"][] = [];
-    onSpoiledSample(twin, lent => { if (seen.at(-1) !== lent.safety) seen.push(lent.safety); });
+    onSpoiledSample(twin, lent => {
+      if (seen.at(-1) !== lent.safety) seen.push(lent.safety);
+    });
     const command = twin.moveJoints(near(0.8));
     await scheduler.elapse(0.3);
     real.atTheRobot.setGuardOpen(true);

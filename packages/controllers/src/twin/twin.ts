@@ -49,10 +49,20 @@ const LOG_LENGTH = 200;
  * the robot, commands from here are refused with the reason (rows T-26, T-27).
  */
 export function createTwin(options: TwinOptions): Twin {
-  const { real, scheduler } = options, { robot } = real, n = robot.arm.joints.length;
-  const mirror = options.mirror ?? memoryMirror(real), samples = listeners<JointSample>(), log: TwinLogEntry[] = [];
-  const shown_rad = mirror.read(new Float64Array(n)), before_rad = new Float64Array(n);
-  let mirror_rad = 0, command_rad = 0, awaiting = "", mode: JointSample["mode"] | null = null, safety: JointSample["safety"] = "normal", message = "";
+  const { real, scheduler } = options;
+  const { robot } = real;
+  const n = robot.arm.joints.length;
+  const mirror = options.mirror ?? memoryMirror(real);
+  const samples = listeners<JointSample>();
+  const log: TwinLogEntry[] = [];
+  const shown_rad = mirror.read(new Float64Array(n));
+  const before_rad = new Float64Array(n);
+  let mirror_rad = 0;
+  let command_rad = 0;
+  let awaiting = "";
+  let mode: JointSample["mode"] | null = null;
+  let safety: JointSample["safety"] = "normal";
+  let message = "";
 
   const note = (what: TwinLogEntry["what"], says: string): void => {
     log.push({ what, at_s: scheduler.now_s(), says });
@@ -60,7 +70,16 @@ export function createTwin(options: TwinOptions): Twin {
   };
 
   const lent: { -readonly [K in keyof JointSample]: JointSample[K] } = {
-    sequence: 0, time_s: 0, q_rad: shown_rad, moving: false, mode: "automatic", safety: "normal", override: 1, gripperClosed: false, step: "", message: "",
+    sequence: 0,
+    time_s: 0,
+    q_rad: shown_rad,
+    moving: false,
+    mode: "automatic",
+    safety: "normal",
+    override: 1,
+    gripperClosed: false,
+    step: "",
+    message: "",
   };
   const unsubscribe = real.onSample(sample => {
     ({ mode, safety, message } = sample);
@@ -85,46 +104,94 @@ export function createTwin(options: TwinOptions): Twin {
   }
 
   /** Real first: the mirror is not touched here. */
-  async function command(says: string, send: () => Promise<CommandOutcome>, targets: (measured_rad: Float64Array) => Float64Array | null): Promise<CommandOutcome> {
+  async function command(
+    says: string,
+    send: () => Promise<CommandOutcome>,
+    targets: (measured_rad: Float64Array) => Float64Array | null,
+  ): Promise<CommandOutcome> {
     const why = held();
     if (why) return { kind: "refused", why };
     note("command", says);
     awaiting = says;
     const outcome = await send();
     if (outcome.kind === "done") {
-      const measured_rad = real.jointAngles(), wanted_rad = targets(measured_rad);
+      const measured_rad = real.jointAngles();
+      const wanted_rad = targets(measured_rad);
       if (wanted_rad) command_rad = Math.max(command_rad, largest(measured_rad, wanted_rad));
     }
     return outcome;
   }
 
   return {
-    kind: "twin", name: options.name ?? `Twin of ${real.name}`, robot, log,
+    kind: "twin",
+    name: options.name ?? `Twin of ${real.name}`,
+    robot,
+    log,
     ...(real.signals === undefined ? {} : { signals: real.signals }),
-    get accuracy() { return { mirror_rad, command_rad }; },
-    clearLog() { log.length = 0; mirror_rad = 0; command_rad = 0; awaiting = ""; },
+    get accuracy() {
+      return { mirror_rad, command_rad };
+    },
+    clearLog() {
+      log.length = 0;
+      mirror_rad = 0;
+      command_rad = 0;
+      awaiting = "";
+    },
     onSample: listen => samples.add(listen),
-    close() { unsubscribe(); samples.clear(); },
+    close() {
+      unsubscribe();
+      samples.clear();
+    },
     isMoving: () => real.isMoving(),
     setSpeed(percent) {
       const why = mode === "manual" ? manualMode(robot) : null;
       return why ? { kind: "refused", why } : real.setSpeed(percent);
     },
     jointAngle: joint => shown_rad[joint - 1] ?? NaN,
-    jointAngles(out = new Float64Array(n)) { out.set(shown_rad); return out; },
-    moveJoint: (joint, angle_rad) => command(`move joint ${joint}`, () => real.moveJoint(joint, angle_rad), measured_rad => {
-      const wanted_rad = Float64Array.from(measured_rad);
-      wanted_rad[joint - 1] = angle_rad;
-      return wanted_rad;
-    }),
+    jointAngles(out = new Float64Array(n)) {
+      out.set(shown_rad);
+      return out;
+    },
+    moveJoint: (joint, angle_rad) =>
+      command(
+        `move joint ${joint}`,
+        () => real.moveJoint(joint, angle_rad),
+        measured_rad => {
+          const wanted_rad = Float64Array.from(measured_rad);
+          wanted_rad[joint - 1] = angle_rad;
+          return wanted_rad;
+        },
+      ),
     moveJoints(q_rad) {
       const wanted_rad = Float64Array.from(q_rad);
-      return command("move joints", () => real.moveJoints(wanted_rad), () => wanted_rad);
+      return command(
+        "move joints",
+        () => real.moveJoints(wanted_rad),
+        () => wanted_rad,
+      );
     },
-    moveToPose: baseFromFlange => command("move to pose", () => real.moveToPose(baseFromFlange), () => null),
-    moveToZero: () => command("move to zero", () => real.moveToZero(), () => new Float64Array(n)),
-    run: (steps, context) => command("run", () => real.run(steps, context), () => null),
-    stop(emergency = false) { note("command", emergency ? "emergency stop" : "stop"); real.stop(emergency); },
+    moveToPose: baseFromFlange =>
+      command(
+        "move to pose",
+        () => real.moveToPose(baseFromFlange),
+        () => null,
+      ),
+    moveToZero: () =>
+      command(
+        "move to zero",
+        () => real.moveToZero(),
+        () => new Float64Array(n),
+      ),
+    run: (steps, context) =>
+      command(
+        "run",
+        () => real.run(steps, context),
+        () => null,
+      ),
+    stop(emergency = false) {
+      note("command", emergency ? "emergency stop" : "stop");
+      real.stop(emergency);
+    },
     reset: () => real.reset(),
   };
 }
@@ -138,7 +205,12 @@ const largest = (a_rad: ArrayLike<number>, b_rad: ArrayLike<number>): number => 
 function memoryMirror(real: RobotController): Mirror {
   const q_rad = real.jointAngles();
   return {
-    show(sample) { q_rad.set(sample.q_rad); },
-    read(out) { out.set(q_rad); return out; },
+    show(sample) {
+      q_rad.set(sample.q_rad);
+    },
+    read(out) {
+      out.set(q_rad);
+      return out;
+    },
   };
 }

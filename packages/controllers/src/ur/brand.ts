@@ -5,7 +5,12 @@ import { createUrFace } from "./driver/index.ts";
 import { createVirtualUr } from "./virtual/index.ts";
 
 export const universalRobots: Brand = {
-  id: "ur", name: "Universal Robots", dialect: "urscript", ports: { ...UR_PORTS }, vendor: "Universal Robots", cannot: UR_CANNOT,
+  id: "ur",
+  name: "Universal Robots",
+  dialect: "urscript",
+  ports: { ...UR_PORTS },
+  vendor: "Universal Robots",
+  cannot: UR_CANNOT,
   face: createUrFace,
   virtual: createVirtualUr,
 };

@@ -1,9 +1,40 @@
 import {
-  explainReach, hardBrakingTime_s, SignalTable, solveAll, Stepper, type StepperState, type CommandOutcome, type JointSample, type OperatingMode, type Pose, type Program, type Reach, type Refusal, type Robot,
-  type RobotController, type SafetyState, type Scheduler, type Signals, type Step,
+  explainReach,
+  hardBrakingTime_s,
+  SignalTable,
+  solveAll,
+  Stepper,
+  type StepperState,
+  type CommandOutcome,
+  type JointSample,
+  type OperatingMode,
+  type Pose,
+  type Program,
+  type Reach,
+  type Refusal,
+  type Robot,
+  type RobotController,
+  type SafetyState,
+  type Scheduler,
+  type Signals,
+  type Step,
 } from "@twincell/core";
 import { listeners } from "../listeners.ts";
-import { busy, closed, drivesOff, guardOpen, guardStillOpen, jointNumberRefusal, jointRefusal, manualMode, percentRefusal, programFault, protective, stillBraking, stopped } from "../refusals.ts";
+import {
+  busy,
+  closed,
+  drivesOff,
+  guardOpen,
+  guardStillOpen,
+  jointNumberRefusal,
+  jointRefusal,
+  manualMode,
+  percentRefusal,
+  programFault,
+  protective,
+  stillBraking,
+  stopped,
+} from "../refusals.ts";
 import { DONE, refused } from "../outcomes.ts";
 
 export interface VirtualOptions {
@@ -51,7 +82,14 @@ export interface VirtualController extends RobotController {
   readonly brakingTime_s: number;
 }
 
-interface Command { readonly stepper: Stepper; readonly resolve: (outcome: CommandOutcome) => void; stopping: Refusal | null; begun: boolean; moving: boolean; step: string }
+interface Command {
+  readonly stepper: Stepper;
+  readonly resolve: (outcome: CommandOutcome) => void;
+  stopping: Refusal | null;
+  begun: boolean;
+  moving: boolean;
+  step: string;
+}
 type Lent = { -readonly [K in keyof JointSample]: JointSample[K] };
 
 /** A page in the background gets few ticks: at most this much time is caught up in one. */
@@ -60,19 +98,41 @@ const CATCH_UP_S = 1;
 /** A robot made of numbers, with a controller's habits: modes, override, limits, stops, samples in its own cycle. */
 export function createVirtualController(options: VirtualOptions): VirtualController {
   const { robot, scheduler } = options;
-  const cycle_s = options.cycle_s ?? 0.004, maxSpeed = options.maxSpeed ?? 1;
-  const solve: Solve | null = options.solve === undefined ? (pose, near) => solveAll(robot, pose, { near }) : options.solve;
-  const name = options.name ?? `Virtual ${robot.name}`, n = robot.arm.joints.length;
+  const cycle_s = options.cycle_s ?? 0.004;
+  const maxSpeed = options.maxSpeed ?? 1;
+  const solve: Solve | null =
+    options.solve === undefined ? (pose, near) => solveAll(robot, pose, { near }) : options.solve;
+  const name = options.name ?? `Virtual ${robot.name}`;
+  const n = robot.arm.joints.length;
   // The slowest joint from full speed to rest, and the cycles in which the command comes through.
   const brakingTime_s = hardBrakingTime_s(robot) + 2 * cycle_s;
   const q_rad = Float64Array.from(options.start_rad ?? robot.home_rad);
-  const samples = listeners<JointSample>(), signals = new SignalTable();
+  const samples = listeners<JointSample>();
+  const signals = new SignalTable();
   const lent: Lent = {
-    sequence: 0, time_s: 0, q_rad: new Float64Array(n), moving: false, mode: options.mode ?? "automatic", safety: "normal",
-    override: 1, gripperClosed: false, step: "", message: "", signals: signals.all,
+    sequence: 0,
+    time_s: 0,
+    q_rad: new Float64Array(n),
+    moving: false,
+    mode: options.mode ?? "automatic",
+    safety: "normal",
+    override: 1,
+    gripperClosed: false,
+    step: "",
+    message: "",
+    signals: signals.all,
   };
-  let mode: OperatingMode = lent.mode, safety: SafetyState = "normal", override = 1, gripperClosed = false, message = "";
-  let guardIsOpen = false, why: Refusal | null = null, command: Command | null = null, cycles = 0, skipped = 0, isClosed = false;
+  let mode: OperatingMode = lent.mode;
+  let safety: SafetyState = "normal";
+  let override = 1;
+  let gripperClosed = false;
+  let message = "";
+  let guardIsOpen = false;
+  let why: Refusal | null = null;
+  let command: Command | null = null;
+  let cycles = 0;
+  let skipped = 0;
+  let isClosed = false;
   const begun_s = scheduler.now_s();
 
   const isMoving = (): boolean => command !== null && (command.begun ? command.moving : override > 0);
@@ -108,9 +168,16 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
     cycles++;
     const outcome = command && move(command);
     if (outcome) finish(outcome);
-    lent.sequence = cycles; lent.time_s = (cycles + skipped) * cycle_s; lent.q_rad.set(q_rad); lent.moving = isMoving();
-    lent.mode = mode; lent.safety = safety; lent.override = override; lent.gripperClosed = gripperClosed;
-    lent.message = message; lent.step = command?.step ?? "";
+    lent.sequence = cycles;
+    lent.time_s = (cycles + skipped) * cycle_s;
+    lent.q_rad.set(q_rad);
+    lent.moving = isMoving();
+    lent.mode = mode;
+    lent.safety = safety;
+    lent.override = override;
+    lent.gripperClosed = gripperClosed;
+    lent.message = message;
+    lent.step = command?.step ?? "";
     samples.call(lent);
   }
 
@@ -125,7 +192,8 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
 
   const unfit = (): Refusal | null =>
     isClosed ? closed(name) : safety !== "normal" ? why : command ? busy(robot) : null;
-  const notNow = (): Refusal | null => (!isClosed && safety === "normal" && mode === "manual" ? manualMode(robot) : unfit());
+  const notNow = (): Refusal | null =>
+    !isClosed && safety === "normal" && mode === "manual" ? manualMode(robot) : unfit();
 
   function refuse(reason: Refusal): CommandOutcome {
     message = reason.sentence;
@@ -137,28 +205,51 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
     message = "";
     const plan = options.worldFromBase ? { ...context, worldFromBase: options.worldFromBase } : context;
     const stepper = new Stepper(robot, plan, steps, q_rad, { gripperClosed, signals });
-    return new Promise(resolve => { command = { stepper, resolve, stopping: null, begun: false, moving: false, step: "" }; });
+    return new Promise(resolve => {
+      command = { stepper, resolve, stopping: null, begun: false, moving: false, step: "" };
+    });
   }
 
   /** The one motion primitive (rows T-12, T-13): joint targets, checked, then carried out over many cycles. */
-  async function moveRobotJoints(target_rad: ArrayLike<number>, fit: () => Refusal | null = notNow, ratio = 1): Promise<CommandOutcome> {
+  async function moveRobotJoints(
+    target_rad: ArrayLike<number>,
+    fit: () => Refusal | null = notNow,
+    ratio = 1,
+  ): Promise<CommandOutcome> {
     const reason = fit() ?? jointRefusal(robot, target_rad);
     if (reason) return refuse(reason);
     options.onMotion?.(target_rad);
-    const step: Step = { id: "", type: "move", path: "ptp", target: { q: Array.from(target_rad) }, speed: { ratio }, blend_m: 0 };
+    const step: Step = {
+      id: "",
+      type: "move",
+      path: "ptp",
+      target: { q: Array.from(target_rad) },
+      speed: { ratio },
+      blend_m: 0,
+    };
     return start([step][Symbol.iterator](), { tools: {}, frames: {} });
   }
 
   function brake(state: SafetyState, reason: Refusal): void {
-    if (state !== "normal") { safety = state; why = reason; }
+    if (state !== "normal") {
+      safety = state;
+      why = reason;
+    }
     message = reason.sentence;
-    if (command && !command.stopping) { command.stopping = reason; command.stepper.stop(true); }
+    if (command && !command.stopping) {
+      command.stopping = reason;
+      command.stepper.stop(true);
+    }
     // Held where it stands there is nothing to brake, now or when the override comes back.
     if (command && command.begun && !command.moving && override === 0) finish({ kind: "stopped", why: reason });
   }
 
   return {
-    kind: "virtual", name, robot, brakingTime_s, signals,
+    kind: "virtual",
+    name,
+    robot,
+    brakingTime_s,
+    signals,
     onSample: listen => samples.add(listen),
     close() {
       if (isClosed) return;
@@ -175,7 +266,10 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
       return DONE;
     },
     jointAngle: joint => q_rad[joint - 1] ?? NaN,
-    jointAngles(out = new Float64Array(n)) { out.set(q_rad); return out; },
+    jointAngles(out = new Float64Array(n)) {
+      out.set(q_rad);
+      return out;
+    },
     async moveJoint(joint, angle_rad) {
       const reason = jointNumberRefusal(robot, joint);
       if (reason) return refuse(reason);
@@ -187,10 +281,20 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
     moveToZero: () => moveRobotJoints(new Float64Array(n)),
     async moveToPose(baseFromFlange) {
       if (!solve) {
-        return refuse({ code: "controller.no-solver", sentence: `${name} has no solver for poses.`, hint: "Attach one, or command joint angles." });
+        return refuse({
+          code: "controller.no-solver",
+          sentence: `${name} has no solver for poses.`,
+          hint: "Attach one, or command joint angles.",
+        });
       }
-      const reach = solve(baseFromFlange, q_rad), nearest = reach.kind === "reached" ? reach.solutions[0] : undefined;
-      if (!nearest) return refuse({ code: `reach.${reach.kind}`, sentence: explainReach(reach), hint: "Choose a pose within reach." });
+      const reach = solve(baseFromFlange, q_rad);
+      const nearest = reach.kind === "reached" ? reach.solutions[0] : undefined;
+      if (!nearest)
+        return refuse({
+          code: `reach.${reach.kind}`,
+          sentence: explainReach(reach),
+          hint: "Choose a pose within reach.",
+        });
       return moveRobotJoints(nearest.q_rad);
     },
     async run(steps, context) {
@@ -205,7 +309,9 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
       if (isClosed) return refused(closed(name));
       if (command) return refuse(stillBraking(robot));
       if (guardIsOpen) return refuse(guardStillOpen(robot));
-      safety = "normal"; why = null; message = "";
+      safety = "normal";
+      why = null;
+      message = "";
       return DONE;
     },
     jumpTo(target_rad) {
@@ -220,9 +326,19 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
         mode = to;
         brake("normal", stopped("controller.mode-changed", `${robot.name} was switched to ${to} mode.`));
       },
-      jog: (target_rad, ratio = 1) => moveRobotJoints(target_rad, () => mode === "manual" ? unfit() : {
-        code: "controller.not-manual", sentence: `${robot.name} is in ${mode} mode; its pendant jogs in manual mode only.`, hint: "Turn the mode switch to manual.",
-      }, ratio),
+      jog: (target_rad, ratio = 1) =>
+        moveRobotJoints(
+          target_rad,
+          () =>
+            mode === "manual"
+              ? unfit()
+              : {
+                  code: "controller.not-manual",
+                  sentence: `${robot.name} is in ${mode} mode; its pendant jogs in manual mode only.`,
+                  hint: "Turn the mode switch to manual.",
+                },
+          ratio,
+        ),
       setOverride(percent) {
         const reason = percentRefusal(percent);
         if (reason) return refuse(reason);
@@ -232,10 +348,18 @@ export function createVirtualController(options: VirtualOptions): VirtualControl
       setGuardOpen(open) {
         guardIsOpen = open;
         if (open && safety === "normal") brake("guard-stop", guardOpen(robot));
-        if (!open && safety === "guard-stop") { safety = "normal"; why = null; message = ""; }
+        if (!open && safety === "guard-stop") {
+          safety = "normal";
+          why = null;
+          message = "";
+        }
       },
-      setInput(signal, value) { signals.write(signal, value); },
-      protectiveStop(because) { if (safety !== "emergency-stop") brake("protective-stop", protective(because)); },
+      setInput(signal, value) {
+        signals.write(signal, value);
+      },
+      protectiveStop(because) {
+        if (safety !== "emergency-stop") brake("protective-stop", protective(because));
+      },
     },
   };
 }

@@ -11,6 +11,8 @@ export function jogKeys(jog: Pendant["jog"], stop: () => void): Pick<Pendant, "j
       jogging = false;
       return outcome;
     },
-    stopJog() { if (jogging) stop(); },
+    stopJog() {
+      if (jogging) stop();
+    },
   };
 }

@@ -11,27 +11,67 @@ export interface NeutralPendantOptions {
 }
 
 /** The pendant of a neutral virtual robot. A brand spreads it under what its own cabinet does otherwise. */
-export function neutralPendant(neutral: VirtualController, { keys, labels = { servo: "Drives", reset: "Reset" }, inputs = [], outputs = [] }: NeutralPendantOptions): Pendant {
-  let key = keys[0]?.id ?? "", mode: OperatingMode = keys[0]?.mode ?? "automatic", safety: SafetyState = "normal", override = 1, message = "", pressed = false;
-  neutral.onSample(sample => { mode = sample.mode; safety = sample.safety; override = sample.override; message = sample.message; });
-  const positionOf = (of: OperatingMode): KeyPosition | undefined => keys.find(each => each.mode === of) ?? keys.find(each => each.mode !== "manual");
-  const turn = (to: KeyPosition | undefined): void => { if (to) { key = to.id; mode = to.mode; neutral.atTheRobot.setMode(to.mode); } };
-  const { jog, stopJog } = jogKeys((q_rad, ratio) => neutral.atTheRobot.jog(q_rad, ratio), () => { neutral.stop(); });
+export function neutralPendant(
+  neutral: VirtualController,
+  { keys, labels = { servo: "Drives", reset: "Reset" }, inputs = [], outputs = [] }: NeutralPendantOptions,
+): Pendant {
+  let key = keys[0]?.id ?? "";
+  let mode: OperatingMode = keys[0]?.mode ?? "automatic";
+  let safety: SafetyState = "normal";
+  let override = 1;
+  let message = "";
+  let pressed = false;
+  neutral.onSample(sample => {
+    mode = sample.mode;
+    safety = sample.safety;
+    override = sample.override;
+    message = sample.message;
+  });
+  const positionOf = (of: OperatingMode): KeyPosition | undefined =>
+    keys.find(each => each.mode === of) ?? keys.find(each => each.mode !== "manual");
+  const turn = (to: KeyPosition | undefined): void => {
+    if (to) {
+      key = to.id;
+      mode = to.mode;
+      neutral.atTheRobot.setMode(to.mode);
+    }
+  };
+  const { jog, stopJog } = jogKeys(
+    (q_rad, ratio) => neutral.atTheRobot.jog(q_rad, ratio),
+    () => {
+      neutral.stop();
+    },
+  );
   return {
-    keys, labels,
+    keys,
+    labels,
     lines: { inputs, outputs, read: signal => neutral.signals.read(signal) === true },
     get shown(): PendantShown {
       const at = keys.find(({ id }) => id === key);
       return {
-        key: at?.mode === mode ? key : positionOf(mode)?.id ?? key, servo: safety === "emergency-stop" ? "off" : "on", safety, override, program: "", running: mode !== "manual" && neutral.isMoving(),
+        key: at?.mode === mode ? key : (positionOf(mode)?.id ?? key),
+        servo: safety === "emergency-stop" ? "off" : "on",
+        safety,
+        override,
+        program: "",
+        running: mode !== "manual" && neutral.isMoving(),
         alarms: safety === "normal" || message === "" ? [] : [message],
       };
     },
-    turnKey(position) { turn(keys.find(({ id }) => id === position)); },
-    setMode(to) { turn(positionOf(to)); },
-    setEnabling(held) { if (!held) stopJog(); },
+    turnKey(position) {
+      turn(keys.find(({ id }) => id === position));
+    },
+    setMode(to) {
+      turn(positionOf(to));
+    },
+    setEnabling(held) {
+      if (!held) stopJog();
+    },
     setServo(on) {
-      if (!on) { neutral.stop(true); return null; }
+      if (!on) {
+        neutral.stop(true);
+        return null;
+      }
       if (pressed) return "The red button is pressed.";
       const outcome = neutral.reset();
       return outcome.kind === "done" ? null : outcome.why.sentence;
@@ -45,10 +85,20 @@ export function neutralPendant(neutral: VirtualController, { keys, labels = { se
       const outcome = neutral.reset();
       return outcome.kind === "done" ? null : outcome.why.sentence;
     },
-    jog, stopJog,
-    emergencyStop(is) { pressed = is; if (is) neutral.stop(true); },
-    setGuardOpen(open) { neutral.atTheRobot.setGuardOpen(open); },
-    protectiveStop(because) { neutral.atTheRobot.protectiveStop(because); },
-    setInput(signal, value) { neutral.atTheRobot.setInput(signal, value); },
+    jog,
+    stopJog,
+    emergencyStop(is) {
+      pressed = is;
+      if (is) neutral.stop(true);
+    },
+    setGuardOpen(open) {
+      neutral.atTheRobot.setGuardOpen(open);
+    },
+    protectiveStop(because) {
+      neutral.atTheRobot.protectiveStop(because);
+    },
+    setInput(signal, value) {
+      neutral.atTheRobot.setInput(signal, value);
+    },
   };
 }

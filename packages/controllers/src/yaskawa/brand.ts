@@ -11,25 +11,49 @@ const REBOOT_S = 2;
 
 /** Controllers with the high-speed Ethernet server: FS100, DX200, YRC1000. */
 export const yaskawa: Brand = {
-  id: "yaskawa", name: "Yaskawa", dialect: "inform", vendor: "Yaskawa", ports: PORTS, cannot: YASKAWA_CANNOT,
-  data: [{ id: "pulses_per_degree", name: "Pulses per degree", where: "In the controller's parameter file ALL.PRM, group RC; S axis first." }],
-  terminal: ({ kind, address }) => kind === "digital-in" ? `IN#(${address})` : kind === "digital-out" ? `OT#(${address})` : undefined,
+  id: "yaskawa",
+  name: "Yaskawa",
+  dialect: "inform",
+  vendor: "Yaskawa",
+  ports: PORTS,
+  cannot: YASKAWA_CANNOT,
+  data: [
+    {
+      id: "pulses_per_degree",
+      name: "Pulses per degree",
+      where: "In the controller's parameter file ALL.PRM, group RC; S axis first.",
+    },
+  ],
+  terminal: ({ kind, address }) =>
+    kind === "digital-in" ? `IN#(${address})` : kind === "digital-out" ? `OT#(${address})` : undefined,
   face: ({ ports, data, ...options }) => {
     const pulsesPerDegree = data?.["pulses_per_degree"];
-    return yaskawaFace({ ...options, ports: { ...PORTS, ...ports }, ...(pulsesPerDegree ? { scale: { pulsesPerDegree, source: "said by a person" } } : {}) });
+    return yaskawaFace({
+      ...options,
+      ports: { ...PORTS, ...ports },
+      ...(pulsesPerDegree ? { scale: { pulsesPerDegree, source: "said by a person" } } : {}),
+    });
   },
   async virtual({ ports, ...options }) {
     const started = await createVirtualYaskawa({ ...options, ports: { ...PORTS, ...ports } });
     if (started.kind === "taken") return started;
-    const { controller } = started, { neutral, robot } = controller;
+    const { controller } = started;
+    const { neutral, robot } = controller;
     return {
       kind: "started",
       virtual: {
-        name: `Virtual Yaskawa ${robot.name.replace(/^Yaskawa /, "")}`, robot, ports: controller.ports, brakingTime_s: controller.brakingTime_s,
+        name: `Virtual Yaskawa ${robot.name.replace(/^Yaskawa /, "")}`,
+        robot,
+        ports: controller.ports,
+        brakingTime_s: controller.brakingTime_s,
         pendant: yaskawaPendant(controller),
         jointAngles: out => neutral.jointAngles(out),
-        reboot() { controller.reboot(REBOOT_S); },
-        close() { controller.close(); },
+        reboot() {
+          controller.reboot(REBOOT_S);
+        },
+        close() {
+          controller.close();
+        },
       },
     };
   },

@@ -8,19 +8,41 @@ import { yaskawaFace } from "./driver/index.ts";
 import { createVirtualYaskawa } from "./virtual/index.ts";
 
 const half_rad = resolution_rad(EXAMPLE_SCALE);
-const HOST = "127.0.0.1", gp8 = robotById("yaskawa_gp8")!;
+const HOST = "127.0.0.1";
+const gp8 = robotById("yaskawa_gp8")!;
 
 describeController("Yaskawa driver on its virtual controller", {
-  robot: gp8, scheduler: manualScheduler,
+  robot: gp8,
+  scheduler: manualScheduler,
   cannot: YASKAWA_CANNOT,
   // Half a pulse of every axis at once, over a reach of 0.9 m and the hand.
-  resolution: { q_rad: Math.max(...half_rad), position_m: half_rad.slice(0, 3).reduce((sum, value) => sum + 0.9 * value, 0) + half_rad.slice(3).reduce((sum, value) => sum + 0.08 * value, 0), angle_rad: half_rad.reduce((sum, value) => sum + value, 0) },
+  resolution: {
+    q_rad: Math.max(...half_rad),
+    position_m:
+      half_rad.slice(0, 3).reduce((sum, value) => sum + 0.9 * value, 0) +
+      half_rad.slice(3).reduce((sum, value) => sum + 0.08 * value, 0),
+    angle_rad: half_rad.reduce((sum, value) => sum + value, 0),
+  },
   async make({ robot, scheduler, start_rad, maxSpeed, initialize, onMotion }) {
     const network = memoryNetwork(scheduler);
-    const started = await createVirtualYaskawa({ robot, scheduler, network, host: HOST, start_rad, servoOn_s: 0.1, cycle_s: 0.002, ...(maxSpeed === undefined ? {} : { maxSpeed }) });
+    const started = await createVirtualYaskawa({
+      robot,
+      scheduler,
+      network,
+      host: HOST,
+      start_rad,
+      servoOn_s: 0.1,
+      cycle_s: 0.002,
+      ...(maxSpeed === undefined ? {} : { maxSpeed }),
+    });
     if (started.kind === "taken") throw new Error(started.sentence);
     const face = yaskawaFace({ robot, scheduler, network, host: HOST, scale: EXAMPLE_SCALE, poll_s: 0.002 });
-    const controller = createRealController({ face, scheduler, ...(initialize ? { initialize } : {}), ...(onMotion ? { onMotion } : {}) });
+    const controller = createRealController({
+      face,
+      scheduler,
+      ...(initialize ? { initialize } : {}),
+      ...(onMotion ? { onMotion } : {}),
+    });
     const connecting = controller.connect();
     await scheduler.elapse(0.1);
     const connected = await connecting;

@@ -5,13 +5,20 @@ export interface Residual {
   /** √(Σ d² / n). */
   readonly rms_m: number;
   /** The largest, and whose it is, counted from 1. */
-  readonly worst_m: number; readonly worst: number;
+  readonly worst_m: number;
+  readonly worst: number;
   readonly each_m: readonly number[];
 }
 
 export function residualOf(measured: readonly Vector3[], computed: readonly Vector3[]): Residual {
-  const each_m = measured.map((point, i) => distance(point, computed[i]!)), worst_m = Math.max(...each_m);
-  return { rms_m: Math.sqrt(each_m.reduce((sum, d) => sum + d * d, 0) / each_m.length), worst_m, worst: each_m.indexOf(worst_m) + 1, each_m };
+  const each_m = measured.map((point, i) => distance(point, computed[i]!));
+  const worst_m = Math.max(...each_m);
+  return {
+    rms_m: Math.sqrt(each_m.reduce((sum, d) => sum + d * d, 0) / each_m.length),
+    worst_m,
+    worst: each_m.indexOf(worst_m) + 1,
+    each_m,
+  };
 }
 
 export const meanOf = (points: readonly Vector3[]): Vector3 =>

@@ -48,9 +48,28 @@ export function bodiesOf(cell: CellGeometry, arm: SerialArm, shelf: SolidShelf):
   const bodies: Body[] = [];
   for (const link of [...new Set(cell.links.map(solid => solid.link))].sort((a, b) => a - b)) {
     const meshes = cell.links.filter(solid => solid.link === link).map(solid => solid.mesh);
-    bodies.push(body(`link ${link}`, "link", meshes.length === 1 ? meshes[0]! : mergeMeshes(meshes.map(mesh => ({ mesh }))), shelf, link, identity()));
+    bodies.push(
+      body(
+        `link ${link}`,
+        "link",
+        meshes.length === 1 ? meshes[0]! : mergeMeshes(meshes.map(mesh => ({ mesh }))),
+        shelf,
+        link,
+        identity(),
+      ),
+    );
   }
-  if (cell.tool) bodies.push(body("tool", "tool", cell.tool.mesh, shelf, arm.joints.length, compose(arm.lastJointFromFlange as Pose, identity())));
+  if (cell.tool)
+    bodies.push(
+      body(
+        "tool",
+        "tool",
+        cell.tool.mesh,
+        shelf,
+        arm.joints.length,
+        compose(arm.lastJointFromFlange as Pose, identity()),
+      ),
+    );
   for (const object of cell.objects) bodies.push(objectBody(object, shelf));
   for (const each of bodies) each.reach_m = reachesOf(each, arm);
   return bodies;
@@ -59,16 +78,35 @@ export function bodiesOf(cell: CellGeometry, arm: SerialArm, shelf: SolidShelf):
 export const objectBody = ({ id, mesh, worldFromObject }: CellObject, shelf: SolidShelf): Body =>
   body(id, "object", mesh, shelf, WORLD, compose(identity(), worldFromObject as Pose));
 
-function body(name: string, kind: Body["kind"], mesh: TriangleMesh, shelf: SolidShelf, carrier: number, carrierFromBody: Pose): Body {
-  return { name, kind, solid: shelf.of(mesh), carrier, carrierFromBody, worldFromBody: rigid(), box: new Float64Array(6), reach_m: [] };
+function body(
+  name: string,
+  kind: Body["kind"],
+  mesh: TriangleMesh,
+  shelf: SolidShelf,
+  carrier: number,
+  carrierFromBody: Pose,
+): Body {
+  return {
+    name,
+    kind,
+    solid: shelf.of(mesh),
+    carrier,
+    carrierFromBody,
+    worldFromBody: rigid(),
+    box: new Float64Array(6),
+    reach_m: [],
+  };
 }
 
 /** Moves a body to where its carrier is, and its world box with it. `scratch` is overwritten. */
 export function placeBody(body: Body, worldFromCarrier: Pose, scratch: Pose): void {
   const m = rigidFromPose(compose(worldFromCarrier, body.carrierFromBody, scratch), body.worldFromBody);
-  const root = body.solid.bvh.boxes, box = body.box;
+  const root = body.solid.bvh.boxes;
+  const box = body.box;
   for (let r = 0; r < 3; r++) {
-    const x = m[3 * r]!, y = m[3 * r + 1]!, z = m[3 * r + 2]!;
+    const x = m[3 * r]!;
+    const y = m[3 * r + 1]!;
+    const z = m[3 * r + 2]!;
     box[r] = x * root[0]! + y * root[1]! + z * root[2]! + m[9 + r]!;
     box[3 + r] = Math.abs(x) * root[3]! + Math.abs(y) * root[4]! + Math.abs(z) * root[5]! + 1e-9;
   }
@@ -76,8 +114,11 @@ export function placeBody(body: Body, worldFromCarrier: Pose, scratch: Pose): vo
 
 /** Whether two world boxes are farther apart than `gap_m` along some axis. */
 export function farApart(a: Float64Array, b: Float64Array, gap_m: number): boolean {
-  return Math.abs(a[0]! - b[0]!) - a[3]! - b[3]! > gap_m || Math.abs(a[1]! - b[1]!) - a[4]! - b[4]! > gap_m
-    || Math.abs(a[2]! - b[2]!) - a[5]! - b[5]! > gap_m;
+  return (
+    Math.abs(a[0]! - b[0]!) - a[3]! - b[3]! > gap_m ||
+    Math.abs(a[1]! - b[1]!) - a[4]! - b[4]! > gap_m ||
+    Math.abs(a[2]! - b[2]!) - a[5]! - b[5]! > gap_m
+  );
 }
 
 /**
@@ -88,7 +129,8 @@ export function reachesOf({ carrier, carrierFromBody, solid }: Body, arm: Serial
   const reaches = new Array<number>(Math.max(0, carrier)).fill(0);
   let ball_m = norm(carrierFromBody.position) + solid.radius_m;
   for (let k = carrier; k >= 1; k--) {
-    const joint = arm.joints[k - 1]!, next = k === carrier ? carrierFromBody.position : arm.joints[k]!.parentFromJoint.position;
+    const joint = arm.joints[k - 1]!;
+    const next = k === carrier ? carrierFromBody.position : arm.joints[k]!.parentFromJoint.position;
     const rest = k === carrier ? solid.radius_m : ball_m;
     reaches[k - 1] = isSlide(joint) ? 1 : across(next, joint.axis) + rest;
     if (k < carrier) ball_m += norm(next);

@@ -56,11 +56,14 @@ class Builder {
   #depth = 0;
 
   constructor(mesh: TriangleMesh) {
-    const triangles = mesh.indices.length / 3, extents = new Float64Array(6 * triangles), order: number[] = [];
+    const triangles = mesh.indices.length / 3;
+    const extents = new Float64Array(6 * triangles);
+    const order: number[] = [];
     for (let t = 0; t < triangles; t++) {
       if (hasArea(mesh, t)) order.push(t);
       for (let k = 0; k < 3; k++) {
-        const a = mesh.positions[3 * mesh.indices[3 * t]! + k]!, b = mesh.positions[3 * mesh.indices[3 * t + 1]! + k]!;
+        const a = mesh.positions[3 * mesh.indices[3 * t]! + k]!;
+        const b = mesh.positions[3 * mesh.indices[3 * t + 1]! + k]!;
         const c = mesh.positions[3 * mesh.indices[3 * t + 2]! + k]!;
         extents[6 * t + k] = Math.min(a, b, c);
         extents[6 * t + 3 + k] = Math.max(a, b, c);
@@ -89,36 +92,56 @@ class Builder {
   }
 
   finish(): Bvh {
-    const corners = new Float64Array(9 * this.count), balls = new Float64Array(4 * this.count), heights = new Float64Array(this.count);
+    const corners = new Float64Array(9 * this.count);
+    const balls = new Float64Array(4 * this.count);
+    const heights = new Float64Array(this.count);
     for (let i = 0; i < this.count; i++) {
       this.#copyCorners(this.#order[i]!, corners, 9 * i);
       heights[i] = boundTriangle(corners, 9 * i, balls, 4 * i);
     }
-    const boxes = Float64Array.from(this.#boxes), reaches = new Float64Array(boxes.length / 6);
+    const boxes = Float64Array.from(this.#boxes);
+    const reaches = new Float64Array(boxes.length / 6);
     for (let n = 0; n < reaches.length; n++) {
       const far = [0, 1, 2].map(k => Math.abs(boxes[6 * n + k]!) + boxes[6 * n + 3 + k]!);
       reaches[n] = Math.hypot(far[0]!, far[1]!, far[2]!);
     }
     return {
-      boxes, reaches, links: Int32Array.from(this.#links), corners, balls, heights, source: this.#order, depth: this.#depth,
+      boxes,
+      reaches,
+      links: Int32Array.from(this.#links),
+      corners,
+      balls,
+      heights,
+      source: this.#order,
+      depth: this.#depth,
     };
   }
 
   /** Writes a triangle's corners, turned so that its longest edge comes first. */
   #copyCorners(triangle: number, out: Float64Array, at: number): void {
     const { positions, indices } = this.#mesh;
-    const from = (c: number): number => 3 * indices[3 * triangle + c % 3]!;
-    let longest = -1, first = 0;
+    const from = (c: number): number => 3 * indices[3 * triangle + (c % 3)]!;
+    let longest = -1;
+    let first = 0;
     for (let c = 0; c < 3; c++) {
-      const a = from(c), b = from(c + 1);
-      const length = Math.hypot(positions[b]! - positions[a]!, positions[b + 1]! - positions[a + 1]!, positions[b + 2]! - positions[a + 2]!);
-      if (length > longest) { longest = length; first = c; }
+      const a = from(c);
+      const b = from(c + 1);
+      const length = Math.hypot(
+        positions[b]! - positions[a]!,
+        positions[b + 1]! - positions[a + 1]!,
+        positions[b + 2]! - positions[a + 2]!,
+      );
+      if (length > longest) {
+        longest = length;
+        first = c;
+      }
     }
     for (let c = 0; c < 3; c++) for (let k = 0; k < 3; k++) out[at + 3 * c + k] = positions[from(first + c) + k]!;
   }
 
   #measure(from: number, to: number): void {
-    emptyBox(this.#box, 0); emptyBox(this.#centres, 0);
+    emptyBox(this.#box, 0);
+    emptyBox(this.#centres, 0);
     for (let i = from; i < to; i++) {
       const e = 6 * this.#order[i]!;
       growBox(this.#box, 0, this.#extents, e);
@@ -132,7 +155,10 @@ class Builder {
 
   #appendBox(): void {
     const box = this.#box;
-    if (box[0]! > box[3]!) { this.#boxes.push(0, 0, 0, -Infinity, -Infinity, -Infinity); return; }
+    if (box[0]! > box[3]!) {
+      this.#boxes.push(0, 0, 0, -Infinity, -Infinity, -Infinity);
+      return;
+    }
     for (let k = 0; k < 3; k++) this.#boxes.push((box[k]! + box[3 + k]!) / 2);
     // Half lengths grow by more than rounding errors of a cell's size, so that no box loses its own corner.
     for (let k = 0; k < 3; k++) this.#boxes.push((box[3 + k]! - box[k]!) / 2 + ROUNDING_M);
@@ -140,20 +166,33 @@ class Builder {
 
   /** Sorts order[from … to) about the cheapest of all bin borders; −1 when staying a leaf is cheaper. */
   #partition(from: number, to: number): number {
-    const count = to - from, whole = surface(this.#box, 0);
-    let best = Infinity, bestAxis = -1, bestBin = 0;
+    const count = to - from;
+    const whole = surface(this.#box, 0);
+    let best = Infinity;
+    let bestAxis = -1;
+    let bestBin = 0;
     for (let axis = 0; axis < 3; axis++) {
-      const low = this.#centres[axis]!, width = this.#centres[3 + axis]! - low;
+      const low = this.#centres[axis]!;
+      const width = this.#centres[3 + axis]! - low;
       if (!(width > 0)) continue;
       const cost = this.#sweep(from, to, axis, low, BINS / width);
-      if (cost.cost < best) { best = cost.cost; bestAxis = axis; bestBin = cost.bin; }
+      if (cost.cost < best) {
+        best = cost.cost;
+        bestAxis = axis;
+        bestBin = cost.bin;
+      }
     }
     if (bestAxis < 0) return count > LEAF_TRIANGLES ? (from + to) >> 1 : -1;
     if (count <= LEAF_TRIANGLES && best >= (count - 0.5) * whole) return -1;
-    const low = this.#centres[bestAxis]!, perBin = BINS / (this.#centres[3 + bestAxis]! - low);
-    let i = from, j = to - 1;
+    const low = this.#centres[bestAxis]!;
+    const perBin = BINS / (this.#centres[3 + bestAxis]! - low);
+    let i = from;
+    let j = to - 1;
     while (i <= j) {
-      if (this.#bin(this.#order[i]!, bestAxis, low, perBin) <= bestBin) { i++; continue; }
+      if (this.#bin(this.#order[i]!, bestAxis, low, perBin) <= bestBin) {
+        i++;
+        continue;
+      }
       const swap = this.#order[i]!;
       this.#order[i] = this.#order[j]!;
       this.#order[j--] = swap;
@@ -167,7 +206,8 @@ class Builder {
   }
 
   #sweep(from: number, to: number, axis: number, low: number, perBin: number): { cost: number; bin: number } {
-    const boxes = this.#binBoxes, counts = this.#binCounts.fill(0);
+    const boxes = this.#binBoxes;
+    const counts = this.#binCounts.fill(0);
     for (let b = 0; b < BINS; b++) emptyBox(boxes, 6 * b);
     for (let i = from; i < to; i++) {
       const b = this.#bin(this.#order[i]!, axis, low, perBin);
@@ -178,16 +218,22 @@ class Builder {
     let below = 0;
     emptyBox(running, 0);
     for (let b = BINS - 1; b > 0; b--) {
-      growBox(running, 0, boxes, 6 * b); below += counts[b]!;
+      growBox(running, 0, boxes, 6 * b);
+      below += counts[b]!;
       this.#rightCosts[b - 1] = below > 0 ? below * surface(running, 0) : Infinity;
     }
-    let cost = Infinity, bin = 0;
+    let cost = Infinity;
+    let bin = 0;
     below = 0;
     emptyBox(running, 0);
     for (let b = 0; b < BINS - 1; b++) {
-      growBox(running, 0, boxes, 6 * b); below += counts[b]!;
+      growBox(running, 0, boxes, 6 * b);
+      below += counts[b]!;
       const here = below > 0 ? below * surface(running, 0) + this.#rightCosts[b]! : Infinity;
-      if (here < cost) { cost = here; bin = b; }
+      if (here < cost) {
+        cost = here;
+        bin = b;
+      }
     }
     return { cost, bin };
   }
@@ -198,30 +244,59 @@ class Builder {
  * corners where that one leaves the third outside. Returns the triangle's height over the edge.
  */
 function boundTriangle(corners: Float64Array, t: number, balls: Float64Array, at: number): number {
-  const ax = corners[t]!, ay = corners[t + 1]!, az = corners[t + 2]!;
-  const ux = corners[t + 3]! - ax, uy = corners[t + 4]! - ay, uz = corners[t + 5]! - az;
-  const vx = corners[t + 6]! - ax, vy = corners[t + 7]! - ay, vz = corners[t + 8]! - az;
+  const ax = corners[t]!;
+  const ay = corners[t + 1]!;
+  const az = corners[t + 2]!;
+  const ux = corners[t + 3]! - ax;
+  const uy = corners[t + 4]! - ay;
+  const uz = corners[t + 5]! - az;
+  const vx = corners[t + 6]! - ax;
+  const vy = corners[t + 7]! - ay;
+  const vz = corners[t + 8]! - az;
   // Centre a + s u + w v, equally far from a, a + u and a + v; w = 0 when the third corner sees the edge at 90° or more.
-  const uu = ux * ux + uy * uy + uz * uz, uv = ux * vx + uy * vy + uz * vz, vv = vx * vx + vy * vy + vz * vz, area = uu * vv - uv * uv;
+  const uu = ux * ux + uy * uy + uz * uz;
+  const uv = ux * vx + uy * vy + uz * vz;
+  const vv = vx * vx + vy * vy + vz * vz;
+  const area = uu * vv - uv * uv;
   const acute = vv - uv > 0 && area > 1e-12 * uu * vv;
-  const w = acute ? Math.max(0, uu * (vv - uv) / (2 * area)) : 0, s = w > 0 ? vv * (uu - uv) / (2 * area) : 0.5;
-  const cx = s * ux + w * vx, cy = s * uy + w * vy, cz = s * uz + w * vz;
-  const far = Math.max(cx * cx + cy * cy + cz * cz, (cx - ux) ** 2 + (cy - uy) ** 2 + (cz - uz) ** 2, (cx - vx) ** 2 + (cy - vy) ** 2 + (cz - vz) ** 2);
-  balls[at] = ax + cx; balls[at + 1] = ay + cy; balls[at + 2] = az + cz;
+  const w = acute ? Math.max(0, (uu * (vv - uv)) / (2 * area)) : 0;
+  const s = w > 0 ? (vv * (uu - uv)) / (2 * area) : 0.5;
+  const cx = s * ux + w * vx;
+  const cy = s * uy + w * vy;
+  const cz = s * uz + w * vz;
+  const far = Math.max(
+    cx * cx + cy * cy + cz * cz,
+    (cx - ux) ** 2 + (cy - uy) ** 2 + (cz - uz) ** 2,
+    (cx - vx) ** 2 + (cy - vy) ** 2 + (cz - vz) ** 2,
+  );
+  balls[at] = ax + cx;
+  balls[at + 1] = ay + cy;
+  balls[at + 2] = az + cz;
   balls[at + 3] = Math.sqrt(far) + ROUNDING_M;
-  const px = uy * vz - uz * vy, py = uz * vx - ux * vz, pz = ux * vy - uy * vx;
+  const px = uy * vz - uz * vy;
+  const py = uz * vx - ux * vz;
+  const pz = ux * vy - uy * vx;
   return Math.sqrt((px * px + py * py + pz * pz) / uu) + ROUNDING_M;
 }
 
 function hasArea({ positions: p, indices }: TriangleMesh, t: number): boolean {
-  const a = 3 * indices[3 * t]!, b = 3 * indices[3 * t + 1]!, c = 3 * indices[3 * t + 2]!;
-  const ux = p[b]! - p[a]!, uy = p[b + 1]! - p[a + 1]!, uz = p[b + 2]! - p[a + 2]!;
-  const vx = p[c]! - p[a]!, vy = p[c + 1]! - p[a + 1]!, vz = p[c + 2]! - p[a + 2]!;
+  const a = 3 * indices[3 * t]!;
+  const b = 3 * indices[3 * t + 1]!;
+  const c = 3 * indices[3 * t + 2]!;
+  const ux = p[b]! - p[a]!;
+  const uy = p[b + 1]! - p[a + 1]!;
+  const uz = p[b + 2]! - p[a + 2]!;
+  const vx = p[c]! - p[a]!;
+  const vy = p[c + 1]! - p[a + 1]!;
+  const vz = p[c + 2]! - p[a + 2]!;
   return uy * vz - uz * vy !== 0 || uz * vx - ux * vz !== 0 || ux * vy - uy * vx !== 0;
 }
 
 function emptyBox(box: Float64Array, at: number): void {
-  for (let k = 0; k < 3; k++) { box[at + k] = Infinity; box[at + 3 + k] = -Infinity; }
+  for (let k = 0; k < 3; k++) {
+    box[at + k] = Infinity;
+    box[at + 3 + k] = -Infinity;
+  }
 }
 
 function growBox(box: Float64Array, at: number, by: Float64Array, from: number): void {
@@ -232,6 +307,8 @@ function growBox(box: Float64Array, at: number, by: Float64Array, from: number):
 }
 
 function surface(box: Float64Array, at: number): number {
-  const x = box[at + 3]! - box[at]!, y = box[at + 4]! - box[at + 1]!, z = box[at + 5]! - box[at + 2]!;
+  const x = box[at + 3]! - box[at]!;
+  const y = box[at + 4]! - box[at + 1]!;
+  const z = box[at + 5]! - box[at + 2]!;
   return x * y + y * z + z * x;
 }

@@ -21,7 +21,13 @@ export interface Clearance {
   readonly pointA: Vector3;
   readonly pointB: Vector3;
 }
-export const clearance = (): Clearance => ({ distance_m: Infinity, a: "", b: "", pointA: [0, 0, 0], pointB: [0, 0, 0] });
+export const clearance = (): Clearance => ({
+  distance_m: Infinity,
+  a: "",
+  b: "",
+  pointA: [0, 0, 0],
+  pointB: [0, 0, 0],
+});
 
 /** Two solids that must not meet, the one nearer to the base first. */
 export interface SolidPair {
@@ -78,10 +84,14 @@ export class CellCollider {
   }
 
   /** Every pair that is watched. The list is replaced when objects come, go or change hands. */
-  get pairs(): readonly SolidPair[] { return this.#pairs; }
+  get pairs(): readonly SolidPair[] {
+    return this.#pairs;
+  }
 
   /** Grows whenever an object comes, goes, moves or changes hands, or pairs become allowed: what was proven before may be wrong then. */
-  get edition(): number { return this.#edition; }
+  get edition(): number {
+    return this.#edition;
+  }
 
   /** Puts the robot in this posture. The queries below do it themselves; `distanceOf` answers for the last one placed. */
   place(q: ArrayLike<number>): void {
@@ -105,7 +115,10 @@ export class CellCollider {
       const pair = pairs[i]!;
       if (!this.touchOf(pair)) continue;
       pair.hits++;
-      if (i > 0 && pairs[i - 1]!.hits < pair.hits) { pairs[i] = pairs[i - 1]!; pairs[i - 1] = pair; }
+      if (i > 0 && pairs[i - 1]!.hits < pair.hits) {
+        pairs[i] = pairs[i - 1]!;
+        pairs[i - 1] = pair;
+      }
       return true;
     }
     return false;
@@ -129,7 +142,8 @@ export class CellCollider {
         if (object.carrier !== WORLD || object.kind !== "object" || farApart(tool.box, object.box, within_m)) continue;
         this.#scratch.witness.fill(-1);
         const relative = between(tool.worldFromBody, object.worldFromBody, this.#scratch.relative);
-        if (solidDistance(tool.solid, object.solid, relative, within_m, this.#scratch, this.#points) < within_m) out.push(object.name);
+        if (solidDistance(tool.solid, object.solid, relative, within_m, this.#scratch, this.#points) < within_m)
+          out.push(object.name);
       }
     }
     return out;
@@ -141,13 +155,25 @@ export class CellCollider {
    * @param counts  which objects are looked at.
    */
   nearestObject(point_m: Vector3, within_m: number, counts: (id: string) => boolean): string | undefined {
-    const point = this.#shelf.of(POINT_MESH), worldFromPoint = rigidFromPose({ position: point_m, quaternion: [0, 0, 0, 1] });
-    let nearest: string | undefined, limit = within_m;
+    const point = this.#shelf.of(POINT_MESH);
+    const worldFromPoint = rigidFromPose({ position: point_m, quaternion: [0, 0, 0, 1] });
+    let nearest: string | undefined;
+    let limit = within_m;
     for (const { kind, carrier, name, solid, worldFromBody } of this.#bodies) {
       if (kind !== "object" || carrier !== WORLD || !counts(name)) continue;
       this.#scratch.witness.fill(-1);
-      const distance = solidDistance(point, solid, between(worldFromPoint, worldFromBody, this.#scratch.relative), limit, this.#scratch, this.#points);
-      if (distance < limit) { limit = distance; nearest = name; }
+      const distance = solidDistance(
+        point,
+        solid,
+        between(worldFromPoint, worldFromBody, this.#scratch.relative),
+        limit,
+        this.#scratch,
+        this.#points,
+      );
+      if (distance < limit) {
+        limit = distance;
+        nearest = name;
+      }
     }
     return nearest;
   }
@@ -156,11 +182,28 @@ export class CellCollider {
   standingNear(id: string, within_m: number): string[] {
     const body = this.#object(id);
     if (body?.carrier !== WORLD) return [];
-    return this.#bodies.filter(other => {
-      if (other === body || other.kind !== "object" || other.carrier !== WORLD || farApart(body.box, other.box, within_m)) return false;
-      this.#scratch.witness.fill(-1);
-      return solidDistance(body.solid, other.solid, between(body.worldFromBody, other.worldFromBody, this.#scratch.relative), within_m, this.#scratch, this.#points) < within_m;
-    }).map(({ name }) => name);
+    return this.#bodies
+      .filter(other => {
+        if (
+          other === body ||
+          other.kind !== "object" ||
+          other.carrier !== WORLD ||
+          farApart(body.box, other.box, within_m)
+        )
+          return false;
+        this.#scratch.witness.fill(-1);
+        return (
+          solidDistance(
+            body.solid,
+            other.solid,
+            between(body.worldFromBody, other.worldFromBody, this.#scratch.relative),
+            within_m,
+            this.#scratch,
+            this.#points,
+          ) < within_m
+        );
+      })
+      .map(({ name }) => name);
   }
 
   /**
@@ -168,16 +211,23 @@ export class CellCollider {
    *
    * @param counts  pairs to look at; all without it. `robotAndCell` leaves out the robot's distance from itself.
    */
-  clearance(q: ArrayLike<number>, cutoff_m: number, out: Clearance = clearance(), counts?: (pair: SolidPair) => boolean): Clearance {
+  clearance(
+    q: ArrayLike<number>,
+    cutoff_m: number,
+    out: Clearance = clearance(),
+    counts?: (pair: SolidPair) => boolean,
+  ): Clearance {
     this.place(q);
-    out.distance_m = Infinity; out.a = out.b = "";
+    out.distance_m = Infinity;
+    out.a = out.b = "";
     let limit = cutoff_m;
     for (const pair of this.#pairs) {
       if (counts?.(pair) === false) continue;
       const distance = this.distanceOf(pair, limit);
       if (distance >= limit) continue;
       limit = out.distance_m = distance;
-      out.a = pair.contact.a; out.b = pair.contact.b;
+      out.a = pair.contact.a;
+      out.b = pair.contact.b;
       this.#pointsInto(pair, out);
       if (distance === 0) break;
     }
@@ -204,7 +254,8 @@ export class CellCollider {
    * `near_m` + `perMetre` r from the other, where r is the point's distance from the origin of its own frame.
    */
   keepsApart(pair: SolidPair, near_m: number, perMetre: number): boolean {
-    const outer = pair.a.carrier > pair.b.carrier ? pair.a : pair.b, inner = outer === pair.a ? pair.b : pair.a;
+    const outer = pair.a.carrier > pair.b.carrier ? pair.a : pair.b;
+    const inner = outer === pair.a ? pair.b : pair.a;
     if (farApart(outer.box, inner.box, near_m + perMetre * outer.solid.radius_m)) return true;
     const relative = between(outer.worldFromBody, inner.worldFromBody, this.#scratch.relative);
     this.#scratch.witness.set(pair.tooNear);
@@ -216,7 +267,12 @@ export class CellCollider {
   /** Whether one pair is in contact in the posture last placed. */
   touchOf({ a, b }: SolidPair): boolean {
     if (farApart(a.box, b.box, 0)) return false;
-    return solidsTouch(a.solid, b.solid, between(a.worldFromBody, b.worldFromBody, this.#scratch.relative), this.#scratch);
+    return solidsTouch(
+      a.solid,
+      b.solid,
+      between(a.worldFromBody, b.worldFromBody, this.#scratch.relative),
+      this.#scratch,
+    );
   }
 
   /**
@@ -226,7 +282,9 @@ export class CellCollider {
    * @returns the pairs that were learnt.
    */
   allowContactsAt(q: ArrayLike<number>): readonly Contact[] {
-    const learnt = this.check(q).filter(({ a, b }) => this.#isRobot(a) && this.#isRobot(b) && !this.#decided.has(keyOf(a, b)));
+    const learnt = this.check(q).filter(
+      ({ a, b }) => this.#isRobot(a) && this.#isRobot(b) && !this.#decided.has(keyOf(a, b)),
+    );
     for (const { a, b } of learnt) this.#allowed.add(keyOf(a, b));
     if (learnt.length > 0) this.#arrange();
     return learnt;
@@ -234,8 +292,10 @@ export class CellCollider {
 
   /** Adds an object, or puts it in the place of the one with the same id. */
   setObject(object: CellObject): void {
-    const at = this.#bodies.findIndex(body => body.name === object.id), body = objectBody(object, this.#shelf);
-    if (at >= 0) this.#bodies[at] = body; else this.#bodies.push(body);
+    const at = this.#bodies.findIndex(body => body.name === object.id);
+    const body = objectBody(object, this.#shelf);
+    if (at >= 0) this.#bodies[at] = body;
+    else this.#bodies.push(body);
     this.#arrange();
   }
 
@@ -275,8 +335,12 @@ export class CellCollider {
     this.#arrange();
   }
 
-  #object(id: string): Body | undefined { return this.#bodies.find(body => body.kind === "object" && body.name === id); }
-  #isRobot(name: string): boolean { return this.#bodies.some(body => body.name === name && body.kind !== "object"); }
+  #object(id: string): Body | undefined {
+    return this.#bodies.find(body => body.kind === "object" && body.name === id);
+  }
+  #isRobot(name: string): boolean {
+    return this.#bodies.some(body => body.name === name && body.kind !== "object");
+  }
 
   #placeOnLink(body: Body): void {
     compose(this.#worldFromBase as Pose, this.#baseFromLinks[body.carrier] as Pose, this.#worldFromLink);
@@ -285,7 +349,10 @@ export class CellCollider {
 
   #pointsInto({ a }: SolidPair, out: Clearance): void {
     movePoints(a.worldFromBody, this.#points, 0, 2, this.#points, 0);
-    for (let k = 0; k < 3; k++) { out.pointA[k] = this.#points[k]!; out.pointB[k] = this.#points[3 + k]!; }
+    for (let k = 0; k < 3; k++) {
+      out.pointA[k] = this.#points[k]!;
+      out.pointB[k] = this.#points[3 + k]!;
+    }
   }
 
   /** Places what stands still and lists the pairs to watch. */
@@ -294,12 +361,30 @@ export class CellCollider {
     const known = new Map(this.#pairs.map(pair => [keyOf(pair.contact.a, pair.contact.b), pair]));
     for (const body of this.#bodies) if (body.carrier === WORLD) placeBody(body, HERE, this.#turn);
     this.#pairs = [];
-    for (let i = 0; i < this.#bodies.length; i++) for (let j = i + 1; j < this.#bodies.length; j++) {
-      const [a, b] = [this.#bodies[i]!, this.#bodies[j]!], key = keyOf(a.name, b.name), before = known.get(key);
-      if (this.#allowed.has(key) || !mayMeet(a, b)) continue;
-      const same = before?.a === a && before.b === b;
-      this.#pairs.push(same ? before : { a, b, contact: { a: a.name, b: b.name, between: a.kind === "object" || b.kind === "object" ? "other" : "self" }, witness: new Int32Array(2).fill(-1), tooNear: new Int32Array(2).fill(-1), hits: 0 });
-    }
+    for (let i = 0; i < this.#bodies.length; i++)
+      for (let j = i + 1; j < this.#bodies.length; j++) {
+        const [a, b] = [this.#bodies[i]!, this.#bodies[j]!];
+        const key = keyOf(a.name, b.name);
+        const before = known.get(key);
+        if (this.#allowed.has(key) || !mayMeet(a, b)) continue;
+        const same = before?.a === a && before.b === b;
+        this.#pairs.push(
+          same
+            ? before
+            : {
+                a,
+                b,
+                contact: {
+                  a: a.name,
+                  b: b.name,
+                  between: a.kind === "object" || b.kind === "object" ? "other" : "self",
+                },
+                witness: new Int32Array(2).fill(-1),
+                tooNear: new Int32Array(2).fill(-1),
+                hits: 0,
+              },
+        );
+      }
     this.#pairs.sort((p, q) => q.hits - p.hits);
   }
 }

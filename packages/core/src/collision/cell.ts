@@ -15,7 +15,11 @@ export interface CellObject {
 }
 
 /** The solid of one robot link, in that link's frame (link 0 is the base). */
-export interface LinkSolid { readonly link: number; readonly name: string; readonly mesh: TriangleMesh }
+export interface LinkSolid {
+  readonly link: number;
+  readonly name: string;
+  readonly mesh: TriangleMesh;
+}
 
 /** Everything a collision check must know; JSON-able apart from the typed arrays, so it can be sent to a worker once. */
 export interface CellGeometry {

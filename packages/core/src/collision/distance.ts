@@ -15,40 +15,84 @@ import { segmentDistance2, triangleDistance2 } from "./triangle-distance.ts";
  * @see Larsen, Gottschalk, Lin, Manocha, Fast distance queries with rectangular swept sphere volumes, ICRA 2000.
  */
 export function surfaceDistance(
-  a: Bvh, b: Bvh, aFromB: Rigid, cutoff_m: number, scratch: PairScratch, out: Float64Array, enough_m = 0,
+  a: Bvh,
+  b: Bvh,
+  aFromB: Rigid,
+  cutoff_m: number,
+  scratch: PairScratch,
+  out: Float64Array,
+  enough_m = 0,
 ): number {
   if (a.source.length === 0 || b.source.length === 0) return Infinity;
   makeRoom(scratch, a, b);
-  const stack = scratch.stack, bounds = scratch.bounds, witness = scratch.witness, linksA = a.links, linksB = b.links;
+  const stack = scratch.stack;
+  const bounds = scratch.bounds;
+  const witness = scratch.witness;
+  const linksA = a.links;
+  const linksB = b.links;
   const enough = enough_m * enough_m;
-  let best = cutoff_m * cutoff_m, found = false;
+  let best = cutoff_m * cutoff_m;
+  let found = false;
   if (witness[0]! >= 0 && witness[0]! < a.source.length && witness[1]! >= 0 && witness[1]! < b.source.length) {
     movePoints(aFromB, b.corners, 9 * witness[1]!, 3, scratch.triangles, 0);
     const seed = triangleDistance2(a.corners, 9 * witness[0]!, scratch.triangles, 0, best, out);
-    if (seed < best) { best = seed; found = true; }
+    if (seed < best) {
+      best = seed;
+      found = true;
+    }
   }
-  if ((found && best < enough) || boxDistance2(a.boxes, 0, b.boxes, 0, aFromB) >= best) return found ? Math.sqrt(best) : Infinity;
-  let nodeA = 0, nodeB = 0, top = 0;
+  if ((found && best < enough) || boxDistance2(a.boxes, 0, b.boxes, 0, aFromB) >= best)
+    return found ? Math.sqrt(best) : Infinity;
+  let nodeA = 0;
+  let nodeB = 0;
+  let top = 0;
   for (;;) {
-    const countA = linksA[2 * nodeA + 1]!, countB = linksB[2 * nodeB + 1]!;
+    const countA = linksA[2 * nodeA + 1]!;
+    const countB = linksB[2 * nodeB + 1]!;
     if (countA > 0 && countB > 0) {
-      const near = nearestInLeaves(a, linksA[2 * nodeA]!, countA, b, linksB[2 * nodeB]!, countB, aFromB, best, scratch, out);
-      if (near < best) { best = near; found = true; }
+      const near = nearestInLeaves(
+        a,
+        linksA[2 * nodeA]!,
+        countA,
+        b,
+        linksB[2 * nodeB]!,
+        countB,
+        aFromB,
+        best,
+        scratch,
+        out,
+      );
+      if (near < best) {
+        best = near;
+        found = true;
+      }
     } else {
       const openA = countB > 0 || (countA === 0 && size(a.boxes, 6 * nodeA) >= size(b.boxes, 6 * nodeB));
-      const first = openA ? nodeA + 1 : nodeB + 1, second = openA ? linksA[2 * nodeA]! : linksB[2 * nodeB]!;
-      const toFirst = openA ? boxDistance2(a.boxes, 6 * first, b.boxes, 6 * nodeB, aFromB) : boxDistance2(a.boxes, 6 * nodeA, b.boxes, 6 * first, aFromB);
-      const toSecond = openA ? boxDistance2(a.boxes, 6 * second, b.boxes, 6 * nodeB, aFromB) : boxDistance2(a.boxes, 6 * nodeA, b.boxes, 6 * second, aFromB);
-      const near = toFirst <= toSecond ? first : second, far = toFirst <= toSecond ? second : first;
+      const first = openA ? nodeA + 1 : nodeB + 1;
+      const second = openA ? linksA[2 * nodeA]! : linksB[2 * nodeB]!;
+      const toFirst = openA
+        ? boxDistance2(a.boxes, 6 * first, b.boxes, 6 * nodeB, aFromB)
+        : boxDistance2(a.boxes, 6 * nodeA, b.boxes, 6 * first, aFromB);
+      const toSecond = openA
+        ? boxDistance2(a.boxes, 6 * second, b.boxes, 6 * nodeB, aFromB)
+        : boxDistance2(a.boxes, 6 * nodeA, b.boxes, 6 * second, aFromB);
+      const near = toFirst <= toSecond ? first : second;
+      const far = toFirst <= toSecond ? second : first;
       if (Math.max(toFirst, toSecond) < best) {
         bounds[top >> 1] = Math.max(toFirst, toSecond);
-        stack[top++] = openA ? far : nodeA; stack[top++] = openA ? nodeB : far;
+        stack[top++] = openA ? far : nodeA;
+        stack[top++] = openA ? nodeB : far;
       }
-      if (Math.min(toFirst, toSecond) < best) { if (openA) nodeA = near; else nodeB = near; continue; }
+      if (Math.min(toFirst, toSecond) < best) {
+        if (openA) nodeA = near;
+        else nodeB = near;
+        continue;
+      }
     }
     do {
       if (top === 0 || best === 0 || (found && best < enough)) return found ? Math.sqrt(best) : Infinity;
-      nodeB = stack[--top]!; nodeA = stack[--top]!;
+      nodeB = stack[--top]!;
+      nodeA = stack[--top]!;
     } while (bounds[top >> 1]! >= best);
   }
 }
@@ -59,66 +103,122 @@ export function surfaceDistance(
  *
  * @param scratch  as for `surfaceDistance`; `witness` is asked first and receives a pair of triangles that is too near.
  */
-export function keepsApart(outer: Bvh, inner: Bvh, outerFromInner: Rigid, near_m: number, perMetre: number, scratch: PairScratch, out: Float64Array): boolean {
+export function keepsApart(
+  outer: Bvh,
+  inner: Bvh,
+  outerFromInner: Rigid,
+  near_m: number,
+  perMetre: number,
+  scratch: PairScratch,
+  out: Float64Array,
+): boolean {
   if (outer.source.length === 0 || inner.source.length === 0) return true;
   makeRoom(scratch, outer, inner);
-  const stack = scratch.stack, linksA = outer.links, linksB = inner.links, reaches = outer.reaches;
-  const first = scratch.witness[0]!, second = scratch.witness[1]!;
+  const stack = scratch.stack;
+  const linksA = outer.links;
+  const linksB = inner.links;
+  const reaches = outer.reaches;
+  const first = scratch.witness[0]!;
+  const second = scratch.witness[1]!;
   if (first >= 0 && second >= 0) {
     movePoints(outerFromInner, inner.corners, 9 * second, 3, scratch.triangles, 0);
     const wanted = near_m + perMetre * farthestCorner(outer.corners, 9 * first);
-    if (triangleDistance2(outer.corners, 9 * first, scratch.triangles, 0, wanted * wanted, out) < wanted * wanted) return false;
+    if (triangleDistance2(outer.corners, 9 * first, scratch.triangles, 0, wanted * wanted, out) < wanted * wanted)
+      return false;
   }
-  let nodeA = 0, nodeB = 0, top = 0;
+  let nodeA = 0;
+  let nodeB = 0;
+  let top = 0;
   for (;;) {
     const wanted = near_m + perMetre * reaches[nodeA]!;
     if (boxDistance2(outer.boxes, 6 * nodeA, inner.boxes, 6 * nodeB, outerFromInner) < wanted * wanted) {
-      const countA = linksA[2 * nodeA + 1]!, countB = linksB[2 * nodeB + 1]!;
+      const countA = linksA[2 * nodeA + 1]!;
+      const countB = linksB[2 * nodeB + 1]!;
       if (countA > 0 && countB > 0) {
         const limit = wanted * wanted;
-        if (nearestInLeaves(outer, linksA[2 * nodeA]!, countA, inner, linksB[2 * nodeB]!, countB, outerFromInner, limit, scratch, out) < limit) return false;
+        if (
+          nearestInLeaves(
+            outer,
+            linksA[2 * nodeA]!,
+            countA,
+            inner,
+            linksB[2 * nodeB]!,
+            countB,
+            outerFromInner,
+            limit,
+            scratch,
+            out,
+          ) < limit
+        )
+          return false;
       } else if (countB > 0 || (countA === 0 && size(outer.boxes, 6 * nodeA) >= size(inner.boxes, 6 * nodeB))) {
-        stack[top++] = linksA[2 * nodeA]!; stack[top++] = nodeB;
+        stack[top++] = linksA[2 * nodeA]!;
+        stack[top++] = nodeB;
         nodeA++;
         continue;
       } else {
-        stack[top++] = nodeA; stack[top++] = linksB[2 * nodeB]!;
+        stack[top++] = nodeA;
+        stack[top++] = linksB[2 * nodeB]!;
         nodeB++;
         continue;
       }
     }
     if (top === 0) return true;
-    nodeB = stack[--top]!; nodeA = stack[--top]!;
+    nodeB = stack[--top]!;
+    nodeA = stack[--top]!;
   }
 }
 
 function farthestCorner(c: Float64Array, t: number): number {
   let squared = 0;
-  for (let i = t; i < t + 9; i += 3) squared = Math.max(squared, c[i]! * c[i]! + c[i + 1]! * c[i + 1]! + c[i + 2]! * c[i + 2]!);
+  for (let i = t; i < t + 9; i += 3)
+    squared = Math.max(squared, c[i]! * c[i]! + c[i + 1]! * c[i + 1]! + c[i + 2]! * c[i + 2]!);
   return Math.sqrt(squared);
 }
 
 function nearestInLeaves(
-  a: Bvh, fromA: number, countA: number, b: Bvh, fromB: number, countB: number, aFromB: Rigid, limit: number, scratch: PairScratch, out: Float64Array,
+  a: Bvh,
+  fromA: number,
+  countA: number,
+  b: Bvh,
+  fromB: number,
+  countB: number,
+  aFromB: Rigid,
+  limit: number,
+  scratch: PairScratch,
+  out: Float64Array,
 ): number {
-  const moved = scratch.triangles, ball = scratch.ball;
-  let best = limit, reach = Math.sqrt(best);
+  const moved = scratch.triangles;
+  const ball = scratch.ball;
+  let best = limit;
+  let reach = Math.sqrt(best);
   for (let j = 0; j < countB; j++) {
     movePoints(aFromB, b.balls, 4 * (fromB + j), 1, ball, 0);
-    const bx = ball[0]!, by = ball[1]!, bz = ball[2]!, br = b.balls[4 * (fromB + j) + 3]!;
+    const bx = ball[0]!;
+    const by = ball[1]!;
+    const bz = ball[2]!;
+    const br = b.balls[4 * (fromB + j) + 3]!;
     let here = false;
     for (let i = 0; i < countA; i++) {
-      const at = 4 * (fromA + i), dx = bx - a.balls[at]!, dy = by - a.balls[at + 1]!, dz = bz - a.balls[at + 2]!;
+      const at = 4 * (fromA + i);
+      const dx = bx - a.balls[at]!;
+      const dy = by - a.balls[at + 1]!;
+      const dz = bz - a.balls[at + 2]!;
       const far = a.balls[at + 3]! + br + reach;
       if (dx * dx + dy * dy + dz * dz >= far * far) continue;
-      if (!here) { movePoints(aFromB, b.corners, 9 * (fromB + j), 3, moved, 0); here = true; }
+      if (!here) {
+        movePoints(aFromB, b.corners, 9 * (fromB + j), 3, moved, 0);
+        here = true;
+      }
       // Slivers fill little of their balls but most of the capsules around their longest edges.
       const apart = reach + a.heights[fromA + i]! + b.heights[fromB + j]!;
       if (segmentDistance2(a.corners, 9 * (fromA + i), moved, 0) >= apart * apart) continue;
       const squared = triangleDistance2(a.corners, 9 * (fromA + i), moved, 0, best, out);
       if (squared >= best) continue;
-      best = squared; reach = Math.sqrt(best);
-      scratch.witness[0] = fromA + i; scratch.witness[1] = fromB + j;
+      best = squared;
+      reach = Math.sqrt(best);
+      scratch.witness[0] = fromA + i;
+      scratch.witness[1] = fromB + j;
     }
   }
   return best;
@@ -126,15 +226,38 @@ function nearestInLeaves(
 
 /** No more than the squared distance of two boxes [m²]: the gap between them along the axes of one and of the other. */
 export function boxDistance2(boxesA: Float64Array, i: number, boxesB: Float64Array, j: number, m: Rigid): number {
-  const r00 = m[0]!, r01 = m[1]!, r02 = m[2]!, r10 = m[3]!, r11 = m[4]!, r12 = m[5]!, r20 = m[6]!, r21 = m[7]!, r22 = m[8]!;
-  const q00 = Math.abs(r00), q01 = Math.abs(r01), q02 = Math.abs(r02), q10 = Math.abs(r10), q11 = Math.abs(r11), q12 = Math.abs(r12);
-  const q20 = Math.abs(r20), q21 = Math.abs(r21), q22 = Math.abs(r22);
-  const bx = boxesB[j]!, by = boxesB[j + 1]!, bz = boxesB[j + 2]!, b0 = boxesB[j + 3]!, b1 = boxesB[j + 4]!, b2 = boxesB[j + 5]!;
-  const a0 = boxesA[i + 3]!, a1 = boxesA[i + 4]!, a2 = boxesA[i + 5]!;
+  const r00 = m[0]!;
+  const r01 = m[1]!;
+  const r02 = m[2]!;
+  const r10 = m[3]!;
+  const r11 = m[4]!;
+  const r12 = m[5]!;
+  const r20 = m[6]!;
+  const r21 = m[7]!;
+  const r22 = m[8]!;
+  const q00 = Math.abs(r00);
+  const q01 = Math.abs(r01);
+  const q02 = Math.abs(r02);
+  const q10 = Math.abs(r10);
+  const q11 = Math.abs(r11);
+  const q12 = Math.abs(r12);
+  const q20 = Math.abs(r20);
+  const q21 = Math.abs(r21);
+  const q22 = Math.abs(r22);
+  const bx = boxesB[j]!;
+  const by = boxesB[j + 1]!;
+  const bz = boxesB[j + 2]!;
+  const b0 = boxesB[j + 3]!;
+  const b1 = boxesB[j + 4]!;
+  const b2 = boxesB[j + 5]!;
+  const a0 = boxesA[i + 3]!;
+  const a1 = boxesA[i + 4]!;
+  const a2 = boxesA[i + 5]!;
   const tx = r00 * bx + r01 * by + r02 * bz + m[9]! - boxesA[i]!;
   const ty = r10 * bx + r11 * by + r12 * bz + m[10]! - boxesA[i + 1]!;
   const tz = r20 * bx + r21 * by + r22 * bz + m[11]! - boxesA[i + 2]!;
-  const gx = Math.abs(tx) - a0 - b0 * q00 - b1 * q01 - b2 * q02, gy = Math.abs(ty) - a1 - b0 * q10 - b1 * q11 - b2 * q12;
+  const gx = Math.abs(tx) - a0 - b0 * q00 - b1 * q01 - b2 * q02;
+  const gy = Math.abs(ty) - a1 - b0 * q10 - b1 * q11 - b2 * q12;
   const gz = Math.abs(tz) - a2 - b0 * q20 - b1 * q21 - b2 * q22;
   const inA = (gx > 0 ? gx * gx : 0) + (gy > 0 ? gy * gy : 0) + (gz > 0 ? gz * gz : 0);
   const hx = Math.abs(tx * r00 + ty * r10 + tz * r20) - b0 - a0 * q00 - a1 * q10 - a2 * q20;

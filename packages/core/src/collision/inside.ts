@@ -19,12 +19,20 @@ export interface Filling {
  * The rays run along the axes, and an edge is crossed by the half-open rule in the plane across the ray, computed the
  * same way for both of its triangles: a ray through an edge or a corner counts once, never twice and never not at all.
  */
-export function pointInside({ bvh, closed, oriented }: Filling, x: number, y: number, z: number, scratch: PairScratch): boolean {
+export function pointInside(
+  { bvh, closed, oriented }: Filling,
+  x: number,
+  y: number,
+  z: number,
+  scratch: PairScratch,
+): boolean {
   const box = bvh.boxes;
-  if (Math.abs(x - box[0]!) > box[3]! || Math.abs(y - box[1]!) > box[4]! || Math.abs(z - box[2]!) > box[5]!) return false;
+  if (Math.abs(x - box[0]!) > box[3]! || Math.abs(y - box[1]!) > box[4]! || Math.abs(z - box[2]!) > box[5]!)
+    return false;
   if (closed) return isIn(crossings(bvh, oriented, 0, x, y, z, 1, scratch), oriented);
   let votes = 0;
-  for (let axis = 0; axis < 3; axis++) for (const way of BOTH_WAYS) if (isIn(crossings(bvh, oriented, axis, x, y, z, way, scratch), oriented)) votes++;
+  for (let axis = 0; axis < 3; axis++)
+    for (const way of BOTH_WAYS) if (isIn(crossings(bvh, oriented, axis, x, y, z, way, scratch), oriented)) votes++;
   return votes >= 4;
 }
 
@@ -32,16 +40,35 @@ const BOTH_WAYS = [1, -1] as const;
 const isIn = (count: number, signed: boolean): boolean => (signed ? count !== 0 : (count & 1) === 1);
 
 /** How often the ray from the point along `way` times the axis crosses the surface; `signed`, how often out minus how often in. */
-function crossings(bvh: Bvh, signed: boolean, axis: number, x: number, y: number, z: number, way: 1 | -1, scratch: PairScratch): number {
-  const { boxes, links, corners } = bvh, stack = scratch.stack;
+function crossings(
+  bvh: Bvh,
+  signed: boolean,
+  axis: number,
+  x: number,
+  y: number,
+  z: number,
+  way: 1 | -1,
+  scratch: PairScratch,
+): number {
+  const { boxes, links, corners } = bvh;
+  const stack = scratch.stack;
   // u runs along the ray, v and w across it.
-  const iu = axis, iv = (axis + 1) % 3, iw = (axis + 2) % 3;
-  const u = axis === 0 ? x : axis === 1 ? y : z, v = axis === 0 ? y : axis === 1 ? z : x, w = axis === 0 ? z : axis === 1 ? x : y;
-  let count = 0, top = 0, node = 0;
+  const iu = axis;
+  const iv = (axis + 1) % 3;
+  const iw = (axis + 2) % 3;
+  const u = axis === 0 ? x : axis === 1 ? y : z;
+  const v = axis === 0 ? y : axis === 1 ? z : x;
+  const w = axis === 0 ? z : axis === 1 ? x : y;
+  let count = 0;
+  let top = 0;
+  let node = 0;
   for (;;) {
     const at = 6 * node;
-    if (Math.abs(v - boxes[at + iv]!) <= boxes[at + 3 + iv]! && Math.abs(w - boxes[at + iw]!) <= boxes[at + 3 + iw]!
-      && (boxes[at + iu]! - u) * way >= -boxes[at + 3 + iu]!) {
+    if (
+      Math.abs(v - boxes[at + iv]!) <= boxes[at + 3 + iv]! &&
+      Math.abs(w - boxes[at + iw]!) <= boxes[at + 3 + iw]! &&
+      (boxes[at + iu]! - u) * way >= -boxes[at + 3 + iu]!
+    ) {
       const triangles = links[2 * node + 1]!;
       if (triangles === 0) {
         stack[top++] = links[2 * node]!;
@@ -60,21 +87,43 @@ function crossings(bvh: Bvh, signed: boolean, axis: number, x: number, y: number
 }
 
 /** 1 where the ray crosses the triangle and the triangle faces growing u, −1 where it faces away, 0 where it is not crossed. */
-function crosses(c: Float64Array, t: number, iu: number, iv: number, iw: number, u: number, v: number, w: number, way: 1 | -1): number {
-  const av = c[t + iv]!, aw = c[t + iw]!, bv = c[t + 3 + iv]!, bw = c[t + 3 + iw]!, cv = c[t + 6 + iv]!, cw = c[t + 6 + iw]!;
+function crosses(
+  c: Float64Array,
+  t: number,
+  iu: number,
+  iv: number,
+  iw: number,
+  u: number,
+  v: number,
+  w: number,
+  way: 1 | -1,
+): number {
+  const av = c[t + iv]!;
+  const aw = c[t + iw]!;
+  const bv = c[t + 3 + iv]!;
+  const bw = c[t + 3 + iw]!;
+  const cv = c[t + 6 + iv]!;
+  const cw = c[t + 6 + iw]!;
   if (edgeBeside(av, aw, bv, bw, v, w) === edgeBeside(bv, bw, cv, cw, v, w)) {
     if (!edgeBeside(cv, cw, av, aw, v, w)) return 0;
   } else if (edgeBeside(cv, cw, av, aw, v, w)) return 0;
-  const au = c[t + iu]!, eu = c[t + 3 + iu]! - au, fu = c[t + 6 + iu]! - au, ev = bv - av, ew = bw - aw, fv = cv - av, fw = cw - aw;
+  const au = c[t + iu]!;
+  const eu = c[t + 3 + iu]! - au;
+  const fu = c[t + 6 + iu]! - au;
+  const ev = bv - av;
+  const ew = bw - aw;
+  const fv = cv - av;
+  const fw = cw - aw;
   const nu = ev * fw - ew * fv;
   if (nu === 0) return 0;
   // The plane through the corners at (v, w): n · (point − a) = 0.
-  const nv = ew * fu - eu * fw, nw = eu * fv - ev * fu;
+  const nv = ew * fu - eu * fw;
+  const nw = eu * fv - ev * fu;
   return (au - (nv * (v - av) + nw * (w - aw)) / nu - u) * way > 0 ? Math.sign(nu) : 0;
 }
 
 /** Whether the edge passes the point on the side of growing v at height w. The lower end always comes first. */
 function edgeBeside(av: number, aw: number, bv: number, bw: number, v: number, w: number): boolean {
-  if ((aw > w) === (bw > w)) return false;
+  if (aw > w === bw > w) return false;
   return aw < bw ? (bv - av) * (w - aw) > (v - av) * (bw - aw) : (av - bv) * (w - bw) > (v - bv) * (aw - bw);
 }

@@ -15,8 +15,13 @@ export interface PairScratch {
 }
 
 export const pairScratch = (): PairScratch => ({
-  stack: new Int32Array(512), bounds: new Float64Array(256), triangles: new Float64Array(9 * LEAF_TRIANGLES), relative: rigid(),
-  point: new Float64Array(3), ball: new Float64Array(3), witness: new Int32Array(2),
+  stack: new Int32Array(512),
+  bounds: new Float64Array(256),
+  triangles: new Float64Array(9 * LEAF_TRIANGLES),
+  relative: rigid(),
+  point: new Float64Array(3),
+  ball: new Float64Array(3),
+  witness: new Int32Array(2),
 });
 
 /** Makes room for a walk down both trees: each step down leaves at most one pair behind. */
@@ -40,26 +45,50 @@ const SLACK = 1e-9;
  */
 export function surfacesTouch(a: Bvh, b: Bvh, aFromB: Rigid, scratch: PairScratch): boolean {
   makeRoom(scratch, a, b);
-  const stack = scratch.stack, boxesA = a.boxes, boxesB = b.boxes, linksA = a.links, linksB = b.links;
+  const stack = scratch.stack;
+  const boxesA = a.boxes;
+  const boxesB = b.boxes;
+  const linksA = a.links;
+  const linksB = b.links;
   if (!boxesTouch(boxesA, 0, boxesB, 0, aFromB)) return false;
-  let nodeA = 0, nodeB = 0, top = 0;
+  let nodeA = 0;
+  let nodeB = 0;
+  let top = 0;
   for (;;) {
-    const countA = linksA[2 * nodeA + 1]!, countB = linksB[2 * nodeB + 1]!;
+    const countA = linksA[2 * nodeA + 1]!;
+    const countB = linksB[2 * nodeB + 1]!;
     if (countA > 0 && countB > 0) {
       if (leavesTouch(a, linksA[2 * nodeA]!, countA, b, linksB[2 * nodeB]!, countB, aFromB, scratch)) return true;
     } else if (countB > 0 || (countA === 0 && size(boxesA, 6 * nodeA) >= size(boxesB, 6 * nodeB))) {
-      const first = nodeA + 1, second = linksA[2 * nodeA]!;
-      const goFirst = boxesTouch(boxesA, 6 * first, boxesB, 6 * nodeB, aFromB), goSecond = boxesTouch(boxesA, 6 * second, boxesB, 6 * nodeB, aFromB);
-      if (goFirst && goSecond) { stack[top++] = second; stack[top++] = nodeB; }
-      if (goFirst || goSecond) { nodeA = goFirst ? first : second; continue; }
+      const first = nodeA + 1;
+      const second = linksA[2 * nodeA]!;
+      const goFirst = boxesTouch(boxesA, 6 * first, boxesB, 6 * nodeB, aFromB);
+      const goSecond = boxesTouch(boxesA, 6 * second, boxesB, 6 * nodeB, aFromB);
+      if (goFirst && goSecond) {
+        stack[top++] = second;
+        stack[top++] = nodeB;
+      }
+      if (goFirst || goSecond) {
+        nodeA = goFirst ? first : second;
+        continue;
+      }
     } else {
-      const first = nodeB + 1, second = linksB[2 * nodeB]!;
-      const goFirst = boxesTouch(boxesA, 6 * nodeA, boxesB, 6 * first, aFromB), goSecond = boxesTouch(boxesA, 6 * nodeA, boxesB, 6 * second, aFromB);
-      if (goFirst && goSecond) { stack[top++] = nodeA; stack[top++] = second; }
-      if (goFirst || goSecond) { nodeB = goFirst ? first : second; continue; }
+      const first = nodeB + 1;
+      const second = linksB[2 * nodeB]!;
+      const goFirst = boxesTouch(boxesA, 6 * nodeA, boxesB, 6 * first, aFromB);
+      const goSecond = boxesTouch(boxesA, 6 * nodeA, boxesB, 6 * second, aFromB);
+      if (goFirst && goSecond) {
+        stack[top++] = nodeA;
+        stack[top++] = second;
+      }
+      if (goFirst || goSecond) {
+        nodeB = goFirst ? first : second;
+        continue;
+      }
     }
     if (top === 0) return false;
-    nodeB = stack[--top]!; nodeA = stack[--top]!;
+    nodeB = stack[--top]!;
+    nodeA = stack[--top]!;
   }
 }
 
@@ -67,32 +96,61 @@ export function surfacesTouch(a: Bvh, b: Bvh, aFromB: Rigid, scratch: PairScratc
 export const size = (boxes: Float64Array, at: number): number => boxes[at + 3]! + boxes[at + 4]! + boxes[at + 5]!;
 
 function leavesTouch(
-  a: Bvh, fromA: number, countA: number, b: Bvh, fromB: number, countB: number, aFromB: Rigid, scratch: PairScratch,
+  a: Bvh,
+  fromA: number,
+  countA: number,
+  b: Bvh,
+  fromB: number,
+  countB: number,
+  aFromB: Rigid,
+  scratch: PairScratch,
 ): boolean {
   const moved = scratch.triangles;
   movePoints(aFromB, b.corners, 9 * fromB, 3 * countB, moved, 0);
-  for (let i = 0; i < countA; i++) for (let j = 0; j < countB; j++) {
-    if (!trianglesTouch(a.corners, 9 * (fromA + i), moved, 9 * j)) continue;
-    scratch.witness[0] = fromA + i; scratch.witness[1] = fromB + j;
-    return true;
-  }
+  for (let i = 0; i < countA; i++)
+    for (let j = 0; j < countB; j++) {
+      if (!trianglesTouch(a.corners, 9 * (fromA + i), moved, 9 * j)) continue;
+      scratch.witness[0] = fromA + i;
+      scratch.witness[1] = fromB + j;
+      return true;
+    }
   return false;
 }
 
 /** Whether box i of a and box j of b overlap, b seen through `m`. Never false for boxes that share a point. */
 export function boxesTouch(boxesA: Float64Array, i: number, boxesB: Float64Array, j: number, m: Rigid): boolean {
-  const r00 = m[0]!, r01 = m[1]!, r02 = m[2]!, r10 = m[3]!, r11 = m[4]!, r12 = m[5]!, r20 = m[6]!, r21 = m[7]!, r22 = m[8]!;
-  const bx = boxesB[j]!, by = boxesB[j + 1]!, bz = boxesB[j + 2]!;
-  const b0 = boxesB[j + 3]!, b1 = boxesB[j + 4]!, b2 = boxesB[j + 5]!;
-  const a0 = boxesA[i + 3]!, a1 = boxesA[i + 4]!, a2 = boxesA[i + 5]!;
+  const r00 = m[0]!;
+  const r01 = m[1]!;
+  const r02 = m[2]!;
+  const r10 = m[3]!;
+  const r11 = m[4]!;
+  const r12 = m[5]!;
+  const r20 = m[6]!;
+  const r21 = m[7]!;
+  const r22 = m[8]!;
+  const bx = boxesB[j]!;
+  const by = boxesB[j + 1]!;
+  const bz = boxesB[j + 2]!;
+  const b0 = boxesB[j + 3]!;
+  const b1 = boxesB[j + 4]!;
+  const b2 = boxesB[j + 5]!;
+  const a0 = boxesA[i + 3]!;
+  const a1 = boxesA[i + 4]!;
+  const a2 = boxesA[i + 5]!;
 
-  const q00 = Math.abs(r00) + SLACK, q01 = Math.abs(r01) + SLACK, q02 = Math.abs(r02) + SLACK;
+  const q00 = Math.abs(r00) + SLACK;
+  const q01 = Math.abs(r01) + SLACK;
+  const q02 = Math.abs(r02) + SLACK;
   const tx = r00 * bx + r01 * by + r02 * bz + m[9]! - boxesA[i]!;
   if (Math.abs(tx) > a0 + b0 * q00 + b1 * q01 + b2 * q02) return false;
-  const q10 = Math.abs(r10) + SLACK, q11 = Math.abs(r11) + SLACK, q12 = Math.abs(r12) + SLACK;
+  const q10 = Math.abs(r10) + SLACK;
+  const q11 = Math.abs(r11) + SLACK;
+  const q12 = Math.abs(r12) + SLACK;
   const ty = r10 * bx + r11 * by + r12 * bz + m[10]! - boxesA[i + 1]!;
   if (Math.abs(ty) > a1 + b0 * q10 + b1 * q11 + b2 * q12) return false;
-  const q20 = Math.abs(r20) + SLACK, q21 = Math.abs(r21) + SLACK, q22 = Math.abs(r22) + SLACK;
+  const q20 = Math.abs(r20) + SLACK;
+  const q21 = Math.abs(r21) + SLACK;
+  const q22 = Math.abs(r22) + SLACK;
   const tz = r20 * bx + r21 * by + r22 * bz + m[11]! - boxesA[i + 2]!;
   if (Math.abs(tz) > a2 + b0 * q20 + b1 * q21 + b2 * q22) return false;
 

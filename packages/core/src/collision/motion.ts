@@ -15,7 +15,16 @@ export type MotionVerdict =
   /** Proven: at no instant is any watched pair nearer than its margin. */
   | { readonly kind: "clear"; readonly checks: number }
   /** The first instant at which a pair is nearer than its margin, to within the resolution. */
-  | { readonly kind: "contact"; readonly at: number; readonly a: string; readonly b: string; readonly between: Contact["between"]; readonly distance_m: number; readonly margin_m: number; readonly checks: number }
+  | {
+      readonly kind: "contact";
+      readonly at: number;
+      readonly a: string;
+      readonly b: string;
+      readonly between: Contact["between"];
+      readonly distance_m: number;
+      readonly margin_m: number;
+      readonly checks: number;
+    }
   /** The limit on checks was used up: proven clear only until `at`. */
   | { readonly kind: "undecided"; readonly at: number; readonly checks: number };
 
@@ -36,7 +45,13 @@ export interface MotionOptions {
 }
 
 /** A pair and a stretch of the motion during which it is proven to be more than `atLeast_m` apart [m]. */
-export interface CertifiedPiece { readonly a: string; readonly b: string; readonly from: number; readonly to: number; readonly atLeast_m: number }
+export interface CertifiedPiece {
+  readonly a: string;
+  readonly b: string;
+  readonly from: number;
+  readonly to: number;
+  readonly atLeast_m: number;
+}
 
 /**
  * Whether a whole motion keeps its distance: not only at samples, but between them.
@@ -49,10 +64,23 @@ export interface CertifiedPiece { readonly a: string; readonly b: string; readon
  * @see Schwarzer, Saha, Latombe, Exact collision checking of robot paths, WAFR 2002.
  */
 export function checkMotion(
-  collider: CellCollider, motion: JointMotion, from: number, to: number, options: MotionOptions = {},
+  collider: CellCollider,
+  motion: JointMotion,
+  from: number,
+  to: number,
+  options: MotionOptions = {},
 ): MotionVerdict {
-  const { margin_m = 0, resolution_m = 0.0002, maxChecks = 100_000, keepsMargin = () => true, watched = () => true, proof } = options, maps = proof === undefined ? options.maps : undefined;
-  const pairs = collider.pairs, rates = pairs.map(pair => relativeRate(pair, motion.maxRate));
+  const {
+    margin_m = 0,
+    resolution_m = 0.0002,
+    maxChecks = 100_000,
+    keepsMargin = () => true,
+    watched = () => true,
+    proof,
+  } = options;
+  const maps = proof === undefined ? options.maps : undefined;
+  const pairs = collider.pairs;
+  const rates = pairs.map(pair => relativeRate(pair, motion.maxRate));
   const turns = pairs.map(pair => relativeTurn(pair, motion.maxRate));
   const margins = pairs.map(pair => (keepsMargin(pair) ? marginOf(pair, margin_m, collider.shapeError_m) : 0));
   const q = new Float64Array(motion.maxRate.length);
@@ -60,16 +88,26 @@ export function checkMotion(
   let checks = 0;
   for (let interval = stack.pop(); interval; interval = stack.pop()) {
     if (checks >= maxChecks) return { kind: "undecided", at: interval.from, checks };
-    const middle = (interval.from + interval.to) / 2, half = (interval.to - interval.from) / 2, open: number[] = [];
+    const middle = (interval.from + interval.to) / 2;
+    const half = (interval.to - interval.from) / 2;
+    const open: number[] = [];
     let blocked = false;
     motion.sample(middle, q);
     collider.place(q);
     checks++;
     for (const i of interval.open) {
-      const pair = pairs[i]!, margin = margins[i]!, drift = rates[i]! * half;
+      const pair = pairs[i]!;
+      const margin = margins[i]!;
+      const drift = rates[i]! * half;
       if (maps?.provenAround(pair, margin, q, motion.maxRate, half) === true) continue;
       if (collider.keepsApart(pair, margin + drift - turns[i]! * half * radiusOf(pair), turns[i]! * half)) {
-        proof?.push({ a: pair.contact.a, b: pair.contact.b, from: interval.from, to: interval.to, atLeast_m: provenAt(collider, pair, margin, drift) });
+        proof?.push({
+          a: pair.contact.a,
+          b: pair.contact.b,
+          from: interval.from,
+          to: interval.to,
+          atLeast_m: provenAt(collider, pair, margin, drift),
+        });
         continue;
       }
       if (drift <= resolution_m) {
@@ -81,7 +119,8 @@ export function checkMotion(
     }
     if (open.length === 0) continue;
     // After a contact in the middle nothing later can be the first one.
-    if (blocked) stack.length = 0; else stack.push({ from: middle, to: interval.to, open });
+    if (blocked) stack.length = 0;
+    else stack.push({ from: middle, to: interval.to, open });
     stack.push({ from: interval.from, to: middle, open });
   }
   return { kind: "clear", checks };
@@ -96,16 +135,27 @@ function provenAt(collider: CellCollider, pair: SolidPair, margin_m: number, dri
   return margin_m + Math.max(0, distance_m - drift_m - margin_m) / 2;
 }
 
-interface Interval { readonly from: number; readonly to: number; readonly open: readonly number[] }
+interface Interval {
+  readonly from: number;
+  readonly to: number;
+  readonly open: readonly number[];
+}
 
 /** The straight line in joint space from one posture to the other, t from 0 to 1. */
-export function checkJointLine(collider: CellCollider, fromQ: ArrayLike<number>, toQ: ArrayLike<number>, options: MotionOptions = {}): MotionVerdict {
+export function checkJointLine(
+  collider: CellCollider,
+  fromQ: ArrayLike<number>,
+  toQ: ArrayLike<number>,
+  options: MotionOptions = {},
+): MotionVerdict {
   return checkMotion(collider, jointLine(fromQ, toQ), 0, 1, options);
 }
 
 export const jointLine = (fromQ: ArrayLike<number>, toQ: ArrayLike<number>): JointMotion => ({
   maxRate: Float64Array.from(fromQ, (q, i) => Math.abs(toQ[i]! - q)),
-  sample: (t, out) => { for (let i = 0; i < out.length; i++) out[i] = fromQ[i]! + t * (toQ[i]! - fromQ[i]!); },
+  sample: (t, out) => {
+    for (let i = 0; i < out.length; i++) out[i] = fromQ[i]! + t * (toQ[i]! - fromQ[i]!);
+  },
 });
 
 const outerOf = ({ a, b }: SolidPair): Body => (a.carrier > b.carrier ? a : b);

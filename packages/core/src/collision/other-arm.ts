@@ -20,12 +20,26 @@ export class OtherArm {
   readonly #scratch = armScratch();
 
   /** @param links  `linkSolids(robot)`; the same meshes for every collider, so that their trees are built once. */
-  constructor(id: string, name: string, robot: Robot, links: readonly LinkSolid[], worldFromBase: Pose<"world", "base">, q_rad: ArrayLike<number> = robot.home_rad) {
-    this.id = id; this.name = name; this.robot = robot;
+  constructor(
+    id: string,
+    name: string,
+    robot: Robot,
+    links: readonly LinkSolid[],
+    worldFromBase: Pose<"world", "base">,
+    q_rad: ArrayLike<number> = robot.home_rad,
+  ) {
+    this.id = id;
+    this.name = name;
+    this.robot = robot;
     this.#worldFromBase = copyPose(worldFromBase);
     this.#links = links.map(({ link }) => link);
     this.#baseFromLinks = Array.from({ length: robot.arm.joints.length + 1 }, () => identity<"base", "link">());
-    this.objects = links.map(({ link, mesh }, i) => ({ id: `${id}/${i}`, name: link === 0 ? `the base of ${name}` : `link ${link} of ${name}`, worldFromObject: identity<"world", "object">(), mesh }));
+    this.objects = links.map(({ link, mesh }, i) => ({
+      id: `${id}/${i}`,
+      name: link === 0 ? `the base of ${name}` : `link ${link} of ${name}`,
+      worldFromObject: identity<"world", "object">(),
+      mesh,
+    }));
     this.#put(q_rad);
   }
 
@@ -37,6 +51,11 @@ export class OtherArm {
 
   #put(q_rad: ArrayLike<number>): void {
     linkPoses(this.robot.arm, q_rad, this.#baseFromLinks, this.#scratch);
-    for (let i = 0; i < this.objects.length; i++) compose(this.#worldFromBase as Pose, this.#baseFromLinks[this.#links[i]!] as Pose, this.objects[i]!.worldFromObject as Pose);
+    for (let i = 0; i < this.objects.length; i++)
+      compose(
+        this.#worldFromBase as Pose,
+        this.#baseFromLinks[this.#links[i]!] as Pose,
+        this.objects[i]!.worldFromObject as Pose,
+      );
   }
 }

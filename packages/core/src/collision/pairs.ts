@@ -17,4 +17,7 @@ export interface PairEntry {
 }
 
 /** Which parts of a robot are checked against which. Plain data: may be kept, shown as a matrix and edited. */
-export interface PairMatrix { readonly seed: number; readonly entries: readonly PairEntry[] }
+export interface PairMatrix {
+  readonly seed: number;
+  readonly entries: readonly PairEntry[];
+}

@@ -19,13 +19,22 @@ export interface Solid extends Filling {
 }
 
 export function buildSolid(mesh: TriangleMesh): Solid {
-  const welded = weldMesh(mesh, SAME_CORNER_M).mesh, p = mesh.positions;
+  const welded = weldMesh(mesh, SAME_CORNER_M).mesh;
+  const p = mesh.positions;
   let radius2 = 0;
   for (const vertex of mesh.indices) {
-    const x = p[3 * vertex]!, y = p[3 * vertex + 1]!, z = p[3 * vertex + 2]!;
+    const x = p[3 * vertex]!;
+    const y = p[3 * vertex + 1]!;
+    const z = p[3 * vertex + 2]!;
     radius2 = Math.max(radius2, x * x + y * y + z * z);
   }
-  return { bvh: buildBvh(mesh), closed: isClosed(welded), oriented: isOriented(welded), shells: shellCorners(welded), radius_m: Math.sqrt(radius2) };
+  return {
+    bvh: buildBvh(mesh),
+    closed: isClosed(welded),
+    oriented: isOriented(welded),
+    shells: shellCorners(welded),
+    radius_m: Math.sqrt(radius2),
+  };
 }
 
 /** Whether two solids share a point, one lying wholly inside the other included. The call allocates nothing. */
@@ -38,19 +47,37 @@ export function solidsTouch(a: Solid, b: Solid, aFromB: Rigid, scratch: PairScra
  * Parameters as in `surfaceDistance`.
  */
 export function solidDistance(
-  a: Solid, b: Solid, aFromB: Rigid, cutoff_m: number, scratch: PairScratch, out: Float64Array, enough_m = 0,
+  a: Solid,
+  b: Solid,
+  aFromB: Rigid,
+  cutoff_m: number,
+  scratch: PairScratch,
+  out: Float64Array,
+  enough_m = 0,
 ): number {
   const distance = surfaceDistance(a.bvh, b.bvh, aFromB, cutoff_m, scratch, out, enough_m);
   if (distance > 0 && oneInsideOther(a, b, aFromB, scratch)) {
-    out.set(scratch.point, 0); out.set(scratch.point, 3);
+    out.set(scratch.point, 0);
+    out.set(scratch.point, 3);
     return 0;
   }
   return distance;
 }
 
 /** `keepsApart` for solids: what lies inside the other keeps no distance. */
-export function solidKeepsApart(outer: Solid, inner: Solid, outerFromInner: Rigid, near_m: number, perMetre: number, scratch: PairScratch, out: Float64Array): boolean {
-  return keepsApart(outer.bvh, inner.bvh, outerFromInner, near_m, perMetre, scratch, out) && !oneInsideOther(outer, inner, outerFromInner, scratch);
+export function solidKeepsApart(
+  outer: Solid,
+  inner: Solid,
+  outerFromInner: Rigid,
+  near_m: number,
+  perMetre: number,
+  scratch: PairScratch,
+  out: Float64Array,
+): boolean {
+  return (
+    keepsApart(outer.bvh, inner.bvh, outerFromInner, near_m, perMetre, scratch, out) &&
+    !oneInsideOther(outer, inner, outerFromInner, scratch)
+  );
 }
 
 /** Whether a piece of either surface lies inside the other solid; where, in a's frame, is left in `scratch.point`. */
@@ -62,8 +89,12 @@ function oneInsideOther(a: Solid, b: Solid, aFromB: Rigid, scratch: PairScratch)
   }
   const r = aFromB;
   for (let s = 0; s < a.shells.length; s += 3) {
-    const x = a.shells[s]! - r[9]!, y = a.shells[s + 1]! - r[10]!, z = a.shells[s + 2]! - r[11]!;
-    const bx = r[0]! * x + r[3]! * y + r[6]! * z, by = r[1]! * x + r[4]! * y + r[7]! * z, bz = r[2]! * x + r[5]! * y + r[8]! * z;
+    const x = a.shells[s]! - r[9]!;
+    const y = a.shells[s + 1]! - r[10]!;
+    const z = a.shells[s + 2]! - r[11]!;
+    const bx = r[0]! * x + r[3]! * y + r[6]! * z;
+    const by = r[1]! * x + r[4]! * y + r[7]! * z;
+    const bz = r[2]! * x + r[5]! * y + r[8]! * z;
     if (!pointInside(b, bx, by, bz, scratch)) continue;
     for (let k = 0; k < 3; k++) point[k] = a.shells[s + k]!;
     return true;
@@ -73,17 +104,24 @@ function oneInsideOther(a: Solid, b: Solid, aFromB: Rigid, scratch: PairScratch)
 
 /** The first corner of every connected piece of a welded mesh. */
 function shellCorners(mesh: TriangleMesh): Float64Array {
-  const { positions, indices } = mesh, parent = new Int32Array(positions.length / 3);
+  const { positions, indices } = mesh;
+  const parent = new Int32Array(positions.length / 3);
   for (let v = 0; v < parent.length; v++) parent[v] = v;
   const root = (v: number): number => {
-    while (parent[v] !== v) { parent[v] = parent[parent[v]!]!; v = parent[v]!; }
+    while (parent[v] !== v) {
+      parent[v] = parent[parent[v]!]!;
+      v = parent[v]!;
+    }
     return v;
   };
-  for (let t = 0; t < indices.length; t += 3) for (let c = 1; c < 3; c++) {
-    const a = root(indices[t]!), b = root(indices[t + c]!);
-    parent[Math.max(a, b)] = Math.min(a, b);
-  }
+  for (let t = 0; t < indices.length; t += 3)
+    for (let c = 1; c < 3; c++) {
+      const a = root(indices[t]!);
+      const b = root(indices[t + c]!);
+      parent[Math.max(a, b)] = Math.min(a, b);
+    }
   const corners: number[] = [];
-  for (let v = 0; v < parent.length; v++) if (parent[v] === v) corners.push(positions[3 * v]!, positions[3 * v + 1]!, positions[3 * v + 2]!);
+  for (let v = 0; v < parent.length; v++)
+    if (parent[v] === v) corners.push(positions[3 * v]!, positions[3 * v + 1]!, positions[3 * v + 2]!);
   return Float64Array.from(corners);
 }

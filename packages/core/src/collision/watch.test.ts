@@ -1,9 +1,30 @@
 import { expect, test } from "vitest";
-import { boxMesh, flangeOfTcp, linkSolids, pose, robotById, solveAll, watchCell, type CellGeometry, type Pose } from "../index.ts";
+import {
+  boxMesh,
+  flangeOfTcp,
+  linkSolids,
+  pose,
+  robotById,
+  solveAll,
+  watchCell,
+  type CellGeometry,
+  type Pose,
+} from "../index.ts";
 
 const robot = robotById("staubli_rx90l")!;
-const box = { id: "box", name: "Box", mesh: boxMesh([0.2, 0.4, 0.2]), worldFromObject: pose<"world", "object">([0.6, 0, 0.3]) };
-const geometry: CellGeometry = { worldFromBase: pose(), links: linkSolids(robot), objects: [box], allowedPairs: [], shapeError_m: 0 };
+const box = {
+  id: "box",
+  name: "Box",
+  mesh: boxMesh([0.2, 0.4, 0.2]),
+  worldFromObject: pose<"world", "object">([0.6, 0, 0.3]),
+};
+const geometry: CellGeometry = {
+  worldFromBase: pose(),
+  links: linkSolids(robot),
+  objects: [box],
+  allowedPairs: [],
+  shapeError_m: 0,
+};
 const flangeFromTcp = pose<"flange", "tcp">([0, 0, 0.1]);
 const look = watchCell({ geometry, arm: robot.arm, flangeFromTcp, free_rad: robot.home_rad, cutoff_m: 0.3 });
 /** The tool point straight above the middle of the box's top, so high above it. */

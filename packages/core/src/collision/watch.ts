@@ -26,14 +26,29 @@ export interface Sight {
 }
 
 /** Watches a cell posture by posture: contacts, touch of the tool point, clearance. One watcher a worker. */
-export function watchCell({ geometry, arm, flangeFromTcp, free_rad, cutoff_m }: WatchedCell): (q_rad: ArrayLike<number>) => Sight {
-  const collider = new CellCollider(geometry, arm), feeler = new TipFeeler(geometry.objects);
+export function watchCell({
+  geometry,
+  arm,
+  flangeFromTcp,
+  free_rad,
+  cutoff_m,
+}: WatchedCell): (q_rad: ArrayLike<number>) => Sight {
+  const collider = new CellCollider(geometry, arm);
+  const feeler = new TipFeeler(geometry.objects);
   collider.allowContactsAt(free_rad);
-  const contacts: Contact[] = [], touched: string[] = [], near = clearance(), scratch = armScratch();
-  const flange = identity<"base", "flange">(), tcp: Pose = identity();
+  const contacts: Contact[] = [];
+  const touched: string[] = [];
+  const near = clearance();
+  const scratch = armScratch();
+  const flange = identity<"base", "flange">();
+  const tcp: Pose = identity();
   return q_rad => {
     collider.check(q_rad, contacts);
-    compose(geometry.worldFromBase as Pose, compose(flangePose(arm, q_rad, flange, scratch), flangeFromTcp) as Pose, tcp);
+    compose(
+      geometry.worldFromBase as Pose,
+      compose(flangePose(arm, q_rad, flange, scratch), flangeFromTcp) as Pose,
+      tcp,
+    );
     feeler.touches(tcp.position, TOUCH_M, touched);
     collider.clearance(q_rad, cutoff_m, near, robotAndCell);
     return { contacts, touched, clearance: near };

@@ -3,9 +3,14 @@ import { inverseDynamics } from "./inverse-dynamics.ts";
 import { dynamicsScratch, type DynamicsScratch } from "./placed.ts";
 
 /** Working memory of `computedTorque`. */
-export interface ComputedTorqueScratch { readonly dynamics: DynamicsScratch; readonly wanted: Float64Array }
-export const computedTorqueScratch = (model: DynamicsModel): ComputedTorqueScratch =>
-  ({ dynamics: dynamicsScratch(model), wanted: new Float64Array(model.rotors_kgm2.length) });
+export interface ComputedTorqueScratch {
+  readonly dynamics: DynamicsScratch;
+  readonly wanted: Float64Array;
+}
+export const computedTorqueScratch = (model: DynamicsModel): ComputedTorqueScratch => ({
+  dynamics: dynamicsScratch(model),
+  wanted: new Float64Array(model.rotors_kgm2.length),
+});
 
 /**
  * The advanced control law (row L-68): the model takes gravity, coupling and centrifugal torques away, and every joint
@@ -18,13 +23,22 @@ export const computedTorqueScratch = (model: DynamicsModel): ComputedTorqueScrat
  * @param out              receives n torques [N m]; returned.
  */
 export function computedTorque(
-  model: DynamicsModel, wanted: { readonly q: ArrayLike<number>; readonly qd: ArrayLike<number>; readonly qdd: ArrayLike<number> },
-  q: ArrayLike<number>, qd: ArrayLike<number>, bandwidth_rad_s: number, torqueMax_Nm: ArrayLike<number> | null,
-  out: Float64Array = new Float64Array(model.rotors_kgm2.length), scratch: ComputedTorqueScratch = computedTorqueScratch(model),
+  model: DynamicsModel,
+  wanted: { readonly q: ArrayLike<number>; readonly qd: ArrayLike<number>; readonly qdd: ArrayLike<number> },
+  q: ArrayLike<number>,
+  qd: ArrayLike<number>,
+  bandwidth_rad_s: number,
+  torqueMax_Nm: ArrayLike<number> | null,
+  out: Float64Array = new Float64Array(model.rotors_kgm2.length),
+  scratch: ComputedTorqueScratch = computedTorqueScratch(model),
 ): Float64Array {
-  const n = model.rotors_kgm2.length, aim = scratch.wanted;
-  for (let i = 0; i < n; i++) aim[i] = wanted.qdd[i]! + 2 * bandwidth_rad_s * (wanted.qd[i]! - qd[i]!) + bandwidth_rad_s ** 2 * (wanted.q[i]! - q[i]!);
+  const n = model.rotors_kgm2.length;
+  const aim = scratch.wanted;
+  for (let i = 0; i < n; i++)
+    aim[i] =
+      wanted.qdd[i]! + 2 * bandwidth_rad_s * (wanted.qd[i]! - qd[i]!) + bandwidth_rad_s ** 2 * (wanted.q[i]! - q[i]!);
   inverseDynamics(model, q, qd, aim, out, scratch.dynamics);
-  if (torqueMax_Nm) for (let i = 0; i < n; i++) out[i] = Math.max(-torqueMax_Nm[i]!, Math.min(torqueMax_Nm[i]!, out[i]!));
+  if (torqueMax_Nm)
+    for (let i = 0; i < n; i++) out[i] = Math.max(-torqueMax_Nm[i]!, Math.min(torqueMax_Nm[i]!, out[i]!));
   return out;
 }

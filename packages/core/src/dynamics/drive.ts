@@ -22,7 +22,13 @@ export interface DriveTask {
  *
  *   τ = k (target − q) + b (targetSpeed − q̇),   |τ| ≤ τ_max
  */
-export function driveTorque(gains: DriveGains, target_rad: number, q_rad: number, targetSpeed_rad_s: number, qd_rad_s: number): number {
+export function driveTorque(
+  gains: DriveGains,
+  target_rad: number,
+  q_rad: number,
+  targetSpeed_rad_s: number,
+  qd_rad_s: number,
+): number {
   const torque_Nm = gains.stiffness * (target_rad - q_rad) + gains.damping * (targetSpeed_rad_s - qd_rad_s);
   return Math.max(-gains.torqueMax_Nm, Math.min(gains.torqueMax_Nm, torque_Nm));
 }
@@ -31,7 +37,8 @@ export function driveTorque(gains: DriveGains, target_rad: number, q_rad: number
 export const criticalDamping = (stiffness: number, inertia: number): number => 2 * Math.sqrt(stiffness * inertia);
 
 /** How a drive swings: below 1 it overshoots, at 1 it is as fast as without:  ζ = b / (2 √(k J)). */
-export const dampingRatio = (stiffness: number, damping: number, inertia: number): number => damping / (2 * Math.sqrt(stiffness * inertia));
+export const dampingRatio = (stiffness: number, damping: number, inertia: number): number =>
+  damping / (2 * Math.sqrt(stiffness * inertia));
 
 /**
  * Gains from what the drive may cost, in closed form (row L-16): full torque at both largest errors, critically damped.
@@ -41,7 +48,10 @@ export const dampingRatio = (stiffness: number, damping: number, inertia: number
  * @see Devic, Vidakovic, Zivkovic, Machines 2024, 12(7) 480, Eqs 6–8; golden G-01.
  */
 export function driveGains({ inertia, torqueMax_Nm, errorMax_rad, speedErrorMax_rad_s }: DriveTask): DriveGains {
-  const root = (Math.sqrt(inertia * speedErrorMax_rad_s ** 2 + errorMax_rad * torqueMax_Nm) - speedErrorMax_rad_s * Math.sqrt(inertia)) / errorMax_rad;
+  const root =
+    (Math.sqrt(inertia * speedErrorMax_rad_s ** 2 + errorMax_rad * torqueMax_Nm) -
+      speedErrorMax_rad_s * Math.sqrt(inertia)) /
+    errorMax_rad;
   const stiffness = root * root;
   return { stiffness, damping: criticalDamping(stiffness, inertia), torqueMax_Nm };
 }
@@ -53,5 +63,8 @@ export function driveGains({ inertia, torqueMax_Nm, errorMax_rad, speedErrorMax_
  *
  * @param massDiagonal_kgm2  M_ii of `massMatrix`, rotors included.
  */
-export const armDriveGains = (stiffness: number, massDiagonal_kgm2: number, torqueMax_Nm: number): DriveGains =>
-  ({ stiffness, damping: criticalDamping(stiffness, massDiagonal_kgm2), torqueMax_Nm });
+export const armDriveGains = (stiffness: number, massDiagonal_kgm2: number, torqueMax_Nm: number): DriveGains => ({
+  stiffness,
+  damping: criticalDamping(stiffness, massDiagonal_kgm2),
+  torqueMax_Nm,
+});

@@ -1,5 +1,13 @@
 import type { DynamicsModel } from "./model.ts";
-import { addCrossForce, addCrossMotion, dot6, dynamicsScratch, momentum, placeBodies, type DynamicsScratch } from "./placed.ts";
+import {
+  addCrossForce,
+  addCrossMotion,
+  dot6,
+  dynamicsScratch,
+  momentum,
+  placeBodies,
+  type DynamicsScratch,
+} from "./placed.ts";
 
 /**
  * Torques that a motion needs: recursive Newton–Euler, everything seen from the base.
@@ -14,13 +22,20 @@ import { addCrossForce, addCrossMotion, dot6, dynamicsScratch, momentum, placeBo
  * @see Featherstone, Rigid Body Dynamics Algorithms, Springer 2008, ch. 5.
  */
 export function inverseDynamics(
-  model: DynamicsModel, q: ArrayLike<number>, qd: ArrayLike<number>, qdd: ArrayLike<number>,
-  out: Float64Array = new Float64Array(model.rotors_kgm2.length), scratch: DynamicsScratch = dynamicsScratch(model),
+  model: DynamicsModel,
+  q: ArrayLike<number>,
+  qd: ArrayLike<number>,
+  qdd: ArrayLike<number>,
+  out: Float64Array = new Float64Array(model.rotors_kgm2.length),
+  scratch: DynamicsScratch = dynamicsScratch(model),
 ): Float64Array {
   placeBodies(model, q, scratch);
-  const n = model.rotors_kgm2.length, { axes, placed, speeds, accelerations, forces, one } = scratch, g = model.gravity_mps2;
+  const n = model.rotors_kgm2.length;
+  const { axes, placed, speeds, accelerations, forces, one } = scratch;
+  const g = model.gravity_mps2;
   for (let i = 0; i < n; i++) {
-    const at = 6 * i, before = at - 6;
+    const at = 6 * i;
+    const before = at - 6;
     for (let k = 0; k < 6; k++) {
       speeds[at + k] = (i > 0 ? speeds[before + k]! : 0) + axes[at + k]! * qd[i]!;
       accelerations[at + k] = (i > 0 ? accelerations[before + k]! : k > 2 ? -g[k - 3]! : 0) + axes[at + k]! * qdd[i]!;

@@ -11,10 +11,14 @@ import { dot6, dynamicsScratch, momentum, placeBodies, type DynamicsScratch } fr
  * @see Featherstone, Rigid Body Dynamics Algorithms, Springer 2008, ch. 6.
  */
 export function massMatrix(
-  model: DynamicsModel, q: ArrayLike<number>, out: Float64Array = new Float64Array(model.rotors_kgm2.length ** 2), scratch: DynamicsScratch = dynamicsScratch(model),
+  model: DynamicsModel,
+  q: ArrayLike<number>,
+  out: Float64Array = new Float64Array(model.rotors_kgm2.length ** 2),
+  scratch: DynamicsScratch = dynamicsScratch(model),
 ): Float64Array {
   placeBodies(model, q, scratch);
-  const n = model.rotors_kgm2.length, { axes, placed, one } = scratch;
+  const n = model.rotors_kgm2.length;
+  const { axes, placed, one } = scratch;
   for (let i = n - 1; i >= 0; i--) {
     if (i < n - 1) for (let k = 0; k < BODY; k++) placed[BODY * i + k]! += placed[BODY * (i + 1) + k]!;
     momentum(placed, i, axes, 6 * i, one, 0);

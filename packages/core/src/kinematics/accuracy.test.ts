@@ -2,12 +2,18 @@ import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
 import { distance, flangePose, robotById, type Vector3 } from "../index.ts";
 
-const read = (name: string): unknown => JSON.parse(readFileSync(new URL(`../../../../fixtures/kinematics/${name}`, import.meta.url), "utf8"));
+const read = (name: string): unknown =>
+  JSON.parse(readFileSync(new URL(`../../../../fixtures/kinematics/${name}`, import.meta.url), "utf8"));
 const robot = robotById("staubli_rx90l")!;
 /** Witness: pinocchio, cross-checked with yourdfpy and MuJoCo. Units m, rad. */
-const forward = read("staubli_rx90l.forward.json") as { samples: { q: number[]; T: number[][] }[]; near_singular: { q: number[]; T: number[][] }[] };
+const forward = read("staubli_rx90l.forward.json") as {
+  samples: { q: number[]; T: number[][] }[];
+  near_singular: { q: number[]; T: number[][] }[];
+};
 /** Table 4 of the edge-tracing paper, as printed [mm]. */
-const table = (read("staubli_rx90l.paper.json") as { table4: { unity_mm: Vector3; real_mm: Vector3; error_mm: Vector3 }[] }).table4;
+const table = (
+  read("staubli_rx90l.paper.json") as { table4: { unity_mm: Vector3; real_mm: Vector3; error_mm: Vector3 }[] }
+).table4;
 
 test("N-59 the tool centre point is within 0.01 mm of an independent forward kinematics on every reference pose, on each axis", () => {
   const cases = [...forward.samples, ...forward.near_singular];
@@ -22,7 +28,9 @@ test("N-59 the tool centre point is within 0.01 mm of an independent forward kin
 
 test("N-59 the paper's accuracy table: 12 rows, every printed error is unity − real, at most 0.62 mm on an axis and 0.884 mm in space", () => {
   expect(table).toHaveLength(12);
-  let axis_mm = 0, space_mm = 0, squares = 0;
+  let axis_mm = 0;
+  let space_mm = 0;
+  let squares = 0;
   for (const { unity_mm, real_mm, error_mm } of table) {
     for (let k = 0; k < 3; k++) {
       expect(unity_mm[k]! - real_mm[k]!).toBeCloseTo(error_mm[k]!, 6);

@@ -10,8 +10,14 @@ export const POSE_STRIDE = 7;
 export const BATCH_BRANCHES = 16;
 
 /** Answers of `solveBatch`: of pose i, `counts[i]` postures, the s-th from `q_rad[(i · BATCH_BRANCHES + s) · joints]`. */
-export interface Batch { readonly q_rad: Float64Array; readonly counts: Uint8Array }
-export const batchFor = (joints: number, poses: number): Batch => ({ q_rad: new Float64Array(poses * BATCH_BRANCHES * joints), counts: new Uint8Array(poses) });
+export interface Batch {
+  readonly q_rad: Float64Array;
+  readonly counts: Uint8Array;
+}
+export const batchFor = (joints: number, poses: number): Batch => ({
+  q_rad: new Float64Array(poses * BATCH_BRANCHES * joints),
+  counts: new Uint8Array(poses),
+});
 
 /**
  * Flange poses of many postures, one after another: a pure function of typed arrays, for workers.
@@ -21,14 +27,27 @@ export const batchFor = (joints: number, poses: number): Batch => ({ q_rad: new 
  * @throws {JointCountFault} when the arm has another number of joints than `q_rad.length / (out.length / 7)`.
  */
 export function flangePoseBatch(
-  arm: SerialArm, q_rad: Float64Array, out: Float64Array = new Float64Array((q_rad.length / arm.joints.length) * POSE_STRIDE), scratch: ArmScratch = armScratch(),
+  arm: SerialArm,
+  q_rad: Float64Array,
+  out: Float64Array = new Float64Array((q_rad.length / arm.joints.length) * POSE_STRIDE),
+  scratch: ArmScratch = armScratch(),
 ): Float64Array {
-  const count = out.length / POSE_STRIDE, n = q_rad.length / count, q = new Float64Array(n), flange = identity<"base", "flange">();
+  const count = out.length / POSE_STRIDE;
+  const n = q_rad.length / count;
+  const q = new Float64Array(n);
+  const flange = identity<"base", "flange">();
   for (let i = 0; i < count; i++) {
     for (let j = 0; j < n; j++) q[j] = q_rad[i * n + j]!;
     flangePose(arm, q, flange, scratch);
-    const { position: p, quaternion: r } = flange, at = i * POSE_STRIDE;
-    out[at] = p[0]; out[at + 1] = p[1]; out[at + 2] = p[2]; out[at + 3] = r[0]; out[at + 4] = r[1]; out[at + 5] = r[2]; out[at + 6] = r[3];
+    const { position: p, quaternion: r } = flange;
+    const at = i * POSE_STRIDE;
+    out[at] = p[0];
+    out[at + 1] = p[1];
+    out[at + 2] = p[2];
+    out[at + 3] = r[0];
+    out[at + 4] = r[1];
+    out[at + 5] = r[2];
+    out[at + 6] = r[3];
   }
   return out;
 }
@@ -41,8 +60,16 @@ export function flangePoseBatch(
  * @param out        made for the arm's joints and m poses; the postures of pose i lie from i · BATCH_BRANCHES. Returned.
  * @param elbow_rad  of seven joints; 0 unless said.
  */
-export function solveBatch(robot: Robot, poses: Float64Array, out: Batch = batchFor(robot.arm.joints.length, poses.length / POSE_STRIDE), elbow_rad = 0, scratch: SolverScratch = solverScratch()): Batch {
-  const n = robot.arm.joints.length, wanted: Pose<"base", "flange"> = identity(), { position, quaternion } = wanted;
+export function solveBatch(
+  robot: Robot,
+  poses: Float64Array,
+  out: Batch = batchFor(robot.arm.joints.length, poses.length / POSE_STRIDE),
+  elbow_rad = 0,
+  scratch: SolverScratch = solverScratch(),
+): Batch {
+  const n = robot.arm.joints.length;
+  const wanted: Pose<"base", "flange"> = identity();
+  const { position, quaternion } = wanted;
   for (let i = 0; i < out.counts.length; i++) {
     const at = i * POSE_STRIDE;
     for (let k = 0; k < 3; k++) position[k] = poses[at + k]!;

@@ -24,9 +24,12 @@ export interface SolverScratch {
   readonly raw: Float64Array;
   /** One posture; as long as the arm last asked for has joints. */
   q: Float64Array;
-  readonly arm: ArmScratch; readonly pose: Pose<"base", "flange">;
-  readonly refine: RefineScratch; readonly six: GeneralSixScratch;
-  readonly start: Float64Array; readonly mend: MendScratch;
+  readonly arm: ArmScratch;
+  readonly pose: Pose<"base", "flange">;
+  readonly refine: RefineScratch;
+  readonly six: GeneralSixScratch;
+  readonly start: Float64Array;
+  readonly mend: MendScratch;
   /** Of arms without a closed form; made when first needed. */
   damped: DampedScratch | null;
   /** The elbow angle that seven-joint postures are mended to. */
@@ -34,7 +37,16 @@ export interface SolverScratch {
 }
 
 export const solverScratch = (): SolverScratch => ({
-  raw: new Float64Array(6 * MAX_GENERAL_SIX), q: new Float64Array(6), arm: armScratch(), pose: identity(), refine: refineScratch(), six: generalSixScratch(), start: new Float64Array(6), mend: mendScratch(), held: null, damped: null,
+  raw: new Float64Array(6 * MAX_GENERAL_SIX),
+  q: new Float64Array(6),
+  arm: armScratch(),
+  pose: identity(),
+  refine: refineScratch(),
+  six: generalSixScratch(),
+  start: new Float64Array(6),
+  mend: mendScratch(),
+  held: null,
+  damped: null,
 });
 
 /**
@@ -44,27 +56,43 @@ export const solverScratch = (): SolverScratch => ({
  * @param elbow_rad  of seven joints; 0 without `near`.
  * @returns their number. Allocates nothing, except for six joints without a closed form.
  */
-export function candidates(robot: Robot, baseFromFlange: Pose<"base", "flange">, near: ArrayLike<number> | undefined, elbow_rad: number | undefined, scratch: SolverScratch): number {
+export function candidates(
+  robot: Robot,
+  baseFromFlange: Pose<"base", "flange">,
+  near: ArrayLike<number> | undefined,
+  elbow_rad: number | undefined,
+  scratch: SolverScratch,
+): number {
   const family = robot.family;
   switch (family.kind) {
-    case "ortho-parallel": return solveOrthoParallel(family, baseFromFlange, scratch.raw, near);
-    case "three-parallel": return solveThreeParallel(family, baseFromFlange, scratch.raw, near);
-    case "general-6r": return solveGeneralSix(family, baseFromFlange, scratch.raw, scratch.six);
+    case "ortho-parallel":
+      return solveOrthoParallel(family, baseFromFlange, scratch.raw, near);
+    case "three-parallel":
+      return solveThreeParallel(family, baseFromFlange, scratch.raw, near);
+    case "general-6r":
+      return solveGeneralSix(family, baseFromFlange, scratch.raw, scratch.six);
     case "spherical-seven": {
       const elbow = elbow_rad ?? (near === undefined ? 0 : elbowOfSphericalSeven(family, near));
       const count = solveSphericalSeven(family, baseFromFlange, elbow, scratch.raw, near);
       if (family.deviation_m === 0) return count;
       if (scratch.held?.geometry !== family) scratch.held = { geometry: family, elbow_rad: elbow };
       scratch.held.elbow_rad = elbow;
-      for (let s = 0; s < count; s++) mend(robot.arm, baseFromFlange, scratch.held, scratch.raw, s, count, scratch.mend, scratch.refine);
+      for (let s = 0; s < count; s++)
+        mend(robot.arm, baseFromFlange, scratch.held, scratch.raw, s, count, scratch.mend, scratch.refine);
       return count;
     }
-    case "general": return 0;
+    case "general":
+      return 0;
   }
 }
 
 /** The posture at `scratch.raw[s]`, moved to `scratch.q`, refined where it needs it. False when it does not meet the pose to 1e-9. */
-export function settle(robot: Robot, baseFromFlange: Pose<"base", "flange">, s: number, scratch: SolverScratch): boolean {
+export function settle(
+  robot: Robot,
+  baseFromFlange: Pose<"base", "flange">,
+  s: number,
+  scratch: SolverScratch,
+): boolean {
   const n = robot.arm.joints.length;
   if (scratch.q.length !== n) scratch.q = new Float64Array(n);
   const q = scratch.q;
@@ -73,12 +101,19 @@ export function settle(robot: Robot, baseFromFlange: Pose<"base", "flange">, s: 
 }
 
 /** The same for angles that lie anywhere; they are overwritten by better ones. */
-export function settled(robot: Robot, baseFromFlange: Pose<"base", "flange">, q: Float64Array, scratch: SolverScratch): boolean {
+export function settled(
+  robot: Robot,
+  baseFromFlange: Pose<"base", "flange">,
+  q: Float64Array,
+  scratch: SolverScratch,
+): boolean {
   flangePose(robot.arm, q, scratch.pose, scratch.arm);
   // The closed form of an ortho-parallel arm is as exact as its arm, and seven joints have been mended.
-  if (robot.family.kind === "ortho-parallel" || robot.family.kind === "spherical-seven") return posesAgree(scratch.pose, baseFromFlange, VERIFIED.position_m, VERIFIED.angle_rad);
+  if (robot.family.kind === "ortho-parallel" || robot.family.kind === "spherical-seven")
+    return posesAgree(scratch.pose, baseFromFlange, VERIFIED.position_m, VERIFIED.angle_rad);
   if (posesAgree(scratch.pose, baseFromFlange, EXACT, EXACT)) return true;
-  const verified = posesAgree(scratch.pose, baseFromFlange, VERIFIED.position_m, VERIFIED.angle_rad), { start } = scratch;
+  const verified = posesAgree(scratch.pose, baseFromFlange, VERIFIED.position_m, VERIFIED.angle_rad);
+  const { start } = scratch;
   for (let j = 0; j < q.length; j++) start[j] = q[j]!;
   const met = refine(robot.arm, q, baseFromFlange, scratch.refine) < VERIFIED.position_m;
   // On a singularity the last digits of a pose would turn free joints anywhere: they stay where they were chosen.

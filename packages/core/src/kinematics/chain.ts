@@ -16,11 +16,22 @@ export interface ArmScratch {
   slides: readonly number[];
   readonly trig: Float64Array;
 }
-export const armScratch = (): ArmScratch => ({ arm: null, chain: new Float64Array(0), elbow: null, slides: [], trig: new Float64Array(12) });
+export const armScratch = (): ArmScratch => ({
+  arm: null,
+  chain: new Float64Array(0),
+  elbow: null,
+  slides: [],
+  trig: new Float64Array(12),
+});
 
 /** Numbers per joint of a flat chain: position, quaternion, axis, which axis, along which axis it is moved, whether turned. */
 const STRIDE = 13;
-const X = 0, Y = 1, Z = 2, ANY = 3, NONE = 4, SLIDE = 5;
+const X = 0;
+const Y = 1;
+const Z = 2;
+const ANY = 3;
+const NONE = 4;
+const SLIDE = 5;
 
 /**
  * The arm as one row of numbers, laid out when the scratch first sees it: a joint is then one line of memory.
@@ -34,13 +45,22 @@ export function chainOf(arm: SerialArm, q: ArrayLike<number>, scratch: ArmScratc
 
 /** Apart from `chainOf`: what a closure keeps is allocated on entry, used or not. */
 function layOut(arm: SerialArm, scratch: ArmScratch): Float64Array {
-  const rows = [...arm.joints.map(joint => ({ fixed: joint.parentFromJoint as Pose, axis: joint.axis, kind: isSlide(joint) ? SLIDE : directionOf(joint.axis) })),
-    { fixed: arm.lastJointFromFlange as Pose, axis: null, kind: NONE }];
+  const rows = [
+    ...arm.joints.map(joint => ({
+      fixed: joint.parentFromJoint as Pose,
+      axis: joint.axis,
+      kind: isSlide(joint) ? SLIDE : directionOf(joint.axis),
+    })),
+    { fixed: arm.lastJointFromFlange as Pose, axis: null, kind: NONE },
+  ];
   const chain = new Float64Array(rows.length * STRIDE);
   rows.forEach(({ fixed, axis, kind }, i) => {
     const { position, quaternion } = fixed;
     const turned = quaternion[0] !== 0 || quaternion[1] !== 0 || quaternion[2] !== 0 || quaternion[3] !== 1;
-    chain.set([...position, ...quaternion, ...(axis ?? [0, 0, 0]), kind, directionOf(position), turned ? 1 : 0], i * STRIDE);
+    chain.set(
+      [...position, ...quaternion, ...(axis ?? [0, 0, 0]), kind, directionOf(position), turned ? 1 : 0],
+      i * STRIDE,
+    );
   });
   scratch.arm = arm;
   scratch.chain = chain;
@@ -57,10 +77,21 @@ function directionOf(vector: Vector3): number {
 
 const TURNS_PER_RAD = 1 / (2 * Math.PI);
 /** 2π in two parts: whole multiples of the first are exact. */
-const TURN_HIGH = 4 * 1.57079632673412561417, TURN_LOW = 4 * 6.07710050650619224932e-11;
+const TURN_HIGH = 4 * 1.57079632673412561417;
+const TURN_LOW = 4 * 6.07710050650619224932e-11;
 /** Sine and cosine up to π/4 (fdlibm, kernels k_sin and k_cos). */
-const S1 = -1.66666666666666324348e-1, S2 = 8.33333333332248946124e-3, S3 = -1.98412698298579493134e-4, S4 = 2.75573137070700676789e-6, S5 = -2.50507602534068634195e-8, S6 = 1.58969099521155010221e-10;
-const C1 = 4.16666666666666019037e-2, C2 = -1.38888888888741095749e-3, C3 = 2.48015872894767294178e-5, C4 = -2.75573143513906633035e-7, C5 = 2.08757232129817482790e-9, C6 = -1.13596475577881948265e-11;
+const S1 = -1.66666666666666324348e-1;
+const S2 = 8.33333333332248946124e-3;
+const S3 = -1.98412698298579493134e-4;
+const S4 = 2.75573137070700676789e-6;
+const S5 = -2.50507602534068634195e-8;
+const S6 = 1.58969099521155010221e-10;
+const C1 = 4.16666666666666019037e-2;
+const C2 = -1.38888888888741095749e-3;
+const C3 = 2.48015872894767294178e-5;
+const C4 = -2.75573143513906633035e-7;
+const C5 = 2.0875723212981748279e-9;
+const C6 = -1.13596475577881948265e-11;
 
 /**
  * running ← running · fixed · Rot(axis, q), of a slide running · fixed · Trans(axis q), row after row of `chain`, in local numbers: what is stored and loaded
@@ -71,65 +102,130 @@ const C1 = 4.16666666666666019037e-2, C2 = -1.38888888888741095749e-3, C3 = 2.48
  * @param axes    receives six numbers per joint: its axis and its origin in the base, of a slide where q = 0; or null.
  */
 export function walk(
-  chain: Float64Array, q: ArrayLike<number>, flange: Pose | null, links: readonly Pose[] | null, axes: Float64Array | null,
+  chain: Float64Array,
+  q: ArrayLike<number>,
+  flange: Pose | null,
+  links: readonly Pose[] | null,
+  axes: Float64Array | null,
 ): void {
-  let x = 0, y = 0, z = 0, w = 1, ox = 0, oy = 0, oz = 0;
+  let x = 0;
+  let y = 0;
+  let z = 0;
+  let w = 1;
+  let ox = 0;
+  let oy = 0;
+  let oz = 0;
   if (links !== null) store(links[0]!, x, y, z, w, ox, oy, oz);
   for (let at = 0, joint = 0; ; at += STRIDE, joint++) {
     const move = chain[at + 11]!;
     if (move === Z) {
-      const d = chain[at + 2]!, dd = d + d;
-      ox += (x * z + w * y) * dd; oy += (y * z - w * x) * dd; oz += d - (x * x + y * y) * dd;
+      const d = chain[at + 2]!;
+      const dd = d + d;
+      ox += (x * z + w * y) * dd;
+      oy += (y * z - w * x) * dd;
+      oz += d - (x * x + y * y) * dd;
     } else if (move === X) {
-      const d = chain[at]!, dd = d + d;
-      ox += d - (y * y + z * z) * dd; oy += (x * y + w * z) * dd; oz += (x * z - w * y) * dd;
+      const d = chain[at]!;
+      const dd = d + d;
+      ox += d - (y * y + z * z) * dd;
+      oy += (x * y + w * z) * dd;
+      oz += (x * z - w * y) * dd;
     } else if (move === Y || move === ANY) {
-      const px = chain[at]!, py = chain[at + 1]!, pz = chain[at + 2]!;
-      const tx = 2 * (y * pz - z * py), ty = 2 * (z * px - x * pz), tz = 2 * (x * py - y * px);
+      const px = chain[at]!;
+      const py = chain[at + 1]!;
+      const pz = chain[at + 2]!;
+      const tx = 2 * (y * pz - z * py);
+      const ty = 2 * (z * px - x * pz);
+      const tz = 2 * (x * py - y * px);
       ox += px + w * tx + y * tz - z * ty;
       oy += py + w * ty + z * tx - x * tz;
       oz += pz + w * tz + x * ty - y * tx;
     }
     if (chain[at + 12] === 1) {
-      const bx = chain[at + 3]!, by = chain[at + 4]!, bz = chain[at + 5]!, bw = chain[at + 6]!;
-      const nx = w * bx + x * bw + y * bz - z * by, ny = w * by - x * bz + y * bw + z * bx;
+      const bx = chain[at + 3]!;
+      const by = chain[at + 4]!;
+      const bz = chain[at + 5]!;
+      const bw = chain[at + 6]!;
+      const nx = w * bx + x * bw + y * bz - z * by;
+      const ny = w * by - x * bz + y * bw + z * bx;
       const nz = w * bz + x * by - y * bx + z * bw;
-      w = w * bw - x * bx - y * by - z * bz; x = nx; y = ny; z = nz;
+      w = w * bw - x * bx - y * by - z * bz;
+      x = nx;
+      y = ny;
+      z = nz;
     }
     const kind = chain[at + 10]!;
     if (kind === NONE) break;
     if (axes !== null) {
-      const ax = chain[at + 7]!, ay = chain[at + 8]!, az = chain[at + 9]!;
-      const tx = 2 * (y * az - z * ay), ty = 2 * (z * ax - x * az), tz = 2 * (x * ay - y * ax);
+      const ax = chain[at + 7]!;
+      const ay = chain[at + 8]!;
+      const az = chain[at + 9]!;
+      const tx = 2 * (y * az - z * ay);
+      const ty = 2 * (z * ax - x * az);
+      const tz = 2 * (x * ay - y * ax);
       axes[joint * 6] = ax + w * tx + y * tz - z * ty;
       axes[joint * 6 + 1] = ay + w * ty + z * tx - x * tz;
       axes[joint * 6 + 2] = az + w * tz + x * ty - y * tx;
-      axes[joint * 6 + 3] = ox; axes[joint * 6 + 4] = oy; axes[joint * 6 + 5] = oz;
+      axes[joint * 6 + 3] = ox;
+      axes[joint * 6 + 4] = oy;
+      axes[joint * 6 + 5] = oz;
     }
     // Half turns are taken off the half angle, and a fourth of the turn goes through the polynomials: no branch to mispredict.
-    const angle = q[joint]!, n = Math.floor(angle * TURNS_PER_RAD + 0.5), r = 0.25 * (angle - n * TURN_HIGH - n * TURN_LOW), r2 = r * r, r4 = r2 * r2;
+    const angle = q[joint]!;
+    const n = Math.floor(angle * TURNS_PER_RAD + 0.5);
+    const r = 0.25 * (angle - n * TURN_HIGH - n * TURN_LOW);
+    const r2 = r * r;
+    const r4 = r2 * r2;
     const sr = r + r * r2 * (S1 + r2 * S2 + r4 * (S3 + r2 * S4 + r4 * (S5 + r2 * S6)));
     const cr = 1 - 0.5 * r2 + r4 * (C1 + r2 * C2 + r4 * (C3 + r2 * C4 + r4 * (C5 + r2 * C6)));
-    const sign = 1 - 2 * (n & 1), s = sign * 2 * sr * cr, c = sign * (1 - 2 * sr * sr);
+    const sign = 1 - 2 * (n & 1);
+    const s = sign * 2 * sr * cr;
+    const c = sign * (1 - 2 * sr * sr);
     if (kind === Z) {
-      const b = chain[at + 9]! * s, nx = x * c + y * b, nz = z * c + w * b;
-      y = y * c - x * b; w = w * c - z * b; x = nx; z = nz;
+      const b = chain[at + 9]! * s;
+      const nx = x * c + y * b;
+      const nz = z * c + w * b;
+      y = y * c - x * b;
+      w = w * c - z * b;
+      x = nx;
+      z = nz;
     } else if (kind === Y) {
-      const b = chain[at + 8]! * s, nx = x * c - z * b, ny = y * c + w * b;
-      z = z * c + x * b; w = w * c - y * b; x = nx; y = ny;
+      const b = chain[at + 8]! * s;
+      const nx = x * c - z * b;
+      const ny = y * c + w * b;
+      z = z * c + x * b;
+      w = w * c - y * b;
+      x = nx;
+      y = ny;
     } else if (kind === X) {
-      const b = chain[at + 7]! * s, nx = x * c + w * b, ny = y * c + z * b;
-      z = z * c - y * b; w = w * c - x * b; x = nx; y = ny;
+      const b = chain[at + 7]! * s;
+      const nx = x * c + w * b;
+      const ny = y * c + z * b;
+      z = z * c - y * b;
+      w = w * c - x * b;
+      x = nx;
+      y = ny;
     } else if (kind === SLIDE) {
-      const px = chain[at + 7]! * angle, py = chain[at + 8]! * angle, pz = chain[at + 9]! * angle;
-      const tx = 2 * (y * pz - z * py), ty = 2 * (z * px - x * pz), tz = 2 * (x * py - y * px);
+      const px = chain[at + 7]! * angle;
+      const py = chain[at + 8]! * angle;
+      const pz = chain[at + 9]! * angle;
+      const tx = 2 * (y * pz - z * py);
+      const ty = 2 * (z * px - x * pz);
+      const tz = 2 * (x * py - y * px);
       ox += px + w * tx + y * tz - z * ty;
       oy += py + w * ty + z * tx - x * tz;
       oz += pz + w * tz + x * ty - y * tx;
     } else {
-      const bx = chain[at + 7]! * s, by = chain[at + 8]! * s, bz = chain[at + 9]! * s;
-      const nx = w * bx + x * c + y * bz - z * by, ny = w * by - x * bz + y * c + z * bx, nz = w * bz + x * by - y * bx + z * c;
-      w = w * c - x * bx - y * by - z * bz; x = nx; y = ny; z = nz;
+      const bx = chain[at + 7]! * s;
+      const by = chain[at + 8]! * s;
+      const bz = chain[at + 9]! * s;
+      const nx = w * bx + x * c + y * bz - z * by;
+      const ny = w * by - x * bz + y * c + z * bx;
+      const nz = w * bz + x * by - y * bx + z * c;
+      w = w * c - x * bx - y * by - z * bz;
+      x = nx;
+      y = ny;
+      z = nz;
     }
     if (links !== null) store(links[joint + 1]!, x, y, z, w, ox, oy, oz);
   }
@@ -137,7 +233,13 @@ export function walk(
 }
 
 function store(out: Pose, x: number, y: number, z: number, w: number, ox: number, oy: number, oz: number): void {
-  const quaternion = out.quaternion, position = out.position;
-  quaternion[0] = x; quaternion[1] = y; quaternion[2] = z; quaternion[3] = w;
-  position[0] = ox; position[1] = oy; position[2] = oz;
+  const quaternion = out.quaternion;
+  const position = out.position;
+  quaternion[0] = x;
+  quaternion[1] = y;
+  quaternion[2] = z;
+  quaternion[3] = w;
+  position[0] = ox;
+  position[1] = oy;
+  position[2] = oz;
 }

@@ -35,7 +35,11 @@ process.stdout.write(JSON.stringify(measured));
 
 // A number that is boxed takes 16 bytes and a context 40: a call that made one would show as that many per call.
 test("forward kinematics, Jacobian and closed-form inverse allocate nothing: no byte per call, no collection", () => {
-  const ran = spawnSync(process.execPath, ["--expose-gc", "--input-type=module", "-e", SCRIPT, new URL("../", import.meta.url).href], { encoding: "utf8" });
+  const ran = spawnSync(
+    process.execPath,
+    ["--expose-gc", "--input-type=module", "-e", SCRIPT, new URL("../", import.meta.url).href],
+    { encoding: "utf8" },
+  );
   expect(ran.stderr).not.toMatch(/Error/);
   const measured = Object.entries(JSON.parse(ran.stdout) as Record<string, { collections: number; bytes: number }>);
   expect(measured).toHaveLength(6);

@@ -18,10 +18,14 @@ export { armScratch, type ArmScratch } from "./chain.ts";
  * @see Lynch & Park, Modern Robotics, Cambridge 2017, ch. 4.
  */
 export function flangePose(
-  arm: SerialArm, q: ArrayLike<number>, out: Pose<"base", "flange"> = identity(), scratch: ArmScratch = armScratch(),
+  arm: SerialArm,
+  q: ArrayLike<number>,
+  out: Pose<"base", "flange"> = identity(),
+  scratch: ArmScratch = armScratch(),
 ): Pose<"base", "flange"> {
   const chain = chainOf(arm, q, scratch);
-  if (scratch.elbow === null) walk(chain, q, out, null, null); else elbowFlange(scratch.elbow, q, out, scratch.trig);
+  if (scratch.elbow === null) walk(chain, q, out, null, null);
+  else elbowFlange(scratch.elbow, q, out, scratch.trig);
   return out;
 }
 
@@ -30,6 +34,11 @@ export function flangePose(
  *
  * @param out  n + 1 poses, written in place.
  */
-export function linkPoses(arm: SerialArm, q: ArrayLike<number>, out: readonly Pose<"base", "link">[], scratch: ArmScratch = armScratch()): void {
+export function linkPoses(
+  arm: SerialArm,
+  q: ArrayLike<number>,
+  out: readonly Pose<"base", "link">[],
+  scratch: ArmScratch = armScratch(),
+): void {
   walk(chainOf(arm, q, scratch), q, null, out, null);
 }

@@ -1,21 +1,37 @@
 import type { GeneralSixGeometry } from "../robots/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
-import { complete, CONDITION, evaluate, MARGIN, THETA1, THETA6, wantWrist, type GeneralSixScratch } from "./general-six.ts";
+import {
+  complete,
+  CONDITION,
+  evaluate,
+  MARGIN,
+  THETA1,
+  THETA6,
+  wantWrist,
+  type GeneralSixScratch,
+} from "./general-six.ts";
 
 /** Slots of the answer: at most 16 postures exist; some are found twice, where two stretches meet, and the caller sorts them out. */
 export const MAX_GENERAL_SIX = 32;
 
 /** Samples of θ6 around its circle to see where the arm reaches, and along each stretch to see where the condition changes its sign. */
-const CIRCLE = 64, ALONG = 64;
+const CIRCLE = 64;
+const ALONG = 64;
 /** A step in which the condition, or θ1, changes by more than this is halved. */
-const LARGEST_CHANGE = 0.25, LARGEST_TURN_RAD = 0.4, MOST_HALVINGS = 14;
+const LARGEST_CHANGE = 0.25;
+const LARGEST_TURN_RAD = 0.4;
+const MOST_HALVINGS = 14;
 /** A least |condition| below this may be two roots all but fallen together: refinement decides. */
-const TOUCHING = 1e-5, BESIDE = 1e-3;
+const TOUCHING = 1e-5;
+const BESIDE = 1e-3;
 /** How far apart two values give a slope; only its sign is asked for. */
 const SLOPE_STEP = 1e-6;
 /** How near the border of the reach a border between two samples is looked for [m²]. */
 const NEAR_BORDER_M2 = 0.02;
-const GOLDEN = 0.3819660112501051, GOLDEN_STEPS = 36, BISECTIONS = 52, TURN = 2 * Math.PI;
+const GOLDEN = 0.3819660112501051;
+const GOLDEN_STEPS = 36;
+const BISECTIONS = 52;
+const TURN = 2 * Math.PI;
 
 /**
  * All postures of a six-joint arm without spherical wrist.
@@ -32,7 +48,12 @@ const GOLDEN = 0.3819660112501051, GOLDEN_STEPS = 36, BISECTIONS = 52, TURN = 2 
  *             about 1e-9 (1e-5 where two fall together) and to be refined, verified and told apart by the caller.
  * @returns number of candidates. Limits are not looked at.
  */
-export function solveGeneralSix(geometry: GeneralSixGeometry, baseFromFlange: Pose, out: Float64Array, scratch: GeneralSixScratch): number {
+export function solveGeneralSix(
+  geometry: GeneralSixGeometry,
+  baseFromFlange: Pose,
+  out: Float64Array,
+  scratch: GeneralSixScratch,
+): number {
   wantWrist(geometry, baseFromFlange, scratch);
   const search: Search = { geometry, scratch, out, count: 0, shoulder: 1, elbow: 1, middle: 0, half: 0 };
   for (let shoulder = 1; shoulder >= -1; shoulder -= 2) {
@@ -41,8 +62,11 @@ export function solveGeneralSix(geometry: GeneralSixGeometry, baseFromFlange: Po
     for (let elbow = 1; elbow >= -1; elbow -= 2) {
       search.elbow = elbow;
       for (let s = 0; s < stretches; s++) {
-        const start = scratch.stretches[2 * s]!, end = scratch.stretches[2 * s + 1]!, whole = end - start >= TURN;
-        search.middle = whole ? start : 0.5 * (start + end); search.half = whole ? 0 : 0.5 * (end - start);
+        const start = scratch.stretches[2 * s]!;
+        const end = scratch.stretches[2 * s + 1]!;
+        const whole = end - start >= TURN;
+        search.middle = whole ? start : 0.5 * (start + end);
+        search.half = whole ? 0 : 0.5 * (end - start);
         followStretch(search);
       }
     }
@@ -51,10 +75,15 @@ export function solveGeneralSix(geometry: GeneralSixGeometry, baseFromFlange: Po
 }
 
 interface Search {
-  readonly geometry: GeneralSixGeometry; readonly scratch: GeneralSixScratch; readonly out: Float64Array;
-  count: number; shoulder: number; elbow: number;
+  readonly geometry: GeneralSixGeometry;
+  readonly scratch: GeneralSixScratch;
+  readonly out: Float64Array;
+  count: number;
+  shoulder: number;
+  elbow: number;
   /** Of the stretch being followed; half = 0 when it is the whole circle. */
-  middle: number; half: number;
+  middle: number;
+  half: number;
 }
 
 /** The condition at τ of the present stretch. */
@@ -73,43 +102,77 @@ function marginAt(search: Search, theta6: number): number {
 
 /** Start and end by turns of the stretches of θ6 within reach go to the scratch; their number is returned. */
 function findStretches(search: Search): number {
-  const { stretches, samples } = search.scratch, step = TURN / CIRCLE;
+  const { stretches, samples } = search.scratch;
+  const step = TURN / CIRCLE;
   // Borders in order around the circle; a sliver between two samples shows as an extreme value of the margin.
-  let borders = 0, inside = 0;
-  for (let i = 0; i < CIRCLE; i++) { samples[i] = marginAt(search, i * step); if (samples[i]! > 0) inside++; }
+  let borders = 0;
+  let inside = 0;
+  for (let i = 0; i < CIRCLE; i++) {
+    samples[i] = marginAt(search, i * step);
+    if (samples[i]! > 0) inside++;
+  }
   const marks: number[] = [];
   for (let i = 0; i < CIRCLE; i++) {
-    const before = samples[(i + CIRCLE - 1) % CIRCLE]!, here = samples[i]!, after = samples[(i + 1) % CIRCLE]!;
-    if (Math.abs(here) < NEAR_BORDER_M2 && (here > 0 ? before >= here && after >= here : before <= here && after <= here)) {
+    const before = samples[(i + CIRCLE - 1) % CIRCLE]!;
+    const here = samples[i]!;
+    const after = samples[(i + 1) % CIRCLE]!;
+    if (
+      Math.abs(here) < NEAR_BORDER_M2 &&
+      (here > 0 ? before >= here && after >= here : before <= here && after <= here)
+    ) {
       const extreme = leastOf(theta => (here > 0 ? 1 : -1) * marginAt(search, theta), (i - 1) * step, (i + 1) * step);
       if (marginAt(search, extreme) > 0 !== here > 0) marks.push(extreme);
     }
   }
-  const points = [...Array.from({ length: CIRCLE }, (_, i) => i * step), ...marks.map(mark => ((mark % TURN) + TURN) % TURN)].sort((a, b) => a - b);
+  const points = [
+    ...Array.from({ length: CIRCLE }, (_, i) => i * step),
+    ...marks.map(mark => ((mark % TURN) + TURN) % TURN),
+  ].sort((a, b) => a - b);
   points.push(points[0]! + TURN);
-  if (inside === CIRCLE && marks.length === 0) { stretches[0] = 0; stretches[1] = TURN; return 1; }
+  if (inside === CIRCLE && marks.length === 0) {
+    stretches[0] = 0;
+    stretches[1] = TURN;
+    return 1;
+  }
   const found: number[] = [];
   for (let i = 0; i + 1 < points.length; i++) {
-    const a = points[i]!, b = points[i + 1]!, from = marginAt(search, a) > 0;
+    const a = points[i]!;
+    const b = points[i + 1]!;
+    const from = marginAt(search, a) > 0;
     if (from === marginAt(search, b) > 0) continue;
-    let low = a, high = b;
-    for (let k = 0; k < BISECTIONS; k++) { const middle = 0.5 * (low + high); if (marginAt(search, middle) > 0 === from) low = middle; else high = middle; }
+    let low = a;
+    let high = b;
+    for (let k = 0; k < BISECTIONS; k++) {
+      const middle = 0.5 * (low + high);
+      if (marginAt(search, middle) > 0 === from) low = middle;
+      else high = middle;
+    }
     // The side within reach of the two.
     found.push(from ? low : high);
     if (found.length === 1 && from) borders = 1;
   }
   // An end first means that the first stretch began before 0.
-  if (borders === 1) { const end = found.shift(); if (end !== undefined) found.push(end + TURN); }
+  if (borders === 1) {
+    const end = found.shift();
+    if (end !== undefined) found.push(end + TURN);
+  }
   const count = Math.min(found.length, stretches.length) >> 1;
   for (let i = 0; i < 2 * count; i++) stretches[i] = found[i]!;
   return count;
 }
 
-interface Sample { readonly tau: number; readonly value: number; readonly slope: number; readonly theta1: number }
+interface Sample {
+  readonly tau: number;
+  readonly value: number;
+  readonly slope: number;
+  readonly theta1: number;
+}
 
 function sampleAt(search: Search, tau: number): Sample {
   // Beyond the end of a stretch the way continues with the other elbow: the slope is taken from inside.
-  const value = conditionAt(search, tau), theta1 = search.scratch.at[THETA1]!, step = search.half > 0 && tau > 1 ? -SLOPE_STEP : SLOPE_STEP;
+  const value = conditionAt(search, tau);
+  const theta1 = search.scratch.at[THETA1]!;
+  const step = search.half > 0 && tau > 1 ? -SLOPE_STEP : SLOPE_STEP;
   return { tau, value, slope: (conditionAt(search, tau + step) - value) / step, theta1 };
 }
 
@@ -126,33 +189,57 @@ function followStretch(search: Search): void {
 
 /** All roots between two samples. */
 function between(search: Search, a: Sample, b: Sample, depth: number): void {
-  const turned = Math.abs(a.theta1 - b.theta1), turn = Math.min(turned, TURN - turned);
+  const turned = Math.abs(a.theta1 - b.theta1);
+  const turn = Math.min(turned, TURN - turned);
   if (depth < MOST_HALVINGS && (Math.abs(a.value - b.value) > LARGEST_CHANGE || turn > LARGEST_TURN_RAD)) {
     const middle = sampleAt(search, 0.5 * (a.tau + b.tau));
     between(search, a, middle, depth + 1);
     between(search, middle, b, depth + 1);
     return;
   }
-  if (a.value > 0 !== b.value > 0) { addRoots(search, a.tau, b.tau, a.value); return; }
+  if (a.value > 0 !== b.value > 0) {
+    addRoots(search, a.tau, b.tau, a.value);
+    return;
+  }
   // Towards 0 at the one end and away from it at the other: a valley of |condition| lies between.
   const sign = a.value > 0 ? 1 : -1;
   if (sign * a.slope > 0 || sign * b.slope < 0) {
-    if (Math.min(Math.abs(a.value), Math.abs(b.value)) < TOUCHING) addTouching(search, Math.abs(a.value) < Math.abs(b.value) ? a.tau : b.tau);
+    if (Math.min(Math.abs(a.value), Math.abs(b.value)) < TOUCHING)
+      addTouching(search, Math.abs(a.value) < Math.abs(b.value) ? a.tau : b.tau);
     return;
   }
-  const lowest = leastOf(tau => sign * conditionAt(search, tau), a.tau, b.tau), value = conditionAt(search, lowest);
-  if (value > 0 !== a.value > 0) { addRoots(search, a.tau, lowest, a.value); addRoots(search, lowest, b.tau, value); }
-  else if (Math.abs(value) < TOUCHING) addTouching(search, lowest);
+  const lowest = leastOf(tau => sign * conditionAt(search, tau), a.tau, b.tau);
+  const value = conditionAt(search, lowest);
+  if (value > 0 !== a.value > 0) {
+    addRoots(search, a.tau, lowest, a.value);
+    addRoots(search, lowest, b.tau, value);
+  } else if (Math.abs(value) < TOUCHING) addTouching(search, lowest);
 }
 
 /** Where a function with one valley is least, or the first place seen where it is below 0: golden section. */
 function leastOf(value: (x: number) => number, low: number, high: number): number {
-  let a = low, b = high, x = a + GOLDEN * (b - a), y = b - GOLDEN * (b - a), fx = value(x), fy = value(y);
+  let a = low;
+  let b = high;
+  let x = a + GOLDEN * (b - a);
+  let y = b - GOLDEN * (b - a);
+  let fx = value(x);
+  let fy = value(y);
   for (let k = 0; k < GOLDEN_STEPS; k++) {
     if (fx < 0) return x;
     if (fy < 0) return y;
-    if (fx < fy) { b = y; y = x; fy = fx; x = a + GOLDEN * (b - a); fx = value(x); }
-    else { a = x; x = y; fx = fy; y = b - GOLDEN * (b - a); fy = value(y); }
+    if (fx < fy) {
+      b = y;
+      y = x;
+      fy = fx;
+      x = a + GOLDEN * (b - a);
+      fx = value(x);
+    } else {
+      a = x;
+      x = y;
+      fx = fy;
+      y = b - GOLDEN * (b - a);
+      fy = value(y);
+    }
   }
   return 0.5 * (a + b);
 }
@@ -161,12 +248,24 @@ function leastOf(value: (x: number) => number, low: number, high: number): numbe
 function addRoots(search: Search, from: number, to: number, valueFrom: number): void {
   const root = bisect(tau => conditionAt(search, tau), from, to, valueFrom);
   add(search, root);
-  const sign = valueFrom > 0 ? 1 : -1, width = to - from, without = (tau: number): number => sign * conditionAt(search, tau) * width / (root - tau);
+  const sign = valueFrom > 0 ? 1 : -1;
+  const width = to - from;
+  const without = (tau: number): number => (sign * conditionAt(search, tau) * width) / (root - tau);
   // Beside the root itself the quotient is its slope, and lost in rounding.
-  const near = 1e-7 * width, quotient = (tau: number): number => without(Math.abs(tau - root) < near ? (tau < root ? root - near : root + near) : tau);
+  const near = 1e-7 * width;
+  const quotient = (tau: number): number =>
+    without(Math.abs(tau - root) < near ? (tau < root ? root - near : root + near) : tau);
   const ends = Math.min(quotient(from), quotient(to));
-  let least = ends, at = from;
-  for (let k = 1; k < 4; k++) { const tau = from + 0.25 * k * width, value = quotient(tau); if (value < least) { least = value; at = tau; } }
+  let least = ends;
+  let at = from;
+  for (let k = 1; k < 4; k++) {
+    const tau = from + 0.25 * k * width;
+    const value = quotient(tau);
+    if (value < least) {
+      least = value;
+      at = tau;
+    }
+  }
   if (least >= ends) return;
   const lowest = leastOf(quotient, at - 0.25 * width, at + 0.25 * width);
   if (quotient(lowest) >= 0) return;
@@ -175,10 +274,12 @@ function addRoots(search: Search, from: number, to: number, valueFrom: number): 
 }
 
 function bisect(value: (tau: number) => number, from: number, to: number, valueFrom: number): number {
-  let low = from, high = to;
+  let low = from;
+  let high = to;
   for (let k = 0; k < BISECTIONS; k++) {
     const middle = 0.5 * (low + high);
-    if (value(middle) > 0 === valueFrom > 0) low = middle; else high = middle;
+    if (value(middle) > 0 === valueFrom > 0) low = middle;
+    else high = middle;
   }
   return 0.5 * (low + high);
 }

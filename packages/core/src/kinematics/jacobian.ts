@@ -12,8 +12,12 @@ export interface JacobianScratch {
   readonly baseFromFlange: Pose<"base", "flange">;
   readonly tip: Vector3;
 }
-export const jacobianScratch = (joints = 6): JacobianScratch =>
-  ({ arm: armScratch(), axes: new Float64Array(6 * joints), baseFromFlange: identity(), tip: [0, 0, 0] });
+export const jacobianScratch = (joints = 6): JacobianScratch => ({
+  arm: armScratch(),
+  axes: new Float64Array(6 * joints),
+  baseFromFlange: identity(),
+  tip: [0, 0, 0],
+});
 
 /**
  * Geometric Jacobian of the tool tip in the robot base: joint speeds to speed of the tip [m/s] and turning rate [rad/s].
@@ -29,30 +33,56 @@ export const jacobianScratch = (joints = 6): JacobianScratch =>
  * @see Lynch & Park, Modern Robotics, Cambridge 2017, ch. 5.1.
  */
 export function jacobian(
-  arm: SerialArm, q: ArrayLike<number>, flangeFromTip: Vector3 | null = null,
-  out: Float64Array = new Float64Array(6 * arm.joints.length), scratch: JacobianScratch = jacobianScratch(arm.joints.length),
+  arm: SerialArm,
+  q: ArrayLike<number>,
+  flangeFromTip: Vector3 | null = null,
+  out: Float64Array = new Float64Array(6 * arm.joints.length),
+  scratch: JacobianScratch = jacobianScratch(arm.joints.length),
 ): Float64Array {
-  const n = arm.joints.length, axes = scratch.axes, flange = scratch.baseFromFlange, tip = scratch.tip;
+  const n = arm.joints.length;
+  const axes = scratch.axes;
+  const flange = scratch.baseFromFlange;
+  const tip = scratch.tip;
   walk(chainOf(arm, q, scratch.arm), q, flange, null, axes);
-  if (flangeFromTip === null) { tip[0] = 0; tip[1] = 0; tip[2] = 0; } else rotate(flange.quaternion, flangeFromTip, tip);
-  const px = flange.position[0] + tip[0], py = flange.position[1] + tip[1], pz = flange.position[2] + tip[2];
+  if (flangeFromTip === null) {
+    tip[0] = 0;
+    tip[1] = 0;
+    tip[2] = 0;
+  } else rotate(flange.quaternion, flangeFromTip, tip);
+  const px = flange.position[0] + tip[0];
+  const py = flange.position[1] + tip[1];
+  const pz = flange.position[2] + tip[2];
   for (let i = 0; i < n; i++) {
-    const at = 6 * i, zx = axes[at]!, zy = axes[at + 1]!, zz = axes[at + 2]!;
-    const rx = px - axes[at + 3]!, ry = py - axes[at + 4]!, rz = pz - axes[at + 5]!;
+    const at = 6 * i;
+    const zx = axes[at]!;
+    const zy = axes[at + 1]!;
+    const zz = axes[at + 2]!;
+    const rx = px - axes[at + 3]!;
+    const ry = py - axes[at + 4]!;
+    const rz = pz - axes[at + 5]!;
     out[i] = zy * rz - zz * ry;
     out[n + i] = zz * rx - zx * rz;
     out[2 * n + i] = zx * ry - zy * rx;
-    out[3 * n + i] = zx; out[4 * n + i] = zy; out[5 * n + i] = zz;
+    out[3 * n + i] = zx;
+    out[4 * n + i] = zy;
+    out[5 * n + i] = zz;
   }
   const slides = scratch.arm.slides;
   for (let k = 0; k < slides.length; k++) {
-    for (let row = 0, i = slides[k]!; row < 3; row++) { out[row * n + i] = axes[6 * i + row]!; out[(3 + row) * n + i] = 0; }
+    for (let row = 0, i = slides[k]!; row < 3; row++) {
+      out[row * n + i] = axes[6 * i + row]!;
+      out[(3 + row) * n + i] = 0;
+    }
   }
   return out;
 }
 
 /** What the hand feels: the tip's speed [m/s] and turning rate [rad/s] at joint speeds, six numbers: J · q̇. */
-export function tipTwist(jacobianRows: Float64Array, speeds_rad_s: ArrayLike<number>, out: Float64Array = new Float64Array(6)): Float64Array {
+export function tipTwist(
+  jacobianRows: Float64Array,
+  speeds_rad_s: ArrayLike<number>,
+  out: Float64Array = new Float64Array(6),
+): Float64Array {
   const n = jacobianRows.length / 6;
   for (let row = 0; row < 6; row++) {
     let sum = 0;

@@ -13,22 +13,31 @@ const MOST_SWEEPS = 30;
  * @see Golub & Van Loan, Matrix Computations, 4th ed., 8.6.3.
  */
 export function singularValues(jacobianRows: Float64Array): Float64Array {
-  const n = jacobianRows.length / 6, a = jacobianRows.slice();
+  const n = jacobianRows.length / 6;
+  const a = jacobianRows.slice();
   for (let sweep = 0, turned = true; turned && sweep < MOST_SWEEPS; sweep++) {
     turned = false;
     for (let i = 0; i < n - 1; i++) {
       for (let j = i + 1; j < n; j++) {
-        let ii = 0, jj = 0, ij = 0;
+        let ii = 0;
+        let jj = 0;
+        let ij = 0;
         for (let row = 0; row < 6; row++) {
-          const x = a[row * n + i]!, y = a[row * n + j]!;
-          ii += x * x; jj += y * y; ij += x * y;
+          const x = a[row * n + i]!;
+          const y = a[row * n + j]!;
+          ii += x * x;
+          jj += y * y;
+          ij += x * y;
         }
         if (Math.abs(ij) <= PERPENDICULAR * Math.sqrt(ii * jj)) continue;
         turned = true;
-        const zeta = (jj - ii) / (2 * ij), t = (zeta < 0 ? -1 : 1) / (Math.abs(zeta) + Math.sqrt(1 + zeta * zeta));
-        const c = 1 / Math.sqrt(1 + t * t), s = c * t;
+        const zeta = (jj - ii) / (2 * ij);
+        const t = (zeta < 0 ? -1 : 1) / (Math.abs(zeta) + Math.sqrt(1 + zeta * zeta));
+        const c = 1 / Math.sqrt(1 + t * t);
+        const s = c * t;
         for (let row = 0; row < 6; row++) {
-          const x = a[row * n + i]!, y = a[row * n + j]!;
+          const x = a[row * n + i]!;
+          const y = a[row * n + j]!;
           a[row * n + i] = c * x - s * y;
           a[row * n + j] = s * x + c * y;
         }
@@ -44,4 +53,5 @@ export function singularValues(jacobianRows: Float64Array): Float64Array {
 }
 
 /** Yoshikawa's measure √det(J Jᵀ): the product of the singular values, 0 on a singularity. */
-export const manipulability = (jacobianRows: Float64Array): number => singularValues(jacobianRows).reduce((product, value) => product * value, 1);
+export const manipulability = (jacobianRows: Float64Array): number =>
+  singularValues(jacobianRows).reduce((product, value) => product * value, 1);

@@ -7,14 +7,24 @@ import { solveSphericalSeven } from "./spherical-seven.ts";
 
 /** Working memory of `mend`. */
 export interface MendScratch {
-  readonly q: Float64Array; readonly raw: Float64Array;
-  readonly target: Pose<"base", "flange">; readonly is: Pose<"base", "flange">; readonly flangeFromBase: Pose<"flange", "base">; readonly step: Pose<"flange", "flange">;
+  readonly q: Float64Array;
+  readonly raw: Float64Array;
+  readonly target: Pose<"base", "flange">;
+  readonly is: Pose<"base", "flange">;
+  readonly flangeFromBase: Pose<"flange", "base">;
+  readonly step: Pose<"flange", "flange">;
 }
 export const mendScratch = (): MendScratch => ({
-  q: new Float64Array(7), raw: new Float64Array(56), target: identity(), is: identity(), flangeFromBase: identity(), step: identity(),
+  q: new Float64Array(7),
+  raw: new Float64Array(56),
+  target: identity(),
+  is: identity(),
+  flangeFromBase: identity(),
+  step: identity(),
 });
 
-const VERIFIED = 1e-9, CORRECTIONS = 4;
+const VERIFIED = 1e-9;
+const CORRECTIONS = 4;
 
 /**
  * Posture s of a formula that the arm misses by tenths of a millimetre, made a posture of the arm with the same elbow angle: by
@@ -24,8 +34,19 @@ const VERIFIED = 1e-9, CORRECTIONS = 4;
  *
  * @param raw  postures of seven angles; the s-th is overwritten by the better one, or its first angle by NaN where there is none.
  */
-export function mend(arm: SerialArm, wanted: Pose<"base", "flange">, held: HeldElbow, raw: Float64Array, s: number, count: number, scratch: MendScratch, newton: RefineScratch): void {
-  const { q, target, is, flangeFromBase, step } = scratch, { geometry, elbow_rad } = held, at = 7 * s;
+export function mend(
+  arm: SerialArm,
+  wanted: Pose<"base", "flange">,
+  held: HeldElbow,
+  raw: Float64Array,
+  s: number,
+  count: number,
+  scratch: MendScratch,
+  newton: RefineScratch,
+): void {
+  const { q, target, is, flangeFromBase, step } = scratch;
+  const { geometry, elbow_rad } = held;
+  const at = 7 * s;
   for (let j = 0; j < 7; j++) q[j] = raw[at + j]!;
   let met = refine(arm, q, wanted, newton, held) < VERIFIED;
   if (!met) {

@@ -1,7 +1,10 @@
 import type { Branch } from "./branch.ts";
 
 /** Joint angles that reach a pose, with the branch they belong to; undefined for arms whose postures have no names. */
-export interface Solution { readonly q_rad: Float64Array; readonly branch: Branch | undefined }
+export interface Solution {
+  readonly q_rad: Float64Array;
+  readonly branch: Branch | undefined;
+}
 
 /**
  * Whether and how a pose can be reached. "Why can it not?" is a `switch` over `kind`;
@@ -14,7 +17,13 @@ export type Reach =
    * `method` is "numeric" for an arm without a closed form: solutions that a search found from `considered` starts, maybe not all,
    * and without their copies by whole turns.
    */
-  | { readonly kind: "reached"; readonly method?: "numeric"; readonly solutions: readonly Solution[]; readonly singular: boolean; readonly considered: number }
+  | {
+      readonly kind: "reached";
+      readonly method?: "numeric";
+      readonly solutions: readonly Solution[];
+      readonly singular: boolean;
+      readonly considered: number;
+    }
   | { readonly kind: "too-far"; readonly beyond_m: number; readonly reach_m: number }
   | { readonly kind: "too-near"; readonly inside_m: number; readonly nearest_m: number }
   /** The links would reach it, but the maker declares a smaller workspace, counted from axis 2 to the wrist centre. */
@@ -22,6 +31,13 @@ export type Reach =
   /** The wrist can be brought there, but not so turned: at best it is this far from the wanted orientation. */
   | { readonly kind: "not-so-turned"; readonly short_rad: number }
   /** The branch that comes closest to the limits; joint counts from 1. */
-  | { readonly kind: "outside-limits"; readonly joint: number; readonly wanted_rad: number; readonly limit_rad: number; readonly slides?: boolean; readonly branch: Branch | undefined }
+  | {
+      readonly kind: "outside-limits";
+      readonly joint: number;
+      readonly wanted_rad: number;
+      readonly limit_rad: number;
+      readonly slides?: boolean;
+      readonly branch: Branch | undefined;
+    }
   | { readonly kind: "no-solver"; readonly because: string }
   | { readonly kind: "not-a-pose"; readonly because: string };

@@ -7,17 +7,33 @@ import { jacobian, jacobianScratch, type JacobianScratch } from "./jacobian.ts";
 import { elbowOfSphericalSeven } from "./spherical-seven.ts";
 
 /** What a seventh joint is for: the elbow angle that is to be kept. */
-export interface HeldElbow { readonly geometry: SphericalSevenGeometry; elbow_rad: number }
+export interface HeldElbow {
+  readonly geometry: SphericalSevenGeometry;
+  elbow_rad: number;
+}
 
 /** Working memory of `refine`: one per caller; grows to the arm's joints when first used. */
-export interface RefineScratch { jacobian: JacobianScratch; rows: Float64Array; system: Float64Array; readonly error: Float64Array; readonly step: Float64Array; trial: Float64Array }
+export interface RefineScratch {
+  jacobian: JacobianScratch;
+  rows: Float64Array;
+  system: Float64Array;
+  readonly error: Float64Array;
+  readonly step: Float64Array;
+  trial: Float64Array;
+}
 export const refineScratch = (joints = 6): RefineScratch => ({
-  jacobian: jacobianScratch(joints), rows: new Float64Array(6 * joints), system: new Float64Array(joints * (joints + 1)), error: new Float64Array(7), step: new Float64Array(7), trial: new Float64Array(joints),
+  jacobian: jacobianScratch(joints),
+  rows: new Float64Array(6 * joints),
+  system: new Float64Array(joints * (joints + 1)),
+  error: new Float64Array(7),
+  step: new Float64Array(7),
+  trial: new Float64Array(joints),
 });
 
 /** An answer this close [m, rad] is not worth another step. */
 const GOOD_ENOUGH = 1e-14;
-const MOST_STEPS = 14, MOST_HALVINGS = 6;
+const MOST_STEPS = 14;
+const MOST_HALVINGS = 6;
 /** No step turns a joint further than this [rad]: beyond it the linear law means nothing. */
 const LONGEST_STEP_RAD = 0.2;
 /** A pivot this small against the largest has no direction to give. */
@@ -36,10 +52,21 @@ const GRADIENT_STEP_RAD = 1e-6;
  * @param scratch  with it the call allocates nothing once it has seen an arm of n joints.
  * @returns what is left: the largest of distance [m], angle [rad] and elbow angle [rad]. Infinity for an arm of other joints.
  */
-export function refine(arm: SerialArm, q: Float64Array, wanted: Pose<"base", "flange">, scratch: RefineScratch, held: HeldElbow | null = null): number {
+export function refine(
+  arm: SerialArm,
+  q: Float64Array,
+  wanted: Pose<"base", "flange">,
+  scratch: RefineScratch,
+  held: HeldElbow | null = null,
+): number {
   const n = arm.joints.length;
   if (n !== (held === null ? 6 : 7)) return Infinity;
-  if (scratch.trial.length !== n) { scratch.jacobian = jacobianScratch(n); scratch.rows = new Float64Array(6 * n); scratch.system = new Float64Array(n * (n + 1)); scratch.trial = new Float64Array(n); }
+  if (scratch.trial.length !== n) {
+    scratch.jacobian = jacobianScratch(n);
+    scratch.rows = new Float64Array(6 * n);
+    scratch.system = new Float64Array(n * (n + 1));
+    scratch.trial = new Float64Array(n);
+  }
   const { rows, error, step, trial } = scratch;
   jacobian(arm, q, null, rows, scratch.jacobian);
   let left = miss(scratch.jacobian.baseFromFlange, wanted, q, held, error);
@@ -51,8 +78,18 @@ export function refine(arm: SerialArm, q: Float64Array, wanted: Pose<"base", "fl
     for (let j = 0; j < n; j++) trial[j] = q[j]! + factor * step[j]!;
     let better = false;
     for (let half = 0; half < MOST_HALVINGS; half++) {
-      const after = miss(flangePose(arm, trial, scratch.jacobian.baseFromFlange, scratch.jacobian.arm), wanted, trial, held, error);
-      if (after < left) { better = true; left = after; break; }
+      const after = miss(
+        flangePose(arm, trial, scratch.jacobian.baseFromFlange, scratch.jacobian.arm),
+        wanted,
+        trial,
+        held,
+        error,
+      );
+      if (after < left) {
+        better = true;
+        left = after;
+        break;
+      }
       for (let j = 0; j < n; j++) trial[j] = 0.5 * (trial[j]! + q[j]!);
     }
     if (!better) return left;
@@ -71,18 +108,35 @@ function miss(is: Pose, wanted: Pose, q: Float64Array, held: HeldElbow | null, e
 
 /** error = (p* − p; rotation vector of R* Rᵀ, to third order); returns the larger of its two lengths. */
 export function errorTwist(is: Pose, wanted: Pose, error: Float64Array): number {
-  const p = is.position, o = wanted.position, a = wanted.quaternion, b = is.quaternion;
-  const w = a[3] * b[3] + a[0] * b[0] + a[1] * b[1] + a[2] * b[2], sign = w < 0 ? -2 : 2;
-  const dx = o[0] - p[0], dy = o[1] - p[1], dz = o[2] - p[2];
+  const p = is.position;
+  const o = wanted.position;
+  const a = wanted.quaternion;
+  const b = is.quaternion;
+  const w = a[3] * b[3] + a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  const sign = w < 0 ? -2 : 2;
+  const dx = o[0] - p[0];
+  const dy = o[1] - p[1];
+  const dz = o[2] - p[2];
   const rx = sign * (b[3] * a[0] - a[3] * b[0] - a[1] * b[2] + a[2] * b[1]);
   const ry = sign * (b[3] * a[1] - a[3] * b[1] - a[2] * b[0] + a[0] * b[2]);
   const rz = sign * (b[3] * a[2] - a[3] * b[2] - a[0] * b[1] + a[1] * b[0]);
-  error[0] = dx; error[1] = dy; error[2] = dz; error[3] = rx; error[4] = ry; error[5] = rz;
+  error[0] = dx;
+  error[1] = dy;
+  error[2] = dz;
+  error[3] = rx;
+  error[4] = ry;
+  error[5] = rz;
   return Math.sqrt(Math.max(dx * dx + dy * dy + dz * dz, rx * rx + ry * ry + rz * rz));
 }
 
 /** step ← J⁻¹ e by elimination with pivots; the elbow's gradient is J's seventh row. False where there is no such step. */
-function solveStep(rows: Float64Array, n: number, q: Float64Array, held: HeldElbow | null, { system, error, step }: RefineScratch): boolean {
+function solveStep(
+  rows: Float64Array,
+  n: number,
+  q: Float64Array,
+  held: HeldElbow | null,
+  { system, error, step }: RefineScratch,
+): boolean {
   const m = n + 1;
   for (let i = 0; i < 6; i++) {
     for (let j = 0; j < n; j++) system[i * m + j] = rows[i * n + j]!;
@@ -90,10 +144,15 @@ function solveStep(rows: Float64Array, n: number, q: Float64Array, held: HeldElb
   }
   if (held !== null) {
     for (let j = 0; j < n; j++) {
-      if (j > 3) { system[6 * m + j] = 0; continue; }
+      if (j > 3) {
+        system[6 * m + j] = 0;
+        continue;
+      }
       const kept = q[j]!;
-      q[j] = kept + GRADIENT_STEP_RAD; const after = elbowOfSphericalSeven(held.geometry, q);
-      q[j] = kept - GRADIENT_STEP_RAD; const before = elbowOfSphericalSeven(held.geometry, q);
+      q[j] = kept + GRADIENT_STEP_RAD;
+      const after = elbowOfSphericalSeven(held.geometry, q);
+      q[j] = kept - GRADIENT_STEP_RAD;
+      const before = elbowOfSphericalSeven(held.geometry, q);
       q[j] = kept;
       system[6 * m + j] = wrapAngle(after - before) / (2 * GRADIENT_STEP_RAD);
     }
@@ -102,11 +161,17 @@ function solveStep(rows: Float64Array, n: number, q: Float64Array, held: HeldElb
   let largest = 0;
   for (let col = 0; col < n; col++) {
     let pivot = col;
-    for (let i = col + 1; i < n; i++) if (Math.abs(system[i * m + col]!) > Math.abs(system[pivot * m + col]!)) pivot = i;
+    for (let i = col + 1; i < n; i++)
+      if (Math.abs(system[i * m + col]!) > Math.abs(system[pivot * m + col]!)) pivot = i;
     const size = Math.abs(system[pivot * m + col]!);
     largest = Math.max(largest, size);
     if (!(size > NO_PIVOT * largest)) return false;
-    if (pivot !== col) for (let j = col; j < m; j++) { const swap = system[col * m + j]!; system[col * m + j] = system[pivot * m + j]!; system[pivot * m + j] = swap; }
+    if (pivot !== col)
+      for (let j = col; j < m; j++) {
+        const swap = system[col * m + j]!;
+        system[col * m + j] = system[pivot * m + j]!;
+        system[pivot * m + j] = swap;
+      }
     for (let i = col + 1; i < n; i++) {
       const factor = system[i * m + col]! / system[col * m + col]!;
       if (factor !== 0) for (let j = col + 1; j < m; j++) system[i * m + j]! -= factor * system[col * m + j]!;

@@ -34,53 +34,118 @@ const WANTED = new Float64Array(WRIST_NUMBERS);
  * @see Shimizu, Kakuya, Yoon, Kitagaki, Kosuge, Analytical Inverse Kinematic Computation for 7-DOF Redundant Manipulators
  *      With Joint Limits, IEEE Transactions on Robotics 24 (2008).
  */
-export function solveSphericalSeven(geometry: SphericalSevenGeometry, baseFromFlange: Pose, elbow_rad: number, out: Float64Array, near?: ArrayLike<number>): number {
+export function solveSphericalSeven(
+  geometry: SphericalSevenGeometry,
+  baseFromFlange: Pose,
+  elbow_rad: number,
+  out: Float64Array,
+  near?: ArrayLike<number>,
+): number {
   const { c3_m: c3, c5_m: c5, signs, offsets_rad: offsets } = geometry;
 
   wantedWrist(geometry, baseFromFlange, WANTED);
-  const px = WANTED[0]!, py = WANTED[1]!, pz = WANTED[2]!;
-  const r11 = WANTED[3]!, r21 = WANTED[4]!, r31 = WANTED[5]!, r12 = WANTED[6]!, r22 = WANTED[7]!, r32 = WANTED[8]!, r13 = WANTED[9]!, r23 = WANTED[10]!, r33 = WANTED[11]!;
+  const px = WANTED[0]!;
+  const py = WANTED[1]!;
+  const pz = WANTED[2]!;
+  const r11 = WANTED[3]!;
+  const r21 = WANTED[4]!;
+  const r31 = WANTED[5]!;
+  const r12 = WANTED[6]!;
+  const r22 = WANTED[7]!;
+  const r32 = WANTED[8]!;
+  const r13 = WANTED[9]!;
+  const r23 = WANTED[10]!;
+  const r33 = WANTED[11]!;
 
-  const r2 = px * px + py * py + pz * pz, r = Math.sqrt(r2);
+  const r2 = px * px + py * py + pz * pz;
+  const r = Math.sqrt(r2);
   // An arm that misses the formula may reach where the formula does not: a start is given for it to be refined.
   const edge = EDGE_M + 2 * geometry.deviation_m;
   if (r > c3 + c5 + edge || r < Math.abs(c3 - c5) - edge) return 0;
-  const wx = r > 0 ? px / r : 0, wy = r > 0 ? py / r : 0, wz = r > 0 ? pz / r : 1, level = Math.sqrt(wx * wx + wy * wy);
+  const wx = r > 0 ? px / r : 0;
+  const wy = r > 0 ? py / r : 0;
+  const wz = r > 0 ? pz / r : 1;
+  const level = Math.sqrt(wx * wx + wy * wy);
   // t1 = (ẑ − wz w) / level, or x̂ where w is upright.
-  let t1x: number, t1y: number, t1z: number;
-  if (level > UPRIGHT_SINE) { t1x = -wz * wx / level; t1y = -wz * wy / level; t1z = level; }
-  else { t1x = 1 - wx * wx; t1y = -wx * wy; t1z = -wx * wz; }
-  const t2x = wy * t1z - wz * t1y, t2y = wz * t1x - wx * t1z, t2z = wx * t1y - wy * t1x;
-  const kp = Math.cos(elbow_rad), sp = Math.sin(elbow_rad);
-  const tx = kp * t1x + sp * t2x, ty = kp * t1y + sp * t2y, tz = kp * t1z + sp * t2z;
+  let t1x: number;
+  let t1y: number;
+  let t1z: number;
+  if (level > UPRIGHT_SINE) {
+    t1x = (-wz * wx) / level;
+    t1y = (-wz * wy) / level;
+    t1z = level;
+  } else {
+    t1x = 1 - wx * wx;
+    t1y = -wx * wy;
+    t1z = -wx * wz;
+  }
+  const t2x = wy * t1z - wz * t1y;
+  const t2y = wz * t1x - wx * t1z;
+  const t2z = wx * t1y - wy * t1x;
+  const kp = Math.cos(elbow_rad);
+  const sp = Math.sin(elbow_rad);
+  const tx = kp * t1x + sp * t2x;
+  const ty = kp * t1y + sp * t2y;
+  const tz = kp * t1z + sp * t2z;
 
-  const cosine = (r2 - c3 * c3 - c5 * c5) / (2 * c3 * c5), cos4 = cosine > 1 ? 1 : cosine < -1 ? -1 : cosine;
-  const least = geometry.deviation_m > 0 ? LEAST_BEND : 0, sin4 = Math.max(least, Math.sqrt((1 - cos4) * (1 + cos4))), t4 = Math.atan2(sin4, cos4);
-  const across = c5 * sin4, along = c3 + c5 * cos4, length = Math.sqrt(across * across + along * along);
-  const ka = length > 0 ? along / length : 1, sa = length > 0 ? across / length : 0;
-  const ux = ka * wx + sa * tx, uy = ka * wy + sa * ty, uz = ka * wz + sa * tz;
-  const dx = sa * wx - ka * tx, dy = sa * wy - ka * ty, dz = sa * wz - ka * tz;
-  const sin2 = Math.sqrt(ux * ux + uy * uy), free2 = sin2 < SINGULAR_SINE, positive2 = Math.atan2(sin2, uz);
+  const cosine = (r2 - c3 * c3 - c5 * c5) / (2 * c3 * c5);
+  const cos4 = cosine > 1 ? 1 : cosine < -1 ? -1 : cosine;
+  const least = geometry.deviation_m > 0 ? LEAST_BEND : 0;
+  const sin4 = Math.max(least, Math.sqrt((1 - cos4) * (1 + cos4)));
+  const t4 = Math.atan2(sin4, cos4);
+  const across = c5 * sin4;
+  const along = c3 + c5 * cos4;
+  const length = Math.sqrt(across * across + along * along);
+  const ka = length > 0 ? along / length : 1;
+  const sa = length > 0 ? across / length : 0;
+  const ux = ka * wx + sa * tx;
+  const uy = ka * wy + sa * ty;
+  const uz = ka * wz + sa * tz;
+  const dx = sa * wx - ka * tx;
+  const dy = sa * wy - ka * ty;
+  const dz = sa * wz - ka * tz;
+  const sin2 = Math.sqrt(ux * ux + uy * uy);
+  const free2 = sin2 < SINGULAR_SINE;
+  const positive2 = Math.atan2(sin2, uz);
   const positive1 = free2 ? signs[0] * (near === undefined ? 0 : near[0]!) - offsets[0] : Math.atan2(uy, ux);
-  const k1 = free2 ? Math.cos(positive1) : ux / sin2, s1 = free2 ? Math.sin(positive1) : uy / sin2;
+  const k1 = free2 ? Math.cos(positive1) : ux / sin2;
+  const s1 = free2 ? Math.sin(positive1) : uy / sin2;
   const near5 = signs[4] * (near === undefined ? 0 : near[4]!) - offsets[4];
   // d seen from frame 2 is (cos θ3, sin θ3, 0) for θ2, θ4 ≥ 0; each other sign turns it by π.
-  const inX = uz * (k1 * dx + s1 * dy) - sin2 * dz, inY = k1 * dy - s1 * dx, positive3 = Math.atan2(inY, inX);
+  const inX = uz * (k1 * dx + s1 * dy) - sin2 * dz;
+  const inY = k1 * dy - s1 * dx;
+  const positive3 = Math.atan2(inY, inX);
   // Frame 4 has the axes y4 = u × d and z4 = cos θ4 · u + sin θ4 · d, x4 = y4 × z4; its turn by π about z4 goes into θ5.
-  const y4x = uy * dz - uz * dy, y4y = uz * dx - ux * dz, y4z = ux * dy - uy * dx;
-  const z4x = cos4 * ux + sin4 * dx, z4y = cos4 * uy + sin4 * dy, z4z = cos4 * uz + sin4 * dz;
-  const x4x = y4y * z4z - y4z * z4y, x4y = y4z * z4x - y4x * z4z, x4z = y4x * z4y - y4y * z4x;
-  const m13 = x4x * r13 + x4y * r23 + x4z * r33, m23 = y4x * r13 + y4y * r23 + y4z * r33, m33 = z4x * r13 + z4y * r23 + z4z * r33;
-  const sin6 = Math.sqrt(m13 * m13 + m23 * m23), free6 = sin6 < SINGULAR_SINE, positive6 = free6 ? (m33 > 0 ? 0 : Math.PI) : Math.atan2(sin6, m33);
+  const y4x = uy * dz - uz * dy;
+  const y4y = uz * dx - ux * dz;
+  const y4z = ux * dy - uy * dx;
+  const z4x = cos4 * ux + sin4 * dx;
+  const z4y = cos4 * uy + sin4 * dy;
+  const z4z = cos4 * uz + sin4 * dz;
+  const x4x = y4y * z4z - y4z * z4y;
+  const x4y = y4z * z4x - y4x * z4z;
+  const x4z = y4x * z4y - y4y * z4x;
+  const m13 = x4x * r13 + x4y * r23 + x4z * r33;
+  const m23 = y4x * r13 + y4y * r23 + y4z * r33;
+  const m33 = z4x * r13 + z4y * r23 + z4z * r33;
+  const sin6 = Math.sqrt(m13 * m13 + m23 * m23);
+  const free6 = sin6 < SINGULAR_SINE;
+  const positive6 = free6 ? (m33 > 0 ? 0 : Math.PI) : Math.atan2(sin6, m33);
 
   let at = 0;
-  const last2 = free2 ? 1 : -1, last6 = free6 ? 1 : -1;
+  const last2 = free2 ? 1 : -1;
+  const last6 = free6 ? 1 : -1;
   for (let shoulder = 1; shoulder >= last2; shoulder -= 2) {
     for (let elbow = 1; elbow >= -1; elbow -= 2) {
       // θ4 < 0 turns frame 4 by π about its z axis, and θ5 takes that back.
-      const turned5 = elbow === 1 ? 0 : Math.PI, t5 = free6 ? near5 - turned5 : Math.atan2(m23, m13), k5 = Math.cos(t5), s5 = Math.sin(t5);
-      const v11 = x4x * r11 + x4y * r21 + x4z * r31, v12 = x4x * r12 + x4y * r22 + x4z * r32;
-      const v21 = y4x * r11 + y4y * r21 + y4z * r31, v22 = y4x * r12 + y4y * r22 + y4z * r32;
+      const turned5 = elbow === 1 ? 0 : Math.PI;
+      const t5 = free6 ? near5 - turned5 : Math.atan2(m23, m13);
+      const k5 = Math.cos(t5);
+      const s5 = Math.sin(t5);
+      const v11 = x4x * r11 + x4y * r21 + x4z * r31;
+      const v12 = x4x * r12 + x4y * r22 + x4z * r32;
+      const v21 = y4x * r11 + y4y * r21 + y4z * r31;
+      const v22 = y4x * r12 + y4y * r22 + y4z * r32;
       const t7 = Math.atan2(k5 * v21 - s5 * v11, k5 * v22 - s5 * v12);
       for (let wrist = 1; wrist >= last6; wrist -= 2) {
         const half = wrist === 1 ? 0 : Math.PI;
@@ -105,14 +170,37 @@ export function solveSphericalSeven(geometry: SphericalSevenGeometry, baseFromFl
  */
 export function elbowOfSphericalSeven(geometry: SphericalSevenGeometry, q_rad: ArrayLike<number>, at = 0): number {
   const { c3_m: c3, c5_m: c5, signs, offsets_rad: offsets } = geometry;
-  const t1 = signs[0] * q_rad[at]! - offsets[0], t2 = signs[1] * q_rad[at + 1]! - offsets[1], t3 = signs[2] * q_rad[at + 2]! - offsets[2], t4 = signs[3] * q_rad[at + 3]! - offsets[3];
-  const k1 = Math.cos(t1), s1 = Math.sin(t1), k2 = Math.cos(t2), s2 = Math.sin(t2), k3 = Math.cos(t3), s3 = Math.sin(t3), s4 = Math.sin(t4), k4 = Math.cos(t4);
-  const side = s4 < 0 ? -1 : 1, across = c5 * s4 * side, along = c3 + c5 * k4, length = Math.sqrt(across * across + along * along);
-  const ka = length > 0 ? along / length : 1, sa = length > 0 ? across / length : 0;
-  const ux = k1 * s2, uy = s1 * s2, uz = k2;
-  const dx = side * (k1 * k2 * k3 - s1 * s3), dy = side * (s1 * k2 * k3 + k1 * s3), dz = -side * s2 * k3;
-  const tx = sa * ux - ka * dx, ty = sa * uy - ka * dy, tz = sa * uz - ka * dz;
-  const wx = ka * ux + sa * dx, wy = ka * uy + sa * dy, wz = ka * uz + sa * dz, level = Math.sqrt(wx * wx + wy * wy);
+  const t1 = signs[0] * q_rad[at]! - offsets[0];
+  const t2 = signs[1] * q_rad[at + 1]! - offsets[1];
+  const t3 = signs[2] * q_rad[at + 2]! - offsets[2];
+  const t4 = signs[3] * q_rad[at + 3]! - offsets[3];
+  const k1 = Math.cos(t1);
+  const s1 = Math.sin(t1);
+  const k2 = Math.cos(t2);
+  const s2 = Math.sin(t2);
+  const k3 = Math.cos(t3);
+  const s3 = Math.sin(t3);
+  const s4 = Math.sin(t4);
+  const k4 = Math.cos(t4);
+  const side = s4 < 0 ? -1 : 1;
+  const across = c5 * s4 * side;
+  const along = c3 + c5 * k4;
+  const length = Math.sqrt(across * across + along * along);
+  const ka = length > 0 ? along / length : 1;
+  const sa = length > 0 ? across / length : 0;
+  const ux = k1 * s2;
+  const uy = s1 * s2;
+  const uz = k2;
+  const dx = side * (k1 * k2 * k3 - s1 * s3);
+  const dy = side * (s1 * k2 * k3 + k1 * s3);
+  const dz = -side * s2 * k3;
+  const tx = sa * ux - ka * dx;
+  const ty = sa * uy - ka * dy;
+  const tz = sa * uz - ka * dz;
+  const wx = ka * ux + sa * dx;
+  const wy = ka * uy + sa * dy;
+  const wz = ka * uz + sa * dz;
+  const level = Math.sqrt(wx * wx + wy * wy);
   // t1 and t2 as the solver takes them.
   if (level > UPRIGHT_SINE) return Math.atan2(tx * wy - ty * wx, level * level * tz - wz * (wx * tx + wy * ty));
   return Math.atan2(wz * ty - wy * tz, tx);

@@ -20,25 +20,34 @@ export interface EdgeCurve {
  */
 export function curveOfChain(chain: EdgeChain, prefer: Vector3): EdgeCurve {
   let leftLooks = 0;
-  chain.left.forEach((normal, i) => { leftLooks += dot(normal, prefer) - dot(chain.right[i]!, prefer); });
+  chain.left.forEach((normal, i) => {
+    leftLooks += dot(normal, prefer) - dot(chain.right[i]!, prefer);
+  });
   const { points, left, right, closed } = chain;
-  return leftLooks >= 0 ? { points, first: left, second: right, closed }
+  return leftLooks >= 0
+    ? { points, first: left, second: right, closed }
     : { points: [...points].reverse(), first: [...right].reverse(), second: [...left].reverse(), closed };
 }
 
 /** The edges around a face, in order, each with that face as its first: input of `traceEdges`. */
-export const curvesOfLoop = ({ chains }: EdgeLoop): EdgeCurve[] => chains.map(({ chain, reversed }) => {
-  const { points, left, right, closed } = chain;
-  return reversed ? { points: [...points].reverse(), first: [...right].reverse(), second: [...left].reverse(), closed }
-    : { points, first: left, second: right, closed };
-});
+export const curvesOfLoop = ({ chains }: EdgeLoop): EdgeCurve[] =>
+  chains.map(({ chain, reversed }) => {
+    const { points, left, right, closed } = chain;
+    return reversed
+      ? { points: [...points].reverse(), first: [...right].reverse(), second: [...left].reverse(), closed }
+      : { points, first: left, second: right, closed };
+  });
 
 /**
  * An auxiliary curve that is no edge of a part (row N-60): any line with the surface normal at its points.
  *
  * @param normalAt  outward unit normal at a point, from a helper surface or a constant.
  */
-export function helperCurve(points: readonly Vector3[], normalAt: (point: Vector3) => Vector3, closed = false): EdgeCurve {
+export function helperCurve(
+  points: readonly Vector3[],
+  normalAt: (point: Vector3) => Vector3,
+  closed = false,
+): EdgeCurve {
   const normals = points.slice(1).map((point, i) => {
     const before = points[i]!;
     return normalAt([(before[0] + point[0]) / 2, (before[1] + point[1]) / 2, (before[2] + point[2]) / 2]);
@@ -49,19 +58,33 @@ export function helperCurve(points: readonly Vector3[], normalAt: (point: Vector
 /** The same curve seen in another frame: from the part's mesh into the world. */
 export function moveCurve(curve: EdgeCurve, intoFromCurve: Pose): EdgeCurve {
   const turn = (normal: Vector3): Vector3 => rotate(intoFromCurve.quaternion, normal);
-  return { points: curve.points.map(point => transformPoint(intoFromCurve, point)), first: curve.first.map(turn), second: curve.second.map(turn), closed: curve.closed };
+  return {
+    points: curve.points.map(point => transformPoint(intoFromCurve, point)),
+    first: curve.first.map(turn),
+    second: curve.second.map(turn),
+    closed: curve.closed,
+  };
 }
 
 /** How far points are from a line: the largest, the root mean square, and where [m]. */
-export interface Deviation { readonly max_m: number; readonly rms_m: number; readonly at: number }
+export interface Deviation {
+  readonly max_m: number;
+  readonly rms_m: number;
+  readonly at: number;
+}
 
 /** Distance of each point from the nearest spot of a polyline, summed up. `at` is the index of the worst point. */
 export function pathDeviation(polyline: readonly Vector3[], points: readonly Vector3[]): Deviation {
-  let max_m = 0, squares = 0, at = 0;
+  let max_m = 0;
+  let squares = 0;
+  let at = 0;
   points.forEach((point, i) => {
     const d = distanceToPolyline(polyline, point);
     squares += d * d;
-    if (d > max_m) { max_m = d; at = i; }
+    if (d > max_m) {
+      max_m = d;
+      at = i;
+    }
   });
   return { max_m, rms_m: points.length > 0 ? Math.sqrt(squares / points.length) : 0, at };
 }
@@ -69,12 +92,15 @@ export function pathDeviation(polyline: readonly Vector3[], points: readonly Vec
 /** Distance of a point from the nearest spot of a polyline [m]. */
 export function distanceToPolyline(polyline: readonly Vector3[], point: Vector3): number {
   let least = polyline.length > 0 ? distance(point, polyline[0]!) : Infinity;
-  for (let i = 1; i < polyline.length; i++) least = Math.min(least, distanceToSegment(polyline[i - 1]!, polyline[i]!, point));
+  for (let i = 1; i < polyline.length; i++)
+    least = Math.min(least, distanceToSegment(polyline[i - 1]!, polyline[i]!, point));
   return least;
 }
 
 export function distanceToSegment(a: Vector3, b: Vector3, point: Vector3): number {
-  const along = subtract(b, a), from = subtract(point, a), squared = dot(along, along);
+  const along = subtract(b, a);
+  const from = subtract(point, a);
+  const squared = dot(along, along);
   const t = squared > 0 ? Math.min(1, Math.max(0, dot(from, along) / squared)) : 0;
   return Math.hypot(from[0] - t * along[0], from[1] - t * along[1], from[2] - t * along[2]);
 }

@@ -1,15 +1,39 @@
 import { describe, expect, test } from "vitest";
-import { boxMesh, cylinderMesh, extrudedMesh, mergeMeshes, norm, pose, radians, sphereMesh, type TriangleMesh, type Vector3 } from "../index.ts";
+import {
+  boxMesh,
+  cylinderMesh,
+  extrudedMesh,
+  mergeMeshes,
+  norm,
+  pose,
+  radians,
+  sphereMesh,
+  type TriangleMesh,
+  type Vector3,
+} from "../index.ts";
 import { edgeLoop, edgeNearPoint, edgeNearRay, featureEdges } from "./index.ts";
 
 const THRESHOLD = radians(30);
 /** The same surface as a file stores it: every triangle with its own corners. */
 const loose = (mesh: TriangleMesh): TriangleMesh => ({
-  positions: Float64Array.from(Array.from(mesh.indices).flatMap(i => Array.from(mesh.positions.slice(3 * i, 3 * i + 3)))),
+  positions: Float64Array.from(
+    Array.from(mesh.indices).flatMap(i => Array.from(mesh.positions.slice(3 * i, 3 * i + 3))),
+  ),
   indices: Uint32Array.from(mesh.indices.keys()),
 });
 /** An L seen from the side: one inner edge. */
-const step = extrudedMesh([[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]], 0, 1);
+const step = extrudedMesh(
+  [
+    [0, 0],
+    [2, 0],
+    [2, 1],
+    [1, 1],
+    [1, 2],
+    [0, 2],
+  ],
+  0,
+  1,
+);
 
 describe("feature edges", () => {
   test("a carton has twelve, straight, outer, each with its two faces", () => {
@@ -31,7 +55,10 @@ describe("feature edges", () => {
 
   test("a cylinder has two closed ones, a ball none", () => {
     const { chains } = featureEdges(cylinderMesh(0.1, 0.3, 48), THRESHOLD);
-    expect(chains.map(({ closed, points }) => [closed, points.length])).toEqual([[true, 49], [true, 49]]);
+    expect(chains.map(({ closed, points }) => [closed, points.length])).toEqual([
+      [true, 49],
+      [true, 49],
+    ]);
     expect(chains[0]!.points[0]).toEqual(chains[0]!.points.at(-1));
     expect(featureEdges(sphereMesh(0.1, 64, 32), THRESHOLD).chains).toEqual([]);
   });
@@ -43,12 +70,15 @@ describe("feature edges", () => {
   test("the inner edge of a step is concave, the rest convex", () => {
     const { chains } = featureEdges(step, THRESHOLD);
     expect(chains.length).toBe(18);
-    expect(chains.filter(chain => chain.kind === "concave").map(chain => chain.points[0]!.slice(0, 2))).toEqual([[1, 1]]);
+    expect(chains.filter(chain => chain.kind === "concave").map(chain => chain.points[0]!.slice(0, 2))).toEqual([
+      [1, 1],
+    ]);
   });
 
   test("an edge cut by extra corners of the tessellation stays one chain", () => {
     const halves = mergeMeshes([{ mesh: boxMesh([1, 1, 1]) }]);
-    const p = Array.from(halves.positions), indices: number[] = [];
+    const p = Array.from(halves.positions);
+    const indices: number[] = [];
     const middle = new Map<string, number>();
     const half = (a: number, b: number): number => {
       const key = `${Math.min(a, b)} ${Math.max(a, b)}`;
@@ -103,7 +133,10 @@ describe("picking", () => {
       expect(chains.length).toBe(4);
       expect(chains[0]!.chain).toBe(chain);
       let area = 0;
-      const ends = chains.map(({ chain: { points }, reversed }) => (reversed ? [points.at(-1)!, points[0]!] : [points[0]!, points.at(-1)!]) as [Vector3, Vector3]);
+      const ends = chains.map(
+        ({ chain: { points }, reversed }) =>
+          (reversed ? [points.at(-1)!, points[0]!] : [points[0]!, points.at(-1)!]) as [Vector3, Vector3],
+      );
       ends.forEach(([a, b], i) => {
         expect(ends[(i + 1) % 4]![0]).toEqual(b);
         expect(a[2]).toBeCloseTo(0.1, 12);
@@ -122,8 +155,12 @@ describe("picking", () => {
     const can = featureEdges(cylinderMesh(0.1, 0.3, 48), THRESHOLD);
     const { chain } = edgeNearPoint(can, [0.1, 0, 0.15], 0.001)!;
     expect(edgeLoop(can, chain, [0, 0, 1]).chains).toEqual([{ chain, reversed: chain.left[0]![2] < 0.5 }]);
-    const both = featureEdges(mergeMeshes([{ mesh: boxMesh([1, 1, 1]) }, { mesh: boxMesh([1, 1, 1]), pose: pose([3, 0, 0]) }]), THRESHOLD);
+    const both = featureEdges(
+      mergeMeshes([{ mesh: boxMesh([1, 1, 1]) }, { mesh: boxMesh([1, 1, 1]), pose: pose([3, 0, 0]) }]),
+      THRESHOLD,
+    );
     const pick = edgeNearPoint(both, [3.5, 0, 0.5], 0.001)!;
-    for (const { chain: part } of edgeLoop(both, pick.chain, [0, 0, 1]).chains) for (const point of part.points) expect(point[0]).toBeGreaterThan(2);
+    for (const { chain: part } of edgeLoop(both, pick.chain, [0, 0, 1]).chains)
+      for (const point of part.points) expect(point[0]).toBeGreaterThan(2);
   });
 });

@@ -51,7 +51,8 @@ export function featureEdges(mesh: TriangleMesh, dihedral_rad: number, options: 
   const sharp = sharpHalfEdges(topology, Math.cos(dihedral_rad));
   const turnCosine = Math.cos(options.corner_rad ?? dihedral_rad);
   const atVertex = edgesAtVertices(topology, sharp);
-  const chainOf = new Int32Array(topology.twins.length).fill(-1), chains: EdgeChain[] = [];
+  const chainOf = new Int32Array(topology.twins.length).fill(-1);
+  const chains: EdgeChain[] = [];
   const isCorner = (into: number): boolean => onward(topology, atVertex, into, turnCosine) < 0;
   const collect = (start: number): void => {
     const halfEdges: number[] = [];
@@ -73,9 +74,14 @@ function sharpHalfEdges({ twins, normals }: Topology, cosine: number): number[] 
   const sharp: number[] = [];
   for (let h = 0; h < twins.length; h++) {
     const twin = twins[h]!;
-    if (twin < 0) { sharp.push(h); continue; }
-    const a = 3 * triangleOf(h), b = 3 * triangleOf(twin);
-    if (normals[a]! * normals[b]! + normals[a + 1]! * normals[b + 1]! + normals[a + 2]! * normals[b + 2]! < cosine) sharp.push(h);
+    if (twin < 0) {
+      sharp.push(h);
+      continue;
+    }
+    const a = 3 * triangleOf(h);
+    const b = 3 * triangleOf(twin);
+    if (normals[a]! * normals[b]! + normals[a + 1]! * normals[b + 1]! + normals[a + 2]! * normals[b + 2]! < cosine)
+      sharp.push(h);
   }
   return sharp;
 }
@@ -85,7 +91,11 @@ type AtVertex = ReadonlyMap<number, readonly number[]>;
 
 function edgesAtVertices(topology: Topology, sharp: readonly number[]): AtVertex {
   const at = new Map<number, number[]>();
-  const add = (vertex: number, h: number): void => { const list = at.get(vertex); if (list) list.push(h); else at.set(vertex, [h]); };
+  const add = (vertex: number, h: number): void => {
+    const list = at.get(vertex);
+    if (list) list.push(h);
+    else at.set(vertex, [h]);
+  };
   for (const h of sharp) {
     add(fromVertex(topology, h), h);
     if (topology.twins[h]! < 0) add(toVertex(topology, h), h);
@@ -95,10 +105,11 @@ function edgesAtVertices(topology: Topology, sharp: readonly number[]): AtVertex
 
 /** The half-edge that continues `into` past its end, or −1 in a corner. */
 function onward(topology: Topology, atVertex: AtVertex, into: number, turnCosine: number): number {
-  const vertex = toVertex(topology, into), here = atVertex.get(vertex)!;
+  const vertex = toVertex(topology, into);
+  const here = atVertex.get(vertex)!;
   if (here.length !== 2) return -1;
   const next = here.find(h => h !== into && h !== topology.twins[into] && fromVertex(topology, h) === vertex);
-  if (next === undefined || (topology.twins[next]! < 0) !== (topology.twins[into]! < 0)) return -1;
+  if (next === undefined || topology.twins[next]! < 0 !== topology.twins[into]! < 0) return -1;
   return dot(direction(topology, into), direction(topology, next)) < turnCosine ? -1 : next;
 }
 
@@ -116,7 +127,9 @@ export function vertexPoint(topology: Topology, vertex: number): Vector3 {
 }
 
 function direction(topology: Topology, h: number): Vector3 {
-  const a = vertexPoint(topology, fromVertex(topology, h)), b = vertexPoint(topology, toVertex(topology, h)), length = distance(a, b);
+  const a = vertexPoint(topology, fromVertex(topology, h));
+  const b = vertexPoint(topology, toVertex(topology, h));
+  const length = distance(a, b);
   return [(b[0] - a[0]) / length, (b[1] - a[1]) / length, (b[2] - a[2]) / length];
 }
 
@@ -139,6 +152,9 @@ function chainFrom(topology: Topology, id: number, halfEdges: readonly number[],
 function kindOf(topology: Topology, h: number): EdgeChain["kind"] {
   const twin = topology.twins[h]!;
   if (twin < 0) return "border";
-  const across = vertexPoint(topology, toVertex(topology, nextInTriangle(twin))), here = vertexPoint(topology, fromVertex(topology, h));
-  return dot(faceNormal(topology, h), [across[0] - here[0], across[1] - here[1], across[2] - here[2]]) < 0 ? "convex" : "concave";
+  const across = vertexPoint(topology, toVertex(topology, nextInTriangle(twin)));
+  const here = vertexPoint(topology, fromVertex(topology, h));
+  return dot(faceNormal(topology, h), [across[0] - here[0], across[1] - here[1], across[2] - here[2]]) < 0
+    ? "convex"
+    : "concave";
 }

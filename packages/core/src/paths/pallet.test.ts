@@ -2,13 +2,23 @@ import { describe, expect, test } from "vitest";
 import { palletCount, palletIndices, palletPlaces, type Pallet } from "./pallet.ts";
 
 const pallet: Pallet = {
-  frame: "world", origin: { position: [1, 2, 3], quaternion: [1, 0, 0, 0] }, rowEnd: [1.2, 2, 3], columnEnd: [1.1, 2.4, 3.02], rows: 3, columns: 3, layers: 1, layer_m: 0,
+  frame: "world",
+  origin: { position: [1, 2, 3], quaternion: [1, 0, 0, 0] },
+  rowEnd: [1.2, 2, 3],
+  columnEnd: [1.1, 2.4, 3.02],
+  rows: 3,
+  columns: 3,
+  layers: 1,
+  layer_m: 0,
 };
-const places = (changes: Partial<Pallet> = {}): number[][] => palletPlaces({ ...pallet, ...changes }).map(({ position }) => position.map(x => Math.round(x * 1e9) / 1e9));
-const order = (changes: Partial<Pallet>): string => Array.from(palletIndices({ ...pallet, ...changes }), ({ row, column }) => `${row}${column}`).join(" ");
+const places = (changes: Partial<Pallet> = {}): number[][] =>
+  palletPlaces({ ...pallet, ...changes }).map(({ position }) => position.map(x => Math.round(x * 1e9) / 1e9));
+const order = (changes: Partial<Pallet>): string =>
+  Array.from(palletIndices({ ...pallet, ...changes }), ({ row, column }) => `${row}${column}`).join(" ");
 
 describe("pallet patterns", () => {
   test("M-54 nine places by three corner points, rows first; the corners are met and the skew is kept", () => {
+    // biome-ignore format: table of numbers
     expect(places()).toEqual([
       [1, 2, 3], [1.1, 2, 3], [1.2, 2, 3],
       [1.05, 2.2, 3.01], [1.15, 2.2, 3.01], [1.25, 2.2, 3.01],
@@ -27,7 +37,10 @@ describe("pallet patterns", () => {
     const shifted = places({ interleave: "odd-rows-shifted" });
     expect(shifted.length).toBe(8);
     expect(palletCount({ ...pallet, interleave: "odd-rows-shifted" })).toBe(8);
-    expect(shifted.slice(3, 5)).toEqual([[1.1, 2.2, 3.01], [1.2, 2.2, 3.01]]);
+    expect(shifted.slice(3, 5)).toEqual([
+      [1.1, 2.2, 3.01],
+      [1.2, 2.2, 3.01],
+    ]);
   });
 
   test("the order is along rows or columns, with or without turning round", () => {
@@ -40,7 +53,11 @@ describe("pallet patterns", () => {
 
   test("a single row or place needs no corner", () => {
     expect(places({ rows: 1, columns: 1, columnEnd: [9, 9, 9], rowEnd: [9, 9, 9] })).toEqual([[1, 2, 3]]);
-    expect(places({ rows: 1, columnEnd: [9, 9, 9] })).toEqual([[1, 2, 3], [1.1, 2, 3], [1.2, 2, 3]]);
+    expect(places({ rows: 1, columnEnd: [9, 9, 9] })).toEqual([
+      [1, 2, 3],
+      [1.1, 2, 3],
+      [1.2, 2, 3],
+    ]);
   });
 
   test("every order visits every place once", () => {

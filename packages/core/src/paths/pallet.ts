@@ -28,17 +28,31 @@ export interface Pallet {
 }
 
 /** How far one place is from the next along a row, along a column and from layer to layer [m, in the pallet's frame]. */
-export interface PalletPitch { readonly column: Vector3; readonly row: Vector3; readonly layer: Vector3 }
+export interface PalletPitch {
+  readonly column: Vector3;
+  readonly row: Vector3;
+  readonly layer: Vector3;
+}
 
 /** A direction with one place only has no pitch, whatever its corner says. */
 export function palletPitch({ origin, rowEnd, columnEnd, rows, columns, layer_m }: Pallet): PalletPitch {
-  const part = (end: Vector3, count: number): Vector3 => count < 2 ? [0, 0, 0]
-    : [(end[0] - origin.position[0]) / (count - 1), (end[1] - origin.position[1]) / (count - 1), (end[2] - origin.position[2]) / (count - 1)];
+  const part = (end: Vector3, count: number): Vector3 =>
+    count < 2
+      ? [0, 0, 0]
+      : [
+          (end[0] - origin.position[0]) / (count - 1),
+          (end[1] - origin.position[1]) / (count - 1),
+          (end[2] - origin.position[2]) / (count - 1),
+        ];
   return { column: part(rowEnd, columns), row: part(columnEnd, rows), layer: [0, 0, layer_m] };
 }
 
 /** Which place it is, each counted from 0. */
-export interface PalletIndex { readonly layer: number; readonly row: number; readonly column: number }
+export interface PalletIndex {
+  readonly layer: number;
+  readonly row: number;
+  readonly column: number;
+}
 
 /** Places in that row. */
 export const columnsOfRow = ({ columns, interleave }: Pick<Pallet, "columns" | "interleave">, row: number): number =>
@@ -52,13 +66,16 @@ export function palletCount(pallet: Pallet): number {
 
 /** The places in the order in which they are visited, layer by layer. */
 export function* palletIndices(pallet: Pallet): Generator<PalletIndex, void> {
-  const order = pallet.order ?? "rows", zigzag = order.endsWith("zigzag"), byRows = order.startsWith("rows");
+  const order = pallet.order ?? "rows";
+  const zigzag = order.endsWith("zigzag");
+  const byRows = order.startsWith("rows");
   for (let layer = 0; layer < pallet.layers; layer++) {
     for (let line = 0; line < (byRows ? pallet.rows : pallet.columns); line++) {
       const count = byRows ? columnsOfRow(pallet, line) : pallet.rows;
       for (let i = 0; i < count; i++) {
         const along = zigzag && line % 2 === 1 ? count - 1 - i : i;
-        const row = byRows ? line : along, column = byRows ? along : line;
+        const row = byRows ? line : along;
+        const column = byRows ? along : line;
         if (column < columnsOfRow(pallet, row)) yield { layer, row, column };
       }
     }
@@ -70,8 +87,15 @@ export function* palletIndices(pallet: Pallet): Generator<PalletIndex, void> {
  *
  *   p = origin + (column + s) · pitch_column + row · pitch_row + layer · pitch_layer,   s = ½ in shifted rows, else 0
  */
-export function palletPlace(pallet: Pallet, { layer, row, column }: PalletIndex, pitch: PalletPitch = palletPitch(pallet)): Pose<"frame", "place"> {
-  const { position: [x, y, z], quaternion } = pallet.origin;
+export function palletPlace(
+  pallet: Pallet,
+  { layer, row, column }: PalletIndex,
+  pitch: PalletPitch = palletPitch(pallet),
+): Pose<"frame", "place"> {
+  const {
+    position: [x, y, z],
+    quaternion,
+  } = pallet.origin;
   const along = column + (pallet.interleave === "odd-rows-shifted" && row % 2 === 1 ? 0.5 : 0);
   return {
     position: [

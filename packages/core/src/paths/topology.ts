@@ -16,19 +16,32 @@ export interface Topology {
 }
 
 export function topologyOf(mesh: TriangleMesh): Topology {
-  const { positions, indices } = mesh, vertices = positions.length / 3, twins = new Int32Array(indices.length).fill(-1);
+  const { positions, indices } = mesh;
+  const vertices = positions.length / 3;
+  const twins = new Int32Array(indices.length).fill(-1);
   const met = new Map<number, number[]>();
   for (let h = 0; h < indices.length; h++) {
-    const a = indices[h]!, b = indices[nextInTriangle(h)]!, key = Math.min(a, b) * vertices + Math.max(a, b);
+    const a = indices[h]!;
+    const b = indices[nextInTriangle(h)]!;
+    const key = Math.min(a, b) * vertices + Math.max(a, b);
     const others = met.get(key);
-    if (others) others.push(h); else met.set(key, [h]);
+    if (others) others.push(h);
+    else met.set(key, [h]);
   }
-  let open = 0, crowded = 0;
+  let open = 0;
+  let crowded = 0;
   for (const halves of met.values()) {
-    if (halves.length === 1) { open++; continue; }
+    if (halves.length === 1) {
+      open++;
+      continue;
+    }
     const [g, h] = [halves[0]!, halves[1]!];
-    if (halves.length > 2 || indices[g] === indices[h]) { crowded++; continue; }
-    twins[g] = h; twins[h] = g;
+    if (halves.length > 2 || indices[g] === indices[h]) {
+      crowded++;
+      continue;
+    }
+    twins[g] = h;
+    twins[h] = g;
   }
   return { mesh, twins, normals: normalsOf(mesh), open, crowded };
 }
@@ -41,13 +54,24 @@ export const toVertex = (topology: Topology, h: number): number => topology.mesh
 function normalsOf({ positions: p, indices }: TriangleMesh): Float64Array {
   const normals = new Float64Array(indices.length);
   for (let t = 0; t < indices.length; t += 3) {
-    const a = 3 * indices[t]!, b = 3 * indices[t + 1]!, c = 3 * indices[t + 2]!;
-    const ux = p[b]! - p[a]!, uy = p[b + 1]! - p[a + 1]!, uz = p[b + 2]! - p[a + 2]!;
-    const vx = p[c]! - p[a]!, vy = p[c + 1]! - p[a + 1]!, vz = p[c + 2]! - p[a + 2]!;
-    const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx, length = Math.sqrt(x * x + y * y + z * z);
+    const a = 3 * indices[t]!;
+    const b = 3 * indices[t + 1]!;
+    const c = 3 * indices[t + 2]!;
+    const ux = p[b]! - p[a]!;
+    const uy = p[b + 1]! - p[a + 1]!;
+    const uz = p[b + 2]! - p[a + 2]!;
+    const vx = p[c]! - p[a]!;
+    const vy = p[c + 1]! - p[a + 1]!;
+    const vz = p[c + 2]! - p[a + 2]!;
+    const x = uy * vz - uz * vy;
+    const y = uz * vx - ux * vz;
+    const z = ux * vy - uy * vx;
+    const length = Math.sqrt(x * x + y * y + z * z);
     if (length === 0) continue;
     // + 0 turns −0 into 0: normals are compared and printed.
-    normals[t] = x / length + 0; normals[t + 1] = y / length + 0; normals[t + 2] = z / length + 0;
+    normals[t] = x / length + 0;
+    normals[t + 1] = y / length + 0;
+    normals[t + 2] = z / length + 0;
   }
   return normals;
 }

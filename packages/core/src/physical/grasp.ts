@@ -40,7 +40,10 @@ export class GraspFilter {
   /** @returns the signal after another `dt_s` in which the piece was in the state sensed. */
   step(sensed: GraspSignal, dt_s: number): GraspSignal {
     this.shown_s += dt_s;
-    if (sensed !== this.wanted) { this.wanted = sensed; this.waited_s = 0; } else this.waited_s += dt_s;
+    if (sensed !== this.wanted) {
+      this.wanted = sensed;
+      this.waited_s = 0;
+    } else this.waited_s += dt_s;
     if (this.wanted !== this.now && this.waited_s >= GRASP_SURE_S && this.shown_s >= GRASP_SHOWN_S) {
       this.now = this.now !== "ready" ? "ready" : this.wanted;
       this.shown_s = 0;
@@ -48,11 +51,16 @@ export class GraspFilter {
     return this.now;
   }
 
-  reset(): void { this.now = this.wanted = "free"; this.waited_s = 0; this.shown_s = GRASP_SHOWN_S; }
+  reset(): void {
+    this.now = this.wanted = "free";
+    this.waited_s = 0;
+    this.shown_s = GRASP_SHOWN_S;
+  }
 }
 
 /** What is sensed for this long is believed, and what is shown stays at least so long [s]. */
-export const GRASP_SURE_S = 0.01, GRASP_SHOWN_S = 0.03;
+export const GRASP_SURE_S = 0.01;
+export const GRASP_SHOWN_S = 0.03;
 
 /** Where the mark sits on the piece, as a share of its height: it moves as well as changes colour (row M-21). */
 export const GRASP_MARK_HEIGHT = { free: 0, ready: 0.5, held: 1 } as const satisfies Record<GraspSignal, number>;

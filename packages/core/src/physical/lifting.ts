@@ -10,12 +10,22 @@ const SCALE_KG = 1e-6;
  *
  * @returns the refusal, or undefined when it may.
  */
-export function liftRefusal(robot: Robot, part: { readonly name: string; readonly mass_kg: number }, gripper_kg: number): Refusal | undefined {
-  const total_kg = part.mass_kg + gripper_kg, most_kg = robot.payloadMax_kg;
+export function liftRefusal(
+  robot: Robot,
+  part: { readonly name: string; readonly mass_kg: number },
+  gripper_kg: number,
+): Refusal | undefined {
+  const total_kg = part.mass_kg + gripper_kg;
+  const most_kg = robot.payloadMax_kg;
   if (!(most_kg > 0) || total_kg <= most_kg + SCALE_KG) return undefined;
-  const with_ = gripper_kg > 0 ? ` with the gripper (${inKilograms(gripper_kg)}) weighs ${inKilograms(total_kg)}` : ` weighs ${inKilograms(part.mass_kg)}`;
+  const with_ =
+    gripper_kg > 0
+      ? ` with the gripper (${inKilograms(gripper_kg)}) weighs ${inKilograms(total_kg)}`
+      : ` weighs ${inKilograms(part.mass_kg)}`;
   return {
-    code: "physics.payload", value: total_kg, limit: most_kg,
+    code: "physics.payload",
+    value: total_kg,
+    limit: most_kg,
     sentence: `${robot.name} carries at most ${inKilograms(most_kg)}; “${part.name}”${gripper_kg > 0 ? ` (${inKilograms(part.mass_kg)})` : ""}${with_}.`,
     hint: `Take a part that is ${inKilograms(total_kg - most_kg)} lighter, or a robot that carries more.`,
   };

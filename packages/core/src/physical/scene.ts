@@ -77,8 +77,7 @@ export type Sensor = {
   readonly sees: readonly Seen[];
   /** Tripped, it also stops the robot until a person lets it go on (row T-27). */
   readonly stops?: true;
-} & (
-  /** A photo-cell: tripped while something is between its two ends. */
+} /** A photo-cell: tripped while something is between its two ends. */ & (
   | { readonly kind: "beam"; readonly from_m: Vector3; readonly to_m: Vector3 }
   /** Tripped while something is nearer than its range. */
   | { readonly kind: "proximity"; readonly at_m: Vector3; readonly range_m: number }
@@ -123,6 +122,14 @@ export const PHYSICS_STEP_S = 0.002;
 
 /** A light electric gripper for parts up to 100 mm: the pads of its fingers end 12 mm past the grip point. */
 export const PARALLEL_GRIPPER: Gripper = {
-  name: "Parallel gripper", flangeFromGrip: { position: [0, 0, 0.14], quaternion: [0, 0, 0, 1] },
-  open_m: 0.11, closed_m: 0, force_N: 140, finger_m: [0.012, 0.03, 0.07], beyond_m: 0.012, speed_mps: 0.25, friction: 0.9, mass_kg: 0.08,
+  name: "Parallel gripper",
+  flangeFromGrip: { position: [0, 0, 0.14], quaternion: [0, 0, 0, 1] },
+  open_m: 0.11,
+  closed_m: 0,
+  force_N: 140,
+  finger_m: [0.012, 0.03, 0.07],
+  beyond_m: 0.012,
+  speed_mps: 0.25,
+  friction: 0.9,
+  mass_kg: 0.08,
 };

@@ -50,12 +50,16 @@ export class HandGuard {
     this.#kept = new WayChecker(collider, arm, { margin_m: KEPT_M, keepsMargin: robotAndCell });
     this.#safe = new WayChecker(collider, arm, { margin_m: SAFE_M, keepsMargin: robotAndCell });
     this.#bare = new WayChecker(collider, arm);
-    this.#wanted = new Float64Array(n); this.#probe = new Float64Array(n); this.#slope = new Float64Array(n);
+    this.#wanted = new Float64Array(n);
+    this.#probe = new Float64Array(n);
+    this.#slope = new Float64Array(n);
     this.#safe_rad = new Float64Array(n);
   }
 
   /** Where to go back to when a motion begins here; call it before the first step. */
-  begin(q: ArrayLike<number>): void { this.#safe_rad.set(q); }
+  begin(q: ArrayLike<number>): void {
+    this.#safe_rad.set(q);
+  }
 
   /**
    * Takes a small step from `from` towards `to` as the behaviour wants it; writes where to. Who stands nearer than the margin already
@@ -64,8 +68,12 @@ export class HandGuard {
   step(behaviour: CollisionBehaviour, from: ArrayLike<number>, to: ArrayLike<number>, out: Float64Array): HandStep {
     const wanted = this.#wanted;
     wanted.set(to);
-    if (behaviour === "alert" || behaviour === "refuse" || !this.#bare.free(from)) { out.set(wanted); return MOVED; }
-    const rules = this.#kept.free(from) ? this.#kept : this.#bare, verdict = rules.prove(from, wanted);
+    if (behaviour === "alert" || behaviour === "refuse" || !this.#bare.free(from)) {
+      out.set(wanted);
+      return MOVED;
+    }
+    const rules = this.#kept.free(from) ? this.#kept : this.#bare;
+    const verdict = rules.prove(from, wanted);
     if (verdict.kind === "clear") {
       if (this.#safe.free(wanted)) this.#safe_rad.set(wanted);
       out.set(wanted);
@@ -101,8 +109,11 @@ export class HandGuard {
   }
 
   #takeOut(pair: SolidPair, from: ArrayLike<number>, wanted: Float64Array): boolean {
-    const slope = this.#slope, probe = this.#probe, here = this.#gap(pair, from);
-    let along = 0, square = 0;
+    const slope = this.#slope;
+    const probe = this.#probe;
+    const here = this.#gap(pair, from);
+    let along = 0;
+    let square = 0;
     for (let k = 0; k < slope.length; k++) {
       for (let i = 0; i < probe.length; i++) probe[i] = from[i]!;
       probe[k] = probe[k]! + PROBE_RAD;
@@ -122,6 +133,7 @@ export class HandGuard {
   }
 }
 
-const contactOf = (verdict: MotionVerdict): Contact | null => (verdict.kind === "contact" ? { a: verdict.a, b: verdict.b, between: verdict.between } : null);
+const contactOf = (verdict: MotionVerdict): Contact | null =>
+  verdict.kind === "contact" ? { a: verdict.a, b: verdict.b, between: verdict.between } : null;
 /** A motion that could not be decided and ends in no contact: it is not taken, and nothing can be named. */
 const UNNAMED: Contact = { a: "", b: "", between: "other" };

@@ -15,7 +15,11 @@ const CUTS = [0.5, 0.25] as const;
  *
  * @param lineFree  whether a straight line may be taken.
  */
-export function shorten(way: readonly Float64Array[], lineFree: (a: Float64Array, b: Float64Array) => boolean, random: Random): Float64Array[] {
+export function shorten(
+  way: readonly Float64Array[],
+  lineFree: (a: Float64Array, b: Float64Array) => boolean,
+  random: Random,
+): Float64Array[] {
   let short = withoutNeedless([...way], lineFree);
   const tries = Math.max(LEAST_TRIES, TRIES_PER_CORNER * (short.length - 2));
   for (let i = 0; i < tries && short.length > 2; i++) short = joined(short, lineFree, random);
@@ -23,9 +27,12 @@ export function shorten(way: readonly Float64Array[], lineFree: (a: Float64Array
 }
 
 /** From each corner straight to the farthest one that is seen from it. */
-function withoutNeedless(way: readonly Float64Array[], lineFree: (a: Float64Array, b: Float64Array) => boolean): Float64Array[] {
+function withoutNeedless(
+  way: readonly Float64Array[],
+  lineFree: (a: Float64Array, b: Float64Array) => boolean,
+): Float64Array[] {
   const kept = [way[0]!];
-  for (let i = 0; i < way.length - 1;) {
+  for (let i = 0; i < way.length - 1; ) {
     let j = way.length - 1;
     while (j > i + 1 && !lineFree(way[i]!, way[j]!)) j--;
     kept.push(way[j]!);
@@ -34,19 +41,31 @@ function withoutNeedless(way: readonly Float64Array[], lineFree: (a: Float64Arra
   return kept;
 }
 
-function joined(way: Float64Array[], lineFree: (a: Float64Array, b: Float64Array) => boolean, random: Random): Float64Array[] {
-  const lengths = way.slice(1).map((q, i) => distanceBetween(way[i]!, q)), whole = lengths.reduce((sum, length) => sum + length, 0);
-  const a = placeAt(way, lengths, random() * whole), b = placeAt(way, lengths, random() * whole), [first, last] = a.along <= b.along ? [a, b] : [b, a];
+function joined(
+  way: Float64Array[],
+  lineFree: (a: Float64Array, b: Float64Array) => boolean,
+  random: Random,
+): Float64Array[] {
+  const lengths = way.slice(1).map((q, i) => distanceBetween(way[i]!, q));
+  const whole = lengths.reduce((sum, length) => sum + length, 0);
+  const a = placeAt(way, lengths, random() * whole);
+  const b = placeAt(way, lengths, random() * whole);
+  const [first, last] = a.along <= b.along ? [a, b] : [b, a];
   if (first.line === last.line) return way;
   const saved = last.along - first.along - distanceBetween(first.q, last.q);
   if (saved < WORTH * (last.along - first.along) || !lineFree(first.q, last.q)) return way;
   return [...way.slice(0, first.line + 1), first.q, last.q, ...way.slice(last.line + 1)];
 }
 
-interface Place { readonly line: number; readonly along: number; readonly q: Float64Array }
+interface Place {
+  readonly line: number;
+  readonly along: number;
+  readonly q: Float64Array;
+}
 
 function placeAt(way: readonly Float64Array[], lengths: readonly number[], along: number): Place {
-  let line = 0, rest = along;
+  let line = 0;
+  let rest = along;
   while (line < lengths.length - 1 && rest > lengths[line]!) rest -= lengths[line++]!;
   const t = lengths[line]! > 0 ? Math.min(1, rest / lengths[line]!) : 0;
   return { line, along, q: alongLine(way[line]!, way[line + 1]!, t, new Float64Array(way[line]!.length)) };
@@ -55,12 +74,25 @@ function placeAt(way: readonly Float64Array[], lengths: readonly number[], along
 function cutCorners(way: Float64Array[], lineFree: (a: Float64Array, b: Float64Array) => boolean): Float64Array[] {
   const cut = [way[0]!];
   for (let i = 1; i < way.length - 1; i++) {
-    const before = cut.at(-1)!, corner = way[i]!, after = way[i + 1]!, n = corner.length;
+    const before = cut.at(-1)!;
+    const corner = way[i]!;
+    const after = way[i + 1]!;
+    const n = corner.length;
     const side = Math.min(distanceBetween(before, corner), distanceBetween(corner, after));
     let done = false;
     for (const part of CUTS) {
-      const in_ = alongLine(corner, before, part * side / Math.max(distanceBetween(before, corner), 1e-12), new Float64Array(n));
-      const out = alongLine(corner, after, part * side / Math.max(distanceBetween(corner, after), 1e-12), new Float64Array(n));
+      const in_ = alongLine(
+        corner,
+        before,
+        (part * side) / Math.max(distanceBetween(before, corner), 1e-12),
+        new Float64Array(n),
+      );
+      const out = alongLine(
+        corner,
+        after,
+        (part * side) / Math.max(distanceBetween(corner, after), 1e-12),
+        new Float64Array(n),
+      );
       if (2 * part * side - distanceBetween(in_, out) < WORTH * 2 * part * side || !lineFree(in_, out)) continue;
       cut.push(in_, out);
       done = true;

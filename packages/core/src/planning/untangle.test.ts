@@ -1,21 +1,53 @@
 import { describe, expect, test } from "vitest";
 import {
-  CellCollider, checkJointLine, checkProgram, emptyProgram, findWay, HandGuard, jointLine, linkSolids, pose, robotById, samplePlan, seededRandom, untangle, WayChecker,
-  type CellGeometry, type MoveStep, type Program,
+  CellCollider,
+  checkJointLine,
+  checkProgram,
+  emptyProgram,
+  findWay,
+  HandGuard,
+  jointLine,
+  linkSolids,
+  pose,
+  robotById,
+  samplePlan,
+  seededRandom,
+  untangle,
+  WayChecker,
+  type CellGeometry,
+  type MoveStep,
+  type Program,
 } from "../index.ts";
 import { box, planarArm, planarCell } from "../collision/testing/test-arm.ts";
 
-const robot = robotById("ur10e")!, cell: CellGeometry = { worldFromBase: pose(), links: linkSolids(robot), objects: [], allowedPairs: [], shapeError_m: 0 };
+const robot = robotById("ur10e")!;
+const cell: CellGeometry = {
+  worldFromBase: pose(),
+  links: linkSolids(robot),
+  objects: [],
+  allowedPairs: [],
+  shapeError_m: 0,
+};
 
 /** Two free postures of the UR10e between which the straight way runs the arm into itself. */
 function tangled(seed: number): readonly [number[], number[]] {
-  const random = seededRandom(seed), collider = new CellCollider(cell, robot.arm);
+  const random = seededRandom(seed);
+  const collider = new CellCollider(cell, robot.arm);
   for (;;) {
-    const draw = (): number[] => [0, -1.2, 0, 0, 0, 0].map((middle, k) => middle + (2 * random() - 1) * (k === 2 ? 2.7 : 2.2));
-    const from = draw(), to = draw();
+    const draw = (): number[] =>
+      [0, -1.2, 0, 0, 0, 0].map((middle, k) => middle + (2 * random() - 1) * (k === 2 ? 2.7 : 2.2));
+    const from = draw();
+    const to = draw();
     if (collider.collides(from) || collider.collides(to)) continue;
     const verdict = checkJointLine(collider, from, to);
-    if (verdict.kind === "contact" && verdict.between === "self" && Array.from({ length: 99 }, (_, i) => from.map((q, k) => q + ((i + 1) / 100) * (to[k]! - q))).some(q => collider.collides(q))) return [from, to];
+    if (
+      verdict.kind === "contact" &&
+      verdict.between === "self" &&
+      Array.from({ length: 99 }, (_, i) => from.map((q, k) => q + ((i + 1) / 100) * (to[k]! - q))).some(q =>
+        collider.collides(q),
+      )
+    )
+      return [from, to];
   }
 }
 
@@ -23,11 +55,19 @@ describe("E-25 two modes for a robot that would run into itself", () => {
   const [from, to] = tangled(31);
 
   test("X-13, E-25 stop: it stands before the contact and knows where it was safe", () => {
-    const guard = new HandGuard(new CellCollider(cell, robot.arm), robot.arm), collider = new CellCollider(cell, robot.arm), q = Float64Array.from(from), next = new Float64Array(6);
+    const guard = new HandGuard(new CellCollider(cell, robot.arm), robot.arm);
+    const collider = new CellCollider(cell, robot.arm);
+    const q = Float64Array.from(from);
+    const next = new Float64Array(6);
     guard.begin(q);
     let stopped = false;
     for (let i = 1; i <= 400 && !stopped; i++) {
-      const answer = guard.step("stop", q, from.map((a, k) => a + (i / 400) * (to[k]! - a)), next);
+      const answer = guard.step(
+        "stop",
+        q,
+        from.map((a, k) => a + (i / 400) * (to[k]! - a)),
+        next,
+      );
       if (answer.kind === "stopped") {
         stopped = true;
         expect(answer.contact.between).toBe("self");
@@ -39,31 +79,59 @@ describe("E-25 two modes for a robot that would run into itself", () => {
     expect(stopped).toBe(true);
   });
 
-  test.each([31, 32, 34, 37])("X-28 untangle: it reaches its target without contact and without stopping (seed %i)", seed => {
-    const [start, goal] = tangled(seed), answer = untangle(new WayChecker(new CellCollider(cell, robot.arm), robot.arm), start, goal, { seed });
-    if (answer.kind !== "found") throw new Error(answer.kind);
-    expect(answer.how).not.toBe("straight");
-    const end = answer.way.at(-1)!;
-    // The same posture, perhaps with joints a whole turn on.
-    end.forEach((angle, k) => { expect(Math.cos(angle - goal[k]!)).toBeCloseTo(1, 12); });
-    const anew = new CellCollider(cell, robot.arm), q = new Float64Array(6);
-    answer.way.slice(1).forEach((next, i) => {
-      const motion = jointLine(answer.way[i]!, next);
-      expect(checkJointLine(anew, answer.way[i]!, next).kind).toBe("clear");
-      for (let t = 0; t <= 1; t += 0.01) { motion.sample(t, q); expect(anew.collides(q)).toBe(false); }
-    });
-  });
+  test.each([31, 32, 34, 37])(
+    "X-28 untangle: it reaches its target without contact and without stopping (seed %i)",
+    seed => {
+      const [start, goal] = tangled(seed);
+      const answer = untangle(new WayChecker(new CellCollider(cell, robot.arm), robot.arm), start, goal, { seed });
+      if (answer.kind !== "found") throw new Error(answer.kind);
+      expect(answer.how).not.toBe("straight");
+      const end = answer.way.at(-1)!;
+      // The same posture, perhaps with joints a whole turn on.
+      end.forEach((angle, k) => {
+        expect(Math.cos(angle - goal[k]!)).toBeCloseTo(1, 12);
+      });
+      const anew = new CellCollider(cell, robot.arm);
+      const q = new Float64Array(6);
+      answer.way.slice(1).forEach((next, i) => {
+        const motion = jointLine(answer.way[i]!, next);
+        expect(checkJointLine(anew, answer.way[i]!, next).kind).toBe("clear");
+        for (let t = 0; t <= 1; t += 0.01) {
+          motion.sample(t, q);
+          expect(anew.collides(q)).toBe(false);
+        }
+      });
+    },
+  );
 
   test("X-28 driven as a program with blends the robot is in contact nowhere and stands still nowhere on the way", () => {
-    const [start, goal] = tangled(31), answer = untangle(new WayChecker(new CellCollider(cell, robot.arm), robot.arm), start, goal, { seed: 1 });
+    const [start, goal] = tangled(31);
+    const answer = untangle(new WayChecker(new CellCollider(cell, robot.arm), robot.arm), start, goal, { seed: 1 });
     if (answer.kind !== "found") throw new Error(answer.kind);
-    const steps = [Float64Array.from(start), ...answer.way.slice(1)].map((q, i): MoveStep => ({ id: `s${i}`, type: "move", path: "ptp", target: { q: [...q] }, speed: { ratio: 0.5 }, blend_m: i === 0 || i === answer.way.length - 1 ? 0 : 0.02 }));
-    const program: Program = { ...emptyProgram(robot.id), steps }, { verdict, plan } = checkProgram(program, robot, { cell, start_rad: start });
-    expect(verdict.steps.flatMap(({ findings }) => findings.map(({ code }) => code)).filter(code => code.startsWith("collision."))).toEqual([]);
-    const q = new Float64Array(6), before = new Float64Array(6), from_s = plan.segments.find(({ step, duration_s }) => step === "s1" && duration_s > 0)!.start_s;
+    const steps = [Float64Array.from(start), ...answer.way.slice(1)].map(
+      (q, i): MoveStep => ({
+        id: `s${i}`,
+        type: "move",
+        path: "ptp",
+        target: { q: [...q] },
+        speed: { ratio: 0.5 },
+        blend_m: i === 0 || i === answer.way.length - 1 ? 0 : 0.02,
+      }),
+    );
+    const program: Program = { ...emptyProgram(robot.id), steps };
+    const { verdict, plan } = checkProgram(program, robot, { cell, start_rad: start });
+    expect(
+      verdict.steps
+        .flatMap(({ findings }) => findings.map(({ code }) => code))
+        .filter(code => code.startsWith("collision.")),
+    ).toEqual([]);
+    const q = new Float64Array(6);
+    const before = new Float64Array(6);
+    const from_s = plan.segments.find(({ step, duration_s }) => step === "s1" && duration_s > 0)!.start_s;
     let slowest = Infinity;
     for (let t = from_s + 0.3; t < plan.duration_s - 0.3; t += 0.01) {
-      samplePlan(plan, t, q); samplePlan(plan, t - 0.01, before);
+      samplePlan(plan, t, q);
+      samplePlan(plan, t - 0.01, before);
       slowest = Math.min(slowest, Math.max(...q.map((angle, k) => Math.abs(angle - before[k]!))));
     }
     expect(slowest).toBeGreaterThan(1e-4);
@@ -71,7 +139,13 @@ describe("E-25 two modes for a robot that would run into itself", () => {
 
   test("what is free is left straight, what is blocked at an end is said as the search says it", () => {
     const checker = new WayChecker(new CellCollider(cell, robot.arm), robot.arm);
-    expect(untangle(checker, robot.home_rad, robot.home_rad.map(q => q + 0.1))).toMatchObject({ kind: "found", how: "straight" });
+    expect(
+      untangle(
+        checker,
+        robot.home_rad,
+        robot.home_rad.map(q => q + 0.1),
+      ),
+    ).toMatchObject({ kind: "found", how: "straight" });
     const folded = [0, -1.2, 2.9, 0, 0, 0];
     expect(checker.free(folded)).toBe(false);
     expect(untangle(checker, robot.home_rad, folded)).toEqual(findWay(checker, robot.home_rad, folded));
@@ -80,17 +154,32 @@ describe("E-25 two modes for a robot that would run into itself", () => {
 
 describe("a hand that leads the arm towards a wall", () => {
   // The three bars along x; a wall above them, a step in y leads into it.
-  const wall = box("wall", [2, 0.4, 0], [4, 0.1, 0.2]), start = [0, 0, 0], STEP = 0.004;
+  const wall = box("wall", [2, 0.4, 0], [4, 0.1, 0.2]);
+  const start = [0, 0, 0];
+  const STEP = 0.004;
   const led = (behaviour: Parameters<HandGuard["step"]>[0], turns: readonly number[], steps: number) => {
-    const collider = new CellCollider(planarCell([wall]), planarArm), guard = new HandGuard(collider, planarArm), q = Float64Array.from(start), next = new Float64Array(3), kinds: string[] = [];
+    const collider = new CellCollider(planarCell([wall]), planarArm);
+    const guard = new HandGuard(collider, planarArm);
+    const q = Float64Array.from(start);
+    const next = new Float64Array(3);
+    const kinds: string[] = [];
     guard.begin(q);
-    let least_m = Infinity, safe: Float64Array | null = null;
+    let least_m = Infinity;
+    let safe: Float64Array | null = null;
     for (let i = 0; i < steps; i++) {
-      const answer = guard.step(behaviour, q, q.map((angle, k) => angle + STEP * turns[k]!), next);
+      const answer = guard.step(
+        behaviour,
+        q,
+        q.map((angle, k) => angle + STEP * turns[k]!),
+        next,
+      );
       kinds.push(answer.kind);
       q.set(next);
       least_m = Math.min(least_m, collider.clearance(q, 1, undefined, ({ b }) => b.name === "wall").distance_m);
-      if (answer.kind === "stopped") { safe = answer.safe_rad.slice(); break; }
+      if (answer.kind === "stopped") {
+        safe = answer.safe_rad.slice();
+        break;
+      }
     }
     return { q, kinds, least_m, safe, collider };
   };
@@ -119,7 +208,9 @@ describe("a hand that leads the arm towards a wall", () => {
   });
 
   test("whoever stands in contact may move out of it", () => {
-    const collider = new CellCollider(planarCell([wall]), planarArm), guard = new HandGuard(collider, planarArm), out = new Float64Array(3);
+    const collider = new CellCollider(planarCell([wall]), planarArm);
+    const guard = new HandGuard(collider, planarArm);
+    const out = new Float64Array(3);
     expect(guard.step("stop", [0.15, 0, 0], [0.14, 0, 0], out)).toEqual({ kind: "moved" });
     expect([...out]).toEqual([0.14, 0, 0]);
   });

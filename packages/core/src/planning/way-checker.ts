@@ -28,27 +28,35 @@ export class WayChecker {
   looks = 0;
 
   constructor(collider: CellCollider, arm: SerialArm, rules: WayRules = {}) {
-    this.collider = collider; this.arm = arm;
+    this.collider = collider;
+    this.arm = arm;
     this.#rules = { margin_m: rules.margin_m ?? 0, keepsMargin: rules.keepsMargin ?? (() => true) };
     this.#maps = new ClearanceMaps(collider, arm);
     this.#q = new Float64Array(arm.joints.length);
   }
 
   /** Whether every watched pair keeps its margin at q. The pair that was in the way last is asked first. */
-  free(q: ArrayLike<number>): boolean { return this.inTheWay(q) === null; }
+  free(q: ArrayLike<number>): boolean {
+    return this.inTheWay(q) === null;
+  }
 
   /** The first pair found too near at q; null where q is free. */
   inTheWay(q: ArrayLike<number>): Contact | null {
     this.#refresh();
     this.looks++;
-    const { collider } = this, pairs = this.#pairs, margins = this.#margins;
+    const { collider } = this;
+    const pairs = this.#pairs;
+    const margins = this.#margins;
     collider.place(q);
     for (let i = 0; i < pairs.length; i++) {
-      const pair = pairs[i]!, margin = margins[i]!;
+      const pair = pairs[i]!;
+      const margin = margins[i]!;
       if (this.#maps.provenAround(pair, margin, q, null, 0)) continue;
       if (margin > 0 ? collider.distanceOf(pair, margin, margin) >= margin : !collider.touchOf(pair)) continue;
-      pairs.splice(i, 1); pairs.unshift(pair);
-      margins.splice(i, 1); margins.unshift(margin);
+      pairs.splice(i, 1);
+      pairs.unshift(pair);
+      margins.splice(i, 1);
+      margins.unshift(margin);
       return pair.contact;
     }
     return null;
@@ -61,7 +69,8 @@ export class WayChecker {
   sampled(from: ArrayLike<number>, to: ArrayLike<number>, step_rad: number): boolean {
     const parts = 2 ** Math.max(0, Math.ceil(Math.log2(distanceBetween(from, to) / step_rad)));
     for (let stride = parts; stride > 1; stride /= 2) {
-      for (let i = stride / 2; i < parts; i += stride) if (!this.free(alongLine(from, to, i / parts, this.#q))) return false;
+      for (let i = stride / 2; i < parts; i += stride)
+        if (!this.free(alongLine(from, to, i / parts, this.#q))) return false;
     }
     return true;
   }
@@ -69,26 +78,42 @@ export class WayChecker {
   /** The verdict on the whole straight line, between all samples as well: t from 0 to 1. */
   prove(from: ArrayLike<number>, to: ArrayLike<number>, maxChecks = 4000): MotionVerdict {
     const { margin_m, keepsMargin } = this.#rules;
-    return checkMotion(this.collider, jointLine(from, to), 0, 1, { margin_m, keepsMargin, maxChecks, resolution_m: Math.min(0.0002, Math.max(margin_m / 10, 0.00005)), maps: this.#maps });
+    return checkMotion(this.collider, jointLine(from, to), 0, 1, {
+      margin_m,
+      keepsMargin,
+      maxChecks,
+      resolution_m: Math.min(0.0002, Math.max(margin_m / 10, 0.00005)),
+      maps: this.#maps,
+    });
   }
 
   #refresh(): void {
     if (this.#edition === this.collider.edition) return;
     this.#edition = this.collider.edition;
     this.#pairs = [...this.collider.pairs];
-    this.#margins = this.#pairs.map(pair => (this.#rules.keepsMargin(pair) ? marginOf(pair, this.#rules.margin_m, this.collider.shapeError_m) : 0));
+    this.#margins = this.#pairs.map(pair =>
+      this.#rules.keepsMargin(pair) ? marginOf(pair, this.#rules.margin_m, this.collider.shapeError_m) : 0,
+    );
   }
 }
 
 /** Length of the straight line in joint space, √Σ Δq² [rad]; a slide counts its metres as radians. */
 export function distanceBetween(a: ArrayLike<number>, b: ArrayLike<number>): number {
   let sum = 0;
-  for (let i = 0; i < a.length; i++) { const d = b[i]! - a[i]!; sum += d * d; }
+  for (let i = 0; i < a.length; i++) {
+    const d = b[i]! - a[i]!;
+    sum += d * d;
+  }
   return Math.sqrt(sum);
 }
 
 /** a + t (b − a). `out` may be either input. */
-export function alongLine<Out extends Float64Array>(a: ArrayLike<number>, b: ArrayLike<number>, t: number, out: Out): Out {
+export function alongLine<Out extends Float64Array>(
+  a: ArrayLike<number>,
+  b: ArrayLike<number>,
+  t: number,
+  out: Out,
+): Out {
   for (let i = 0; i < out.length; i++) out[i] = a[i]! + t * (b[i]! - a[i]!);
   return out;
 }

@@ -3,9 +3,32 @@ import { everyStep } from "./walk.ts";
 
 /** Everything a program can ask of a robot language, so that what one cannot say has the same name everywhere. */
 export const CAPABILITIES = [
-  "ptp", "lin", "circ", "spline", "duration", "acceleration", "blend", "search", "tool", "frame", "payload", "gripper",
-  "wait", "wait-for", "timeout", "set-digital", "set-analogue", "pulse", "read-analogue",
-  "repeat", "if", "call", "pallet", "message", "stop", "comment",
+  "ptp",
+  "lin",
+  "circ",
+  "spline",
+  "duration",
+  "acceleration",
+  "blend",
+  "search",
+  "tool",
+  "frame",
+  "payload",
+  "gripper",
+  "wait",
+  "wait-for",
+  "timeout",
+  "set-digital",
+  "set-analogue",
+  "pulse",
+  "read-analogue",
+  "repeat",
+  "if",
+  "call",
+  "pallet",
+  "message",
+  "stop",
+  "comment",
 ] as const;
 export type Capability = (typeof CAPABILITIES)[number];
 
@@ -17,7 +40,10 @@ export function* capabilitiesOf(step: Step): Generator<Capability, void> {
       if ("time_s" in step.speed) yield "duration";
       if (step.acceleration !== undefined) yield "acceleration";
       if (step.blend_m > 0 || (step.blend_ratio ?? 0) > 0) yield "blend";
-      if (step.until !== undefined) { yield "search"; yield* read(step.until.when); }
+      if (step.until !== undefined) {
+        yield "search";
+        yield* read(step.until.when);
+      }
       for (const target of step.via === undefined ? [step.target] : [step.via, step.target]) {
         if (target.tool !== undefined && target.tool !== "flange") yield "tool";
         if ("pose" in target && target.frame !== "world") yield "frame";
@@ -35,7 +61,8 @@ export function* capabilitiesOf(step: Step): Generator<Capability, void> {
     case "if":
       yield "if";
       return yield* read(step.when);
-    default: yield step.type;
+    default:
+      yield step.type;
   }
 }
 
@@ -46,6 +73,7 @@ function* read(when: Condition): Generator<Capability, void> {
 /** What a program asks for, each with the first step that does. */
 export function capabilitiesUsed(program: Pick<Program, "steps" | "routines">): ReadonlyMap<Capability, Step> {
   const used = new Map<Capability, Step>();
-  for (const step of everyStep(program)) for (const capability of capabilitiesOf(step)) if (!used.has(capability)) used.set(capability, step);
+  for (const step of everyStep(program))
+    for (const capability of capabilitiesOf(step)) if (!used.has(capability)) used.set(capability, step);
   return used;
 }

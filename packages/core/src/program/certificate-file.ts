@@ -1,46 +1,77 @@
 import type { CertifiedPiece } from "../collision/motion.ts";
 import type { ProgramCertificate, SegmentCertificate } from "./certificate.ts";
 
-const FORMAT = "twincell.certificate", VERSION = 1;
+const FORMAT = "twincell.certificate";
+const VERSION = 1;
 /** More pieces than this are no certificate of ours. */
 const MOST_PIECES = 5_000_000;
 
-export type ReadCertificate = { readonly kind: "certificate"; readonly certificate: ProgramCertificate } | { readonly kind: "not-a-certificate"; readonly sentence: string };
+export type ReadCertificate =
+  | { readonly kind: "certificate"; readonly certificate: ProgramCertificate }
+  | { readonly kind: "not-a-certificate"; readonly sentence: string };
 
 /** The certificate as text: names of solids once, each piece as five numbers [a, b, from s, to s, at least m]. */
 export function writeCertificate({ robot, program, margin_m, segments }: ProgramCertificate): string {
-  const solids: string[] = [], numbers = new Map<string, number>();
-  const numberOf = (name: string): number => numbers.get(name) ?? (numbers.set(name, solids.length), solids.push(name) - 1);
-  const short = segments.map(({ step, start_s, from, to, clearance_m, pieces }) => ({ step, start_s, from, to, clearance_m: Number.isFinite(clearance_m) ? clearance_m : null, pieces: pieces.map(p => [numberOf(p.a), numberOf(p.b), p.from, p.to, p.atLeast_m]) }));
+  const solids: string[] = [];
+  const numbers = new Map<string, number>();
+  const numberOf = (name: string): number =>
+    numbers.get(name) ?? (numbers.set(name, solids.length), solids.push(name) - 1);
+  const short = segments.map(({ step, start_s, from, to, clearance_m, pieces }) => ({
+    step,
+    start_s,
+    from,
+    to,
+    clearance_m: Number.isFinite(clearance_m) ? clearance_m : null,
+    pieces: pieces.map(p => [numberOf(p.a), numberOf(p.b), p.from, p.to, p.atLeast_m]),
+  }));
   return `${JSON.stringify({ format: FORMAT, version: VERSION, robot, program, margin_m, solids, segments: short })}\n`;
 }
 
 /** Reads what `writeCertificate` wrote; anything else is an answer with the place. It does not say whether the claims hold. */
 export function readCertificate(text: string): ReadCertificate {
   let value: unknown;
-  try { value = JSON.parse(text); } catch { return not("The file is not JSON."); }
+  try {
+    value = JSON.parse(text);
+  } catch {
+    return not("The file is not JSON.");
+  }
   if (!isRecord(value) || value.format !== FORMAT) return not(`A certificate says "format": "${FORMAT}".`);
   if (value.version !== VERSION) return not(`version: this release reads certificates of version ${VERSION}.`);
   const { robot, program, margin_m, solids, segments } = value;
   if (typeof robot !== "string" || typeof program !== "string") return not("robot, program: two names are expected.");
   if (!isNumber(margin_m) || margin_m < 0) return not("margin_m: a number of 0 or more is expected.");
-  if (!Array.isArray(solids) || !solids.every(name => typeof name === "string")) return not("solids: a list of names is expected.");
+  if (!Array.isArray(solids) || !solids.every(name => typeof name === "string"))
+    return not("solids: a list of names is expected.");
   if (!Array.isArray(segments)) return not("segments: a list is expected.");
   const read: SegmentCertificate[] = [];
   let count = 0;
   for (const [i, segment] of (segments as unknown[]).entries()) {
     const where = `segments[${i}]`;
-    if (!isRecord(segment) || typeof segment.step !== "string" || !isNumber(segment.start_s) || !isNumber(segment.from) || !isNumber(segment.to)) return not(`${where}: step, start_s, from and to are expected.`);
+    if (
+      !isRecord(segment) ||
+      typeof segment.step !== "string" ||
+      !isNumber(segment.start_s) ||
+      !isNumber(segment.from) ||
+      !isNumber(segment.to)
+    )
+      return not(`${where}: step, start_s, from and to are expected.`);
     const { step, start_s, from, to, clearance_m } = segment;
-    if (clearance_m !== null && !isNumber(clearance_m)) return not(`${where}.clearance_m: a number or null is expected.`);
+    if (clearance_m !== null && !isNumber(clearance_m))
+      return not(`${where}.clearance_m: a number or null is expected.`);
     if (!Array.isArray(segment.pieces)) return not(`${where}.pieces: a list is expected.`);
     const pieces: CertifiedPiece[] = [];
-    if ((count += segment.pieces.length) > MOST_PIECES) return not(`${where}: more than ${MOST_PIECES} pieces are not read.`);
+    if ((count += segment.pieces.length) > MOST_PIECES)
+      return not(`${where}: more than ${MOST_PIECES} pieces are not read.`);
     for (const [k, piece] of (segment.pieces as unknown[]).entries()) {
-      if (!Array.isArray(piece) || piece.length !== 5 || !piece.every(isNumber)) return not(`${where}.pieces[${k}]: five numbers are expected.`);
-      const [a, b, start, end, atLeast_m] = piece as [number, number, number, number, number], nameA: unknown = solids[a], nameB: unknown = solids[b];
-      if (typeof nameA !== "string" || typeof nameB !== "string") return not(`${where}.pieces[${k}]: there is no such solid.`);
-      if (!(end >= start) || atLeast_m < 0) return not(`${where}.pieces[${k}]: a piece ends after it begins and claims 0 or more.`);
+      if (!Array.isArray(piece) || piece.length !== 5 || !piece.every(isNumber))
+        return not(`${where}.pieces[${k}]: five numbers are expected.`);
+      const [a, b, start, end, atLeast_m] = piece as [number, number, number, number, number];
+      const nameA: unknown = solids[a];
+      const nameB: unknown = solids[b];
+      if (typeof nameA !== "string" || typeof nameB !== "string")
+        return not(`${where}.pieces[${k}]: there is no such solid.`);
+      if (!(end >= start) || atLeast_m < 0)
+        return not(`${where}.pieces[${k}]: a piece ends after it begins and claims 0 or more.`);
       pieces.push({ a: nameA, b: nameB, from: start, to: end, atLeast_m });
     }
     read.push({ step, start_s, from, to, clearance_m: clearance_m ?? Infinity, pieces });
@@ -49,5 +80,6 @@ export function readCertificate(text: string): ReadCertificate {
 }
 
 const not = (sentence: string): ReadCertificate => ({ kind: "not-a-certificate", sentence });
-const isRecord = (value: unknown): value is Readonly<Record<string, unknown>> => typeof value === "object" && value !== null && !Array.isArray(value);
+const isRecord = (value: unknown): value is Readonly<Record<string, unknown>> =>
+  typeof value === "object" && value !== null && !Array.isArray(value);
 const isNumber = (value: unknown): value is number => typeof value === "number" && Number.isFinite(value);

@@ -61,19 +61,34 @@ const LAYOUT_SHARE = 0.4;
  * where it must, so that everything can be drawn; only a plan whose verdict is ok is one to execute.
  */
 export function checkProgram(program: Program, robot: Robot, options: CheckOptions = {}): Checked {
-  const { cell, onProgress, cancelled } = options, worldFromBase = options.worldFromBase ?? cell?.worldFromBase;
+  const { cell, onProgress, cancelled } = options;
+  const worldFromBase = options.worldFromBase ?? cell?.worldFromBase;
   const layoutShare = cell === undefined ? 1 : LAYOUT_SHARE;
   const layout = layOut(program, robot, {
     ...(worldFromBase === undefined ? {} : { worldFromBase }),
     ...(options.start_rad === undefined ? {} : { start_rad: options.start_rad }),
-    ...(onProgress === undefined ? {} : { onProgress: (share: number) => { onProgress(share * layoutShare); } }),
+    ...(onProgress === undefined
+      ? {}
+      : {
+          onProgress: (share: number) => {
+            onProgress(share * layoutShare);
+          },
+        }),
     ...(cancelled === undefined ? {} : { cancelled }),
   });
   const book = new Book(program);
   const scene: CheckScene = {
-    program, robot, layout,
-    context: { tools: program.tools, frames: program.frames, ...(worldFromBase === undefined ? {} : { worldFromBase }) },
-    add: (id, severity, finding) => { book.add(id, severity, finding, layout.turns.get(id)); },
+    program,
+    robot,
+    layout,
+    context: {
+      tools: program.tools,
+      frames: program.frames,
+      ...(worldFromBase === undefined ? {} : { worldFromBase }),
+    },
+    add: (id, severity, finding) => {
+      book.add(id, severity, finding, layout.turns.get(id));
+    },
   };
   checkReach(scene);
   checkWorkspace(scene);
@@ -87,26 +102,49 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
   checkFlow(scene);
   const torque = checkTorque(scene, options.payload);
   const unjudged = cell === undefined ? [] : checkStand(scene, cell, options.payload?.mass_kg);
-  const margin_m = options.margin_m ?? 0, certificates: SegmentCertificate[] | undefined = options.certify === true && cell !== undefined ? [] : undefined;
-  const collision = cell === undefined ? undefined : checkCollision(scene, {
-    cell, margin_m, ...(certificates === undefined ? {} : { certificates }),
-    ...(onProgress === undefined ? {} : { onProgress: (share: number) => { onProgress(layoutShare + share * (1 - layoutShare)); } }),
-    ...(cancelled === undefined ? {} : { cancelled }),
-  });
+  const margin_m = options.margin_m ?? 0;
+  const certificates: SegmentCertificate[] | undefined =
+    options.certify === true && cell !== undefined ? [] : undefined;
+  const collision =
+    cell === undefined
+      ? undefined
+      : checkCollision(scene, {
+          cell,
+          margin_m,
+          ...(certificates === undefined ? {} : { certificates }),
+          ...(onProgress === undefined
+            ? {}
+            : {
+                onProgress: (share: number) => {
+                  onProgress(layoutShare + share * (1 - layoutShare));
+                },
+              }),
+          ...(cancelled === undefined ? {} : { cancelled }),
+        });
   onProgress?.(1);
   const unproven = new Set(Array.from(collision?.unproven ?? [], id => writtenId(layout, id)));
-  const written = [...everyStep(program)], steps = written.map(step => {
-    const evaluated = (layout.complete || layout.evaluated.has(step.id)) && !unproven.has(step.id) && !layout.unjudged.has(step.id);
+  const written = [...everyStep(program)];
+  const steps = written.map(step => {
+    const evaluated =
+      (layout.complete || layout.evaluated.has(step.id)) && !unproven.has(step.id) && !layout.unjudged.has(step.id);
     return { id: step.id, verdict: book.verdictOf(step.id, evaluated), findings: book.of(step.id) };
   });
   const ok = steps.every(step => step.verdict === "ok" || step.verdict === "warn");
   const verdict: Verdict = {
-    ok, steps, duration_s: layout.plan.duration_s, clearance_m: collision?.clearance_m ?? null, torque,
+    ok,
+    steps,
+    duration_s: layout.plan.duration_s,
+    clearance_m: collision?.clearance_m ?? null,
+    torque,
     assumptions: [
-      ...robot.assumptions, ...motionAssumptions(robot),
-      ...assumed(written, layout), ...unjudged,
+      ...robot.assumptions,
+      ...motionAssumptions(robot),
+      ...assumed(written, layout),
+      ...unjudged,
       ...(torque.kind === "known" ? ["Torques are those of masses and accelerations; friction is not counted."] : []),
-      cell === undefined ? "Collisions were not looked at: no cell was given." : "Objects stand where the cell draws them.",
+      cell === undefined
+        ? "Collisions were not looked at: no cell was given."
+        : "Objects stand where the cell draws them.",
       ...(collision === undefined ? [] : carried(program, written, collision)),
     ],
   };
@@ -119,10 +157,21 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
 /** What is taken for true of the parts that are gripped. */
 function carried(program: Program, steps: readonly Step[], { taken, missed }: Collisions): string[] {
   if (!steps.some(step => step.type === "gripper")) return [];
-  if (!partsAreFollowed(program)) return ["Gripped parts stand where they were drawn: the program decides between motions, and a part may be held on one side only."];
+  if (!partsAreFollowed(program))
+    return [
+      "Gripped parts stand where they were drawn: the program decides between motions, and a part may be held on one side only.",
+    ];
   return [
-    ...(taken > 0 ? ["The part at the grip point moves with the gripper from where it closes to where it opens, and stays there; nothing that lies on it comes along."] : []),
-    ...(missed > 0 ? [`The gripper closes on nothing ${missed === 1 ? "once" : `${missed} times`}: no work piece is drawn within ${GRIP_REACH_M * 1000} mm of its grip point.`] : []),
+    ...(taken > 0
+      ? [
+          "The part at the grip point moves with the gripper from where it closes to where it opens, and stays there; nothing that lies on it comes along.",
+        ]
+      : []),
+    ...(missed > 0
+      ? [
+          `The gripper closes on nothing ${missed === 1 ? "once" : `${missed} times`}: no work piece is drawn within ${GRIP_REACH_M * 1000} mm of its grip point.`,
+        ]
+      : []),
   ];
 }
 
@@ -131,7 +180,10 @@ const writtenId = (layout: Layout, id: string): string => layout.turns.get(id)?.
 /** The plan with the ids that the program has. */
 function asWritten(layout: Layout): Plan {
   if (layout.turns.size === 0) return layout.plan;
-  return { ...layout.plan, segments: layout.plan.segments.map(segment => ({ ...segment, step: writtenId(layout, segment.step) })) };
+  return {
+    ...layout.plan,
+    segments: layout.plan.segments.map(segment => ({ ...segment, step: writtenId(layout, segment.step) })),
+  };
 }
 
 function assumed(steps: readonly Step[], layout: Layout): string[] {
@@ -140,8 +192,16 @@ function assumed(steps: readonly Step[], layout: Layout): string[] {
     ...(has("gripper") ? [`The gripper is given ${GRIPPER_S} s to close or open.`] : []),
     ...(has("wait-for") ? ["Waits for signals are given no time."] : []),
     ...(has("if") ? ["Both sides of every decision were looked at, one after the other in the plan."] : []),
-    ...(steps.some(step => step.type === "repeat" && step.times === "forever") ? ["Loops without end were looked at twice round."] : []),
-    ...(steps.some(step => step.type === "move" && step.until !== undefined) ? ["Searches were looked at as if nothing is found before their end."] : []),
-    ...(layout.cut === undefined || !has("repeat") ? [] : [`Beyond ${layout.cut} steps, loops were looked at twice round; the duration is less than that of the whole program.`]),
+    ...(steps.some(step => step.type === "repeat" && step.times === "forever")
+      ? ["Loops without end were looked at twice round."]
+      : []),
+    ...(steps.some(step => step.type === "move" && step.until !== undefined)
+      ? ["Searches were looked at as if nothing is found before their end."]
+      : []),
+    ...(layout.cut === undefined || !has("repeat")
+      ? []
+      : [
+          `Beyond ${layout.cut} steps, loops were looked at twice round; the duration is less than that of the whole program.`,
+        ]),
   ];
 }

@@ -1,16 +1,37 @@
 import type { Signals } from "../ports.ts";
 import { palletCount, palletIndices, palletPitch, palletPlace } from "../paths/pallet.ts";
 import { compose, type Pose } from "../spatial/pose.ts";
-import type { Condition, IfStep, MoveStep, PalletStep, PrimitiveStep, Program, RepeatStep, Step, Target } from "./program.ts";
+import type {
+  Condition,
+  IfStep,
+  MoveStep,
+  PalletStep,
+  PrimitiveStep,
+  Program,
+  RepeatStep,
+  Step,
+  Target,
+} from "./program.ts";
 import { SignalTable, holds } from "./signals.ts";
 
 /** A place of a pallet that is being visited; `number` counts from 1. */
-export interface Visit { readonly pallet: string; readonly number: number; readonly of: number; readonly frameFromPlace: Pose<"frame", "place"> }
+export interface Visit {
+  readonly pallet: string;
+  readonly number: number;
+  readonly of: number;
+  readonly frameFromPlace: Pose<"frame", "place">;
+}
 
 /** What a program does, in the order in which it does it. */
 export type Happening =
   /** `written` is the step as the program has it; in `step` places have become poses. `stands` marks what the program does not say: a stop, or the time a loop takes to look again. */
-  | { readonly kind: "step"; readonly step: PrimitiveStep; readonly written: Step; readonly stands: boolean; readonly visits: readonly Visit[] }
+  | {
+      readonly kind: "step";
+      readonly step: PrimitiveStep;
+      readonly written: Step;
+      readonly stands: boolean;
+      readonly visits: readonly Visit[];
+    }
   /** A comment, a call or a block is come to. */
   | { readonly kind: "passed"; readonly step: Step }
   /** Both sides of a decision follow: fork, the one side, other, the other side, join. */
@@ -44,11 +65,13 @@ export function* flow(program: Program, options: FlowOptions = {}): Generator<Ha
  * the program does. Without `signals` the lines only remember what the program writes.
  */
 export function* unrolled(program: Program, signals: Signals = new SignalTable()): Generator<PrimitiveStep, void> {
-  for (const happening of flow(program, { decide: when => holds(when, signals) })) if (happening.kind === "step") yield happening.step;
+  for (const happening of flow(program, { decide: when => holds(when, signals) }))
+    if (happening.kind === "step") yield happening.step;
 }
 
 /** Whether the robot may go into the next step without a stop. */
-const passesOn = (step: MoveStep): boolean => step.until === undefined && (step.blend_m > 0 || (step.blend_ratio ?? 0) > 0 || step.path === "spline");
+const passesOn = (step: MoveStep): boolean =>
+  step.until === undefined && (step.blend_m > 0 || (step.blend_ratio ?? 0) > 0 || step.path === "spline");
 
 class Flow {
   private readonly program: Program;
@@ -66,16 +89,32 @@ class Flow {
   *list(steps: readonly Step[], inside: boolean): Generator<Happening, void> {
     let passing: MoveStep | undefined;
     for (const step of steps) {
-      if (step.type === "comment") { yield { kind: "passed", step }; continue; }
-      if (passing !== undefined && (step.type === "call" || step.type === "repeat" || step.type === "if" || step.type === "pallet")) yield this.stand(passing, 0);
+      if (step.type === "comment") {
+        yield { kind: "passed", step };
+        continue;
+      }
+      if (
+        passing !== undefined &&
+        (step.type === "call" || step.type === "repeat" || step.type === "if" || step.type === "pallet")
+      )
+        yield this.stand(passing, 0);
       passing = undefined;
       switch (step.type) {
-        case "repeat": yield* this.repeat(step); break;
-        case "if": yield* this.decide(step); break;
-        case "pallet": yield* this.pallet(step); break;
+        case "repeat":
+          yield* this.repeat(step);
+          break;
+        case "if":
+          yield* this.decide(step);
+          break;
+        case "pallet":
+          yield* this.pallet(step);
+          break;
         case "call":
           yield { kind: "passed", step };
-          yield* this.list(Object.hasOwn(this.program.routines, step.routine) ? this.program.routines[step.routine]! : [], true);
+          yield* this.list(
+            Object.hasOwn(this.program.routines, step.routine) ? this.program.routines[step.routine]! : [],
+            true,
+          );
           break;
         case "move": {
           if (passesOn(step)) passing = step;
@@ -86,9 +125,13 @@ class Flow {
           yield this.step(step, step);
           yield { kind: "end" };
           // Where both sides are looked at, the other side still follows.
-          if (this.options.decide !== undefined) { this.ended = true; return; }
+          if (this.options.decide !== undefined) {
+            this.ended = true;
+            return;
+          }
           break;
-        default: yield this.step(step, step);
+        default:
+          yield this.step(step, step);
       }
       if (this.ended) return;
     }
@@ -106,7 +149,8 @@ class Flow {
 
   private *repeat(step: RepeatStep): Generator<Happening, void> {
     yield { kind: "passed", step };
-    const { rounds = Number.POSITIVE_INFINITY, mostSteps = Number.POSITIVE_INFINITY } = this.options, times = step.times === "forever" ? rounds : step.times;
+    const { rounds = Number.POSITIVE_INFINITY, mostSteps = Number.POSITIVE_INFINITY } = this.options;
+    const times = step.times === "forever" ? rounds : step.times;
     for (let i = 0; i < times && !(i >= 2 && this.made >= mostSteps); i++) {
       const before = this.made;
       yield* this.list(step.steps, true);
@@ -121,8 +165,12 @@ class Flow {
 
   private *decide(step: IfStep): Generator<Happening, void> {
     yield { kind: "passed", step };
-    const { decide } = this.options, otherwise = step.else ?? [];
-    if (decide !== undefined) { yield* this.list(decide(step.when) ? step.then : otherwise, true); return; }
+    const { decide } = this.options;
+    const otherwise = step.else ?? [];
+    if (decide !== undefined) {
+      yield* this.list(decide(step.when) ? step.then : otherwise, true);
+      return;
+    }
     yield { kind: "fork", step };
     yield* this.list(step.then, true);
     yield { kind: "other", step };
@@ -134,10 +182,15 @@ class Flow {
     yield { kind: "passed", step };
     const pallet = Object.hasOwn(this.program.pallets, step.pallet) ? this.program.pallets[step.pallet] : undefined;
     if (pallet === undefined) return;
-    const before = this.visits, pitch = palletPitch(pallet), of = palletCount(pallet);
+    const before = this.visits;
+    const pitch = palletPitch(pallet);
+    const of = palletCount(pallet);
     let number = 0;
     for (const index of palletIndices(pallet)) {
-      this.visits = [...before, { pallet: step.pallet, number: ++number, of, frameFromPlace: palletPlace(pallet, index, pitch) }];
+      this.visits = [
+        ...before,
+        { pallet: step.pallet, number: ++number, of, frameFromPlace: palletPlace(pallet, index, pitch) },
+      ];
       yield* this.list(step.steps, true);
       if (this.ended) return;
     }
@@ -147,7 +200,8 @@ class Flow {
   /** The move with places of pallets as poses in the frames that the pallets stand in. */
   private placed(step: MoveStep): MoveStep {
     if (this.visits.length === 0) return step;
-    const target = this.target(step.target), via = step.via === undefined ? undefined : this.target(step.via);
+    const target = this.target(step.target);
+    const via = step.via === undefined ? undefined : this.target(step.via);
     if (target === step.target && via === step.via) return step;
     return via === undefined ? { ...step, target } : { ...step, target, via };
   }

@@ -11,20 +11,33 @@ export function jsonFault(text: string): TextFault | undefined {
   const walker = new Walker(text);
   const expected = walker.document();
   if (expected === undefined) return undefined;
-  let line = 1, lineStart = 0;
-  for (let i = 0; i < walker.at; i++) if (text.charCodeAt(i) === 10) { line++; lineStart = i + 1; }
+  let line = 1;
+  let lineStart = 0;
+  for (let i = 0; i < walker.at; i++)
+    if (text.charCodeAt(i) === 10) {
+      line++;
+      lineStart = i + 1;
+    }
   const column = walker.at - lineStart + 1;
   const found = walker.at < text.length ? `“${shown(text.codePointAt(walker.at) ?? 0)}”` : "the end of the text";
-  return { line, column, expected, sentence: `Line ${line}, column ${column}: ${expected} was expected, but there is ${found}.` };
+  return {
+    line,
+    column,
+    expected,
+    sentence: `Line ${line}, column ${column}: ${expected} was expected, but there is ${found}.`,
+  };
 }
 
-const shown = (point: number): string => (point < 32 ? `\\u${point.toString(16).padStart(4, "0")}` : String.fromCodePoint(point));
+const shown = (point: number): string =>
+  point < 32 ? `\\u${point.toString(16).padStart(4, "0")}` : String.fromCodePoint(point);
 
 /** Each method returns undefined when its piece was read, or what was expected at `at`. */
 class Walker {
   readonly text: string;
   at = 0;
-  constructor(text: string) { this.text = text; }
+  constructor(text: string) {
+    this.text = text;
+  }
 
   document(): string | undefined {
     // An explicit stack instead of recursion: a text of a million brackets must not overflow ours.
@@ -33,7 +46,8 @@ class Walker {
     for (;;) {
       const char = this.text[this.at];
       if (char === "[" || char === "{") {
-        this.at++; this.blanks();
+        this.at++;
+        this.blanks();
         if (this.text[this.at] === (char === "[" ? "]" : "}")) this.at++;
         else {
           open.push(char);
@@ -52,7 +66,8 @@ class Walker {
         if (inside === undefined) return this.at < this.text.length ? "the end of the text" : undefined;
         const next = this.text[this.at];
         if (next === ",") {
-          this.at++; this.blanks();
+          this.at++;
+          this.blanks();
           const wrong = inside === "{" ? this.key() : undefined;
           if (wrong !== undefined) return wrong;
           break;
@@ -65,11 +80,16 @@ class Walker {
   }
 
   private blanks(): void {
-    for (let c = this.text.charCodeAt(this.at); c === 32 || c === 9 || c === 10 || c === 13; c = this.text.charCodeAt(this.at)) this.at++;
+    for (
+      let c = this.text.charCodeAt(this.at);
+      c === 32 || c === 9 || c === 10 || c === 13;
+      c = this.text.charCodeAt(this.at)
+    )
+      this.at++;
   }
 
   private key(): string | undefined {
-    if (this.text[this.at] !== "\"") return "a name in double quotes";
+    if (this.text[this.at] !== '"') return "a name in double quotes";
     const wrong = this.string();
     if (wrong !== undefined) return wrong;
     this.blanks();
@@ -80,8 +100,12 @@ class Walker {
   }
 
   private scalar(): string | undefined {
-    if (this.text[this.at] === "\"") return this.string();
-    for (const word of ["true", "false", "null"]) if (this.text.startsWith(word, this.at)) { this.at += word.length; return undefined; }
+    if (this.text[this.at] === '"') return this.string();
+    for (const word of ["true", "false", "null"])
+      if (this.text.startsWith(word, this.at)) {
+        this.at += word.length;
+        return undefined;
+      }
     const number = /-?(?:0|[1-9][0-9]*)(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?/y;
     number.lastIndex = this.at;
     if (!number.test(this.text)) return "a value";
@@ -93,7 +117,10 @@ class Walker {
     const start = this.at++;
     for (;;) {
       const code = this.text.charCodeAt(this.at);
-      if (Number.isNaN(code)) { this.at = start; return "a closing quote for this text"; }
+      if (Number.isNaN(code)) {
+        this.at = start;
+        return "a closing quote for this text";
+      }
       if (code < 32) return "a closing quote";
       this.at++;
       if (code === 34) return undefined;

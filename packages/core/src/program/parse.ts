@@ -10,7 +10,10 @@ import { readGroups, readPoses } from "./read/tables.ts";
 import { callCycle } from "./walk.ts";
 
 /** What is wrong with a program: where ("steps[2].target.q[0]", or "line 3, column 7") and one sentence about it. */
-export interface ProgramFault { readonly path: string; readonly sentence: string }
+export interface ProgramFault {
+  readonly path: string;
+  readonly sentence: string;
+}
 
 export type ProgramAnswer =
   | { readonly kind: "program"; readonly program: Program }
@@ -38,14 +41,20 @@ export function parseProgram(source: unknown, options: ParseOptions = {}): Progr
   let value = source;
   if (typeof source === "string") {
     const fault = jsonFault(source);
-    if (fault !== undefined) return refuse([{ path: `line ${fault.line}, column ${fault.column}`, sentence: fault.sentence }]);
+    if (fault !== undefined)
+      return refuse([{ path: `line ${fault.line}, column ${fault.column}`, sentence: fault.sentence }]);
     value = JSON.parse(source);
   }
   try {
     return read(value, options.jointsOf ?? (id => robotById(id)?.arm.joints.length));
   } catch (cause) {
     // Only a value that never was JSON (a getter that throws, for instance) gets here.
-    return refuse([{ path: "", sentence: `The program cannot be read: ${cause instanceof Error ? cause.message : "its values cannot be looked at"}.` }]);
+    return refuse([
+      {
+        path: "",
+        sentence: `The program cannot be read: ${cause instanceof Error ? cause.message : "its values cannot be looked at"}.`,
+      },
+    ]);
   }
 }
 
@@ -54,39 +63,96 @@ function read(value: unknown, jointsOf: (robot: string) => number | undefined): 
   const top = reader.object(value, "", "the program");
   if (top === undefined) return refuse(reader.faults);
   if (top.format !== PROGRAM_FORMAT) {
-    return refuse([{ path: "format", sentence: `A program says "format": "${PROGRAM_FORMAT}"; this one says ${reader.shown(top.format)}.` }]);
+    return refuse([
+      {
+        path: "format",
+        sentence: `A program says "format": "${PROGRAM_FORMAT}"; this one says ${reader.shown(top.format)}.`,
+      },
+    ]);
   }
   if (top.version !== PROGRAM_VERSION) {
     const newer = typeof top.version === "number" && top.version > PROGRAM_VERSION;
-    return refuse([{
-      path: "version",
-      sentence: newer
-        ? `The program is of version ${top.version}; this release reads versions up to ${PROGRAM_VERSION}.`
-        : `A program says "version": ${PROGRAM_VERSION}; this one says ${reader.shown(top.version)}.`,
-    }]);
+    return refuse([
+      {
+        path: "version",
+        sentence: newer
+          ? `The program is of version ${top.version}; this release reads versions up to ${PROGRAM_VERSION}.`
+          : `A program says "version": ${PROGRAM_VERSION}; this one says ${reader.shown(top.version)}.`,
+      },
+    ]);
   }
-  reader.onlyKeys(top, "", "the program", keys<Program>()("format", "version", "name", "robot", "tools", "frames", "groups", "signals", "pallets", "routines", "steps"));
+  reader.onlyKeys(
+    top,
+    "",
+    "the program",
+    keys<Program>()(
+      "format",
+      "version",
+      "name",
+      "robot",
+      "tools",
+      "frames",
+      "groups",
+      "signals",
+      "pallets",
+      "routines",
+      "steps",
+    ),
+  );
   const robot = reader.name(top.robot, "robot", "the robot of the program") ?? "";
-  const name = top.name === undefined ? "Program" : reader.text(top.name, "name", "the name of the program") ?? "";
+  const name = top.name === undefined ? "Program" : (reader.text(top.name, "name", "the name of the program") ?? "");
   const tools = readPoses<"flange", "tcp">(reader, top.tools, "tools", "tool", "flange");
   const frames = readPoses<"world", "frame">(reader, top.frames, "frames", "frame", "world");
   const groups = readGroups(reader, top.groups);
-  const signals = readSignals(reader, top.signals), pallets = readPallets(reader, top.pallets, frames);
-  const written = top.routines === undefined ? {} : reader.object(top.routines, "routines", "the table of routines") ?? {};
-  const around: Surroundings = { robot, joints: jointsOf(robot), tools, frames, pallets, routines: new Set(Object.keys(written)), seen: new Map(), open: [], depth: 0 };
+  const signals = readSignals(reader, top.signals);
+  const pallets = readPallets(reader, top.pallets, frames);
+  const written =
+    top.routines === undefined ? {} : (reader.object(top.routines, "routines", "the table of routines") ?? {});
+  const around: Surroundings = {
+    robot,
+    joints: jointsOf(robot),
+    tools,
+    frames,
+    pallets,
+    routines: new Set(Object.keys(written)),
+    seen: new Map(),
+    open: [],
+    depth: 0,
+  };
   const steps = readSteps(reader, top.steps, "steps", "the list of steps", around);
   const routines = readRoutines(reader, written, around);
   if (reader.faults.length > 0) return refuse(reader.faults);
-  return { kind: "program", program: { format: PROGRAM_FORMAT, version: PROGRAM_VERSION, name, robot, tools, frames, groups, signals, pallets, routines, steps } };
+  return {
+    kind: "program",
+    program: {
+      format: PROGRAM_FORMAT,
+      version: PROGRAM_VERSION,
+      name,
+      robot,
+      tools,
+      frames,
+      groups,
+      signals,
+      pallets,
+      routines,
+      steps,
+    },
+  };
 }
 
 function readRoutines(reader: Reader, written: Fields, around: Surroundings): Program["routines"] {
-  const routines = Object.fromEntries(Object.entries(written).map(([name, list]) => {
-    if (name === "") reader.fault("routines.", "A routine has a name that is not empty.");
-    return [name, readSteps(reader, list, `routines.${name}`, `the routine “${name}”`, around)];
-  }));
+  const routines = Object.fromEntries(
+    Object.entries(written).map(([name, list]) => {
+      if (name === "") reader.fault("routines.", "A routine has a name that is not empty.");
+      return [name, readSteps(reader, list, `routines.${name}`, `the routine “${name}”`, around)];
+    }),
+  );
   const cycle = callCycle(routines);
-  if (cycle !== undefined) reader.fault(`routines.${cycle[0]!}`, `The routine “${cycle[0]!}” calls itself: ${cycle.join(" → ")}. It would never come back.`);
+  if (cycle !== undefined)
+    reader.fault(
+      `routines.${cycle[0]!}`,
+      `The routine “${cycle[0]!}” calls itself: ${cycle.join(" → ")}. It would never come back.`,
+    );
   return routines;
 }
 

@@ -50,13 +50,28 @@ export interface MoveStep extends StepBase {
   readonly blend_ratio?: number;
   readonly until?: Search;
 }
-export interface WaitStep extends StepBase { readonly type: "wait"; readonly s: number }
+export interface WaitStep extends StepBase {
+  readonly type: "wait";
+  readonly s: number;
+}
 /** true closes (T-31). */
-export interface GripperStep extends StepBase { readonly type: "gripper"; readonly closed: boolean }
+export interface GripperStep extends StepBase {
+  readonly type: "gripper";
+  readonly closed: boolean;
+}
 /** Writes an output. With `pulse_s` a digital output goes back to the opposite after that time, while the program goes on. */
-export interface SetStep extends StepBase { readonly type: "set"; readonly signal: string; readonly to: boolean | number; readonly pulse_s?: number }
+export interface SetStep extends StepBase {
+  readonly type: "set";
+  readonly signal: string;
+  readonly to: boolean | number;
+  readonly pulse_s?: number;
+}
 /** Rests until the condition is true; longer than `timeout_s` stops the program with a message. */
-export interface WaitForStep extends StepBase { readonly type: "wait-for"; readonly when: Condition; readonly timeout_s?: number }
+export interface WaitForStep extends StepBase {
+  readonly type: "wait-for";
+  readonly when: Condition;
+  readonly timeout_s?: number;
+}
 /** What the flange carries from here on, tool included. */
 export interface PayloadStep extends StepBase {
   readonly type: "payload";
@@ -67,33 +82,83 @@ export interface PayloadStep extends StepBase {
   readonly inertia_kgm2?: readonly [number, number, number, number, number, number];
 }
 /** Says something to whoever stands at the robot; the program goes on. */
-export interface MessageStep extends StepBase { readonly type: "message"; readonly text: string }
+export interface MessageStep extends StepBase {
+  readonly type: "message";
+  readonly text: string;
+}
 /** Ends the program, from wherever it is. */
-export interface StopStep extends StepBase { readonly type: "stop" }
+export interface StopStep extends StepBase {
+  readonly type: "stop";
+}
 /** Says something to whoever reads the program. */
-export interface CommentStep extends StepBase { readonly type: "comment"; readonly text: string }
-export interface CallStep extends StepBase { readonly type: "call"; readonly routine: string }
-export interface RepeatStep extends StepBase { readonly type: "repeat"; readonly times: number | "forever"; readonly steps: readonly Step[] }
-export interface IfStep extends StepBase { readonly type: "if"; readonly when: Condition; readonly then: readonly Step[]; readonly else?: readonly Step[] }
+export interface CommentStep extends StepBase {
+  readonly type: "comment";
+  readonly text: string;
+}
+export interface CallStep extends StepBase {
+  readonly type: "call";
+  readonly routine: string;
+}
+export interface RepeatStep extends StepBase {
+  readonly type: "repeat";
+  readonly times: number | "forever";
+  readonly steps: readonly Step[];
+}
+export interface IfStep extends StepBase {
+  readonly type: "if";
+  readonly when: Condition;
+  readonly then: readonly Step[];
+  readonly else?: readonly Step[];
+}
 /** Does its steps once at every place of a pallet. */
-export interface PalletStep extends StepBase { readonly type: "pallet"; readonly pallet: string; readonly steps: readonly Step[] }
+export interface PalletStep extends StepBase {
+  readonly type: "pallet";
+  readonly pallet: string;
+  readonly steps: readonly Step[];
+}
 
 /** What a robot executes: `unrolled` makes any program a sequence of these. */
-export type PrimitiveStep = MoveStep | WaitStep | GripperStep | SetStep | WaitForStep | PayloadStep | MessageStep | StopStep;
+export type PrimitiveStep =
+  | MoveStep
+  | WaitStep
+  | GripperStep
+  | SetStep
+  | WaitForStep
+  | PayloadStep
+  | MessageStep
+  | StopStep;
 /** Steps that hold other steps. */
 export type BlockStep = RepeatStep | IfStep | PalletStep;
 /** Grows by new step types. */
 export type Step = PrimitiveStep | CommentStep | CallStep | BlockStep;
 
 export const STEP_TYPES = [
-  "move", "wait", "gripper", "set", "wait-for", "payload", "message", "stop", "comment", "call", "repeat", "if", "pallet",
+  "move",
+  "wait",
+  "gripper",
+  "set",
+  "wait-for",
+  "payload",
+  "message",
+  "stop",
+  "comment",
+  "call",
+  "repeat",
+  "if",
+  "pallet",
 ] as const satisfies readonly Step["type"][];
 
 /** How a group of steps came to be, so that it can be made again with other numbers. */
-export interface Group { readonly name: string; readonly recipe?: Readonly<Record<string, unknown>> }
+export interface Group {
+  readonly name: string;
+  readonly recipe?: Readonly<Record<string, unknown>>;
+}
 
 /** A line in or out of the controller. `address` is the controller's own number for it. */
-export interface SignalLine { readonly kind: "digital-in" | "digital-out" | "analogue-in" | "analogue-out"; readonly address?: number }
+export interface SignalLine {
+  readonly kind: "digital-in" | "digital-out" | "analogue-in" | "analogue-out";
+  readonly address?: number;
+}
 
 /** The vendor-neutral program. Frame "world" and tool "flange" always exist and need no entry. */
 export interface Program {
@@ -119,5 +184,15 @@ export const PROGRAM_VERSION = 1;
 
 /** An empty program for that robot. */
 export const emptyProgram = (robot: string, name = "Program"): Program => ({
-  format: PROGRAM_FORMAT, version: PROGRAM_VERSION, name, robot, tools: {}, frames: {}, groups: {}, signals: {}, pallets: {}, routines: {}, steps: [],
+  format: PROGRAM_FORMAT,
+  version: PROGRAM_VERSION,
+  name,
+  robot,
+  tools: {},
+  frames: {},
+  groups: {},
+  signals: {},
+  pallets: {},
+  routines: {},
+  steps: [],
 });

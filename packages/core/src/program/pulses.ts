@@ -5,9 +5,13 @@ import type { SetStep } from "./program.ts";
 export class Pulses {
   private readonly signals: Signals;
   private readonly running: { readonly signal: string; readonly back: boolean; left_s: number }[] = [];
-  constructor(signals: Signals) { this.signals = signals; }
+  constructor(signals: Signals) {
+    this.signals = signals;
+  }
 
-  get pending(): boolean { return this.running.length > 0; }
+  get pending(): boolean {
+    return this.running.length > 0;
+  }
 
   /** Writes the output; a pulse of the same line that is still running is over with it. */
   set({ signal, to, pulse_s }: SetStep): void {

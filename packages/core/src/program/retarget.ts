@@ -29,14 +29,25 @@ const SAME_RAD = 1e-6;
  *
  * @param from  the robot the program was taught on. @param to  the robot that shall do it.
  */
-export function retargetProgram(program: Program, from: Robot, to: Robot, worldFromBase: Pose<"world", "base">): Retargeted {
-  const scratch = solverScratch(), near = Float64Array.from(to.home_rad), unreached = new Set<string>();
+export function retargetProgram(
+  program: Program,
+  from: Robot,
+  to: Robot,
+  worldFromBase: Pose<"world", "base">,
+): Retargeted {
+  const scratch = solverScratch();
+  const near = Float64Array.from(to.home_rad);
+  const unreached = new Set<string>();
   let points = 0;
 
   /** Whether the new robot brings the tip there; then `near` is how. */
   const reaches = (worldFromTcp: Pose<"world", "tcp">, tool: string): boolean => {
     const q = new Float64Array(near.length);
-    if (!nearestSolution(to, flangeOfTcp(worldFromBase, worldFromTcp, toolOf(program, tool)), near, q, scratch) || !isInsideWorkspace(to, q)) return false;
+    if (
+      !nearestSolution(to, flangeOfTcp(worldFromBase, worldFromTcp, toolOf(program, tool)), near, q, scratch) ||
+      !isInsideWorkspace(to, q)
+    )
+      return false;
     near.set(q);
     return true;
   };
@@ -46,7 +57,12 @@ export function retargetProgram(program: Program, from: Robot, to: Robot, worldF
     if (!("q" in target)) {
       const worldFromFrame = target.frame === "world" ? identity<"world", "frame">() : program.frames[target.frame];
       // Places of a pallet are many: each is judged by the checker.
-      if (worldFromFrame !== undefined && !Object.hasOwn(program.pallets, target.frame) && !reaches(compose(worldFromFrame, target.pose), target.tool)) unreached.add(step);
+      if (
+        worldFromFrame !== undefined &&
+        !Object.hasOwn(program.pallets, target.frame) &&
+        !reaches(compose(worldFromFrame, target.pose), target.tool)
+      )
+        unreached.add(step);
       return { pose: target.pose, frame: target.frame, tool: target.tool };
     }
     const withTool = target.tool === undefined ? {} : { tool: target.tool };
@@ -54,23 +70,28 @@ export function retargetProgram(program: Program, from: Robot, to: Robot, worldF
       near.set(to.home_rad);
       return { q: [...to.home_rad], ...withTool };
     }
-    const tool = target.tool ?? "flange", worldFromTcp = compose(compose(worldFromBase, flangePose(from.arm, target.q)), toolOf(program, tool));
+    const tool = target.tool ?? "flange";
+    const worldFromTcp = compose(compose(worldFromBase, flangePose(from.arm, target.q)), toolOf(program, tool));
     if (reaches(worldFromTcp, tool)) return { q: Array.from(near), ...withTool };
     unreached.add(step);
     return { pose: { position: worldFromTcp.position, quaternion: worldFromTcp.quaternion }, frame: "world", tool };
   };
 
-  const list = (steps: readonly Step[]): readonly Step[] => steps.map((step): Step => (step.type === "move" ? movedStep(step) : withLists(step, list)));
+  const list = (steps: readonly Step[]): readonly Step[] =>
+    steps.map((step): Step => (step.type === "move" ? movedStep(step) : withLists(step, list)));
   const movedStep = (step: MoveStep): MoveStep => {
     // The point on the way comes first.
-    const via = step.via === undefined ? undefined : moved(step.via, step.id), target = moved(step.target, step.id);
+    const via = step.via === undefined ? undefined : moved(step.via, step.id);
+    const target = moved(step.target, step.id);
     return via === undefined ? { ...step, target } : { ...step, via, target };
   };
 
-  if (from.id === to.id) return { program: program.robot === to.id ? program : { ...program, robot: to.id }, points: 0, unreached: [] };
+  if (from.id === to.id)
+    return { program: program.robot === to.id ? program : { ...program, robot: to.id }, points: 0, unreached: [] };
   const steps = list(program.steps);
   const routines = Object.fromEntries(Object.entries(program.routines).map(([name, inside]) => [name, list(inside)]));
   return { program: { ...program, robot: to.id, steps, routines }, points, unreached: [...unreached] };
 }
 
-const toolOf = ({ tools }: Program, name: string): Pose<"flange", "tcp"> => (Object.hasOwn(tools, name) ? tools[name]! : identity());
+const toolOf = ({ tools }: Program, name: string): Pose<"flange", "tcp"> =>
+  Object.hasOwn(tools, name) ? tools[name]! : identity();

@@ -6,7 +6,9 @@ const ALWAYS: ReadonlySet<string> = new Set(["tools", "frames", "groups"]);
 /** The program as JSON text, one step a line, so that a version control shows which steps changed. */
 export function serializeProgram(program: Program): string {
   const { steps, routines, ...rest } = program;
-  const kept = Object.entries(rest).filter(([key, value]) => ALWAYS.has(key) || typeof value !== "object" || Object.keys(value).length > 0);
+  const kept = Object.entries(rest).filter(
+    ([key, value]) => ALWAYS.has(key) || typeof value !== "object" || Object.keys(value).length > 0,
+  );
   const head = JSON.stringify(Object.fromEntries(kept), undefined, 1).replace(/\n\}$/, "");
   const named = Object.entries(routines).map(([name, list]) => `  ${JSON.stringify(name)}: ${written(list, "  ")}`);
   const called = named.length === 0 ? "" : `,\n "routines": {\n${named.join(",\n")}\n }`;
@@ -22,7 +24,8 @@ function written(steps: readonly Step[], indent: string): string {
 /** A block opens on its own line, with its steps below it. */
 function line(step: Step, indent: string): string {
   switch (step.type) {
-    case "repeat": case "pallet": {
+    case "repeat":
+    case "pallet": {
       const { steps, ...rest } = step;
       return `${opened(rest)}, "steps": ${written(steps, indent)}}`;
     }
@@ -30,7 +33,8 @@ function line(step: Step, indent: string): string {
       const { then, else: otherwise, ...rest } = step;
       return `${opened(rest)}, "then": ${written(then, indent)}${otherwise === undefined ? "" : `, "else": ${written(otherwise, indent)}`}}`;
     }
-    default: return JSON.stringify(step);
+    default:
+      return JSON.stringify(step);
   }
 }
 

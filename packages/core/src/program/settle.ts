@@ -9,16 +9,26 @@ import { withLists } from "./walk.ts";
  */
 export function settled(program: Program): Program {
   if (Object.keys(program.pallets).length === 0) return program;
-  const firsts = new Map(Object.entries(program.pallets).map(([name, pallet]) => [name, palletPlace(pallet, { layer: 0, row: 0, column: 0 })]));
+  const firsts = new Map(
+    Object.entries(program.pallets).map(([name, pallet]) => [
+      name,
+      palletPlace(pallet, { layer: 0, row: 0, column: 0 }),
+    ]),
+  );
   const moved = (target: Target, open: readonly string[]): Target => {
     const frameFromPlace = "frame" in target && !open.includes(target.frame) ? firsts.get(target.frame) : undefined;
     if (frameFromPlace === undefined || !("frame" in target)) return target;
-    return { ...target, frame: program.pallets[target.frame]!.frame, pose: compose(frameFromPlace, target.pose as Pose as Pose<"place", "tcp">) };
+    return {
+      ...target,
+      frame: program.pallets[target.frame]!.frame,
+      pose: compose(frameFromPlace, target.pose as Pose as Pose<"place", "tcp">),
+    };
   };
   const list = (steps: readonly Step[], open: readonly string[]): readonly Step[] => {
     const after = steps.map((step): Step => {
       if (step.type === "move") {
-        const target = moved(step.target, open), via = step.via === undefined ? undefined : moved(step.via, open);
+        const target = moved(step.target, open);
+        const via = step.via === undefined ? undefined : moved(step.via, open);
         if (target === step.target && via === step.via) return step;
         return via === undefined ? { ...step, target } : { ...step, target, via };
       }
@@ -27,7 +37,12 @@ export function settled(program: Program): Program {
     });
     return after.every((step, i) => step === steps[i]) ? steps : after;
   };
-  const steps = list(program.steps, []), routines = Object.fromEntries(Object.entries(program.routines).map(([name, inside]) => [name, list(inside, [])]));
+  const steps = list(program.steps, []);
+  const routines = Object.fromEntries(
+    Object.entries(program.routines).map(([name, inside]) => [name, list(inside, [])]),
+  );
   const same = Object.entries(routines).every(([name, inside]) => inside === program.routines[name]);
-  return same && steps === program.steps ? program : { ...program, steps, routines: same ? program.routines : routines };
+  return same && steps === program.steps
+    ? program
+    : { ...program, steps, routines: same ? program.routines : routines };
 }

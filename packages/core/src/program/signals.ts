@@ -12,9 +12,17 @@ export function holds(when: Condition, signals: Pick<Signals, "read">): boolean 
 /** Lines that only remember: what a program writes is what it reads. */
 export class SignalTable implements Signals {
   private readonly values: Map<string, boolean | number>;
-  constructor(values: Iterable<readonly [string, boolean | number]> = []) { this.values = new Map(values); }
-  read(signal: string): boolean | number { return this.values.get(signal) ?? false; }
-  write(signal: string, value: boolean | number): void { this.values.set(signal, value); }
+  constructor(values: Iterable<readonly [string, boolean | number]> = []) {
+    this.values = new Map(values);
+  }
+  read(signal: string): boolean | number {
+    return this.values.get(signal) ?? false;
+  }
+  write(signal: string, value: boolean | number): void {
+    this.values.set(signal, value);
+  }
   /** Every line that was ever written to; changes with them. */
-  get all(): ReadonlyMap<string, boolean | number> { return this.values; }
+  get all(): ReadonlyMap<string, boolean | number> {
+    return this.values;
+  }
 }

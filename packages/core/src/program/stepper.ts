@@ -88,7 +88,13 @@ export class Stepper {
   /**
    * @param q0  posture at the start, at rest; copied.
    */
-  constructor(robot: Robot, context: PlanContext, steps: Iterable<Step> | Iterator<Step, unknown>, q0: ArrayLike<number>, options: StepperOptions = {}) {
+  constructor(
+    robot: Robot,
+    context: PlanContext,
+    steps: Iterable<Step> | Iterator<Step, unknown>,
+    q0: ArrayLike<number>,
+    options: StepperOptions = {},
+  ) {
     this.robot = robot;
     this.context = context;
     this.steps = Symbol.iterator in steps ? steps[Symbol.iterator]() : steps;
@@ -101,7 +107,16 @@ export class Stepper {
     this.bend = new Float64Array(2 * this.q.length);
     this.most = new Float64Array(this.q.length);
     this.least = new Float64Array(this.q.length);
-    this.state = { kind: "running", step: "", moving: false, gripperClosed: options.gripperClosed ?? false, rate: 0, message: "", payload: undefined, fault: undefined };
+    this.state = {
+      kind: "running",
+      step: "",
+      moving: false,
+      gripperClosed: options.gripperClosed ?? false,
+      rate: 0,
+      message: "",
+      payload: undefined,
+      fault: undefined,
+    };
   }
 
   /**
@@ -111,16 +126,23 @@ export class Stepper {
    * @param outQ      receives the joint angles [rad].
    */
   advance(dt_s: number, override: number, outQ: Float64Array): StepperState {
-    const state = this.state, wanted = this.stopping ? 0 : Math.min(1, Math.max(0, override));
+    const state = this.state;
+    const wanted = this.stopping ? 0 : Math.min(1, Math.max(0, override));
     let left_s = dt_s;
     this.pulses.advance(dt_s);
     // The bound only guards against an iterator that yields steps of no duration for ever.
     for (let turn = 0; left_s > 0 && state.kind === "running" && turn < MOST_AHEAD; turn++) {
       const segment = this.segments[this.segment];
       if (segment === undefined) {
-        if (this.ended) { this.end(); break; }
+        if (this.ended) {
+          this.end();
+          break;
+        }
         // Nothing is begun while the arm is held.
-        if (this.stopping) { state.kind = "stopped"; break; }
+        if (this.stopping) {
+          state.kind = "stopped";
+          break;
+        }
         if (wanted === 0) break;
         this.next();
         this.change = 0;
@@ -131,11 +153,20 @@ export class Stepper {
       if (segment.kind === "rest") {
         state.gripperClosed = segment.gripperClosed;
         state.rate = wanted;
-        if (this.stopping) { state.kind = "stopped"; break; }
+        if (this.stopping) {
+          state.kind = "stopped";
+          break;
+        }
         if (wanted === 0) break;
         if (this.waitFor !== undefined && !this.met(this.waitFor, left_s)) break;
         const rest_s = segment.duration_s - this.t_s;
-        if (left_s < rest_s) { this.t_s += left_s; left_s = 0; } else { left_s -= rest_s; this.leave(); }
+        if (left_s < rest_s) {
+          this.t_s += left_s;
+          left_s = 0;
+        } else {
+          left_s -= rest_s;
+          this.leave();
+        }
         continue;
       }
       if (this.searching(segment) && this.stands()) continue;
@@ -157,11 +188,16 @@ export class Stepper {
   }
 
   /** Posture the arm has reached; lent. */
-  get posture(): Float64Array { return this.q; }
+  get posture(): Float64Array {
+    return this.q;
+  }
 
   /** Plays a motion for up to `left_s`; returns what is left of it. */
   private follow(segment: Motion, wanted: number, left_s: number): number {
-    const state = this.state, before = state.rate, rate = this.nextRate(segment, wanted, left_s), mean = (before + rate) / 2;
+    const state = this.state;
+    const before = state.rate;
+    const rate = this.nextRate(segment, wanted, left_s);
+    const mean = (before + rate) / 2;
     const end_s = segment.duration_s - this.t_s;
     if (mean * left_s >= end_s) {
       const used_s = mean > 0 ? end_s / mean : 0;
@@ -179,10 +215,19 @@ export class Stepper {
 
   /** Whether the wait is over; a slice of it passes when it is not. */
   private met(step: WaitForStep, left_s: number): boolean {
-    if (holds(step.when, this.signals)) { this.waitFor = undefined; this.t_s = 0; return true; }
+    if (holds(step.when, this.signals)) {
+      this.waitFor = undefined;
+      this.t_s = 0;
+      return true;
+    }
     this.t_s += left_s;
     if (step.timeout_s !== undefined && this.t_s >= step.timeout_s - 1e-9) {
-      this.fail({ step: step.id, code: "signals.timeout", sentence: `Step “${step.id}” waited ${step.timeout_s} s for the signal “${step.when.signal}”.`, hint: "Look why the signal did not come, or give it more time." });
+      this.fail({
+        step: step.id,
+        code: "signals.timeout",
+        sentence: `Step “${step.id}” waited ${step.timeout_s} s for the signal “${step.when.signal}”.`,
+        hint: "Look why the signal did not come, or give it more time.",
+      });
     }
     return false;
   }
@@ -211,46 +256,70 @@ export class Stepper {
    * because the plan itself keeps the limits; where both rules cannot be kept, the acceleration is.
    */
   private nextRate(segment: Motion, wanted: number, dt_s: number): number {
-    const rate = this.state.rate, n = this.q.length;
-    if (rate === wanted) { this.change = 0; return wanted; }
+    const rate = this.state.rate;
+    const n = this.q.length;
+    if (rate === wanted) {
+      this.change = 0;
+      return wanted;
+    }
     sampleSegment(segment, this.t_s, this.q, this.qd);
     // What the plan itself asks for within this slice: at its start, and in every interval it enters.
-    const reach_s = this.t_s + Math.max(rate, wanted) * dt_s, first = segmentKnot(segment, this.t_s), times = segment.times_s;
+    const reach_s = this.t_s + Math.max(rate, wanted) * dt_s;
+    const first = segmentKnot(segment, this.t_s);
+    const times = segment.times_s;
     this.most.fill(Number.NEGATIVE_INFINITY);
     this.least.fill(Number.POSITIVE_INFINITY);
     for (let i = first; i + 1 < times.length && times[i]! <= reach_s; i++) this.seeBends(segment, i, this.t_s, reach_s);
     const next = this.segments[this.segment + 1];
-    if (reach_s > segment.duration_s && next?.kind === "motion" && next.times_s.length > 1) this.seeBends(next, 0, 0, reach_s - segment.duration_s);
-    let most = Number.POSITIVE_INFINITY, jerk = Number.POSITIVE_INFINITY;
+    if (reach_s > segment.duration_s && next?.kind === "motion" && next.times_s.length > 1)
+      this.seeBends(next, 0, 0, reach_s - segment.duration_s);
+    let most = Number.POSITIVE_INFINITY;
+    let jerk = Number.POSITIVE_INFINITY;
     for (let j = 0; j < n; j++) {
       const limits = this.robot.arm.joints[j]!.limits;
       // The speed may still grow within the slice.
-      const speed = this.qd[j]!, growth = Math.max(0, speed > 0 ? this.most[j]! : -this.least[j]!), fastest = Math.abs(speed) + growth * (reach_s - this.t_s);
+      const speed = this.qd[j]!;
+      const growth = Math.max(0, speed > 0 ? this.most[j]! : -this.least[j]!);
+      const fastest = Math.abs(speed) + growth * (reach_s - this.t_s);
       if (fastest < 1e-9) continue;
       // λ̇ adds q̇ λ̇: what is left of the limit on the side it pushes to.
-      const forward = wanted > rate === speed > 0, bend = (forward ? this.most[j]! : -this.least[j]!) * rate * rate;
+      const forward = wanted > rate === speed > 0;
+      const bend = (forward ? this.most[j]! : -this.least[j]!) * rate * rate;
       most = Math.min(most, Math.max(0, limits.acceleration_rad_s2 - bend) / fastest);
       jerk = Math.min(jerk, jerkOf(limits) / fastest);
     }
-    const up = wanted > rate ? 1 : -1, left = Math.abs(wanted - rate);
+    const up = wanted > rate ? 1 : -1;
+    const left = Math.abs(wanted - rate);
     // Slow enough to come to λ̇ = 0 at `wanted`, with steps of dt.
-    const arriving = this.hard || jerk === Number.POSITIVE_INFINITY ? Number.POSITIVE_INFINITY : Math.sqrt((jerk * dt_s) ** 2 / 4 + 2 * jerk * left) - (jerk * dt_s) / 2;
+    const arriving =
+      this.hard || jerk === Number.POSITIVE_INFINITY
+        ? Number.POSITIVE_INFINITY
+        : Math.sqrt((jerk * dt_s) ** 2 / 4 + 2 * jerk * left) - (jerk * dt_s) / 2;
     const ramped = this.hard ? Number.POSITIVE_INFINITY : up * this.change + jerk * dt_s;
     this.change = up * Math.min(most, arriving, ramped);
     const step = Math.abs(this.change) * dt_s;
     // A change that still goes the other way is taken back first.
     if (up * this.change <= 0) return Math.min(1, Math.max(0, rate + this.change * dt_s));
-    if (step >= left || left - step < LAST_OF_RATE) { this.change = 0; return wanted; }
+    if (step >= left || left - step < LAST_OF_RATE) {
+      this.change = 0;
+      return wanted;
+    }
     return rate + up * step;
   }
 
   /** Widens `most` and `least` by the accelerations of one interval of a plan from one instant to another. */
   private seeBends(segment: Motion, i: number, from_s: number, to_s: number): void {
-    const n = this.q.length, t0 = segment.times_s[i]!, h = segment.times_s[i + 1]! - t0;
+    const n = this.q.length;
+    const t0 = segment.times_s[i]!;
+    const h = segment.times_s[i + 1]! - t0;
     intervalAccelerations(segment, i, n, this.bend);
-    const u = h > 0 ? Math.max(0, (from_s - t0) / h) : 0, v = h > 0 ? Math.min(1, (to_s - t0) / h) : 1;
+    const u = h > 0 ? Math.max(0, (from_s - t0) / h) : 0;
+    const v = h > 0 ? Math.min(1, (to_s - t0) / h) : 1;
     for (let j = 0; j < n; j++) {
-      const begin = this.bend[j]!, slope = this.bend[n + j]! - begin, a = begin + slope * u, b = begin + slope * v;
+      const begin = this.bend[j]!;
+      const slope = this.bend[n + j]! - begin;
+      const a = begin + slope * u;
+      const b = begin + slope * v;
       this.most[j] = Math.max(this.most[j]!, a, b);
       this.least[j] = Math.min(this.least[j]!, a, b);
     }
@@ -260,11 +329,19 @@ export class Stepper {
     this.segment++;
     this.t_s = 0;
     if (this.segment < this.segments.length) return;
-    if (this.faultBehind !== undefined) { this.fail(this.faultBehind); return; }
+    if (this.faultBehind !== undefined) {
+      this.fail(this.faultBehind);
+      return;
+    }
     const { search } = this;
     this.search = undefined;
     if (search?.until?.missing !== "fault" || this.found || holds(search.until.when, this.signals)) return;
-    this.fail({ step: search.id, code: "search.missing", sentence: `The search of step “${search.id}” came to its end without the signal “${search.until.when.signal}”.`, hint: "Look at the sensor, or let the search go further." });
+    this.fail({
+      step: search.id,
+      code: "search.missing",
+      sentence: `The search of step “${search.id}” came to its end without the signal “${search.until.when.signal}”.`,
+      hint: "Look at the sensor, or let the search go further.",
+    });
   }
 
   private take(): Step | undefined {
@@ -281,12 +358,21 @@ export class Stepper {
     this.segments = [];
     this.segment = 0;
     this.t_s = 0;
-    if (step === undefined) { this.end(); return; }
-    if (step.type !== "move") { this.begin(step); return; }
+    if (step === undefined) {
+      this.end();
+      return;
+    }
+    if (step.type !== "move") {
+      this.begin(step);
+      return;
+    }
     const run: MoveStep[] = [step];
     while (run.length < MOST_AHEAD && goesOn(run.at(-1)!)) {
       const next = this.take();
-      if (next?.type === "move" && passes(run.at(-1)!, next)) { run.push(next); continue; }
+      if (next?.type === "move" && passes(run.at(-1)!, next)) {
+        run.push(next);
+        continue;
+      }
       this.waiting = next;
       break;
     }
@@ -305,32 +391,72 @@ export class Stepper {
     const { state } = this;
     let duration_s = 0;
     switch (step.type) {
-      case "wait": duration_s = step.s; break;
-      case "gripper": duration_s = this.gripper_s; break;
-      case "wait-for": this.waitFor = step; break;
-      case "set": this.pulses.set(step); break;
-      case "message": state.message = step.text; break;
-      case "payload": state.payload = step; break;
-      case "comment": return;
-      case "stop": this.end(); return;
-      case "call": case "repeat": case "if": case "pallet":
+      case "wait":
+        duration_s = step.s;
+        break;
+      case "gripper":
+        duration_s = this.gripper_s;
+        break;
+      case "wait-for":
+        this.waitFor = step;
+        break;
+      case "set":
+        this.pulses.set(step);
+        break;
+      case "message":
+        state.message = step.text;
+        break;
+      case "payload":
+        state.payload = step;
+        break;
+      case "comment":
+        return;
+      case "stop":
+        this.end();
+        return;
+      case "call":
+      case "repeat":
+      case "if":
+      case "pallet":
         state.step = step.id;
-        this.fail({ step: step.id, code: "program.block", sentence: `Step “${step.id}” is a ${step.type}, which only its program can carry out.`, hint: "Hand over the program's unrolled steps." });
+        this.fail({
+          step: step.id,
+          code: "program.block",
+          sentence: `Step “${step.id}” is a ${step.type}, which only its program can carry out.`,
+          hint: "Hand over the program's unrolled steps.",
+        });
         return;
     }
-    this.segments = [{ kind: "rest", step: step.id, start_s: 0, duration_s, q_rad: this.q.slice(), gripperClosed: step.type === "gripper" ? step.closed : state.gripperClosed }];
+    this.segments = [
+      {
+        kind: "rest",
+        step: step.id,
+        start_s: 0,
+        duration_s,
+        q_rad: this.q.slice(),
+        gripperClosed: step.type === "gripper" ? step.closed : state.gripperClosed,
+      },
+    ];
   }
 
   private layOut(run: readonly MoveStep[]): void {
     const last = run.at(-1)!;
     this.search = last.until === undefined ? undefined : last;
     this.found = false;
-    const moves = run.map(step => resolveMove(step, this.robot, this.context)), answer = this.planner.plan(moves, this.q);
-    if (answer.kind === "timed") { this.segments = answer.run.parts; return; }
+    const moves = run.map(step => resolveMove(step, this.robot, this.context));
+    const answer = this.planner.plan(moves, this.q);
+    if (answer.kind === "timed") {
+      this.segments = answer.run.parts;
+      return;
+    }
     // What comes before the step in the way is still done, with a stop at its end.
-    const at = answer.stop.move, before = at > 0 ? this.planner.plan(moves.slice(0, at), this.q) : undefined;
+    const at = answer.stop.move;
+    const before = at > 0 ? this.planner.plan(moves.slice(0, at), this.q) : undefined;
     this.faultBehind = explainStop(answer.stop, moves[at]!, this.robot);
-    if (before?.kind === "timed") { this.segments = before.run.parts; return; }
+    if (before?.kind === "timed") {
+      this.segments = before.run.parts;
+      return;
+    }
     this.state.kind = "fault";
     this.state.step = moves[at]!.step.id;
     this.state.fault = this.faultBehind;

@@ -23,7 +23,11 @@ export interface Finding {
 }
 
 export type StepVerdict = "ok" | "warn" | "bad" | "unknown";
-export interface StepReport { readonly id: string; readonly verdict: StepVerdict; readonly findings: readonly Finding[] }
+export interface StepReport {
+  readonly id: string;
+  readonly verdict: StepVerdict;
+  readonly findings: readonly Finding[];
+}
 
 /** The greatest torque that a joint is asked for [N m; N of a slide], when and in which step. Joints count from 1. */
 export interface JointTorque {

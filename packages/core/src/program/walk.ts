@@ -3,28 +3,36 @@ import type { BlockStep, Program, Step } from "./program.ts";
 /** The lists of steps directly inside a step. */
 export function listsOf(step: Step): readonly (readonly Step[])[] {
   switch (step.type) {
-    case "repeat": case "pallet": return [step.steps];
-    case "if": return step.else === undefined ? [step.then] : [step.then, step.else];
-    default: return [];
+    case "repeat":
+    case "pallet":
+      return [step.steps];
+    case "if":
+      return step.else === undefined ? [step.then] : [step.then, step.else];
+    default:
+      return [];
   }
 }
 
-export const isBlock = (step: Step): step is BlockStep => step.type === "repeat" || step.type === "if" || step.type === "pallet";
+export const isBlock = (step: Step): step is BlockStep =>
+  step.type === "repeat" || step.type === "if" || step.type === "pallet";
 
 /** The same block with its lists put through `change`; the very same step when no list changed. */
 export function withLists<S extends Step>(step: S, change: (steps: readonly Step[]) => readonly Step[]): S;
 export function withLists(step: Step, change: (steps: readonly Step[]) => readonly Step[]): Step {
   switch (step.type) {
-    case "repeat": case "pallet": {
+    case "repeat":
+    case "pallet": {
       const steps = change(step.steps);
       return steps === step.steps ? step : { ...step, steps };
     }
     case "if": {
-      const then = change(step.then), otherwise = step.else === undefined ? undefined : change(step.else);
+      const then = change(step.then);
+      const otherwise = step.else === undefined ? undefined : change(step.else);
       if (then === step.then && otherwise === step.else) return step;
       return otherwise === undefined ? { ...step, then } : { ...step, then, else: otherwise };
     }
-    default: return step;
+    default:
+      return step;
   }
 }
 

@@ -22,7 +22,10 @@ const SAME_RAD = 1e-6;
 /** What a target is given so that a controller ends in the posture of the plan. */
 type Addition = { readonly branch: Branch } | { readonly q: readonly number[] };
 /** Of all times a step is carried out. `addition` is undefined where nothing would do for all of them. */
-interface Wish { readonly needed: boolean; readonly addition: Addition | undefined }
+interface Wish {
+  readonly needed: boolean;
+  readonly addition: Addition | undefined;
+}
 
 /**
  * The program with the postures of its plan written into it, so that what executes it step by step, an exported text or a
@@ -35,26 +38,46 @@ interface Wish { readonly needed: boolean; readonly addition: Addition | undefin
  */
 export function withBranches(program: Program, robot: Robot, options: WithBranchesOptions = {}): Program {
   const { where = "everywhere", worldFromBase, start_rad } = options;
-  const layout = layOut(program, robot, { ...(worldFromBase === undefined ? {} : { worldFromBase }), ...(start_rad === undefined ? {} : { start_rad }) });
-  const goals = new GoalFinder(robot, new Follower(robot.arm)), wishes = new Map<string, Wish>();
+  const layout = layOut(program, robot, {
+    ...(worldFromBase === undefined ? {} : { worldFromBase }),
+    ...(start_rad === undefined ? {} : { start_rad }),
+  });
+  const goals = new GoalFinder(robot, new Follower(robot.arm));
+  const wishes = new Map<string, Wish>();
   for (const [id, move] of layout.moves) {
-    const ends = layout.ends.get(id), turn = layout.turns.get(id), written = turn?.written.id ?? id;
+    const ends = layout.ends.get(id);
+    const turn = layout.turns.get(id);
+    const written = turn?.written.id ?? id;
     if (ends === undefined || move.q_rad !== undefined || move.branch !== undefined) continue;
     // At the places of a pallet joint angles would be another pose each time.
-    const wish = wishFor(move, ends, robot, goals, (turn?.visits.length ?? 0) === 0), known = wishes.get(written);
-    wishes.set(written, known === undefined ? wish : { needed: known.needed || wish.needed, addition: sameAddition(known.addition, wish.addition) ? wish.addition : undefined });
+    const wish = wishFor(move, ends, robot, goals, (turn?.visits.length ?? 0) === 0);
+    const known = wishes.get(written);
+    wishes.set(
+      written,
+      known === undefined
+        ? wish
+        : {
+            needed: known.needed || wish.needed,
+            addition: sameAddition(known.addition, wish.addition) ? wish.addition : undefined,
+          },
+    );
   }
   const list = (steps: readonly Step[]): readonly Step[] => {
     const after = steps.map((step): Step => {
       if (step.type !== "move") return withLists(step, list);
       const wish = wishes.get(step.id);
-      return wish?.addition === undefined || !(wish.needed || where === "everywhere") ? step : withAddition(step, wish.addition);
+      return wish?.addition === undefined || !(wish.needed || where === "everywhere")
+        ? step
+        : withAddition(step, wish.addition);
     });
     return after.every((step, i) => step === steps[i]) ? steps : after;
   };
-  const steps = list(program.steps), routines = Object.fromEntries(Object.entries(program.routines).map(([name, inside]) => [name, list(inside)]));
+  const steps = list(program.steps);
+  const routines = Object.fromEntries(Object.entries(program.routines).map(([name, inside]) => [name, list(inside)]));
   const same = Object.entries(routines).every(([name, inside]) => inside === program.routines[name]);
-  return same && steps === program.steps ? program : { ...program, steps, routines: same ? program.routines : routines };
+  return same && steps === program.steps
+    ? program
+    : { ...program, steps, routines: same ? program.routines : routines };
 }
 
 function wishFor(move: Move, { from_rad, to_rad }: Ends, robot: Robot, goals: GoalFinder, byJoints: boolean): Wish {
@@ -65,7 +88,13 @@ function wishFor(move: Move, { from_rad, to_rad }: Ends, robot: Robot, goals: Go
     const goal = goals.find(told, from_rad);
     return goal.kind === "posture" && goal.q_rad.every((q, j) => Math.abs(q - to_rad[j]!) <= SAME_RAD);
   };
-  const free: Move = { step: move.step, flangeFromTcp: move.flangeFromTcp, tcpFromFlange: move.tcpFromFlange, baseFromTcp: move.baseFromTcp, baseFromFlange: move.baseFromFlange };
+  const free: Move = {
+    step: move.step,
+    flangeFromTcp: move.flangeFromTcp,
+    tcpFromFlange: move.tcpFromFlange,
+    baseFromTcp: move.baseFromTcp,
+    baseFromFlange: move.baseFromFlange,
+  };
   const needed = !endsThere(free);
   if (branch !== undefined && endsThere({ ...free, branch })) return { needed, addition: { branch } };
   return { needed, addition: needed && byJoints ? { q: Array.from(to_rad) } : undefined };

@@ -11,9 +11,18 @@ import type { Joint, SerialArm } from "./arm.ts";
 export function alignedWithBase(arm: SerialArm): SerialArm {
   const links = Array.from({ length: arm.joints.length + 1 }, () => identity<"base", "link">());
   linkPoses(arm, new Float64Array(arm.joints.length), links);
-  const joints = arm.joints.map((joint, i): Joint => ({
-    ...joint, axis: rotate(links[i + 1]!.quaternion, joint.axis), parentFromJoint: pose(subtract(links[i + 1]!.position, links[i]!.position)),
-  }));
-  const last = links[arm.joints.length]!, flange = compose(last as Pose, arm.lastJointFromFlange as Pose);
-  return { name: arm.name, joints, lastJointFromFlange: pose(subtract(flange.position, last.position), flange.quaternion) };
+  const joints = arm.joints.map(
+    (joint, i): Joint => ({
+      ...joint,
+      axis: rotate(links[i + 1]!.quaternion, joint.axis),
+      parentFromJoint: pose(subtract(links[i + 1]!.position, links[i]!.position)),
+    }),
+  );
+  const last = links[arm.joints.length]!;
+  const flange = compose(last as Pose, arm.lastJointFromFlange as Pose);
+  return {
+    name: arm.name,
+    joints,
+    lastJointFromFlange: pose(subtract(flange.position, last.position), flange.quaternion),
+  };
 }

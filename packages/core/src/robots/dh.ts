@@ -35,7 +35,8 @@ export interface DhTable {
   readonly lastFromFlange: Pose<"last", "flange">;
 }
 
-const X: Vector3 = [1, 0, 0], Z: Vector3 = [0, 0, 1];
+const X: Vector3 = [1, 0, 0];
+const Z: Vector3 = [0, 0, 1];
 const turnX = (angle_rad: number): Pose => pose([0, 0, 0], fromAxisAngle(X, angle_rad));
 const turnZ = (angle_rad: number): Pose => pose([0, 0, 0], fromAxisAngle(Z, angle_rad));
 
@@ -44,21 +45,43 @@ const turnZ = (angle_rad: number): Pose => pose([0, 0, 0], fromAxisAngle(Z, angl
  *
  * @param joints  name and limits of every row, in order.
  */
-export function armFromDh(name: string, table: DhTable, joints: readonly { readonly name: string; readonly limits: JointLimits }[]): SerialArm {
+export function armFromDh(
+  name: string,
+  table: DhTable,
+  joints: readonly { readonly name: string; readonly limits: JointLimits }[],
+): SerialArm {
   let waiting: Pose = table.baseFromFirst;
   const built = table.rows.map((row, i): Joint => {
-    const along = pose([row.a_m, 0, row.d_m]), given = joints[i]!;
+    const along = pose([row.a_m, 0, row.d_m]);
+    const given = joints[i]!;
     const before = table.convention === "modified" ? compose(turnX(row.alpha_rad), along) : identity();
     const parentFromJoint = compose(compose(waiting, before), turnZ(row.thetaOffset_rad)) as Pose<"parent", "joint">;
     waiting = table.convention === "modified" ? identity() : compose(along, turnX(row.alpha_rad));
-    return { name: given.name, ...(row.slides === true ? { kind: "prismatic" as const } : {}), limits: given.limits, axis: [0, 0, row.sense], parentFromJoint };
+    return {
+      name: given.name,
+      ...(row.slides === true ? { kind: "prismatic" as const } : {}),
+      limits: given.limits,
+      axis: [0, 0, row.sense],
+      parentFromJoint,
+    };
   });
-  return { name, joints: built, lastJointFromFlange: compose(waiting, table.lastFromFlange as Pose) as Pose<"joint", "flange"> };
+  return {
+    name,
+    joints: built,
+    lastJointFromFlange: compose(waiting, table.lastFromFlange as Pose) as Pose<"joint", "flange">,
+  };
 }
 
-interface Line { readonly along: Vector3; readonly through: Vector3 }
+interface Line {
+  readonly along: Vector3;
+  readonly through: Vector3;
+}
 /** A frame being laid: its x axis, and a point that axis leaves from. */
-interface Normal { readonly x: Vector3; readonly from: Vector3; readonly to: Vector3 }
+interface Normal {
+  readonly x: Vector3;
+  readonly from: Vector3;
+  readonly to: Vector3;
+}
 
 /** Directions closer than this are parallel: rounding, not construction. */
 const PARALLEL = 1e-11;
@@ -76,46 +99,71 @@ const MEETS = 1e-12;
  * @see Craig, Introduction to Robotics, ch. 3; Denavit, Hartenberg, J. Appl. Mech. 1955.
  */
 export function dhFromArm(arm: SerialArm, convention: DhConvention): DhTable {
-  const axes = axesAtZero(arm), flange = flangeAtZero(arm), first = axes[0]!, last = axes.at(-1)!;
+  const axes = axesAtZero(arm);
+  const flange = flangeAtZero(arm);
+  const first = axes[0]!;
+  const last = axes.at(-1)!;
   const foot = addScaled(first.through, first.along, -dot(first.through, first.along));
   const x0 = square(X, first.along) ?? square([0, 1, 0], first.along) ?? X;
   const normals: Normal[] = [{ x: x0, from: foot, to: foot }];
-  axes.slice(1).forEach((axis, i) => { normals.push(normalBetween(axes[i]!, axis, normals[i]!)); });
-  const flangeZ: Line = { along: rotate(flange.quaternion, Z), through: flange.position }, ends = convention === "standard" ? flangeZ : last;
+  axes.slice(1).forEach((axis, i) => {
+    normals.push(normalBetween(axes[i]!, axis, normals[i]!));
+  });
+  const flangeZ: Line = { along: rotate(flange.quaternion, Z), through: flange.position };
+  const ends = convention === "standard" ? flangeZ : last;
   normals.push(lastNormal(last, ends, flange, normals.at(-1)!));
 
   const rows = axes.map((axis, i): DhRow => {
-    const before = normals[i]!, after = normals[i + 1]!, own = convention === "standard" ? after : before;
-    const other = convention === "standard" ? axes[i + 1] ?? flangeZ : axis, here = convention === "standard" ? axis : axes[i - 1] ?? axis;
+    const before = normals[i]!;
+    const after = normals[i + 1]!;
+    const own = convention === "standard" ? after : before;
+    const other = convention === "standard" ? (axes[i + 1] ?? flangeZ) : axis;
+    const here = convention === "standard" ? axis : (axes[i - 1] ?? axis);
     return {
-      a_m: clean(dot(subtract(own.to, own.from), own.x)), alpha_rad: clean(turnAbout(own.x, here.along, other.along)),
-      d_m: clean(dot(subtract(after.from, before.to), axis.along)), thetaOffset_rad: clean(turnAbout(axis.along, before.x, after.x)), sense: 1,
+      a_m: clean(dot(subtract(own.to, own.from), own.x)),
+      alpha_rad: clean(turnAbout(own.x, here.along, other.along)),
+      d_m: clean(dot(subtract(after.from, before.to), axis.along)),
+      thetaOffset_rad: clean(turnAbout(axis.along, before.x, after.x)),
+      sense: 1,
       ...(isSlide(arm.joints[i]!) ? { slides: true as const } : {}),
     };
   });
-  const baseFromFirst = frame<"base", "first">(foot, x0, first.along), end = normals.at(-1)!;
+  const baseFromFirst = frame<"base", "first">(foot, x0, first.along);
+  const end = normals.at(-1)!;
   const baseFromLast = frame<"base", "last">(end.to, end.x, ends.along);
   return { convention, rows, baseFromFirst, lastFromFlange: tidy(compose(inverse(baseFromLast), flange)) };
 }
 
 /** The common normal of two axes, from the first to the second; along parallel axes it stays where it comes from. */
 function normalBetween(axis: Line, next: Line, before: Normal): Normal {
-  const across = cross(axis.along, next.along), sine = norm(across), between = subtract(next.through, axis.through);
+  const across = cross(axis.along, next.along);
+  const sine = norm(across);
+  const between = subtract(next.through, axis.through);
   if (sine < PARALLEL) {
-    const from = before.to, over = subtract(next.through, from), beside = addScaled(over, axis.along, -dot(over, axis.along)), width = norm(beside);
-    return width < MEETS ? { x: before.x, from, to: from } : { x: scale(beside, 1 / width), from, to: addScaled(from, beside, 1) };
+    const from = before.to;
+    const over = subtract(next.through, from);
+    const beside = addScaled(over, axis.along, -dot(over, axis.along));
+    const width = norm(beside);
+    return width < MEETS
+      ? { x: before.x, from, to: from }
+      : { x: scale(beside, 1 / width), from, to: addScaled(from, beside, 1) };
   }
-  const unit = scale(across, 1 / sine), gap = dot(between, unit);
+  const unit = scale(across, 1 / sine);
+  const gap = dot(between, unit);
   const from = addScaled(axis.through, axis.along, dot(cross(between, next.along), across) / (sine * sine));
   // Where the axes meet the normal may point both ways: the way that turns less from the one before.
-  const x = Math.abs(gap) < MEETS ? (dot(unit, before.x) < -1e-9 ? scale(unit, -1) : unit) : scale(unit, Math.sign(gap));
+  const x =
+    Math.abs(gap) < MEETS ? (dot(unit, before.x) < -1e-9 ? scale(unit, -1) : unit) : scale(unit, Math.sign(gap));
   return { x, from, to: addScaled(from, unit, Math.abs(gap) < MEETS ? 0 : gap) };
 }
 
 /** The last frame: at the flange itself when its z lies on the last axis, else at the common normal with the flange's z. */
 function lastNormal(last: Line, ends: Line, flange: Pose, before: Normal): Normal {
-  const z = rotate(flange.quaternion, Z), away = subtract(flange.position, last.through), beside = addScaled(away, last.along, -dot(away, last.along));
-  const x = rotate(flange.quaternion, X), onAxis = addScaled(last.through, last.along, dot(away, last.along));
+  const z = rotate(flange.quaternion, Z);
+  const away = subtract(flange.position, last.through);
+  const beside = addScaled(away, last.along, -dot(away, last.along));
+  const x = rotate(flange.quaternion, X);
+  const onAxis = addScaled(last.through, last.along, dot(away, last.along));
   const isParallel = norm(cross(z, last.along)) < PARALLEL;
   if (isParallel && norm(beside) < MEETS) return { x, from: onAxis, to: onAxis };
   if (ends === last) return { x: before.x, from: before.to, to: before.to };
@@ -124,9 +172,12 @@ function lastNormal(last: Line, ends: Line, flange: Pose, before: Normal): Norma
 }
 
 function axesAtZero(arm: SerialArm): Line[] {
-  return framesAtZero(arm).slice(1).map(({ position, quaternion }, i) => ({ along: rotate(quaternion, arm.joints[i]!.axis), through: position }));
+  return framesAtZero(arm)
+    .slice(1)
+    .map(({ position, quaternion }, i) => ({ along: rotate(quaternion, arm.joints[i]!.axis), through: position }));
 }
-const flangeAtZero = (arm: SerialArm): Pose<"base", "flange"> => compose(framesAtZero(arm).at(-1) as Pose, arm.lastJointFromFlange as Pose) as Pose<"base", "flange">;
+const flangeAtZero = (arm: SerialArm): Pose<"base", "flange"> =>
+  compose(framesAtZero(arm).at(-1) as Pose, arm.lastJointFromFlange as Pose) as Pose<"base", "flange">;
 function framesAtZero(arm: SerialArm): Pose<"base", "link">[] {
   const links = Array.from({ length: arm.joints.length + 1 }, () => identity<"base", "link">());
   linkPoses(arm, new Float64Array(arm.joints.length), links);
@@ -135,12 +186,14 @@ function framesAtZero(arm: SerialArm): Pose<"base", "link">[] {
 
 /** The part of a direction square to an axis, of length 1; undefined when nothing is left. */
 function square(direction: Vector3, axis: Vector3): Vector3 | undefined {
-  const rest = addScaled(direction, axis, -dot(direction, axis)), length = norm(rest);
+  const rest = addScaled(direction, axis, -dot(direction, axis));
+  const length = norm(rest);
   return length < 1e-6 ? undefined : scale(rest, 1 / length);
 }
 
 /** Angle from one direction to another about an axis square to both [rad]. */
-const turnAbout = (axis: Vector3, from: Vector3, to: Vector3): number => wrapAngle(Math.atan2(dot(cross(from, to), axis), dot(from, to)));
+const turnAbout = (axis: Vector3, from: Vector3, to: Vector3): number =>
+  wrapAngle(Math.atan2(dot(cross(from, to), axis), dot(from, to)));
 
 function frame<Into extends string, From extends string>(origin: Vector3, x: Vector3, z: Vector3): Pose<Into, From> {
   const y = cross(z, x);
@@ -150,6 +203,9 @@ function frame<Into extends string, From extends string>(origin: Vector3, x: Vec
 /** −0 and rounding to 0. */
 const clean = (value: number): number => (Math.abs(value) < 1e-14 ? 0 : value);
 function tidy(lastFromFlange: Pose<"last", "flange">): Pose<"last", "flange"> {
-  const { position: [x, y, z], quaternion: [i, j, k, w] } = lastFromFlange;
+  const {
+    position: [x, y, z],
+    quaternion: [i, j, k, w],
+  } = lastFromFlange;
   return pose([clean(x), clean(y), clean(z)], [clean(i), clean(j), clean(k), clean(w)]);
 }

@@ -11,4 +11,9 @@ import type { KinematicFamily } from "./robot.ts";
  * general-6r that meets its forward kinematics; else general, which only numeric methods solve; that of an arm with a slide is always general.
  */
 export const familyOf = (arm: SerialArm): KinematicFamily =>
-  (arm.joints.some(isSlide) ? undefined : orthoParallelFromArm(arm) ?? threeParallelFromArm(arm) ?? sphericalSevenFromArm(arm) ?? generalSixFromArm(arm)) ?? { kind: "general" };
+  (arm.joints.some(isSlide)
+    ? undefined
+    : (orthoParallelFromArm(arm) ??
+      threeParallelFromArm(arm) ??
+      sphericalSevenFromArm(arm) ??
+      generalSixFromArm(arm))) ?? { kind: "general" };

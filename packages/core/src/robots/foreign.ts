@@ -9,7 +9,9 @@ import type { KinematicFamily, Robot } from "./robot.ts";
 const ASSUMED_TCP_SPEED_MPS = 2;
 
 /** What is known of a robot beside its arm. What is left out is assumed, and said so in `Robot.assumptions`. */
-export type KnownOfRobot = Partial<Omit<Robot, "arm" | "family" | "assumptions">> & { readonly assumptions?: readonly string[] };
+export type KnownOfRobot = Partial<Omit<Robot, "arm" | "family" | "assumptions">> & {
+  readonly assumptions?: readonly string[];
+};
 
 /** A robot around an arm that came from a file: closed form where its axes allow, home at zero or as near as the limits allow. */
 export function robotFromArm(arm: SerialArm, known: KnownOfRobot = {}): Robot {
@@ -19,20 +21,34 @@ export function robotFromArm(arm: SerialArm, known: KnownOfRobot = {}): Robot {
     if (value === undefined) assumptions.push(sentence);
     return value ?? assumed;
   };
-  const reach_m = reachOf(arm, family), length = `${(reach_m * 1000).toFixed(0)} mm`;
+  const reach_m = reachOf(arm, family);
+  const length = `${(reach_m * 1000).toFixed(0)} mm`;
   return {
-    id: known.id ?? arm.name, name: known.name ?? arm.name, vendor: known.vendor ?? "", arm, family,
+    id: known.id ?? arm.name,
+    name: known.name ?? arm.name,
+    vendor: known.vendor ?? "",
+    arm,
+    family,
     frames: known.frames ?? { base: "base", tip: "flange" },
     baseFromVendorWorld: known.baseFromVendorWorld ?? pose(),
-    home_rad: known.home_rad ?? arm.joints.map(({ limits }) => Math.min(limits.upper_rad, Math.max(limits.lower_rad, 0))),
+    home_rad:
+      known.home_rad ?? arm.joints.map(({ limits }) => Math.min(limits.upper_rad, Math.max(limits.lower_rad, 0))),
     payload_kg: assume(known.payload_kg, 0, "The payload is not known: 0 kg is shown."),
     payloadMax_kg: known.payloadMax_kg ?? known.payload_kg ?? 0,
-    reach_m: assume(known.reach_m, reach_m, `The reach is not published: ${length} follows from the lengths of the links.`),
+    reach_m: assume(
+      known.reach_m,
+      reach_m,
+      `The reach is not published: ${length} follows from the lengths of the links.`,
+    ),
     reachMeasuredFrom: known.reachMeasuredFrom ?? (family.kind === "ortho-parallel" ? "axis-1" : "axis-2"),
     reachMeasuredTo: known.reachMeasuredTo ?? (family.kind === "general" ? "flange" : "wrist"),
     repeatability_m: assume(known.repeatability_m, 0, "The repeatability is not known: 0 mm is shown."),
-    maxTcpSpeed_mps: assume(known.maxTcpSpeed_mps, ASSUMED_TCP_SPEED_MPS, `The largest speed of the tool tip is not known: ${ASSUMED_TCP_SPEED_MPS} m/s is assumed.`),
-    sources: known.sources ?? { "arm": "The axes, limits and speeds of the robot file that was opened." },
+    maxTcpSpeed_mps: assume(
+      known.maxTcpSpeed_mps,
+      ASSUMED_TCP_SPEED_MPS,
+      `The largest speed of the tool tip is not known: ${ASSUMED_TCP_SPEED_MPS} m/s is assumed.`,
+    ),
+    sources: known.sources ?? { arm: "The axes, limits and speeds of the robot file that was opened." },
     shapeError_m: known.shapeError_m ?? 0,
     ...optional(known),
     assumptions,
@@ -42,18 +58,32 @@ export function robotFromArm(arm: SerialArm, known: KnownOfRobot = {}): Robot {
 /** What may be missing from a robot, where it is known. */
 function optional({ mass_kg, masses, workspace, madeUpGeometry, form, paint }: KnownOfRobot): Partial<Robot> {
   return {
-    ...(mass_kg === undefined ? {} : { mass_kg }), ...(masses === undefined ? {} : { masses }), ...(workspace === undefined ? {} : { workspace }),
-    ...(madeUpGeometry === undefined ? {} : { madeUpGeometry }), ...(form === undefined ? {} : { form }), ...(paint === undefined ? {} : { paint }),
+    ...(mass_kg === undefined ? {} : { mass_kg }),
+    ...(masses === undefined ? {} : { masses }),
+    ...(workspace === undefined ? {} : { workspace }),
+    ...(madeUpGeometry === undefined ? {} : { madeUpGeometry }),
+    ...(form === undefined ? {} : { form }),
+    ...(paint === undefined ? {} : { paint }),
   };
 }
 
 /** From axis 1 to the wrist of the stretched arm, as makers count; for an arm of no family the sum of its links and slides, which no reach exceeds. */
 function reachOf(arm: SerialArm, family: KinematicFamily): number {
   switch (family.kind) {
-    case "ortho-parallel": return Math.abs(family.a1_m) + family.c2_m + Math.hypot(family.a2_m, family.c3_m);
-    case "three-parallel": return Math.abs(family.a1_m) + family.c2_m + family.c3_m + family.c5_m;
-    case "spherical-seven": return family.c3_m + family.c5_m;
-    case "general-6r": return Math.abs(family.a1_m) + family.c2_m + Math.hypot(...family.centre_m);
-    case "general": return arm.joints.slice(1).reduce((sum, joint) => sum + norm(joint.parentFromJoint.position), norm(arm.lastJointFromFlange.position) + slideOf(arm.joints));
+    case "ortho-parallel":
+      return Math.abs(family.a1_m) + family.c2_m + Math.hypot(family.a2_m, family.c3_m);
+    case "three-parallel":
+      return Math.abs(family.a1_m) + family.c2_m + family.c3_m + family.c5_m;
+    case "spherical-seven":
+      return family.c3_m + family.c5_m;
+    case "general-6r":
+      return Math.abs(family.a1_m) + family.c2_m + Math.hypot(...family.centre_m);
+    case "general":
+      return arm.joints
+        .slice(1)
+        .reduce(
+          (sum, joint) => sum + norm(joint.parentFromJoint.position),
+          norm(arm.lastJointFromFlange.position) + slideOf(arm.joints),
+        );
   }
 }

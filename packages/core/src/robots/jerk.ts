@@ -22,7 +22,12 @@ export const hardBrakingTime_s = (robot: Robot): number =>
  * within the jerk.
  */
 export const brakingTime_s = (robot: Robot): number =>
-  Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2 + (2 * limits.acceleration_rad_s2) / jerkOf(limits)));
+  Math.max(
+    ...robot.arm.joints.map(
+      ({ limits }) =>
+        limits.speed_rad_s / limits.acceleration_rad_s2 + (2 * limits.acceleration_rad_s2) / jerkOf(limits),
+    ),
+  );
 
 /**
  * What the tool travels at most from the word to stop to standstill [m]:  v t_reaction + v t_braking / 2, all joints slowing down evenly.
@@ -30,4 +35,5 @@ export const brakingTime_s = (robot: Robot): number =>
  * @param speed_mps   speed of the tool when the word comes.
  * @param reaction_s  from the word to the first slowing down.
  */
-export const brakingDistance_m = (robot: Robot, speed_mps: number, reaction_s = 0.02): number => speed_mps * (reaction_s + hardBrakingTime_s(robot) / 2);
+export const brakingDistance_m = (robot: Robot, speed_mps: number, reaction_s = 0.02): number =>
+  speed_mps * (reaction_s + hardBrakingTime_s(robot) / 2);

@@ -10,14 +10,46 @@ import type { Robot } from "./robot.ts";
 /** What a robot file says of itself. */
 export const ROBOT_FORMAT = "twincell.robot";
 
-export type RobotAnswer = { readonly kind: "robot"; readonly robot: Robot } | { readonly kind: "not-a-robot"; readonly faults: readonly { readonly path: string; readonly sentence: string }[] };
+export type RobotAnswer =
+  | { readonly kind: "robot"; readonly robot: Robot }
+  | { readonly kind: "not-a-robot"; readonly faults: readonly { readonly path: string; readonly sentence: string }[] };
 
 /** Longer chains are no robot anybody builds. */
-const MOST_JOINTS = 32, MOST_FAULTS = 20;
+const MOST_JOINTS = 32;
+const MOST_FAULTS = 20;
 /** Seconds from standstill to full speed of a joint whose acceleration the file does not give. */
 const RAMP_S = 0.25;
-const TOP = ["format", "version", "id", "name", "vendor", "joints", "flange", "vendor_world", "home_rad", "payload_kg", "reach_m", "repeatability_m", "max_tcp_speed_mps", "mass_kg", "shape_error_m", "sources", "assumptions"];
-const JOINT = ["name", "kind", "xyz_m", "rpy_rad", "axis", "lower_rad", "upper_rad", "speed_rad_s", "acceleration_rad_s2", "torque_Nm"];
+const TOP = [
+  "format",
+  "version",
+  "id",
+  "name",
+  "vendor",
+  "joints",
+  "flange",
+  "vendor_world",
+  "home_rad",
+  "payload_kg",
+  "reach_m",
+  "repeatability_m",
+  "max_tcp_speed_mps",
+  "mass_kg",
+  "shape_error_m",
+  "sources",
+  "assumptions",
+];
+const JOINT = [
+  "name",
+  "kind",
+  "xyz_m",
+  "rpy_rad",
+  "axis",
+  "lower_rad",
+  "upper_rad",
+  "speed_rad_s",
+  "acceleration_rad_s2",
+  "torque_Nm",
+];
 
 /**
  * A robot from one data file (rows T-16, M-60), format `twincell.robot`, version 1: metres and radians, joints base first, each
@@ -26,76 +58,158 @@ const JOINT = ["name", "kind", "xyz_m", "rpy_rad", "axis", "lower_rad", "upper_r
  * @see docs/add-a-robot.md
  */
 export function parseRobot(value: unknown): RobotAnswer {
-  const reader = new Reader(MOST_FAULTS), robot = robotOf(reader, value);
-  return robot === undefined || reader.faults.length > 0 ? { kind: "not-a-robot", faults: reader.faults } : { kind: "robot", robot };
+  const reader = new Reader(MOST_FAULTS);
+  const robot = robotOf(reader, value);
+  return robot === undefined || reader.faults.length > 0
+    ? { kind: "not-a-robot", faults: reader.faults }
+    : { kind: "robot", robot };
 }
 
 function robotOf(reader: Reader, value: unknown): Robot | undefined {
   const file = reader.object(value, "", "a robot file");
   if (file === undefined) return undefined;
-  if (file.format !== ROBOT_FORMAT) return reader.fault("format", `the format of a robot file is "${ROBOT_FORMAT}"; here it is ${reader.shown(file.format)}.`);
-  if (file.version !== 1) return reader.fault("version", `robot files of version 1 are read; this one is of version ${reader.shown(file.version)}.`);
+  if (file.format !== ROBOT_FORMAT)
+    return reader.fault(
+      "format",
+      `the format of a robot file is "${ROBOT_FORMAT}"; here it is ${reader.shown(file.format)}.`,
+    );
+  if (file.version !== 1)
+    return reader.fault(
+      "version",
+      `robot files of version 1 are read; this one is of version ${reader.shown(file.version)}.`,
+    );
   reader.onlyKeys(file, "", "a robot file", TOP);
-  const id = reader.name(file.id, "id", "the id"), name = file.name === undefined ? id : reader.name(file.name, "name", "the name");
+  const id = reader.name(file.id, "id", "the id");
+  const name = file.name === undefined ? id : reader.name(file.name, "name", "the name");
   const list = reader.list(file.joints, "joints", "joints");
-  if (list !== undefined && (list.length < 1 || list.length > MOST_JOINTS)) reader.fault("joints", `a robot has 1 to ${MOST_JOINTS} joints; here it has ${list.length}.`);
+  if (list !== undefined && (list.length < 1 || list.length > MOST_JOINTS))
+    reader.fault("joints", `a robot has 1 to ${MOST_JOINTS} joints; here it has ${list.length}.`);
   const joints = (list ?? []).slice(0, MOST_JOINTS).map((each, i) => jointOf(reader, each, i));
-  const flange = file.flange === undefined ? pose<"joint", "flange">() : placed<"joint", "flange">(reader, file.flange, "flange", "the flange");
-  const home = file.home_rad === undefined ? undefined : reader.numbers(file.home_rad, "home_rad", "home", "rad", joints.length);
-  if (home !== undefined) joints.forEach((joint, j) => {
-    if (joint !== undefined && !(home[j]! >= joint.limits.lower_rad && home[j]! <= joint.limits.upper_rad)) reader.fault(`home_rad[${j}]`, `home of joint ${j + 1} is inside its limits; here it is ${home[j]}.`);
-  });
+  const flange =
+    file.flange === undefined
+      ? pose<"joint", "flange">()
+      : placed<"joint", "flange">(reader, file.flange, "flange", "the flange");
+  const home =
+    file.home_rad === undefined ? undefined : reader.numbers(file.home_rad, "home_rad", "home", "rad", joints.length);
+  if (home !== undefined)
+    joints.forEach((joint, j) => {
+      if (joint !== undefined && !(home[j]! >= joint.limits.lower_rad && home[j]! <= joint.limits.upper_rad))
+        reader.fault(`home_rad[${j}]`, `home of joint ${j + 1} is inside its limits; here it is ${home[j]}.`);
+    });
   const amount = (key: string, unit: string): number | undefined => amountOf(reader, file, key, unit);
   const known: KnownOfRobot = present<KnownOfRobot>({
-    id, name, home_rad: home,
+    id,
+    name,
+    home_rad: home,
     vendor: file.vendor === undefined ? undefined : reader.text(file.vendor, "vendor", "the vendor"),
-    baseFromVendorWorld: file.vendor_world === undefined ? undefined : placed<"base", "vendor-world">(reader, file.vendor_world, "vendor_world", "the vendor's world"),
-    payload_kg: amount("payload_kg", "kg"), mass_kg: amount("mass_kg", "kg"), reach_m: amount("reach_m", "m"), repeatability_m: amount("repeatability_m", "m"),
-    maxTcpSpeed_mps: amount("max_tcp_speed_mps", "m/s"), shapeError_m: amount("shape_error_m", "m"),
+    baseFromVendorWorld:
+      file.vendor_world === undefined
+        ? undefined
+        : placed<"base", "vendor-world">(reader, file.vendor_world, "vendor_world", "the vendor's world"),
+    payload_kg: amount("payload_kg", "kg"),
+    mass_kg: amount("mass_kg", "kg"),
+    reach_m: amount("reach_m", "m"),
+    repeatability_m: amount("repeatability_m", "m"),
+    maxTcpSpeed_mps: amount("max_tcp_speed_mps", "m/s"),
+    shapeError_m: amount("shape_error_m", "m"),
     sources: file.sources === undefined ? undefined : textsOf(reader, file.sources),
     assumptions: [...ramps(list), ...(file.assumptions === undefined ? [] : sentences(reader, file.assumptions))],
   });
   if (flange === undefined || reader.faults.length > 0) return undefined;
-  return robotFromArm({ name: name ?? "", joints: joints.filter(joint => joint !== undefined), lastJointFromFlange: flange }, known);
+  return robotFromArm(
+    { name: name ?? "", joints: joints.filter(joint => joint !== undefined), lastJointFromFlange: flange },
+    known,
+  );
 }
 
 function jointOf(reader: Reader, value: unknown, index: number): Joint | undefined {
-  const path = `joints[${index}]`, what = `joint ${index + 1}`, file = reader.object(value, path, what);
+  const path = `joints[${index}]`;
+  const what = `joint ${index + 1}`;
+  const file = reader.object(value, path, what);
   if (file === undefined) return undefined;
   reader.onlyKeys(file, path, what, JOINT);
-  const name = file.name === undefined ? `joint_${index + 1}` : reader.name(file.name, `${path}.name`, `the name of ${what}`);
-  const at = placed<"parent", "joint">(reader, file, path, what), axis = reader.numbers(file.axis, `${path}.axis`, `the axis of ${what}`, "", 3);
-  if (axis !== undefined && !(norm(axis as Vector3) > 1e-6)) reader.fault(`${path}.axis`, `the axis of ${what} has a direction; here it is 0, 0, 0.`);
-  const of = (key: string, unit: string): number | undefined => reader.number(file[key], `${path}.${key}`, `the ${key} of ${what}`, unit);
-  const lower_rad = of("lower_rad", "rad"), upper_rad = of("upper_rad", "rad"), speed_rad_s = of("speed_rad_s", "rad/s");
-  const acceleration = file.acceleration_rad_s2 === undefined ? (speed_rad_s ?? 0) / RAMP_S : of("acceleration_rad_s2", "rad/s²");
+  const name =
+    file.name === undefined ? `joint_${index + 1}` : reader.name(file.name, `${path}.name`, `the name of ${what}`);
+  const at = placed<"parent", "joint">(reader, file, path, what);
+  const axis = reader.numbers(file.axis, `${path}.axis`, `the axis of ${what}`, "", 3);
+  if (axis !== undefined && !(norm(axis as Vector3) > 1e-6))
+    reader.fault(`${path}.axis`, `the axis of ${what} has a direction; here it is 0, 0, 0.`);
+  const of = (key: string, unit: string): number | undefined =>
+    reader.number(file[key], `${path}.${key}`, `the ${key} of ${what}`, unit);
+  const lower_rad = of("lower_rad", "rad");
+  const upper_rad = of("upper_rad", "rad");
+  const speed_rad_s = of("speed_rad_s", "rad/s");
+  const acceleration =
+    file.acceleration_rad_s2 === undefined ? (speed_rad_s ?? 0) / RAMP_S : of("acceleration_rad_s2", "rad/s²");
   const torque_Nm = file.torque_Nm === undefined ? undefined : of("torque_Nm", "N m");
-  if (lower_rad !== undefined && upper_rad !== undefined && !(lower_rad < upper_rad)) reader.fault(path, `the lower limit of ${what} is below its upper one; here they are ${lower_rad} and ${upper_rad}.`);
-  if (speed_rad_s !== undefined && !(speed_rad_s > 0)) reader.fault(`${path}.speed_rad_s`, `the speed of ${what} is above 0; here it is ${speed_rad_s}.`);
-  else if (acceleration !== undefined && !(acceleration > 0)) reader.fault(`${path}.acceleration_rad_s2`, `the acceleration of ${what} is above 0; here it is ${acceleration}.`);
-  if (file.kind !== undefined && file.kind !== "revolute" && file.kind !== "prismatic") reader.fault(`${path}.kind`, `the kind of ${what} is "revolute" or "prismatic"; here it is ${reader.shown(file.kind)}.`);
-  if (name === undefined || at === undefined || axis === undefined || lower_rad === undefined || upper_rad === undefined || speed_rad_s === undefined || acceleration === undefined) return undefined;
+  if (lower_rad !== undefined && upper_rad !== undefined && !(lower_rad < upper_rad))
+    reader.fault(
+      path,
+      `the lower limit of ${what} is below its upper one; here they are ${lower_rad} and ${upper_rad}.`,
+    );
+  if (speed_rad_s !== undefined && !(speed_rad_s > 0))
+    reader.fault(`${path}.speed_rad_s`, `the speed of ${what} is above 0; here it is ${speed_rad_s}.`);
+  else if (acceleration !== undefined && !(acceleration > 0))
+    reader.fault(`${path}.acceleration_rad_s2`, `the acceleration of ${what} is above 0; here it is ${acceleration}.`);
+  if (file.kind !== undefined && file.kind !== "revolute" && file.kind !== "prismatic")
+    reader.fault(
+      `${path}.kind`,
+      `the kind of ${what} is "revolute" or "prismatic"; here it is ${reader.shown(file.kind)}.`,
+    );
+  if (
+    name === undefined ||
+    at === undefined ||
+    axis === undefined ||
+    lower_rad === undefined ||
+    upper_rad === undefined ||
+    speed_rad_s === undefined ||
+    acceleration === undefined
+  )
+    return undefined;
   return {
-    name, ...(file.kind === "prismatic" ? { kind: file.kind } : {}), parentFromJoint: at, axis: scale(axis as Vector3, 1 / (norm(axis as Vector3) || 1)),
-    limits: { lower_rad, upper_rad, speed_rad_s, acceleration_rad_s2: acceleration, ...(torque_Nm === undefined ? {} : { torque_Nm }) },
+    name,
+    ...(file.kind === "prismatic" ? { kind: file.kind } : {}),
+    parentFromJoint: at,
+    axis: scale(axis as Vector3, 1 / (norm(axis as Vector3) || 1)),
+    limits: {
+      lower_rad,
+      upper_rad,
+      speed_rad_s,
+      acceleration_rad_s2: acceleration,
+      ...(torque_Nm === undefined ? {} : { torque_Nm }),
+    },
   };
 }
 
 /** `xyz_m` and `rpy_rad` of an object, R = Rz(yaw) Ry(pitch) Rx(roll); both 0 when left out. */
-function placed<Into extends string, From extends string>(reader: Reader, value: unknown, path: string, what: string): Pose<Into, From> | undefined {
+function placed<Into extends string, From extends string>(
+  reader: Reader,
+  value: unknown,
+  path: string,
+  what: string,
+): Pose<Into, From> | undefined {
   const file = reader.object(value, path, what);
   if (file === undefined) return undefined;
-  const xyz = file.xyz_m === undefined ? [0, 0, 0] : reader.numbers(file.xyz_m, `${path}.xyz_m`, `the place of ${what}`, "m", 3);
-  const rpy = file.rpy_rad === undefined ? [0, 0, 0] : reader.numbers(file.rpy_rad, `${path}.rpy_rad`, `the turn of ${what}`, "rad", 3);
+  const xyz =
+    file.xyz_m === undefined ? [0, 0, 0] : reader.numbers(file.xyz_m, `${path}.xyz_m`, `the place of ${what}`, "m", 3);
+  const rpy =
+    file.rpy_rad === undefined
+      ? [0, 0, 0]
+      : reader.numbers(file.rpy_rad, `${path}.rpy_rad`, `the turn of ${what}`, "rad", 3);
   if (xyz === undefined || rpy === undefined) return undefined;
-  return pose<Into, From>(xyz as Vector3, rpy.every(angle => angle === 0) ? [0, 0, 0, 1] : fromTurns("zyx", rpy[2]!, rpy[1]!, rpy[0]!));
+  return pose<Into, From>(
+    xyz as Vector3,
+    rpy.every(angle => angle === 0) ? [0, 0, 0, 1] : fromTurns("zyx", rpy[2]!, rpy[1]!, rpy[0]!),
+  );
 }
 
 /** A number that is not below 0, or nothing when the file leaves it out. */
 function amountOf(reader: Reader, file: Fields, key: string, unit: string): number | undefined {
   if (file[key] === undefined) return undefined;
   const number = reader.number(file[key], key, `the ${key}`, unit);
-  return number !== undefined && number < 0 ? reader.fault(key, `the ${key} is not below 0; here it is ${number}.`) : number;
+  return number !== undefined && number < 0
+    ? reader.fault(key, `the ${key} is not below 0; here it is ${number}.`)
+    : number;
 }
 
 /** The fields that hold something: what is left out must be absent, not undefined. */
@@ -104,12 +218,20 @@ const present = <T extends object>(fields: { readonly [K in keyof T]: T[K] | und
 
 function textsOf(reader: Reader, value: unknown): Record<string, string> {
   const fields = reader.object(value, "sources", "sources") ?? {};
-  return Object.fromEntries(Object.entries(fields).flatMap(([key, text]) => { const read = reader.text(text, `sources.${key}`, `the source of ${key}`); return read === undefined ? [] : [[key, read]]; }));
+  return Object.fromEntries(
+    Object.entries(fields).flatMap(([key, text]) => {
+      const read = reader.text(text, `sources.${key}`, `the source of ${key}`);
+      return read === undefined ? [] : [[key, read]];
+    }),
+  );
 }
 
 const sentences = (reader: Reader, value: unknown): string[] =>
-  (reader.list(value, "assumptions", "assumptions") ?? []).flatMap((text, i) => reader.text(text, `assumptions[${i}]`, `assumption ${i + 1}`) ?? []);
+  (reader.list(value, "assumptions", "assumptions") ?? []).flatMap(
+    (text, i) => reader.text(text, `assumptions[${i}]`, `assumption ${i + 1}`) ?? [],
+  );
 
 const ramps = (joints: readonly unknown[] | undefined): string[] =>
   joints?.some(joint => joint !== null && typeof joint === "object" && !("acceleration_rad_s2" in joint)) === true
-    ? [`Joint accelerations are not in the robot file: full joint speed is assumed to be reached in ${RAMP_S} s.`] : [];
+    ? [`Joint accelerations are not in the robot file: full joint speed is assumed to be reached in ${RAMP_S} s.`]
+    : [];

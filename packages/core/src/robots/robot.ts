@@ -10,8 +10,13 @@ import type { RobotForm, RobotPaint } from "./shapes/form.ts";
  */
 export interface OrthoParallelGeometry {
   readonly kind: "ortho-parallel";
-  readonly a1_m: number; readonly a2_m: number; readonly b_m: number;
-  readonly c1_m: number; readonly c2_m: number; readonly c3_m: number; readonly c4_m: number;
+  readonly a1_m: number;
+  readonly a2_m: number;
+  readonly b_m: number;
+  readonly c1_m: number;
+  readonly c2_m: number;
+  readonly c3_m: number;
+  readonly c4_m: number;
   readonly offsets_rad: readonly [number, number, number, number, number, number];
   readonly signs: readonly [number, number, number, number, number, number];
   /** The formula's flange (z out of the flange, all formula angles 0) to this robot's flange frame. */
@@ -27,7 +32,11 @@ export interface OrthoParallelGeometry {
  */
 export interface ThreeParallelGeometry {
   readonly kind: "three-parallel";
-  readonly a1_m: number; readonly b_m: number; readonly c2_m: number; readonly c3_m: number; readonly c5_m: number;
+  readonly a1_m: number;
+  readonly b_m: number;
+  readonly c2_m: number;
+  readonly c3_m: number;
+  readonly c5_m: number;
   readonly offsets_rad: readonly [number, number, number, number, number, number];
   readonly signs: readonly [number, number, number, number, number, number];
   readonly baseFromFormula: Pose<"base", "formula">;
@@ -45,11 +54,15 @@ export interface ThreeParallelGeometry {
  */
 export interface GeneralSixGeometry {
   readonly kind: "general-6r";
-  readonly a1_m: number; readonly b_m: number; readonly c2_m: number; readonly e_m: number;
+  readonly a1_m: number;
+  readonly b_m: number;
+  readonly c2_m: number;
+  readonly e_m: number;
   /** x and z from axis 3 to the centre [m]. */
   readonly centre_m: readonly [number, number];
   /** Unit vectors in the frame of link 3, θ4 = 0. */
-  readonly axis4: Vector3; readonly axis5: Vector3;
+  readonly axis4: Vector3;
+  readonly axis5: Vector3;
   /** Link 3 from link 5, θ4 = θ5 = 0: z along axis 6, x from the centre to it. */
   readonly turn: Quaternion;
   readonly offsets_rad: readonly [number, number, number, number, number, number];
@@ -68,7 +81,8 @@ export interface GeneralSixGeometry {
  */
 export interface SphericalSevenGeometry {
   readonly kind: "spherical-seven";
-  readonly c3_m: number; readonly c5_m: number;
+  readonly c3_m: number;
+  readonly c5_m: number;
   readonly offsets_rad: readonly [number, number, number, number, number, number, number];
   readonly signs: readonly [number, number, number, number, number, number, number];
   readonly baseFromFormula: Pose<"base", "formula">;
@@ -78,7 +92,12 @@ export interface SphericalSevenGeometry {
 }
 
 /** How the inverse of an arm is solved. Grows by new kinds. */
-export type KinematicFamily = OrthoParallelGeometry | ThreeParallelGeometry | SphericalSevenGeometry | GeneralSixGeometry | { readonly kind: "general" };
+export type KinematicFamily =
+  | OrthoParallelGeometry
+  | ThreeParallelGeometry
+  | SphericalSevenGeometry
+  | GeneralSixGeometry
+  | { readonly kind: "general" };
 
 /** How far from axis 2 the maker lets the wrist centre go. Poses beyond it are refused even where the links would reach. */
 export interface DeclaredWorkspace {

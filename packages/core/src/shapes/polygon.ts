@@ -5,7 +5,8 @@ export type Point2 = readonly [number, number];
 export function doubleArea(outline: readonly Point2[]): number {
   let sum = 0;
   for (let i = 0; i < outline.length; i++) {
-    const a = outline[i]!, b = outline[(i + 1) % outline.length]!;
+    const a = outline[i]!;
+    const b = outline[(i + 1) % outline.length]!;
     sum += a[0] * b[1] - a[1] * b[0];
   }
   return sum;
@@ -21,11 +22,14 @@ export function triangulate(outline: readonly Point2[]): number[] {
   const left: number[] = [];
   for (let i = 0; i < outline.length; i++) left.push(doubleArea(outline) >= 0 ? i : outline.length - 1 - i);
   const triangles: number[] = [];
-  for (let at = 0; left.length > 3;) {
+  for (let at = 0; left.length > 3; ) {
     const n = left.length;
     // The search goes on beside the last ear: long outlines of round faces would take n³ from the start each time.
     let tried = 0;
-    while (tried < n && !isEar(outline, left, at)) { at = (at + 1) % n; tried++; }
+    while (tried < n && !isEar(outline, left, at)) {
+      at = (at + 1) % n;
+      tried++;
+    }
     triangles.push(left[(at + n - 1) % n]!, left[at]!, left[(at + 1) % n]!);
     left.splice(at, 1);
     at = (at + 1) % left.length;
@@ -35,8 +39,12 @@ export function triangulate(outline: readonly Point2[]): number[] {
 
 function isEar(outline: readonly Point2[], left: readonly number[], i: number): boolean {
   const n = left.length;
-  const before = left[(i + n - 1) % n]!, here = left[i]!, after = left[(i + 1) % n]!;
-  const a = outline[before]!, b = outline[here]!, c = outline[after]!;
+  const before = left[(i + n - 1) % n]!;
+  const here = left[i]!;
+  const after = left[(i + 1) % n]!;
+  const a = outline[before]!;
+  const b = outline[here]!;
+  const c = outline[after]!;
   if (turn(a, b, c) <= 0) return false;
   return left.every(other => {
     if (other === before || other === here || other === after) return true;

@@ -8,19 +8,34 @@ import { doubleArea, triangulate, type Point2 } from "./polygon.ts";
 /** A box around the origin with edges of the given lengths [m]. */
 export function boxMesh(size_m: Vector3): TriangleMesh {
   const [x, y, z] = [size_m[0] / 2, size_m[1] / 2, size_m[2] / 2];
-  return extrudedMesh([[-x, -y], [x, -y], [x, y], [-x, y]], -z, z);
+  return extrudedMesh(
+    [
+      [-x, -y],
+      [x, -y],
+      [x, y],
+      [-x, y],
+    ],
+    -z,
+    z,
+  );
 }
 
 /** A cylinder along z, its middle in the origin. */
 export function cylinderMesh(radius_m: number, height_m: number, segments = 32): TriangleMesh {
-  return revolvedMesh([[radius_m, -height_m / 2], [radius_m, height_m / 2]], segments);
+  return revolvedMesh(
+    [
+      [radius_m, -height_m / 2],
+      [radius_m, height_m / 2],
+    ],
+    segments,
+  );
 }
 
 /** A ball around the origin, poles on z. */
 export function sphereMesh(radius_m: number, segments = 32, rings = 16): TriangleMesh {
   const profile: Point2[] = [];
   for (let i = 0; i <= rings; i++) {
-    const a = Math.PI * i / rings;
+    const a = (Math.PI * i) / rings;
     profile.push([i === 0 || i === rings ? 0 : radius_m * Math.sin(a), -radius_m * Math.cos(a)]);
   }
   return revolvedMesh(profile, segments);
@@ -30,7 +45,7 @@ export function sphereMesh(radius_m: number, segments = 32, rings = 16): Triangl
 export function torusMesh(radius_m: number, tube_m: number, segments = 64, tubeSegments = 24): TriangleMesh {
   const profile: Point2[] = [];
   for (let i = 0; i < tubeSegments; i++) {
-    const a = 2 * Math.PI * i / tubeSegments;
+    const a = (2 * Math.PI * i) / tubeSegments;
     profile.push([radius_m + tube_m * Math.cos(a), tube_m * Math.sin(a)]);
   }
   return revolvedMesh(profile, segments, { ring: true });
@@ -47,12 +62,16 @@ export function revolvedMesh(profile: readonly Point2[], segments = 32, { ring =
   const rows: Point2[] = [...profile];
   if (!ring && rows[0]![0] > 0) rows.unshift([0, rows[0]![1]]);
   if (!ring && rows.at(-1)![0] > 0) rows.push([0, rows.at(-1)![1]]);
-  const positions: number[] = [], starts: number[] = [];
+  const positions: number[] = [];
+  const starts: number[] = [];
   for (const [r, z] of rows) {
     starts.push(positions.length / 3);
-    if (r === 0) { positions.push(0, 0, z); continue; }
+    if (r === 0) {
+      positions.push(0, 0, z);
+      continue;
+    }
     for (let s = 0; s < segments; s++) {
-      const a = 2 * Math.PI * s / segments;
+      const a = (2 * Math.PI * s) / segments;
       positions.push(r * Math.cos(a), r * Math.sin(a), z);
     }
   }
@@ -70,7 +89,9 @@ export function revolvedMesh(profile: readonly Point2[], segments = 32, { ring =
 
 /** The prism between two heights over a simple outline (x, y) [m], concave ones included. */
 export function extrudedMesh(outline: readonly Point2[], from_m: number, to_m: number): TriangleMesh {
-  const n = outline.length, positions: number[] = [], indices: number[] = [];
+  const n = outline.length;
+  const positions: number[] = [];
+  const indices: number[] = [];
   for (const z of [from_m, to_m]) for (const [x, y] of outline) positions.push(x, y, z);
   const top = triangulate(outline);
   for (let t = 0; t < top.length; t += 3) {
@@ -78,7 +99,8 @@ export function extrudedMesh(outline: readonly Point2[], from_m: number, to_m: n
   }
   const clockwise = doubleArea(outline) < 0;
   for (let i = 0; i < n; i++) {
-    const a = clockwise ? (i + 1) % n : i, b = clockwise ? i : (i + 1) % n;
+    const a = clockwise ? (i + 1) % n : i;
+    const b = clockwise ? i : (i + 1) % n;
     indices.push(a, b, b + n, a, b + n, a + n);
   }
   return outward({ positions: Float64Array.from(positions), indices: Uint32Array.from(indices) });
@@ -88,6 +110,10 @@ export function extrudedMesh(outline: readonly Point2[], from_m: number, to_m: n
 function outward(mesh: TriangleMesh): TriangleMesh {
   if (meshVolume(mesh) >= 0) return mesh;
   const indices = mesh.indices.slice();
-  for (let t = 0; t < indices.length; t += 3) { const b = indices[t + 1]!; indices[t + 1] = indices[t + 2]!; indices[t + 2] = b; }
+  for (let t = 0; t < indices.length; t += 3) {
+    const b = indices[t + 1]!;
+    indices[t + 1] = indices[t + 2]!;
+    indices[t + 2] = b;
+  }
   return { positions: mesh.positions, indices };
 }

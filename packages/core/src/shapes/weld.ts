@@ -16,32 +16,57 @@ export interface Welded {
  * @param tolerance_m  0 merges equal coordinates only.
  */
 export function weldMesh(mesh: TriangleMesh, tolerance_m: number): Welded {
-  const { positions, indices } = mesh, count = positions.length / 3;
+  const { positions, indices } = mesh;
+  const count = positions.length / 3;
   const grid = new VertexGrid(count, tolerance_m, positions);
   const newOf = new Int32Array(count).fill(-1);
-  const kept = new Float64Array(positions.length), triangles = new Uint32Array(indices.length);
-  let vertices = 0, used = 0, merged = 0, dropped = 0;
+  const kept = new Float64Array(positions.length);
+  const triangles = new Uint32Array(indices.length);
+  let vertices = 0;
+  let used = 0;
+  let merged = 0;
+  let dropped = 0;
   for (let t = 0; t < indices.length; t += 3) {
     for (let c = 0; c < 3; c++) {
       const old = indices[t + c]!;
       if (newOf[old] !== -1) continue;
-      const x = positions[3 * old]!, y = positions[3 * old + 1]!, z = positions[3 * old + 2]!;
+      const x = positions[3 * old]!;
+      const y = positions[3 * old + 1]!;
+      const z = positions[3 * old + 2]!;
       const found = grid.find(kept, x, y, z);
-      if (found >= 0) { newOf[old] = found; merged++; continue; }
-      kept[3 * vertices] = x; kept[3 * vertices + 1] = y; kept[3 * vertices + 2] = z;
+      if (found >= 0) {
+        newOf[old] = found;
+        merged++;
+        continue;
+      }
+      kept[3 * vertices] = x;
+      kept[3 * vertices + 1] = y;
+      kept[3 * vertices + 2] = z;
       grid.add(vertices, x, y, z);
       newOf[old] = vertices++;
     }
-    const a = newOf[indices[t]!]!, b = newOf[indices[t + 1]!]!, c = newOf[indices[t + 2]!]!;
-    if (a === b || b === c || c === a || hasNoArea(kept, a, b, c)) { dropped++; continue; }
-    triangles[used] = a; triangles[used + 1] = b; triangles[used + 2] = c; used += 3;
+    const a = newOf[indices[t]!]!;
+    const b = newOf[indices[t + 1]!]!;
+    const c = newOf[indices[t + 2]!]!;
+    if (a === b || b === c || c === a || hasNoArea(kept, a, b, c)) {
+      dropped++;
+      continue;
+    }
+    triangles[used] = a;
+    triangles[used + 1] = b;
+    triangles[used + 2] = c;
+    used += 3;
   }
   return { mesh: { positions: kept.slice(0, 3 * vertices), indices: triangles.slice(0, used) }, merged, dropped };
 }
 
 function hasNoArea(p: Float64Array, a: number, b: number, c: number): boolean {
-  const ux = p[3 * b]! - p[3 * a]!, uy = p[3 * b + 1]! - p[3 * a + 1]!, uz = p[3 * b + 2]! - p[3 * a + 2]!;
-  const vx = p[3 * c]! - p[3 * a]!, vy = p[3 * c + 1]! - p[3 * a + 1]!, vz = p[3 * c + 2]! - p[3 * a + 2]!;
+  const ux = p[3 * b]! - p[3 * a]!;
+  const uy = p[3 * b + 1]! - p[3 * a + 1]!;
+  const uz = p[3 * b + 2]! - p[3 * a + 2]!;
+  const vx = p[3 * c]! - p[3 * a]!;
+  const vy = p[3 * c + 1]! - p[3 * a + 1]!;
+  const vz = p[3 * c + 2]! - p[3 * a + 2]!;
   return uy * vz - uz * vy === 0 && uz * vx - ux * vz === 0 && ux * vy - uy * vx === 0;
 }
 
@@ -76,18 +101,25 @@ class VertexGrid {
 
   /** The vertex of lowest index within the tolerance, or −1. */
   find(kept: Float64Array, x: number, y: number, z: number): number {
-    const r = this.#tolerance, h = this.#cell, r2 = r * r;
-    const i1 = Math.floor((x + r) / h), j1 = Math.floor((y + r) / h), k1 = Math.floor((z + r) / h);
+    const r = this.#tolerance;
+    const h = this.#cell;
+    const r2 = r * r;
+    const i1 = Math.floor((x + r) / h);
+    const j1 = Math.floor((y + r) / h);
+    const k1 = Math.floor((z + r) / h);
     let best = -1;
-    for (let i = Math.floor((x - r) / h); i <= i1; i++) for (let j = Math.floor((y - r) / h); j <= j1; j++) {
-      for (let k = Math.floor((z - r) / h); k <= k1; k++) {
-        for (let v = this.#heads[this.#slot(i, j, k)]!; v >= 0; v = this.#next[v]!) {
-          if (best >= 0 && v >= best) continue;
-          const dx = kept[3 * v]! - x, dy = kept[3 * v + 1]! - y, dz = kept[3 * v + 2]! - z;
-          if (dx * dx + dy * dy + dz * dz <= r2) best = v;
+    for (let i = Math.floor((x - r) / h); i <= i1; i++)
+      for (let j = Math.floor((y - r) / h); j <= j1; j++) {
+        for (let k = Math.floor((z - r) / h); k <= k1; k++) {
+          for (let v = this.#heads[this.#slot(i, j, k)]!; v >= 0; v = this.#next[v]!) {
+            if (best >= 0 && v >= best) continue;
+            const dx = kept[3 * v]! - x;
+            const dy = kept[3 * v + 1]! - y;
+            const dz = kept[3 * v + 2]! - z;
+            if (dx * dx + dy * dy + dz * dz <= r2) best = v;
+          }
         }
       }
-    }
     return best;
   }
 }

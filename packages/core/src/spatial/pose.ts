@@ -20,41 +20,56 @@ export function identity<Into extends string = string, From extends string = str
 }
 
 export function pose<Into extends string = string, From extends string = string>(
-  position: Vector3 = [0, 0, 0], quaternion: Quaternion = [0, 0, 0, 1],
+  position: Vector3 = [0, 0, 0],
+  quaternion: Quaternion = [0, 0, 0, 1],
 ): Pose<Into, From> {
   return { position, quaternion };
 }
 
 /** aFromC = aFromB · bFromC. `out` may be either input. */
 export function compose<A extends string, B extends string, C extends string>(
-  aFromB: Pose<A, B>, bFromC: Pose<NoInfer<B>, C>, out: Pose<NoInfer<A>, NoInfer<C>> = identity(),
+  aFromB: Pose<A, B>,
+  bFromC: Pose<NoInfer<B>, C>,
+  out: Pose<NoInfer<A>, NoInfer<C>> = identity(),
 ): Pose<A, C> {
-  const px = aFromB.position[0], py = aFromB.position[1], pz = aFromB.position[2];
+  const px = aFromB.position[0];
+  const py = aFromB.position[1];
+  const pz = aFromB.position[2];
   rotate(aFromB.quaternion, bFromC.position, out.position);
-  out.position[0] += px; out.position[1] += py; out.position[2] += pz;
+  out.position[0] += px;
+  out.position[1] += py;
+  out.position[2] += pz;
   multiply(aFromB.quaternion, bFromC.quaternion, out.quaternion);
   return out;
 }
 
 /** bFromA = aFromB⁻¹. `out` may be the input. */
 export function inverse<A extends string, B extends string>(
-  aFromB: Pose<A, B>, out: Pose<NoInfer<B>, NoInfer<A>> = identity(),
+  aFromB: Pose<A, B>,
+  out: Pose<NoInfer<B>, NoInfer<A>> = identity(),
 ): Pose<B, A> {
   conjugate(aFromB.quaternion, out.quaternion);
   rotate(out.quaternion, aFromB.position, out.position);
-  out.position[0] = -out.position[0]; out.position[1] = -out.position[1]; out.position[2] = -out.position[2];
+  out.position[0] = -out.position[0];
+  out.position[1] = -out.position[1];
+  out.position[2] = -out.position[2];
   return out;
 }
 
 /** p_into = intoFromFrom · p_from. `out` may be the point. */
 export function transformPoint(intoFromFrom: Pose, point: Vector3, out: Vector3 = [0, 0, 0]): Vector3 {
   rotate(intoFromFrom.quaternion, point, out);
-  out[0] += intoFromFrom.position[0]; out[1] += intoFromFrom.position[1]; out[2] += intoFromFrom.position[2];
+  out[0] += intoFromFrom.position[0];
+  out[1] += intoFromFrom.position[1];
+  out[2] += intoFromFrom.position[2];
   return out;
 }
 
 /** Copies `from` into `out`. */
-export function copyPose<A extends string, B extends string>(from: Pose<A, B>, out: Pose<NoInfer<A>, NoInfer<B>> = identity()): Pose<A, B> {
+export function copyPose<A extends string, B extends string>(
+  from: Pose<A, B>,
+  out: Pose<NoInfer<A>, NoInfer<B>> = identity(),
+): Pose<A, B> {
   for (let i = 0; i < 3; i++) out.position[i] = from.position[i]!;
   for (let i = 0; i < 4; i++) out.quaternion[i] = from.quaternion[i]!;
   return out;
@@ -62,8 +77,13 @@ export function copyPose<A extends string, B extends string>(from: Pose<A, B>, o
 
 /** Whether two poses differ by less than a distance [m] and an angle [rad, up to π]. Cheaper than measuring both. */
 export function posesAgree(a: Pose, b: Pose, within_m: number, within_rad: number): boolean {
-  const p = a.position, o = b.position, q = a.quaternion, r = b.quaternion;
-  const dx = p[0] - o[0], dy = p[1] - o[1], dz = p[2] - o[2];
+  const p = a.position;
+  const o = b.position;
+  const q = a.quaternion;
+  const r = b.quaternion;
+  const dx = p[0] - o[0];
+  const dy = p[1] - o[1];
+  const dz = p[2] - o[2];
   if (!(dx * dx + dy * dy + dz * dz < within_m * within_m)) return false;
   // The vector part of a⁻¹ b is as long as the sine of half the angle.
   const x = q[3] * r[0] - q[0] * r[3] - q[1] * r[2] + q[2] * r[1];

@@ -3,7 +3,19 @@ import { wrapAngle } from "./units.ts";
 import type { Vector3 } from "./vector.ts";
 
 /** Three turns one after the other, each about an axis of the frame as turned so far (intrinsic): "zyx" is Rz · Ry · Rx. */
-export type TurnSequence = "xyz" | "xzy" | "yxz" | "yzx" | "zxy" | "zyx" | "xyx" | "xzx" | "yxy" | "yzy" | "zxz" | "zyz";
+export type TurnSequence =
+  | "xyz"
+  | "xzy"
+  | "yxz"
+  | "yzx"
+  | "zxy"
+  | "zyx"
+  | "xyx"
+  | "xzx"
+  | "yxy"
+  | "yzy"
+  | "zxz"
+  | "zyz";
 
 const AXIS: Readonly<Record<string, Vector3>> = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
 const INDEX: Readonly<Record<string, 0 | 1 | 2>> = { x: 0, y: 1, z: 2 };
@@ -11,7 +23,13 @@ const INDEX: Readonly<Record<string, 0 | 1 | 2>> = { x: 0, y: 1, z: 2 };
 const BORDER_RAD = 1e-9;
 
 /** R = R_first(a) · R_second(b) · R_third(c). Radians. */
-export function fromTurns(sequence: TurnSequence, a_rad: number, b_rad: number, c_rad: number, out: Quaternion = [0, 0, 0, 1]): Quaternion {
+export function fromTurns(
+  sequence: TurnSequence,
+  a_rad: number,
+  b_rad: number,
+  c_rad: number,
+  out: Quaternion = [0, 0, 0, 1],
+): Quaternion {
   fromAxisAngle(AXIS[sequence[0]!]!, a_rad, out);
   multiply(out, fromAxisAngle(AXIS[sequence[1]!]!, b_rad), out);
   return multiply(out, fromAxisAngle(AXIS[sequence[2]!]!, c_rad), out);
@@ -27,13 +45,32 @@ export function fromTurns(sequence: TurnSequence, a_rad: number, b_rad: number, 
  */
 export function toTurns(sequence: TurnSequence, q: Quaternion, out: Vector3 = [0, 0, 0]): Vector3 {
   // The method counts turns about fixed axes: the same three in reverse order.
-  const i = INDEX[sequence[2]!]!, j = INDEX[sequence[1]!]!, last = INDEX[sequence[0]!]!, proper = i === last, k = proper ? 3 - i - j : last;
-  const sign = ((i - j) * (j - k) * (k - i)) / 2, w = q[3], qi = q[i]!, qj = q[j]!, qk = q[k]! * sign;
-  const a = proper ? w : w - qj, b = proper ? qi : qi + qk, c = proper ? qj : qj + w, d = proper ? qk : qk - qi;
-  const middle = 2 * Math.atan2(Math.sqrt(c * c + d * d), Math.sqrt(a * a + b * b)), plus = Math.atan2(b, a), minus = Math.atan2(d, c);
-  let third = plus - minus, first = plus + minus;
-  if (middle < BORDER_RAD) { third = 0; first = 2 * plus; }
-  else if (middle > Math.PI - BORDER_RAD) { third = 0; first = 2 * minus; }
+  const i = INDEX[sequence[2]!]!;
+  const j = INDEX[sequence[1]!]!;
+  const last = INDEX[sequence[0]!]!;
+  const proper = i === last;
+  const k = proper ? 3 - i - j : last;
+  const sign = ((i - j) * (j - k) * (k - i)) / 2;
+  const w = q[3];
+  const qi = q[i]!;
+  const qj = q[j]!;
+  const qk = q[k]! * sign;
+  const a = proper ? w : w - qj;
+  const b = proper ? qi : qi + qk;
+  const c = proper ? qj : qj + w;
+  const d = proper ? qk : qk - qi;
+  const middle = 2 * Math.atan2(Math.sqrt(c * c + d * d), Math.sqrt(a * a + b * b));
+  const plus = Math.atan2(b, a);
+  const minus = Math.atan2(d, c);
+  let third = plus - minus;
+  let first = plus + minus;
+  if (middle < BORDER_RAD) {
+    third = 0;
+    first = 2 * plus;
+  } else if (middle > Math.PI - BORDER_RAD) {
+    third = 0;
+    first = 2 * minus;
+  }
   out[0] = wrapAngle(proper ? first : first * sign);
   out[1] = proper ? middle : middle - Math.PI / 2;
   out[2] = wrapAngle(third);

@@ -1,5 +1,12 @@
 import type { Pose } from "../spatial/pose.ts";
-import { fromAxisAngle, fromMatrix, multiply, normalizeQuaternion, rotate, type Quaternion } from "../spatial/quaternion.ts";
+import {
+  fromAxisAngle,
+  fromMatrix,
+  multiply,
+  normalizeQuaternion,
+  rotate,
+  type Quaternion,
+} from "../spatial/quaternion.ts";
 import { cross, dot, norm, normalize, type Vector3 } from "../spatial/vector.ts";
 
 /** One direction for each top edge of a box-like piece, counter-clockwise from above, from the edge on its +x side (row N-52). */
@@ -7,7 +14,12 @@ export const AID_COUNT = 4;
 
 const SQUARE_ROOT_HALF = Math.SQRT1_2;
 /** Outward normals of the four sides in the piece's frame, z up. */
-const OUTWARD: readonly Vector3[] = [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]];
+const OUTWARD: readonly Vector3[] = [
+  [1, 0, 0],
+  [0, 1, 0],
+  [-1, 0, 0],
+  [0, -1, 0],
+];
 
 /** The aid after (+1) or before (−1) that one, round and round. */
 export const nextAid = (index: number, step: 1 | -1): number => (((index + step) % AID_COUNT) + AID_COUNT) % AID_COUNT;
@@ -15,7 +27,9 @@ export const nextAid = (index: number, step: 1 | -1): number => (((index + step)
 /** Tool axis of an aid in the world: 45° down and inward across the edge, square to it. Unit vector. */
 export function aidAxis(worldFromObject: Pose<"world", "object">, index: number, out: Vector3 = [0, 0, 0]): Vector3 {
   const n = OUTWARD[nextAid(index - 1, 1)]!;
-  out[0] = -n[0] * SQUARE_ROOT_HALF; out[1] = -n[1] * SQUARE_ROOT_HALF; out[2] = -SQUARE_ROOT_HALF;
+  out[0] = -n[0] * SQUARE_ROOT_HALF;
+  out[1] = -n[1] * SQUARE_ROOT_HALF;
+  out[2] = -SQUARE_ROOT_HALF;
   return rotate(worldFromObject.quaternion, out, out);
 }
 
@@ -28,10 +42,17 @@ export function aidAxis(worldFromObject: Pose<"world", "object">, index: number,
  * @param worldFromObject  piece with z up. Read only.
  * @param near             present orientation of the tip in the world.
  */
-export function aidOrientation(worldFromObject: Pose<"world", "object">, index: number, near?: Quaternion, out: Quaternion = [0, 0, 0, 1]): Quaternion {
+export function aidOrientation(
+  worldFromObject: Pose<"world", "object">,
+  index: number,
+  near?: Quaternion,
+  out: Quaternion = [0, 0, 0, 1],
+): Quaternion {
   const axis = aidAxis(worldFromObject, index);
   if (near !== undefined) return alignToolAxis(near, axis, out);
-  const n = OUTWARD[nextAid(index - 1, 1)]!, along = rotate(worldFromObject.quaternion, [-n[1], n[0], 0]), side = cross(axis, along);
+  const n = OUTWARD[nextAid(index - 1, 1)]!;
+  const along = rotate(worldFromObject.quaternion, [-n[1], n[0], 0]);
+  const side = cross(axis, along);
   return fromMatrix([along[0], side[0], axis[0], along[1], side[1], axis[1], along[2], side[2], axis[2]], out);
 }
 
@@ -43,7 +64,9 @@ export function aidOrientation(worldFromObject: Pose<"world", "object">, index: 
  * @param out   may be `present`.
  */
 export function alignToolAxis(present: Quaternion, axis: Vector3, out: Quaternion = [0, 0, 0, 1]): Quaternion {
-  const z = rotate(present, [0, 0, 1]), across = cross(z, axis), sine = norm(across);
+  const z = rotate(present, [0, 0, 1]);
+  const across = cross(z, axis);
+  const sine = norm(across);
   const about = sine > 1e-12 ? normalize(across) : rotate(present, [1, 0, 0]);
   const turn = fromAxisAngle(about, Math.atan2(sine, dot(z, axis)));
   return normalizeQuaternion(multiply(turn, present, out), out);

@@ -42,16 +42,35 @@ const SAME_WISH = 0.99;
  * @param out      receives the new angles, or those of `q` when nothing moves. May be `q`.
  * @param scratch  working memory; with it a step that is not blocked allocates nothing but its answer.
  */
-export function jogStep(cell: JogCell, q: ArrayLike<number>, command: JogCommand, dt_s: number, out: Float64Array, scratch: JogScratch = jogScratch()): Jogged {
+export function jogStep(
+  cell: JogCell,
+  q: ArrayLike<number>,
+  command: JogCommand,
+  dt_s: number,
+  out: Float64Array,
+  scratch: JogScratch = jogScratch(),
+): Jogged {
   if (command.kind === "joints") return jogJoints(cell.robot, q, command.speed_rad_s, dt_s, out);
   for (let j = 0; j < q.length; j++) out[j] = q[j]!;
   const { linear, angular, worldFromTcp } = scratch;
-  if (!command.linear_mps.every(Number.isFinite) || !command.angular_rad_s.every(Number.isFinite) || !(dt_s > 0) || !out.every(Number.isFinite)) {
-    return refused({ kind: "not-a-pose", because: "A jog speed, its duration or a joint angle is not a finite number." });
+  if (
+    !command.linear_mps.every(Number.isFinite) ||
+    !command.angular_rad_s.every(Number.isFinite) ||
+    !(dt_s > 0) ||
+    !out.every(Number.isFinite)
+  ) {
+    return refused({
+      kind: "not-a-pose",
+      because: "A jog speed, its duration or a joint angle is not a finite number.",
+    });
   }
   fitScratch(scratch, cell.robot);
   scratch.start.set(out);
-  compose(cell.worldFromBase, flangePose(cell.robot.arm, out, scratch.baseFromFlange, scratch.arm), scratch.worldFromFlange);
+  compose(
+    cell.worldFromBase,
+    flangePose(cell.robot.arm, out, scratch.baseFromFlange, scratch.arm),
+    scratch.worldFromFlange,
+  );
   if (scratch.numeric !== null) noteStart(scratch.numeric, scratch.baseFromFlange);
   compose(scratch.worldFromFlange, cell.flangeFromTcp, worldFromTcp);
   inverse(cell.worldFromBase, scratch.baseFromWorld);
@@ -62,43 +81,75 @@ export function jogStep(cell: JogCell, q: ArrayLike<number>, command: JogCommand
 
   forgetOtherWish(scratch);
   const whole = towards(cell, frame, true, true, true, true, dt_s, out, scratch);
-  let jogged: Jogged = typeof whole === "number" ? { kind: "moved", fraction: whole, blocked: NONE } : oneByOne(cell, frame, dt_s, out, scratch);
+  let jogged: Jogged =
+    typeof whole === "number"
+      ? { kind: "moved", fraction: whole, blocked: NONE }
+      : oneByOne(cell, frame, dt_s, out, scratch);
   if (jogged.kind === "blocked") jogged = upToTheEdge(cell, frame, dt_s, out, scratch, jogged.blocked);
   if (jogged.kind === "blocked" || !undoesTheLast(scratch)) return jogged;
   out.set(scratch.start);
-  return { kind: "blocked", blocked: refused(NEITHER_WAY).blocked.filter(({ coordinate }, c) => (c < 3 ? linear[c] !== 0 : norm(angular) !== 0) && !jogged.blocked.some(other => other.coordinate === coordinate)).concat(jogged.blocked) };
+  return {
+    kind: "blocked",
+    blocked: refused(NEITHER_WAY)
+      .blocked.filter(
+        ({ coordinate }, c) =>
+          (c < 3 ? linear[c] !== 0 : norm(angular) !== 0) &&
+          !jogged.blocked.some(other => other.coordinate === coordinate),
+      )
+      .concat(jogged.blocked),
+  };
 }
 
 /** Halves the step until the largest share of it that stays in reach is known, and takes that. */
-function upToTheEdge(cell: JogCell, frame: Quaternion, dt_s: number, out: Float64Array, scratch: JogScratch, blocked: readonly JogBlock[]): Jogged {
-  const { linear, angular, masked } = scratch, length = norm(linear) + norm(angular);
+function upToTheEdge(
+  cell: JogCell,
+  frame: Quaternion,
+  dt_s: number,
+  out: Float64Array,
+  scratch: JogScratch,
+  blocked: readonly JogBlock[],
+): Jogged {
+  const { linear, angular, masked } = scratch;
+  const length = norm(linear) + norm(angular);
   rotate(frame, linear, masked);
-  let inside = 0, outside = 1;
+  let inside = 0;
+  let outside = 1;
   while ((outside - inside) * length > AT_THE_EDGE / 2) {
     const middle = (inside + outside) / 2;
-    if (solveAt(cell, masked, true, middle, scratch) === undefined) inside = middle; else outside = middle;
+    if (solveAt(cell, masked, true, middle, scratch) === undefined) inside = middle;
+    else outside = middle;
   }
   if (inside * length < AT_THE_EDGE) return { kind: "blocked", blocked };
   scale(linear, inside, linear);
   scale(angular, inside, angular);
   const part = towards(cell, frame, true, true, true, true, dt_s, out, scratch);
-  return typeof part === "number" ? { kind: "moved", fraction: part * inside, blocked: NONE } : { kind: "blocked", blocked };
+  return typeof part === "number"
+    ? { kind: "moved", fraction: part * inside, blocked: NONE }
+    : { kind: "blocked", blocked };
 }
 
 /** Tries x, y, z and rotation on top of what already goes, again after each success: one may make room for another. */
 function oneByOne(cell: JogCell, frame: Quaternion, dt_s: number, out: Float64Array, scratch: JogScratch): Jogged {
   const { linear, angular } = scratch;
-  const asked = [linear[0] !== 0, linear[1] !== 0, linear[2] !== 0, norm(angular) !== 0], goes = [false, false, false, false];
+  const asked = [linear[0] !== 0, linear[1] !== 0, linear[2] !== 0, norm(angular) !== 0];
+  const goes = [false, false, false, false];
   const why: (Reach | undefined)[] = [];
-  let fraction = 0, progress = true;
+  let fraction = 0;
+  let progress = true;
   while (progress) {
     progress = false;
     for (let c = 0; c < 4; c++) {
       if (!asked[c]! || goes[c]!) continue;
       goes[c] = true;
       const part = towards(cell, frame, goes[0]!, goes[1]!, goes[2]!, goes[3]!, dt_s, out, scratch);
-      if (typeof part === "number") { fraction = part; progress = true; why[c] = undefined; }
-      else { goes[c] = false; why[c] = part; }
+      if (typeof part === "number") {
+        fraction = part;
+        progress = true;
+        why[c] = undefined;
+      } else {
+        goes[c] = false;
+        why[c] = part;
+      }
     }
   }
   const blocked: JogBlock[] = [];
@@ -113,28 +164,55 @@ function oneByOne(cell: JogCell, frame: Quaternion, dt_s: number, out: Float64Ar
  * The chosen coordinates of the wanted step, shortened until every joint keeps its speed.
  * Writes `out` and returns the fraction taken, or returns why the pose cannot be had and leaves `out` alone.
  */
-function towards(cell: JogCell, frame: Quaternion, x: boolean, y: boolean, z: boolean, turns: boolean, dt_s: number, out: Float64Array, scratch: JogScratch): number | Reach {
+function towards(
+  cell: JogCell,
+  frame: Quaternion,
+  x: boolean,
+  y: boolean,
+  z: boolean,
+  turns: boolean,
+  dt_s: number,
+  out: Float64Array,
+  scratch: JogScratch,
+): number | Reach {
   const { masked, linear, start, best, numeric } = scratch;
-  masked[0] = x ? linear[0] : 0; masked[1] = y ? linear[1] : 0; masked[2] = z ? linear[2] : 0;
+  masked[0] = x ? linear[0] : 0;
+  masked[1] = y ? linear[1] : 0;
+  masked[2] = z ? linear[2] : 0;
   rotate(frame, masked, masked);
-  const length = norm(masked) + (turns ? norm(scratch.angular) : 0), { family } = cell.robot;
-  const shortest = numeric !== null ? ALL_BUT_STANDING / length : family.kind === "three-parallel" ? shortestOfThreeParallel(family, start) / length : SHORTEST;
+  const length = norm(masked) + (turns ? norm(scratch.angular) : 0);
+  const { family } = cell.robot;
+  const shortest =
+    numeric !== null
+      ? ALL_BUT_STANDING / length
+      : family.kind === "three-parallel"
+        ? shortestOfThreeParallel(family, start) / length
+        : SHORTEST;
   let ends = false;
-  for (let fraction = 1; fraction >= shortest;) {
+  for (let fraction = 1; fraction >= shortest; ) {
     const reach = solveAt(cell, masked, turns, fraction, scratch);
     if (reach !== undefined) return reach;
-    if (family.kind === "three-parallel" && endsThere(family, scratch)) { ends = true; fraction *= 0.5; continue; }
+    if (family.kind === "three-parallel" && endsThere(family, scratch)) {
+      ends = true;
+      fraction *= 0.5;
+      continue;
+    }
     const load = speedLoad(cell.robot, start, best, dt_s);
     if (load <= 1) {
       if (ends && fraction * length < ALL_BUT_STANDING) return ENDS_HERE;
       const turned = fraction < 1 && fraction * length < ALL_BUT_STANDING && turnInPlace(cell, dt_s, out, scratch);
       if (turned !== false) return turned === true ? 0 : turned;
-      if (family.kind === "three-parallel" && fraction < 1 && fraction * length < ALL_BUT_STANDING && load < LEAPT) return ENDS_HERE;
+      if (family.kind === "three-parallel" && fraction < 1 && fraction * length < ALL_BUT_STANDING && load < LEAPT)
+        return ENDS_HERE;
       out.set(best);
       scratch.turnedNow.fill(0);
       return fraction;
     }
-    if (numeric === null) { scratch.turns[0] = best[0]! - start[0]!; scratch.turns[1] = best[3]! - start[3]!; scratch.turns[2] = best[5]! - start[5]!; }
+    if (numeric === null) {
+      scratch.turns[0] = best[0]! - start[0]!;
+      scratch.turns[1] = best[3]! - start[3]!;
+      scratch.turns[2] = best[5]! - start[5]!;
+    }
     fraction *= Math.max(0.05, Math.min(0.9, 0.98 / load));
   }
   if (ends) return ENDS_HERE;
@@ -144,9 +222,14 @@ function towards(cell: JogCell, frame: Quaternion, x: boolean, y: boolean, z: bo
 
 /** On a singularity: turns joints while the tip stands still, into `out`. False where no joint is free; why not, where one stands at its limit. */
 function turnInPlace({ robot }: JogCell, dt_s: number, out: Float64Array, scratch: JogScratch): boolean | Reach {
-  const { family } = robot, { start, best, turnedNow, numeric } = scratch;
-  const turned = numeric !== null ? turnNumeric(robot, numeric, dt_s, scratch)
-    : family.kind === "three-parallel" ? turnThreeParallel(robot, family, dt_s, scratch) : family.kind === "ortho-parallel" && turnOrthoParallel(robot, family, dt_s, scratch);
+  const { family } = robot;
+  const { start, best, turnedNow, numeric } = scratch;
+  const turned =
+    numeric !== null
+      ? turnNumeric(robot, numeric, dt_s, scratch)
+      : family.kind === "three-parallel"
+        ? turnThreeParallel(robot, family, dt_s, scratch)
+        : family.kind === "ortho-parallel" && turnOrthoParallel(robot, family, dt_s, scratch);
   if (turned !== true) return turned;
   out.set(best);
   for (let j = 0; j < out.length; j++) turnedNow[j] = best[j]! - start[j]!;
@@ -154,22 +237,45 @@ function turnInPlace({ robot }: JogCell, dt_s: number, out: Float64Array, scratc
 }
 
 /** Solves the start pose moved by that fraction; `best` receives the solution nearest to the start, or a reason is returned. */
-function solveAt(cell: JogCell, shift: Vector3, turns: boolean, fraction: number, scratch: JogScratch): Reach | undefined {
-  const { worldFromTcp, wanted, angular, axis, turn, baseFromFlange, numeric } = scratch, { robot } = cell, { family } = robot;
+function solveAt(
+  cell: JogCell,
+  shift: Vector3,
+  turns: boolean,
+  fraction: number,
+  scratch: JogScratch,
+): Reach | undefined {
+  const { worldFromTcp, wanted, angular, axis, turn, baseFromFlange, numeric } = scratch;
+  const { robot } = cell;
+  const { family } = robot;
   for (let i = 0; i < 3; i++) wanted.position[i] = worldFromTcp.position[i]! + shift[i]! * fraction;
   fromAxisAngle(normalize(angular, axis), turns ? norm(angular) * fraction : 0, turn);
   normalizeQuaternion(multiply(turn, worldFromTcp.quaternion, wanted.quaternion), wanted.quaternion);
   compose(scratch.baseFromWorld, wanted, scratch.baseFromTcp);
   compose(scratch.baseFromTcp, scratch.tcpFromFlange, baseFromFlange);
   if (numeric !== null) return continueNumeric(robot, numeric, scratch);
-  return family.kind === "three-parallel" ? continueThreeParallel(robot, family, scratch) : family.kind === "ortho-parallel" ? continueOrthoParallel(robot, family, scratch) : undefined;
+  return family.kind === "three-parallel"
+    ? continueThreeParallel(robot, family, scratch)
+    : family.kind === "ortho-parallel"
+      ? continueOrthoParallel(robot, family, scratch)
+      : undefined;
 }
 
-const NEITHER_WAY: Reach = { kind: "no-solver", because: "The arm stands on a singularity; turned in place to either side it meets a limit, and the tip would not move." };
+const NEITHER_WAY: Reach = {
+  kind: "no-solver",
+  because:
+    "The arm stands on a singularity; turned in place to either side it meets a limit, and the tip would not move.",
+};
 
-const ENDS_HERE: Reach = { kind: "no-solver", because: "In this posture the arm goes no farther that way: it is stretched, folded or stands too near to axis 1, and would have to turn over into another posture." };
+const ENDS_HERE: Reach = {
+  kind: "no-solver",
+  because:
+    "In this posture the arm goes no farther that way: it is stretched, folded or stands too near to axis 1, and would have to turn over into another posture.",
+};
 
-const NO_WAY_OUT: Reach = { kind: "no-solver", because: "The arm stands on a singularity, and no turn in place of its joints brings the tip that way." };
+const NO_WAY_OUT: Reach = {
+  kind: "no-solver",
+  because: "The arm stands on a singularity, and no turn in place of its joints brings the tip that way.",
+};
 
 /** Whether this step turned in place against the last one; if not, it is the last one from now on. Without it, a limit on either side would rock the arm for ever. */
 function undoesTheLast({ turnedNow, turnedLast }: JogScratch): boolean {
@@ -182,10 +288,15 @@ function undoesTheLast({ turnedNow, turnedLast }: JogScratch): boolean {
 
 /** A turn in place is held against the next one only while the hand goes on asking for about the same. */
 function forgetOtherWish({ linear, angular, turnedFor, turnedLast }: JogScratch): void {
-  let along = 0, now = 0, before = 0;
+  let along = 0;
+  let now = 0;
+  let before = 0;
   for (let i = 0; i < 6; i++) {
-    const value = i < 3 ? linear[i]! : angular[i - 3]!, last = turnedFor[i]!;
-    along += value * last; now += value * value; before += last * last;
+    const value = i < 3 ? linear[i]! : angular[i - 3]!;
+    const last = turnedFor[i]!;
+    along += value * last;
+    now += value * value;
+    before += last * last;
     turnedFor[i] = value;
   }
   if (!(along > SAME_WISH * Math.sqrt(now * before))) turnedLast.fill(0);
@@ -194,12 +305,23 @@ function forgetOtherWish({ linear, angular, turnedFor, turnedLast }: JogScratch)
 /** Unit quaternion worldFromFrame of the axes a jog runs along. */
 function frameOf(frame: JogFrame, cell: JogCell, worldFromTcp: Pose<"world", "tcp">): Quaternion {
   switch (frame) {
-    case "world": return WORLD;
-    case "base": return cell.worldFromBase.quaternion;
-    case "tool": return worldFromTcp.quaternion;
-    default: return frame;
+    case "world":
+      return WORLD;
+    case "base":
+      return cell.worldFromBase.quaternion;
+    case "tool":
+      return worldFromTcp.quaternion;
+    default:
+      return frame;
   }
 }
 const WORLD: Quaternion = [0, 0, 0, 1];
 
-const refused = (reach: Reach): Jogged => ({ kind: "blocked", blocked: (["x", "y", "z", "rotation"] as const).map(coordinate => ({ coordinate, reach, sentence: explainReach(reach) })) });
+const refused = (reach: Reach): Jogged => ({
+  kind: "blocked",
+  blocked: (["x", "y", "z", "rotation"] as const).map(coordinate => ({
+    coordinate,
+    reach,
+    sentence: explainReach(reach),
+  })),
+});

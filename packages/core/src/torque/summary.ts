@@ -4,7 +4,12 @@ const load = ({ torque_Nm, limit_Nm }: JointTorque): number => (limit_Nm === nul
 
 /** The joint that uses most of what it can give; undefined where torques are unknown. */
 export const hardestJoint = (torque: TorqueVerdict): JointTorque | undefined =>
-  (torque.kind === "known" ? torque.joints.reduce<JointTorque | undefined>((most, each) => (most === undefined || load(each) > load(most) ? each : most), undefined) : undefined);
+  torque.kind === "known"
+    ? torque.joints.reduce<JointTorque | undefined>(
+        (most, each) => (most === undefined || load(each) > load(most) ? each : most),
+        undefined,
+      )
+    : undefined;
 
 /** One sentence on the torques of a program. */
 export function torqueSummary(torque: TorqueVerdict): string {

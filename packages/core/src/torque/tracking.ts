@@ -46,7 +46,9 @@ export interface TrackingRow {
   /** Time in which some joint gives all it can [s]. */
   readonly saturated_s: number;
 }
-export type Tracking = { readonly kind: "known"; readonly rows: readonly TrackingRow[] } | { readonly kind: "unknown"; readonly sentence: string };
+export type Tracking =
+  | { readonly kind: "known"; readonly rows: readonly TrackingRow[] }
+  | { readonly kind: "unknown"; readonly sentence: string };
 
 const STEP_S = 2.5e-4;
 
@@ -57,40 +59,93 @@ const STEP_S = 2.5e-4;
  *
  * Reference at override s:  q(s t), s q̇(s t), s² q̈(s t). Nothing but masses and saturation is in it: no friction, no play, no sensor.
  */
-export function trackingError(plan: Plan, robot: Robot, program: Pick<Program, "steps" | "routines">, options: TrackingOptions): Tracking {
+export function trackingError(
+  plan: Plan,
+  robot: Robot,
+  program: Pick<Program, "steps" | "routines">,
+  options: TrackingOptions,
+): Tracking {
   const known = torqueModel(robot, options.worldFromBase);
   if (known.kind === "unknown") return known;
-  const loads = loadsAlong(plan, program, options.payload), models = loads.map(load => known.carrying(load)), believed = options.loadUnknown === true ? models.map(() => known.carrying(undefined)) : models;
-  return { kind: "known", rows: plan.segments.length === 0 ? [] : options.overrides.map(override => drive(plan, robot, models, believed, known.limits_Nm, override, options)) };
+  const loads = loadsAlong(plan, program, options.payload);
+  const models = loads.map(load => known.carrying(load));
+  const believed = options.loadUnknown === true ? models.map(() => known.carrying(undefined)) : models;
+  return {
+    kind: "known",
+    rows:
+      plan.segments.length === 0
+        ? []
+        : options.overrides.map(override => drive(plan, robot, models, believed, known.limits_Nm, override, options)),
+  };
 }
 
-function drive(plan: Plan, robot: Robot, models: readonly DynamicsModel[], believed: readonly DynamicsModel[], limits_Nm: Float64Array, override: number, options: TrackingOptions): TrackingRow {
-  const { control, step_s = STEP_S } = options, n = limits_Nm.length, wanted = jointState(n), bare = models[0]!;
-  const scratch = dynamicsScratch(bare), working = computedTorqueScratch(bare), torque = new Float64Array(n), weight = torque.slice(), none = torque.slice(), qdd = torque.slice();
-  const arm = armScratch(), is = identity<"base", "flange">(), should = identity<"base", "flange">();
+function drive(
+  plan: Plan,
+  robot: Robot,
+  models: readonly DynamicsModel[],
+  believed: readonly DynamicsModel[],
+  limits_Nm: Float64Array,
+  override: number,
+  options: TrackingOptions,
+): TrackingRow {
+  const { control, step_s = STEP_S } = options;
+  const n = limits_Nm.length;
+  const wanted = jointState(n);
+  const bare = models[0]!;
+  const scratch = dynamicsScratch(bare);
+  const working = computedTorqueScratch(bare);
+  const torque = new Float64Array(n);
+  const weight = torque.slice();
+  const none = torque.slice();
+  const qdd = torque.slice();
+  const arm = armScratch();
+  const is = identity<"base", "flange">();
+  const should = identity<"base", "flange">();
   const reference = (t_s: number): number => {
-    const index = segmentAt(plan, t_s * override), segment = plan.segments[index]!;
+    const index = segmentAt(plan, t_s * override);
+    const segment = plan.segments[index]!;
     instantAt(segment, t_s * override - segment.start_s, wanted);
-    for (let j = 0; j < n; j++) { wanted.qd[j]! *= override; wanted.qdd[j]! *= override * override; }
+    for (let j = 0; j < n; j++) {
+      wanted.qd[j]! *= override;
+      wanted.qdd[j]! *= override * override;
+    }
     return index;
   };
-  const first = reference(0), q = wanted.q.slice(), qd = wanted.qd.slice(), gains = gainsOf(control, believed[first]!, q, limits_Nm);
-  const duration_s = plan.duration_s / override, steps = Math.ceil(duration_s / step_s);
-  let worst_m = 0, squares = 0, worstJoint_rad = 0, saturated_s = 0;
+  const first = reference(0);
+  const q = wanted.q.slice();
+  const qd = wanted.qd.slice();
+  const gains = gainsOf(control, believed[first]!, q, limits_Nm);
+  const duration_s = plan.duration_s / override;
+  const steps = Math.ceil(duration_s / step_s);
+  let worst_m = 0;
+  let squares = 0;
+  let worstJoint_rad = 0;
+  let saturated_s = 0;
   for (let k = 0; k < steps; k++) {
     const index = reference(k * step_s);
-    if (control.kind === "computed-torque") computedTorque(believed[index]!, wanted, q, qd, control.bandwidth_rad_s, limits_Nm, torque, working);
+    if (control.kind === "computed-torque")
+      computedTorque(believed[index]!, wanted, q, qd, control.bandwidth_rad_s, limits_Nm, torque, working);
     else {
       if (control.kind === "drives") inverseDynamics(believed[index]!, q, none, none, weight, scratch);
-      for (let j = 0; j < n; j++) torque[j] = clamped(driveTorque(gains[j]!, wanted.q[j]!, q[j]!, wanted.qd[j]!, qd[j]!) + weight[j]!, limits_Nm[j]!);
+      for (let j = 0; j < n; j++)
+        torque[j] = clamped(
+          driveTorque(gains[j]!, wanted.q[j]!, q[j]!, wanted.qd[j]!, qd[j]!) + weight[j]!,
+          limits_Nm[j]!,
+        );
     }
     let full = false;
     for (let j = 0; j < n; j++) full ||= Math.abs(torque[j]!) >= limits_Nm[j]!;
     if (full) saturated_s += step_s;
     forwardDynamics(models[index]!, q, qd, torque, qdd, scratch);
-    for (let j = 0; j < n; j++) { qd[j]! += qdd[j]! * step_s; q[j]! += qd[j]! * step_s; }
+    for (let j = 0; j < n; j++) {
+      qd[j]! += qdd[j]! * step_s;
+      q[j]! += qd[j]! * step_s;
+    }
     reference((k + 1) * step_s);
-    const off_m = distance(flangePose(robot.arm, q, is, arm).position, flangePose(robot.arm, wanted.q, should, arm).position);
+    const off_m = distance(
+      flangePose(robot.arm, q, is, arm).position,
+      flangePose(robot.arm, wanted.q, should, arm).position,
+    );
     worst_m = Math.max(worst_m, off_m);
     squares += off_m * off_m;
     for (let j = 0; j < n; j++) worstJoint_rad = Math.max(worstJoint_rad, Math.abs(q[j]! - wanted.q[j]!));
@@ -100,9 +155,17 @@ function drive(plan: Plan, robot: Robot, models: readonly DynamicsModel[], belie
 
 const clamped = (torque: number, limit: number): number => Math.max(-limit, Math.min(limit, torque));
 
-function gainsOf(control: Control, model: DynamicsModel, q: Float64Array, limits_Nm: Float64Array): readonly DriveGains[] {
+function gainsOf(
+  control: Control,
+  model: DynamicsModel,
+  q: Float64Array,
+  limits_Nm: Float64Array,
+): readonly DriveGains[] {
   if (control.kind === "computed-torque") return [];
   if (control.kind === "gains") return control.gains;
-  const n = q.length, mass = massMatrix(model, q);
-  return Array.from({ length: n }, (_, j) => armDriveGains(mass[j * n + j]! * control.bandwidth_rad_s ** 2, mass[j * n + j]!, limits_Nm[j]!));
+  const n = q.length;
+  const mass = massMatrix(model, q);
+  return Array.from({ length: n }, (_, j) =>
+    armDriveGains(mass[j * n + j]! * control.bandwidth_rad_s ** 2, mass[j * n + j]!, limits_Nm[j]!),
+  );
 }

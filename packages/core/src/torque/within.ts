@@ -41,8 +41,18 @@ export function shareWithin(torque_Nm: number, weight_Nm: number, limit_Nm: numb
  * @param models  one for each segment.
  * @returns one peak a joint; joints whose limit is not known have an infinite one.
  */
-export function torquePeaks(segments: readonly Segment[], models: readonly DynamicsModel[], limits_Nm: Float64Array, period_s = TORQUE_PERIOD_S): TorquePeak[] {
-  const n = limits_Nm.length, peaks = new Array<TorquePeak | undefined>(n).fill(undefined), state = jointState(n), none = new Float64Array(n), torque = none.slice(), weight = none.slice();
+export function torquePeaks(
+  segments: readonly Segment[],
+  models: readonly DynamicsModel[],
+  limits_Nm: Float64Array,
+  period_s = TORQUE_PERIOD_S,
+): TorquePeak[] {
+  const n = limits_Nm.length;
+  const peaks = new Array<TorquePeak | undefined>(n).fill(undefined);
+  const state = jointState(n);
+  const none = new Float64Array(n);
+  const torque = none.slice();
+  const weight = none.slice();
   const scratch = models[0] === undefined ? undefined : dynamicsScratch(models[0]);
   segments.forEach((segment, s) => {
     const model = models[s]!;
@@ -50,12 +60,29 @@ export function torquePeaks(segments: readonly Segment[], models: readonly Dynam
       inverseDynamics(model, state.q, state.qd, state.qdd, torque, scratch);
       let weighed = false;
       for (let j = 0; j < n; j++) {
-        const most = peaks[j], value = torque[j]!, limit_Nm = limits_Nm[j]!;
+        const most = peaks[j];
+        const value = torque[j]!;
+        const limit_Nm = limits_Nm[j]!;
         if (most !== undefined && Math.abs(value) <= limit_Nm && Math.abs(value) <= Math.abs(most.torque_Nm)) continue;
-        if (!weighed) { inverseDynamics(model, state.q, none, none, weight, scratch); weighed = true; }
+        if (!weighed) {
+          inverseDynamics(model, state.q, none, none, weight, scratch);
+          weighed = true;
+        }
         const share = shareWithin(value, weight[j]!, limit_Nm);
-        if (most !== undefined && (share > most.share || (share === most.share && Math.abs(value) <= Math.abs(most.torque_Nm)))) continue;
-        peaks[j] = { joint: j + 1, segment: s, t_s: state.t_s, torque_Nm: value, weight_Nm: weight[j]!, limit_Nm, share };
+        if (
+          most !== undefined &&
+          (share > most.share || (share === most.share && Math.abs(value) <= Math.abs(most.torque_Nm)))
+        )
+          continue;
+        peaks[j] = {
+          joint: j + 1,
+          segment: s,
+          t_s: state.t_s,
+          torque_Nm: value,
+          weight_Nm: weight[j]!,
+          limit_Nm,
+          share,
+        };
       }
     });
   });
@@ -69,9 +96,13 @@ export const worstPeak = (peaks: readonly TorquePeak[]): TorquePeak | undefined 
 /** The motions at a share of their speed: the same way, all times 1/share as long. */
 export const slowedBy = (parts: readonly MotionSegment[], share: number): MotionSegment[] =>
   parts.map(part => ({
-    ...part, start_s: part.start_s / share, duration_s: part.duration_s / share,
-    times_s: part.times_s.map(t_s => t_s / share), qd_rad_s: part.qd_rad_s.map(speed => speed * share),
+    ...part,
+    start_s: part.start_s / share,
+    duration_s: part.duration_s / share,
+    times_s: part.times_s.map(t_s => t_s / share),
+    qd_rad_s: part.qd_rad_s.map(speed => speed * share),
   }));
 
 /** Share of speed at which motions with that peak keep a little within the limits. */
-export const keptShare = ({ torque_Nm, weight_Nm, limit_Nm }: TorquePeak): number => shareWithin(torque_Nm, weight_Nm, limit_Nm * TORQUE_SHARE);
+export const keptShare = ({ torque_Nm, weight_Nm, limit_Nm }: TorquePeak): number =>
+  shareWithin(torque_Nm, weight_Nm, limit_Nm * TORQUE_SHARE);

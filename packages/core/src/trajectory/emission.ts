@@ -28,14 +28,22 @@ export class Emission {
   private readonly bend: Float64Array;
 
   constructor(law: RoundedLaw, joints: number) {
-    this.law = law; this.joints = joints;
-    this.q = new Float64Array(64 * joints); this.qd = new Float64Array(64 * joints);
-    this.end = new Float64Array(joints); this.endSlope = new Float64Array(joints);
-    this.middle = new Float64Array(joints); this.middleSlope = new Float64Array(joints); this.bend = new Float64Array(joints);
+    this.law = law;
+    this.joints = joints;
+    this.q = new Float64Array(64 * joints);
+    this.qd = new Float64Array(64 * joints);
+    this.end = new Float64Array(joints);
+    this.endSlope = new Float64Array(joints);
+    this.middle = new Float64Array(joints);
+    this.middleSlope = new Float64Array(joints);
+    this.bend = new Float64Array(joints);
   }
 
   /** @param stretch  everything takes that much longer than the law says. */
-  start(path: HermitePath, stretch: number): void { this.path = path; this.stretch = stretch; }
+  start(path: HermitePath, stretch: number): void {
+    this.path = path;
+    this.stretch = stretch;
+  }
 
   /** Starts a new part at s, where the path is in the interval behind `knot` and the law at its node i. */
   begin(knot: number, s: number, i: number): void {
@@ -58,10 +66,13 @@ export class Emission {
 
   /** Nodes up to `to_s`, the one at `from_s` being there and the state at `to_s` in `end`. */
   private fill(knot: number, from_s: number, to_s: number, s1: number, rate1: number, halvings: number): void {
-    const middle_s = (from_s + to_s) / 2, s = this.law.at(middle_s), rate = this.law.speed;
+    const middle_s = (from_s + to_s) / 2;
+    const s = this.law.at(middle_s);
+    const rate = this.law.speed;
     this.evaluate(knot, s, this.middle, this.middleSlope);
     if (halvings > 0 && this.misses(rate1, to_s - from_s)) {
-      this.end.set(this.middle); this.endSlope.set(this.middleSlope);
+      this.end.set(this.middle);
+      this.endSlope.set(this.middleSlope);
       this.fill(knot, from_s, middle_s, s, rate, halvings - 1);
       this.evaluate(knot, s1, this.end, this.endSlope);
       this.fill(knot, middle_s, to_s, s1, rate1, halvings - 1);
@@ -72,9 +83,12 @@ export class Emission {
 
   /** Whether the cubic in time from the last node to `end` is off the path half way. */
   private misses(rate1: number, h: number): boolean {
-    const n = this.joints, last = (this.nodes - 1) * n;
+    const n = this.joints;
+    const last = (this.nodes - 1) * n;
     for (let j = 0; j < n; j++) {
-      const cubic = (this.q[last + j]! + this.end[j]!) / 2 + (h * (this.qd[last + j]! * this.stretch - this.endSlope[j]! * rate1)) / 8;
+      const cubic =
+        (this.q[last + j]! + this.end[j]!) / 2 +
+        (h * (this.qd[last + j]! * this.stretch - this.endSlope[j]! * rate1)) / 8;
       if (Math.abs(cubic - this.middle[j]!) > TIME_TOLERANCE) return true;
     }
     return false;
@@ -91,19 +105,33 @@ export class Emission {
   }
 
   private push(t_s: number, rate: number, q: Float64Array, slope: Float64Array): void {
-    const n = this.joints, at = this.nodes++;
+    const n = this.joints;
+    const at = this.nodes++;
     if (at >= this.times.length) {
-      this.times = grown(this.times); this.q = grown(this.q); this.qd = grown(this.qd);
+      this.times = grown(this.times);
+      this.q = grown(this.q);
+      this.qd = grown(this.qd);
     }
     this.times[at] = (t_s - this.begun_s) * this.stretch;
-    for (let j = 0; j < n; j++) { this.q[at * n + j] = q[j]!; this.qd[at * n + j] = (slope[j]! * rate) / this.stretch; }
+    for (let j = 0; j < n; j++) {
+      this.q[at * n + j] = q[j]!;
+      this.qd[at * n + j] = (slope[j]! * rate) / this.stretch;
+    }
   }
 
   part(step: MoveStep, start_s: number): MotionSegment {
-    const count = this.nodes, n = this.joints, times_s = this.times.slice(0, count);
+    const count = this.nodes;
+    const n = this.joints;
+    const times_s = this.times.slice(0, count);
     return {
-      kind: "motion", path: step.path, step: step.id, start_s, duration_s: times_s[count - 1]!,
-      times_s, q_rad: this.q.slice(0, count * n), qd_rad_s: this.qd.slice(0, count * n),
+      kind: "motion",
+      path: step.path,
+      step: step.id,
+      start_s,
+      duration_s: times_s[count - 1]!,
+      times_s,
+      q_rad: this.q.slice(0, count * n),
+      qd_rad_s: this.qd.slice(0, count * n),
     };
   }
 }

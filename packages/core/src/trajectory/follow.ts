@@ -75,7 +75,10 @@ export class Follower {
    * @param out  n speeds, per unit of whatever the twist counts in.
    */
   speeds(q: ArrayLike<number>, twist: Float64Array, out: Float64Array, met = false): void {
-    if (!met) { this.place(q); this.differentiate(); }
+    if (!met) {
+      this.place(q);
+      this.differentiate();
+    }
     this.solve(twist);
     out.set(this.step);
   }
@@ -95,38 +98,64 @@ export class Follower {
 
   /** Fills the Jacobian of the posture placed last. */
   private differentiate(): void {
-    const n = this.arm.joints.length, links = this.links, J = this.jacobian, axis = this.axis, p = this.flange.position;
+    const n = this.arm.joints.length;
+    const links = this.links;
+    const J = this.jacobian;
+    const axis = this.axis;
+    const p = this.flange.position;
     for (let j = 0; j < n; j++) {
-      const link = links[j + 1]!, o = link.position;
+      const link = links[j + 1]!;
+      const o = link.position;
       rotate(link.quaternion, this.arm.joints[j]!.axis, axis);
       if (this.slides[j] === true) {
-        for (let row = 0; row < 3; row++) { J[row * n + j] = axis[row]!; J[(3 + row) * n + j] = 0; }
+        for (let row = 0; row < 3; row++) {
+          J[row * n + j] = axis[row]!;
+          J[(3 + row) * n + j] = 0;
+        }
         continue;
       }
-      const rx = p[0] - o[0], ry = p[1] - o[1], rz = p[2] - o[2];
-      J[j] = axis[1] * rz - axis[2] * ry; J[n + j] = axis[2] * rx - axis[0] * rz; J[2 * n + j] = axis[0] * ry - axis[1] * rx;
-      J[3 * n + j] = axis[0]; J[4 * n + j] = axis[1]; J[5 * n + j] = axis[2];
+      const rx = p[0] - o[0];
+      const ry = p[1] - o[1];
+      const rz = p[2] - o[2];
+      J[j] = axis[1] * rz - axis[2] * ry;
+      J[n + j] = axis[2] * rx - axis[0] * rz;
+      J[2 * n + j] = axis[0] * ry - axis[1] * rx;
+      J[3 * n + j] = axis[0];
+      J[4 * n + j] = axis[1];
+      J[5 * n + j] = axis[2];
     }
   }
 
   private measure(goal: Pose<"base", "flange">): number {
-    const e = this.error, p = this.flange.position, a = this.flange.quaternion, g = goal.position, b = goal.quaternion;
-    e[0] = g[0] - p[0]; e[1] = g[1] - p[1]; e[2] = g[2] - p[2];
+    const e = this.error;
+    const p = this.flange.position;
+    const a = this.flange.quaternion;
+    const g = goal.position;
+    const b = goal.quaternion;
+    e[0] = g[0] - p[0];
+    e[1] = g[1] - p[1];
+    e[2] = g[2] - p[2];
     // b · a⁻¹ as a rotation vector in base directions.
     const w = b[3] * a[3] + b[0] * a[0] + b[1] * a[1] + b[2] * a[2];
     const x = -b[3] * a[0] + b[0] * a[3] - b[1] * a[2] + b[2] * a[1];
     const y = -b[3] * a[1] + b[0] * a[2] + b[1] * a[3] - b[2] * a[0];
     const z = -b[3] * a[2] - b[0] * a[1] + b[1] * a[0] + b[2] * a[3];
     const sine = Math.sqrt(x * x + y * y + z * z);
-    const factor = sine < 1e-9 ? (w < 0 ? -2 : 2) : 2 * Math.atan2(w < 0 ? -sine : sine, Math.abs(w)) / sine;
-    e[3] = x * factor; e[4] = y * factor; e[5] = z * factor;
-    const far = Math.sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]), turned = Math.sqrt(e[3] * e[3] + e[4] * e[4] + e[5] * e[5]);
+    const factor = sine < 1e-9 ? (w < 0 ? -2 : 2) : (2 * Math.atan2(w < 0 ? -sine : sine, Math.abs(w))) / sine;
+    e[3] = x * factor;
+    e[4] = y * factor;
+    e[5] = z * factor;
+    const far = Math.sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
+    const turned = Math.sqrt(e[3] * e[3] + e[4] * e[4] + e[5] * e[5]);
     return Math.max(far, turned);
   }
 
   /** step = (JᵀJ + λ²)⁻¹ Jᵀ right, by Cholesky. False when a number was not finite. */
   private solve(right: Float64Array): boolean {
-    const n = this.step.length, J = this.jacobian, A = this.normal, x = this.step;
+    const n = this.step.length;
+    const J = this.jacobian;
+    const A = this.normal;
+    const x = this.step;
     for (let i = 0; i < n; i++) {
       let sum = 0;
       for (let r = 0; r < 6; r++) sum += J[r * n + i]! * right[r]!;

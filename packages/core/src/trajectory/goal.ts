@@ -1,4 +1,11 @@
-import { allBranches, nearestSolution, solveAll, solverScratch, travel, type SolverScratch } from "../kinematics/inverse.ts";
+import {
+  allBranches,
+  nearestSolution,
+  solveAll,
+  solverScratch,
+  travel,
+  type SolverScratch,
+} from "../kinematics/inverse.ts";
 import { flangePose } from "../kinematics/forward.ts";
 import { branchOf, sameBranch } from "../kinematics/branch.ts";
 import type { Reach } from "../kinematics/reach.ts";
@@ -37,27 +44,46 @@ export class GoalFinder {
     const q = new Float64Array(near.length);
     if (nearestSolution(this.robot, move.baseFromFlange, near, q, this.scratch)) {
       const branch = branchOf(this.robot, q);
-      if (move.branch === undefined || branch === undefined || sameBranch(branch, move.branch)) return { kind: "posture", q_rad: q };
+      if (move.branch === undefined || branch === undefined || sameBranch(branch, move.branch))
+        return { kind: "posture", q_rad: q };
     }
-    const reach = solveAll(this.robot, move.baseFromFlange, move.branch === undefined ? { near } : { near, branch: move.branch }, this.scratch);
+    const reach = solveAll(
+      this.robot,
+      move.baseFromFlange,
+      move.branch === undefined ? { near } : { near, branch: move.branch },
+      this.scratch,
+    );
     if (reach.kind === "reached") return { kind: "posture", q_rad: reach.solutions[0]!.q_rad };
     const beyond_rad = this.beyondLimits(move, near);
     return { kind: "none", reach, ...(beyond_rad === undefined ? {} : { beyond_rad }) };
   }
 
   private beyondLimits(move: Move, near: Float64Array): Float64Array | undefined {
-    const all = allBranches(this.robot, move.baseFromFlange, near, this.scratch).map(q => q.map((angle, j) => near[j]! + wrapAngle(angle - near[j]!)));
-    const wanted = all.filter(q => { const branch = branchOf(this.robot, q); return move.branch !== undefined && branch !== undefined && sameBranch(branch, move.branch); });
+    const all = allBranches(this.robot, move.baseFromFlange, near, this.scratch).map(q =>
+      q.map((angle, j) => near[j]! + wrapAngle(angle - near[j]!)),
+    );
+    const wanted = all.filter(q => {
+      const branch = branchOf(this.robot, q);
+      return move.branch !== undefined && branch !== undefined && sameBranch(branch, move.branch);
+    });
     return (wanted.length > 0 ? wanted : all).sort((a, b) => travel(a, near) - travel(b, near))[0];
   }
 
   private follow(goal: Pose<"base", "flange">, near: Float64Array): Goal {
-    const line = linePath(flangePose(this.robot.arm, near), goal), scratch = geometryScratch(), q = near.slice();
+    const line = linePath(flangePose(this.robot.arm, near), goal);
+    const scratch = geometryScratch();
+    const q = near.slice();
     const at: Pose = { position: [0, 0, 0], quaternion: [0, 0, 0, 1] };
     for (let k = 1; k <= STEPS; k++) {
       posePoint(line, (line.length * k) / STEPS, at, scratch);
       if (!this.follower.meet(at as Pose<"base", "flange">, q)) {
-        return { kind: "none", reach: { kind: "no-solver", because: `${this.robot.name} has no closed-form solver, and following from the posture before did not reach the pose.` } };
+        return {
+          kind: "none",
+          reach: {
+            kind: "no-solver",
+            because: `${this.robot.name} has no closed-form solver, and following from the posture before did not reach the pose.`,
+          },
+        };
       }
     }
     return { kind: "posture", q_rad: q };

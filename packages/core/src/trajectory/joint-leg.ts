@@ -17,18 +17,30 @@ const PLACES = 16;
  * few knots the plan's cubics pass exactly. The joint with the least room rules speed, acceleration and jerk.
  */
 export function timeJointLeg(move: Move, q0: Float64Array, q1: Float64Array, robot: Robot): TimedRun {
-  const n = q0.length, step = move.step, pace = paceOf(step.speed, "ptp", robot), slowed: Slowed[] = [];
+  const n = q0.length;
+  const step = move.step;
+  const pace = paceOf(step.speed, "ptp", robot);
+  const slowed: Slowed[] = [];
   const share = step.acceleration?.ratio ?? 1;
-  let fastest = Number.POSITIVE_INFINITY, acceleration = Number.POSITIVE_INFINITY, jerk = Number.POSITIVE_INFINITY, ruling = 0;
+  let fastest = Number.POSITIVE_INFINITY;
+  let acceleration = Number.POSITIVE_INFINITY;
+  let jerk = Number.POSITIVE_INFINITY;
+  let ruling = 0;
   for (let j = 0; j < n; j++) {
-    const way = Math.abs(q1[j]! - q0[j]!), limits = robot.arm.joints[j]!.limits;
+    const way = Math.abs(q1[j]! - q0[j]!);
+    const limits = robot.arm.joints[j]!.limits;
     if (way === 0) continue;
-    if (limits.speed_rad_s / way < fastest) { fastest = limits.speed_rad_s / way; ruling = j; }
+    if (limits.speed_rad_s / way < fastest) {
+      fastest = limits.speed_rad_s / way;
+      ruling = j;
+    }
     acceleration = Math.min(acceleration, (limits.acceleration_rad_s2 * share) / way);
     jerk = Math.min(jerk, jerkOf(limits) / way);
   }
-  if (!(fastest < Number.POSITIVE_INFINITY)) return { parts: [segment(move, 0, new Float64Array(1), q0.slice(), new Float64Array(n))], slowed, duration_s: 0 };
-  const way = Math.abs(q1[ruling]! - q0[ruling]!), limit = robot.arm.joints[ruling]!.limits.speed_rad_s;
+  if (!(fastest < Number.POSITIVE_INFINITY))
+    return { parts: [segment(move, 0, new Float64Array(1), q0.slice(), new Float64Array(n))], slowed, duration_s: 0 };
+  const way = Math.abs(q1[ruling]! - q0[ruling]!);
+  const limit = robot.arm.joints[ruling]!.limits.speed_rad_s;
   let rate = fastest * pace.ratio;
   if (pace.mps < Number.POSITIVE_INFINITY) {
     const wanted = pace.mps / tcpSlope(move, q0, q1, robot);
@@ -37,9 +49,12 @@ export function timeJointLeg(move: Move, q0: Float64Array, q1: Float64Array, rob
   }
   let law = sCurve(1, rate, acceleration, jerk);
   const least_s = law.times_s.at(-1)!;
-  if (pace.time_s > 0 && pace.time_s < least_s * (1 - 1e-9)) slowed.push(hardest(q0, q1, law, least_s / pace.time_s, robot));
+  if (pace.time_s > 0 && pace.time_s < least_s * (1 - 1e-9))
+    slowed.push(hardest(q0, q1, law, least_s / pace.time_s, robot));
   if (pace.time_s > least_s) law = sCurve(1, rate, acceleration, jerk, pace.time_s / least_s);
-  const knots = law.times_s.length, q = new Float64Array(knots * n), qd = new Float64Array(knots * n);
+  const knots = law.times_s.length;
+  const q = new Float64Array(knots * n);
+  const qd = new Float64Array(knots * n);
   for (let k = 0; k < knots; k++) {
     for (let j = 0; j < n; j++) {
       q[k * n + j] = k === knots - 1 ? q1[j]! : q0[j]! + (q1[j]! - q0[j]!) * law.place[k]!;
@@ -50,8 +65,22 @@ export function timeJointLeg(move: Move, q0: Float64Array, q1: Float64Array, rob
   return { parts: [segment(move, duration_s, law.times_s, q, qd)], slowed, duration_s };
 }
 
-const segment = (move: Move, duration_s: number, times_s: Float64Array, q_rad: Float64Array, qd_rad_s: Float64Array): MotionSegment =>
-  ({ kind: "motion", path: move.step.path, step: move.step.id, start_s: 0, duration_s, times_s, q_rad, qd_rad_s });
+const segment = (
+  move: Move,
+  duration_s: number,
+  times_s: Float64Array,
+  q_rad: Float64Array,
+  qd_rad_s: Float64Array,
+): MotionSegment => ({
+  kind: "motion",
+  path: move.step.path,
+  step: move.step.id,
+  start_s: 0,
+  duration_s,
+  times_s,
+  q_rad,
+  qd_rad_s,
+});
 
 /**
  * The joint furthest over its limit when the same leg takes a shorter time, by `factor`: of speed where there is one, since
@@ -59,16 +88,22 @@ const segment = (move: Move, duration_s: number, times_s: Float64Array, q_rad: F
  */
 function hardest(q0: Float64Array, q1: Float64Array, law: RestProfile, factor: number, robot: Robot): Slowed {
   // The law begins with constant jerk up to its highest acceleration.
-  const first_s = law.times_s[1]!, jerk = (2 * law.speed[1]!) / (first_s * first_s);
+  const first_s = law.times_s[1]!;
+  const jerk = (2 * law.speed[1]!) / (first_s * first_s);
   const kinds = [
     { unit: "rad/s", asked: Math.max(...law.speed) * factor, limitOf: (limits: JointLimits) => limits.speed_rad_s },
-    { unit: "rad/s2", asked: jerk * first_s * factor ** 2, limitOf: (limits: JointLimits) => limits.acceleration_rad_s2 },
+    {
+      unit: "rad/s2",
+      asked: jerk * first_s * factor ** 2,
+      limitOf: (limits: JointLimits) => limits.acceleration_rad_s2,
+    },
     { unit: "rad/s3", asked: jerk * factor ** 3, limitOf: jerkOf },
   ] as const;
   let found: Slowed = { move: 0, joint: 1, wanted: 0, limit: 1, unit: "rad/s3", s: 0 };
   for (const { unit, asked, limitOf } of kinds) {
     for (let j = 0; j < q0.length; j++) {
-      const wanted = Math.abs(q1[j]! - q0[j]!) * asked, limit = limitOf(robot.arm.joints[j]!.limits);
+      const wanted = Math.abs(q1[j]! - q0[j]!) * asked;
+      const limit = limitOf(robot.arm.joints[j]!.limits);
       if (wanted / limit > found.wanted / found.limit) found = { move: 0, joint: j + 1, wanted, limit, unit, s: 0 };
     }
     if (found.wanted > found.limit) return found;
@@ -78,8 +113,16 @@ function hardest(q0: Float64Array, q1: Float64Array, law: RestProfile, factor: n
 
 /** Largest way of the TCP per share of the leg [m]. */
 function tcpSlope(move: Move, q0: Float64Array, q1: Float64Array, robot: Robot): number {
-  const at = (share: number): readonly number[] => compose(flangePose(robot.arm, q0.map((a, j) => a + (q1[j]! - a) * share)), move.flangeFromTcp).position;
-  let most = 1e-9, last = at(0);
+  const at = (share: number): readonly number[] =>
+    compose(
+      flangePose(
+        robot.arm,
+        q0.map((a, j) => a + (q1[j]! - a) * share),
+      ),
+      move.flangeFromTcp,
+    ).position;
+  let most = 1e-9;
+  let last = at(0);
   for (let k = 1; k <= PLACES; k++) {
     const next = at(k / PLACES);
     most = Math.max(most, distance([last[0]!, last[1]!, last[2]!], [next[0]!, next[1]!, next[2]!]) * PLACES);

@@ -27,8 +27,11 @@ export class JointSpline implements JointPath {
    * @param knots      rising parameters of the waypoints, from 0.
    */
   constructor(waypoints: readonly ArrayLike<number>[], knots?: ArrayLike<number>) {
-    const kept = knots === undefined ? waypoints.filter((point, i) => i === 0 || apart(point, waypoints[i - 1]!) > 0) : waypoints;
-    const n = kept[0]?.length ?? 0, count = kept.length, s = new Float64Array(count);
+    const kept =
+      knots === undefined ? waypoints.filter((point, i) => i === 0 || apart(point, waypoints[i - 1]!) > 0) : waypoints;
+    const n = kept[0]?.length ?? 0;
+    const count = kept.length;
+    const s = new Float64Array(count);
     for (let i = 1; i < count; i++) s[i] = knots === undefined ? s[i - 1]! + apart(kept[i]!, kept[i - 1]!) : knots[i]!;
     this.joints = n;
     this.knots = s;
@@ -40,12 +43,17 @@ export class JointSpline implements JointPath {
 
   /** The tridiagonal system, eliminated once for all joints. */
   private bends(count: number, n: number): Float64Array {
-    const m = new Float64Array(count * n), over = new Float64Array(count), { knots: s, q } = this;
+    const m = new Float64Array(count * n);
+    const over = new Float64Array(count);
+    const { knots: s, q } = this;
     for (let i = 1; i + 1 < count; i++) {
-      const before = s[i]! - s[i - 1]!, after = s[i + 1]! - s[i]!, pivot = 2 * (before + after) - before * over[i - 1]!;
+      const before = s[i]! - s[i - 1]!;
+      const after = s[i + 1]! - s[i]!;
+      const pivot = 2 * (before + after) - before * over[i - 1]!;
       over[i] = after / pivot;
       for (let j = 0; j < n; j++) {
-        const k = i * n + j, kink = (q[k + n]! - q[k]!) / after - (q[k]! - q[k - n]!) / before;
+        const k = i * n + j;
+        const kink = (q[k + n]! - q[k]!) / after - (q[k]! - q[k - n]!) / before;
         m[k] = (6 * kink - before * m[k - n]!) / pivot;
       }
     }
@@ -55,11 +63,22 @@ export class JointSpline implements JointPath {
 
   evaluate(at_s: number, at: number, out: Float64Array, out1: Float64Array, out2: Float64Array): void {
     const { knots: s, q, m, joints: n } = this;
-    let low = 0, high = s.length - 2;
-    while (low < high) { const middle = (low + high + 1) >> 1; if (s[middle]! <= at_s) low = middle; else high = middle - 1; }
-    const h = s[low + 1]! - s[low]!, u = at_s - s[low]!, v = h - u;
+    let low = 0;
+    let high = s.length - 2;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (s[middle]! <= at_s) low = middle;
+      else high = middle - 1;
+    }
+    const h = s[low + 1]! - s[low]!;
+    const u = at_s - s[low]!;
+    const v = h - u;
     for (let j = 0; j < n; j++) {
-      const a = low * n + j, b = a + n, ma = m[a]!, mb = m[b]!, rise = (q[b]! - q[a]!) / h;
+      const a = low * n + j;
+      const b = a + n;
+      const ma = m[a]!;
+      const mb = m[b]!;
+      const rise = (q[b]! - q[a]!) / h;
       out[at + j] = q[a]! + u * (rise - (h / 6) * (2 * ma + mb)) + u * u * (ma / 2 + (u * (mb - ma)) / (6 * h));
       out1[at + j] = rise - (h / 6) * (2 * ma + mb) + u * (ma + (u * (mb - ma)) / (2 * h));
       out2[at + j] = (ma * v + mb * u) / h;

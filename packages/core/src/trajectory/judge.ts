@@ -4,7 +4,14 @@ import { sampleSegment } from "./sample.ts";
 
 /** Something a plan must not do. Joint counts from 1; 0 where no joint is meant. */
 export interface PlanFlaw {
-  readonly code: "plan.order" | "plan.gap" | "plan.kink" | "plan.not-a-number" | "plan.limit" | "plan.speed" | "plan.acceleration";
+  readonly code:
+    | "plan.order"
+    | "plan.gap"
+    | "plan.kink"
+    | "plan.not-a-number"
+    | "plan.limit"
+    | "plan.speed"
+    | "plan.acceleration";
   readonly step: string;
   readonly joint: number;
   readonly at_s: number;
@@ -20,7 +27,8 @@ export interface JudgeOptions {
 }
 
 /** Angles [rad] and speeds [rad/s] this far apart at a border are the same. */
-const SAME_RAD = 1e-6, SAME_RAD_S = 1e-3;
+const SAME_RAD = 1e-6;
+const SAME_RAD_S = 1e-3;
 
 /**
  * Judges a plan by its numbers alone, whoever made it: order in time, no jumps of angle between segments, no jumps of
@@ -31,26 +39,43 @@ const SAME_RAD = 1e-6, SAME_RAD_S = 1e-3;
  * The worst of each kind and joint in each segment is reported.
  */
 export function judgePlan(plan: Plan, robot: Robot, options: JudgeOptions = {}): PlanFlaw[] {
-  const { period_s = 0.002, slack = 1e-3 } = options, joints = robot.arm.joints, n = joints.length;
-  const flaws: PlanFlaw[] = [], worst = new Map<string, PlanFlaw>();
+  const { period_s = 0.002, slack = 1e-3 } = options;
+  const joints = robot.arm.joints;
+  const n = joints.length;
+  const flaws: PlanFlaw[] = [];
+  const worst = new Map<string, PlanFlaw>();
   const report = (flaw: PlanFlaw): void => {
-    const key = `${flaw.code} ${flaw.joint}`, known = worst.get(key);
+    const key = `${flaw.code} ${flaw.joint}`;
+    const known = worst.get(key);
     if (known === undefined || Math.abs(flaw.value) > Math.abs(known.value)) worst.set(key, flaw);
   };
-  const before = new Float64Array(n), at = new Float64Array(n), after = new Float64Array(n), speed = new Float64Array(n);
-  const lastQ = new Float64Array(n), lastSpeed = new Float64Array(n);
-  let end_s = 0, begun = false;
+  const before = new Float64Array(n);
+  const at = new Float64Array(n);
+  const after = new Float64Array(n);
+  const speed = new Float64Array(n);
+  const lastQ = new Float64Array(n);
+  const lastSpeed = new Float64Array(n);
+  let end_s = 0;
+  let begun = false;
   for (const segment of plan.segments) {
     worst.clear();
-    const flaw = (code: PlanFlaw["code"], joint: number, t: number, value: number, limit: number): void => { report({ code, step: segment.step, joint, at_s: segment.start_s + t, value, limit }); };
-    if (Math.abs(segment.start_s - end_s) > 1e-9 || segment.duration_s < 0) flaw("plan.order", 0, 0, segment.start_s, end_s);
-    if (segment.kind === "motion") for (let i = 0; i + 1 < segment.times_s.length; i++) if (!(segment.times_s[i + 1]! > segment.times_s[i]!)) flaw("plan.order", 0, segment.times_s[i]!, segment.times_s[i + 1]!, segment.times_s[i]!);
+    const flaw = (code: PlanFlaw["code"], joint: number, t: number, value: number, limit: number): void => {
+      report({ code, step: segment.step, joint, at_s: segment.start_s + t, value, limit });
+    };
+    if (Math.abs(segment.start_s - end_s) > 1e-9 || segment.duration_s < 0)
+      flaw("plan.order", 0, 0, segment.start_s, end_s);
+    if (segment.kind === "motion")
+      for (let i = 0; i + 1 < segment.times_s.length; i++)
+        if (!(segment.times_s[i + 1]! > segment.times_s[i]!))
+          flaw("plan.order", 0, segment.times_s[i]!, segment.times_s[i + 1]!, segment.times_s[i]!);
     sampleSegment(segment, 0, at, speed);
     for (let j = 0; j < n && begun; j++) {
       if (Math.abs(at[j]! - lastQ[j]!) > SAME_RAD) flaw("plan.gap", j + 1, 0, at[j]! - lastQ[j]!, SAME_RAD);
-      if (Math.abs(speed[j]! - lastSpeed[j]!) > SAME_RAD_S) flaw("plan.kink", j + 1, 0, speed[j]! - lastSpeed[j]!, SAME_RAD_S);
+      if (Math.abs(speed[j]! - lastSpeed[j]!) > SAME_RAD_S)
+        flaw("plan.kink", j + 1, 0, speed[j]! - lastSpeed[j]!, SAME_RAD_S);
     }
-    const looks = Math.max(1, Math.ceil(segment.duration_s / period_s)), h = segment.duration_s / looks / 2;
+    const looks = Math.max(1, Math.ceil(segment.duration_s / period_s));
+    const h = segment.duration_s / looks / 2;
     for (let k = 0; k <= looks; k++) {
       const t = (segment.duration_s * k) / looks;
       sampleSegment(segment, t, at);
@@ -65,9 +90,11 @@ export function judgePlan(plan: Plan, robot: Robot, options: JudgeOptions = {}):
       sampleSegment(segment, t + h, after);
       for (let j = 0; j < n; j++) {
         const { speed_rad_s, acceleration_rad_s2 } = joints[j]!.limits;
-        const rate = (after[j]! - before[j]!) / (2 * h), bend = (after[j]! - 2 * at[j]! + before[j]!) / (h * h);
+        const rate = (after[j]! - before[j]!) / (2 * h);
+        const bend = (after[j]! - 2 * at[j]! + before[j]!) / (h * h);
         if (Math.abs(rate) > speed_rad_s * (1 + slack)) flaw("plan.speed", j + 1, t, rate, speed_rad_s);
-        if (Math.abs(bend) > acceleration_rad_s2 * (1 + slack)) flaw("plan.acceleration", j + 1, t, bend, acceleration_rad_s2);
+        if (Math.abs(bend) > acceleration_rad_s2 * (1 + slack))
+          flaw("plan.acceleration", j + 1, t, bend, acceleration_rad_s2);
       }
     }
     sampleSegment(segment, segment.duration_s, lastQ, lastSpeed);

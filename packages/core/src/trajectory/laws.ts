@@ -1,5 +1,9 @@
 /** Where a law of motion is at τ = t/T: share of the way, its first and its second derivative by τ. */
-export interface LawPoint { value: number; speed: number; acceleration: number }
+export interface LawPoint {
+  value: number;
+  speed: number;
+  acceleration: number;
+}
 
 /**
  * The cubic of the lead-through paper, from rest to rest:
@@ -17,7 +21,11 @@ export function cubicLaw(tau: number, out: LawPoint = { value: 0, speed: 0, acce
 }
 
 /** Rest to rest in one dimension: knots of time, place and speed, with constant acceleration between them. */
-export interface RestProfile { readonly times_s: Float64Array; readonly place: Float64Array; readonly speed: Float64Array }
+export interface RestProfile {
+  readonly times_s: Float64Array;
+  readonly place: Float64Array;
+  readonly speed: Float64Array;
+}
 
 /**
  * Trapezoid of speed: the fastest way over `distance` from rest to rest.
@@ -26,7 +34,9 @@ export interface RestProfile { readonly times_s: Float64Array; readonly place: F
  */
 export function trapezoid(distance: number, maxSpeed: number, maxAcceleration: number, stretch = 1): RestProfile {
   const ramp = Math.min(maxSpeed / maxAcceleration, Math.sqrt(distance / maxAcceleration));
-  const top = ramp * maxAcceleration, ramped = (top * ramp) / 2, cruise = Math.max(0, (distance - 2 * ramped) / top);
+  const top = ramp * maxAcceleration;
+  const ramped = (top * ramp) / 2;
+  const cruise = Math.max(0, (distance - 2 * ramped) / top);
   const k = stretch;
   // Without cruising the two middle knots are one.
   return cruise > 1e-9 * ramp
@@ -56,7 +66,13 @@ export const trapezoidTime_s = (distance: number, maxSpeed: number, maxAccelerat
  *
  * @param stretch  ≥ 1: everything takes that much longer along the same shape, so all limits are kept with room.
  */
-export function sCurve(distance: number, maxSpeed: number, maxAcceleration: number, maxJerk: number, stretch = 1): RestProfile {
+export function sCurve(
+  distance: number,
+  maxSpeed: number,
+  maxAcceleration: number,
+  maxJerk: number,
+  stretch = 1,
+): RestProfile {
   const bendable = (maxAcceleration * maxAcceleration) / maxJerk;
   let v = maxSpeed;
   if (distance < v * rampTime_s(v, maxAcceleration, maxJerk)) {
@@ -64,23 +80,40 @@ export function sCurve(distance: number, maxSpeed: number, maxAcceleration: numb
     v = (maxAcceleration / 2) * (Math.sqrt(k * k + (4 * distance) / maxAcceleration) - k);
     if (v < bendable) v = Math.cbrt((distance * distance * maxJerk) / 4);
   }
-  const bend = v < bendable ? Math.sqrt(v / maxJerk) : maxAcceleration / maxJerk, hold = v < bendable ? 0 : v / maxAcceleration - bend;
-  const cruise = Math.max(0, distance / v - 2 * bend - hold), pieces = [bend, hold, bend, cruise, bend, hold, bend], jerks = [1, 0, -1, 0, -1, 0, 1];
-  const times: number[] = [0], place: number[] = [0], speed: number[] = [0];
-  let t = 0, p = 0, s = 0, a = 0;
+  const bend = v < bendable ? Math.sqrt(v / maxJerk) : maxAcceleration / maxJerk;
+  const hold = v < bendable ? 0 : v / maxAcceleration - bend;
+  const cruise = Math.max(0, distance / v - 2 * bend - hold);
+  const pieces = [bend, hold, bend, cruise, bend, hold, bend];
+  const jerks = [1, 0, -1, 0, -1, 0, 1];
+  const times: number[] = [0];
+  const place: number[] = [0];
+  const speed: number[] = [0];
+  let t = 0;
+  let p = 0;
+  let s = 0;
+  let a = 0;
   for (let i = 0; i < pieces.length; i++) {
-    const h = pieces[i]!, j = jerks[i]! * maxJerk;
-    p += h * (s + h * (a / 2 + (h * j) / 6)); s += h * (a + (h * j) / 2); a += h * j; t += h;
+    const h = pieces[i]!;
+    const j = jerks[i]! * maxJerk;
+    p += h * (s + h * (a / 2 + (h * j) / 6));
+    s += h * (a + (h * j) / 2);
+    a += h * j;
+    t += h;
     if (h <= 1e-12 * t) continue;
-    times.push(t * stretch); place.push(p); speed.push(s / stretch);
+    times.push(t * stretch);
+    place.push(p);
+    speed.push(s / stretch);
   }
-  place[place.length - 1] = distance; speed[speed.length - 1] = 0;
+  place[place.length - 1] = distance;
+  speed[speed.length - 1] = 0;
   return { times_s: Float64Array.from(times), place: Float64Array.from(place), speed: Float64Array.from(speed) };
 }
 
 /** Seconds from standstill to a speed. */
 const rampTime_s = (speed: number, acceleration: number, jerk: number): number =>
-  speed >= (acceleration * acceleration) / jerk ? speed / acceleration + acceleration / jerk : 2 * Math.sqrt(speed / jerk);
+  speed >= (acceleration * acceleration) / jerk
+    ? speed / acceleration + acceleration / jerk
+    : 2 * Math.sqrt(speed / jerk);
 
 /** Seconds the rounded trapezoid takes. */
 export const sCurveTime_s = (distance: number, maxSpeed: number, maxAcceleration: number, maxJerk: number): number =>

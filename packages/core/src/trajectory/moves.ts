@@ -36,20 +36,31 @@ const frameOf = (context: Pick<Program, "frames">, name: string): Pose<"world", 
 export function targetInBase(target: Target, robot: Robot, context: PlanContext): Pose<"base", "tcp"> {
   if ("q" in target) return compose(flangePose(robot.arm, target.q), toolOf(context, target.tool));
   const worldFromTcp = compose(frameOf(context, target.frame), target.pose);
-  return context.worldFromBase === undefined ? worldFromTcp as Pose as Pose<"base", "tcp"> : compose(inverse(context.worldFromBase), worldFromTcp);
+  return context.worldFromBase === undefined
+    ? (worldFromTcp as Pose as Pose<"base", "tcp">)
+    : compose(inverse(context.worldFromBase), worldFromTcp);
 }
 
 /** Writes a TCP pose of the base back as a target of the same frame and tool. */
-export function poseTarget(baseFromTcp: Pose<"base", "tcp">, like: Extract<Target, { pose: unknown }>, context: PlanContext): Extract<Target, { pose: unknown }> {
+export function poseTarget(
+  baseFromTcp: Pose<"base", "tcp">,
+  like: Extract<Target, { pose: unknown }>,
+  context: PlanContext,
+): Extract<Target, { pose: unknown }> {
   const worldFromTcp = compose(context.worldFromBase ?? identity<"world", "base">(), baseFromTcp);
   return { ...like, pose: compose(inverse(frameOf(context, like.frame)), worldFromTcp) };
 }
 
 export function resolveMove(step: MoveStep, robot: Robot, context: PlanContext): Move {
-  const flangeFromTcp = toolOf(context, step.target.tool), tcpFromFlange = inverse(flangeFromTcp);
+  const flangeFromTcp = toolOf(context, step.target.tool);
+  const tcpFromFlange = inverse(flangeFromTcp);
   const baseFromTcp = targetInBase(step.target, robot, context);
   return {
-    step, flangeFromTcp, tcpFromFlange, baseFromTcp, baseFromFlange: compose(baseFromTcp, tcpFromFlange),
+    step,
+    flangeFromTcp,
+    tcpFromFlange,
+    baseFromTcp,
+    baseFromFlange: compose(baseFromTcp, tcpFromFlange),
     ...("q" in step.target ? { q_rad: Float64Array.from(step.target.q) } : {}),
     ...("q" in step.target || step.target.branch === undefined ? {} : { branch: step.target.branch }),
     ...(step.via === undefined ? {} : { via: targetInBase(step.via, robot, context) }),

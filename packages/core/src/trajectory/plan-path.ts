@@ -7,7 +7,9 @@ import type { Plan } from "./plan.ts";
 import { sampleSegment } from "./sample.ts";
 
 /** Row L-39: what a joint limit says of a point of the path. */
-export const POINT_OK = 0, POINT_NEAR_LIMIT = 1, POINT_BEYOND_LIMIT = 2;
+export const POINT_OK = 0;
+export const POINT_NEAR_LIMIT = 1;
+export const POINT_BEYOND_LIMIT = 2;
 
 /** The way of the TCP as a polyline, for drawing. Plain data. */
 export interface PlanPath {
@@ -36,18 +38,31 @@ export interface PlanPathOptions {
 /** Follows the TCP through a plan: one point every `period_s`, and one at both ends of every motion. */
 export function planPath(plan: Plan, robot: Robot, options: PlanPathOptions = {}): PlanPath {
   const { worldFromBase = identity<"world", "base">(), period_s = 0.02, near_rad = radians(10) } = options;
-  const counts = plan.segments.map(segment => (segment.kind === "rest" ? 0 : 1 + Math.max(1, Math.ceil(segment.duration_s / period_s))));
-  const total = counts.reduce((sum, count) => sum + count, 0), joints = robot.arm.joints, n = joints.length;
-  const points_m = new Float32Array(3 * total), times_s = new Float64Array(total), speed_mps = new Float32Array(total), states = new Uint8Array(total);
+  const counts = plan.segments.map(segment =>
+    segment.kind === "rest" ? 0 : 1 + Math.max(1, Math.ceil(segment.duration_s / period_s)),
+  );
+  const total = counts.reduce((sum, count) => sum + count, 0);
+  const joints = robot.arm.joints;
+  const n = joints.length;
+  const points_m = new Float32Array(3 * total);
+  const times_s = new Float64Array(total);
+  const speed_mps = new Float32Array(total);
+  const states = new Uint8Array(total);
   const stretches: { step: string; first: number; count: number }[] = [];
-  const q = new Float64Array(n), scratch = armScratch(), flange = identity<"base", "flange">(), worldFromFlange = identity<"world", "flange">(), tcp = identity<"world", "tcp">();
+  const q = new Float64Array(n);
+  const scratch = armScratch();
+  const flange = identity<"base", "flange">();
+  const worldFromFlange = identity<"world", "flange">();
+  const tcp = identity<"world", "tcp">();
   // 10 mm of a slide are as near as 10° of a turn.
   const scales = joints.map(joint => (isSlide(joint) ? radians(10) / 0.01 : 1));
   let at = 0;
   for (let s = 0; s < plan.segments.length; s++) {
-    const segment = plan.segments[s]!, count = counts[s]!;
+    const segment = plan.segments[s]!;
+    const count = counts[s]!;
     if (count === 0) continue;
-    const tool = options.flangeFromTcp?.(segment.step) ?? identity<"flange", "tcp">(), first = at;
+    const tool = options.flangeFromTcp?.(segment.step) ?? identity<"flange", "tcp">();
+    const first = at;
     for (let k = 0; k < count; k++, at++) {
       const t = (segment.duration_s * k) / (count - 1);
       sampleSegment(segment, t, q);
@@ -56,7 +71,12 @@ export function planPath(plan: Plan, robot: Robot, options: PlanPathOptions = {}
       points_m.set(tcp.position, 3 * at);
       times_s[at] = segment.start_s + t;
       let room = Number.POSITIVE_INFINITY;
-      for (let j = 0; j < n; j++) room = Math.min(room, (q[j]! - joints[j]!.limits.lower_rad) * scales[j]!, (joints[j]!.limits.upper_rad - q[j]!) * scales[j]!);
+      for (let j = 0; j < n; j++)
+        room = Math.min(
+          room,
+          (q[j]! - joints[j]!.limits.lower_rad) * scales[j]!,
+          (joints[j]!.limits.upper_rad - q[j]!) * scales[j]!,
+        );
       states[at] = room < -1e-9 ? POINT_BEYOND_LIMIT : room < near_rad ? POINT_NEAR_LIMIT : POINT_OK;
     }
     speeds(points_m, times_s, speed_mps, first, count);
@@ -68,8 +88,12 @@ export function planPath(plan: Plan, robot: Robot, options: PlanPathOptions = {}
 /** Central differences inside, towards the inside at the ends. */
 function speeds(points: Float32Array, times: Float64Array, out: Float32Array, first: number, count: number): void {
   for (let k = 0; k < count; k++) {
-    const a = first + Math.max(0, k - 1), b = first + Math.min(count - 1, k + 1), dt = times[b]! - times[a]!;
-    const x = points[3 * b]! - points[3 * a]!, y = points[3 * b + 1]! - points[3 * a + 1]!, z = points[3 * b + 2]! - points[3 * a + 2]!;
+    const a = first + Math.max(0, k - 1);
+    const b = first + Math.min(count - 1, k + 1);
+    const dt = times[b]! - times[a]!;
+    const x = points[3 * b]! - points[3 * a]!;
+    const y = points[3 * b + 1]! - points[3 * a + 1]!;
+    const z = points[3 * b + 2]! - points[3 * a + 2]!;
     out[first + k] = dt > 0 ? Math.sqrt(x * x + y * y + z * z) / dt : 0;
   }
 }

@@ -11,7 +11,11 @@ export interface Plan {
   readonly writes: readonly SignalWrite[];
 }
 
-export interface SignalWrite { readonly at_s: number; readonly signal: string; readonly to: boolean | number }
+export interface SignalWrite {
+  readonly at_s: number;
+  readonly signal: string;
+  readonly to: boolean | number;
+}
 
 interface SegmentBase {
   /** Id of the step it belongs to. */

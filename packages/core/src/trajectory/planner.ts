@@ -35,7 +35,11 @@ export interface PlanOptions {
 export const GRIPPER_S = 0.2;
 
 /** What the planner noticed on the way, for the checks. */
-export interface PlanNote { readonly step: string; readonly at_s: number; readonly slowed: Slowed }
+export interface PlanNote {
+  readonly step: string;
+  readonly at_s: number;
+  readonly slowed: Slowed;
+}
 
 interface Planned {
   readonly plan: Plan;
@@ -45,7 +49,9 @@ interface Planned {
   /** What the plan's duration rests on, one sentence each (row N-64). */
   readonly assumptions: readonly string[];
 }
-export type PlanAnswer = ({ readonly kind: "planned" } & Planned) | ({ readonly kind: "stuck"; readonly stuck: Stuck } & Planned);
+export type PlanAnswer =
+  | ({ readonly kind: "planned" } & Planned)
+  | ({ readonly kind: "stuck"; readonly stuck: Stuck } & Planned);
 
 /** Loops beyond this many steps are laid out in part. */
 const MOST_PLANNED = 200_000;
@@ -62,13 +68,27 @@ const MOST_PLANNED = 200_000;
 export function planProgram(program: Program, robot: Robot, options: PlanOptions = {}): PlanAnswer {
   const writer = new PlanWriter(robot, options);
   const planner = new RunPlanner(robot, options.tolerance_m ?? PATH_TOLERANCE_M);
-  const context = { tools: program.tools, frames: program.frames, ...(options.worldFromBase === undefined ? {} : { worldFromBase: options.worldFromBase }) };
-  const assumptions = durationAssumptions(program, robot), parts = ahead(program, options.inputs ?? {}), gentler = new Gentler(robot, options), { gentled } = gentler;
-  const runs = parts.flatMap(part => (part.kind === "run" ? [part.moves.map(({ step }) => resolveMove(step, robot, context))] : []));
+  const context = {
+    tools: program.tools,
+    frames: program.frames,
+    ...(options.worldFromBase === undefined ? {} : { worldFromBase: options.worldFromBase }),
+  };
+  const assumptions = durationAssumptions(program, robot);
+  const parts = ahead(program, options.inputs ?? {});
+  const gentler = new Gentler(robot, options);
+  const { gentled } = gentler;
+  const runs = parts.flatMap(part =>
+    part.kind === "run" ? [part.moves.map(({ step }) => resolveMove(step, robot, context))] : [],
+  );
   const choice = chooseBranches(runs, robot, writer.q);
-  let run = 0, first = 0;
+  let run = 0;
+  let first = 0;
   for (const part of parts) {
-    if (part.kind === "step") { gentler.carry(part.step); if (part.step.type !== "move") writer.rest(part.step, part.stands); continue; }
+    if (part.kind === "step") {
+      gentler.carry(part.step);
+      if (part.step.type !== "move") writer.rest(part.step, part.stands);
+      continue;
+    }
     if (part.kind !== "run") continue;
     let moves: readonly Move[] = runs[run++]!;
     const count = moves.length;
@@ -78,11 +98,20 @@ export function planProgram(program: Program, robot: Robot, options: PlanOptions
       const answer = planner.plan(moves, writer.q);
       if (answer.kind === "timed") {
         const held = gentler.hold(answer.run.parts, writer.now_s);
-        if (held.kind === "too-heavy") return { kind: "stuck", stuck: held.stuck, plan: writer.plan(program.robot), notes: writer.notes, gentled, assumptions };
+        if (held.kind === "too-heavy")
+          return {
+            kind: "stuck",
+            stuck: held.stuck,
+            plan: writer.plan(program.robot),
+            notes: writer.notes,
+            gentled,
+            assumptions,
+          };
         writer.run(held.parts, answer.run.slowed);
         break;
       }
-      const at = answer.stop.move, stuck = explainStop(answer.stop, moves[at]!, robot);
+      const at = answer.stop.move;
+      const stuck = explainStop(answer.stop, moves[at]!, robot);
       if (at > 0) {
         // What comes before the move in the way can still be done, with a stop at its end.
         moves = moves.slice(0, at);
@@ -98,8 +127,11 @@ export function planProgram(program: Program, robot: Robot, options: PlanOptions
 
 /** The whole program in order, before anything moves: signals change only where steps write them, and waits end. */
 function ahead(program: Program, inputs: NonNullable<PlanOptions["inputs"]>): FlowPart[] {
-  const signals = new SignalTable(Object.entries(inputs)), parts: FlowPart[] = [];
-  for (const part of inRuns(flow(program, { decide: when => holds(when, signals), rounds: 1, mostSteps: MOST_PLANNED }))) {
+  const signals = new SignalTable(Object.entries(inputs));
+  const parts: FlowPart[] = [];
+  for (const part of inRuns(
+    flow(program, { decide: when => holds(when, signals), rounds: 1, mostSteps: MOST_PLANNED }),
+  )) {
     parts.push(part);
     if (part.kind === "step" && part.step.type === "set") remember(part.step, signals);
   }
@@ -113,8 +145,11 @@ function remember({ signal, to, pulse_s }: SetStep, signals: SignalTable): void 
 
 /** What the durations of a program's steps rest on, one sentence each. */
 export const durationAssumptions = (program: Program, robot: Robot, gripper_s = GRIPPER_S): string[] => [
-  ...robot.assumptions, ...motionAssumptions(robot),
-  ...(program.steps.some(step => step.type === "gripper") ? [`The gripper is given ${gripper_s} s to close or open.`] : []),
+  ...robot.assumptions,
+  ...motionAssumptions(robot),
+  ...(program.steps.some(step => step.type === "gripper")
+    ? [`The gripper is given ${gripper_s} s to close or open.`]
+    : []),
 ];
 
 type StepHappening = Extract<Happening, { kind: "step" }>;
@@ -129,15 +164,23 @@ export function* inRuns(happenings: Iterable<Happening>): Generator<FlowPart, vo
   let moves: MoveHappening[] = [];
   for (const happening of happenings) {
     const last = moves.at(-1);
-    if (happening.kind === "passed" && happening.step.type === "comment") { yield happening; continue; }
+    if (happening.kind === "passed" && happening.step.type === "comment") {
+      yield happening;
+      continue;
+    }
     const move = isMove(happening) ? happening : undefined;
-    if (last !== undefined && !(move !== undefined && passes(last.step, move.step))) { yield { kind: "run", moves }; moves = []; }
-    if (move === undefined) yield happening; else moves.push(move);
+    if (last !== undefined && !(move !== undefined && passes(last.step, move.step))) {
+      yield { kind: "run", moves };
+      moves = [];
+    }
+    if (move === undefined) yield happening;
+    else moves.push(move);
   }
   if (moves.length > 0) yield { kind: "run", moves };
 }
 
-const isMove = (happening: Happening): happening is MoveHappening => happening.kind === "step" && happening.step.type === "move";
+const isMove = (happening: Happening): happening is MoveHappening =>
+  happening.kind === "step" && happening.step.type === "move";
 
 /** Appends segments and keeps the time and the posture they end at. */
 export class PlanWriter {
@@ -154,7 +197,9 @@ export class PlanWriter {
     this.gripper_s = options.gripper_s ?? GRIPPER_S;
   }
 
-  get now_s(): number { return this.t_s; }
+  get now_s(): number {
+    return this.t_s;
+  }
 
   /** @param stands  a stop that the program does not say: it is only there when it takes time. */
   rest(step: Exclude<PrimitiveStep, MoveStep>, stands = false): void {
@@ -162,30 +207,47 @@ export class PlanWriter {
     if (step.type === "set") this.write(step);
     const duration_s = step.type === "wait" ? step.s : step.type === "gripper" ? this.gripper_s : 0;
     if (stands && duration_s === 0) return;
-    this.segments.push({ kind: "rest", step: step.id, start_s: this.t_s, duration_s, q_rad: this.q.slice(), gripperClosed: this.closed });
+    this.segments.push({
+      kind: "rest",
+      step: step.id,
+      start_s: this.t_s,
+      duration_s,
+      q_rad: this.q.slice(),
+      gripperClosed: this.closed,
+    });
     this.t_s += duration_s;
   }
 
   private write({ signal, to, pulse_s }: SetStep): void {
     this.writes.push({ at_s: this.t_s, signal, to });
-    if (pulse_s !== undefined && typeof to === "boolean") this.writes.push({ at_s: this.t_s + pulse_s, signal, to: !to });
+    if (pulse_s !== undefined && typeof to === "boolean")
+      this.writes.push({ at_s: this.t_s + pulse_s, signal, to: !to });
   }
 
   run(parts: readonly MotionSegment[], slowed: readonly Slowed[]): void {
-    const n = this.q.length, begun_s = this.t_s;
+    const n = this.q.length;
+    const begun_s = this.t_s;
     for (const part of parts) {
       // Summed one by one, so that each part begins at the very number the one before ends at.
       this.segments.push({ ...part, start_s: this.t_s });
       this.t_s += part.duration_s;
       this.q.set(part.q_rad.subarray(part.q_rad.length - n));
     }
-    for (const one of slowed) this.notes.push({ step: parts[one.move]!.step, at_s: begun_s + parts[one.move]!.start_s, slowed: one });
+    for (const one of slowed)
+      this.notes.push({ step: parts[one.move]!.step, at_s: begun_s + parts[one.move]!.start_s, slowed: one });
   }
 
   /** Goes on from another posture, for drawing what comes behind a step that cannot be carried out. */
-  jumpTo(q_rad: ArrayLike<number>): void { this.q.set(q_rad); }
+  jumpTo(q_rad: ArrayLike<number>): void {
+    this.q.set(q_rad);
+  }
 
   plan(robot: string): Plan {
-    return { robot, duration_s: this.t_s, segments: this.segments, writes: this.writes.sort((a, b) => a.at_s - b.at_s) };
+    return {
+      robot,
+      duration_s: this.t_s,
+      segments: this.segments,
+      writes: this.writes.sort((a, b) => a.at_s - b.at_s),
+    };
   }
 }

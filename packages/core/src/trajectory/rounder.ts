@@ -44,7 +44,8 @@ export class Rounder {
 
   /** Share of the accelerations with which ramp and window take equally long: √(v / (a w)), at most 1. */
   softness(grid: TimingGrid, x: Float64Array): number {
-    let rate2 = 0, bend = 0;
+    let rate2 = 0;
+    let bend = 0;
     for (let i = 0; i + 1 < grid.nodes; i++) {
       rate2 = Math.max(rate2, x[i]!);
       bend = Math.max(bend, Math.abs(this.bends[i]!));
@@ -53,7 +54,8 @@ export class Rounder {
   }
 
   private measure({ nodes, joints, q1 }: TimingGrid, x: Float64Array, window_s: number): void {
-    const t = this.law.t, last = nodes - 1;
+    const t = this.law.t;
+    const last = nodes - 1;
     if (this.bends.length < nodes) this.bends = new Float64Array(Math.max(nodes, 2 * this.bends.length));
     const bends = this.bends;
     for (let i = 0; i < last; i++) {
@@ -66,7 +68,8 @@ export class Rounder {
       if (!(t[i + 1]! > t[i]!)) continue;
       while (back < i && t[back + 1]! <= t[i]! - window_s) back++;
       let change = t[i]! < window_s ? Math.abs(bends[i]!) : 0;
-      for (let k = back; k <= i && t[k]! < t[i + 1]! - window_s; k++) change = Math.max(change, Math.abs(bends[i]! - bends[k]!));
+      for (let k = back; k <= i && t[k]! < t[i + 1]! - window_s; k++)
+        change = Math.max(change, Math.abs(bends[i]! - bends[k]!));
       if (change > 0) this.note(i, change / window_s, joints, q1);
     }
     // Behind the end what is left of the deceleration goes.
@@ -75,8 +78,13 @@ export class Rounder {
 
   private note(i: number, jerk: number, joints: number, q1: Float64Array): void {
     for (let j = 0; j < joints; j++) {
-      const slope = Math.max(Math.abs(q1[i * joints + j]!), Math.abs(q1[(i + 1) * joints + j]!)), limit = this.jerks[j]!;
-      if (slope * jerk > this.worst.load * limit) { this.worst.load = (slope * jerk) / limit; this.worst.joint = j + 1; this.worst.limit = limit; }
+      const slope = Math.max(Math.abs(q1[i * joints + j]!), Math.abs(q1[(i + 1) * joints + j]!));
+      const limit = this.jerks[j]!;
+      if (slope * jerk > this.worst.load * limit) {
+        this.worst.load = (slope * jerk) / limit;
+        this.worst.joint = j + 1;
+        this.worst.limit = limit;
+      }
     }
   }
 }

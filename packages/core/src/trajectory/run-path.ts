@@ -14,7 +14,14 @@ export type RunStop =
   | { readonly kind: "goal"; readonly move: number; readonly goal: Extract<Goal, { kind: "none" }> }
   | { readonly kind: "path"; readonly move: number; readonly share: number; readonly stop: Stop }
   /** Joint counts from 1. */
-  | { readonly kind: "limit"; readonly move: number; readonly share: number; readonly joint: number; readonly wanted_rad: number; readonly limit_rad: number }
+  | {
+      readonly kind: "limit";
+      readonly move: number;
+      readonly share: number;
+      readonly joint: number;
+      readonly wanted_rad: number;
+      readonly limit_rad: number;
+    }
   | { readonly kind: "straight-circle"; readonly move: number };
 
 /** Geometry of one move of a run. */
@@ -55,13 +62,15 @@ export class RunPath {
   /** Fills `path` with the run from posture `q0`. When it stops, what `path` holds is of no use. */
   lay(moves: readonly Move[], q0: Float64Array): RunStop | undefined {
     this.path.clear();
-    const legs: Leg[] = [], stopped = this.layLegs(moves, q0, legs);
+    const legs: Leg[] = [];
+    const stopped = this.layLegs(moves, q0, legs);
     if (stopped !== undefined) return stopped;
     const q = this.q;
     q.set(q0);
     let from = 0;
     for (let i = 0; i < legs.length; i++) {
-      const leg = legs[i]!, next = legs[i + 1];
+      const leg = legs[i]!;
+      const next = legs[i + 1];
       const smooth = next === undefined || this.smooth(leg, next);
       const corner = smooth ? { leave: leg.length, join: 0 } : this.corner(leg, next);
       if (corner.leave - from > SHORTEST_M || next === undefined) {
@@ -84,7 +93,8 @@ export class RunPath {
     for (let i = 0; i < moves.length; i++) {
       const move = moves[i]!;
       if (move.step.path === "ptp") {
-        const start: Float64Array = q ?? q0, goal = this.goals.find(move, start);
+        const start: Float64Array = q ?? q0;
+        const goal = this.goals.find(move, start);
         if (goal.kind === "none") return { kind: "goal", move: i, goal };
         legs.push({ move, q0: start, q1: goal.q_rad, length: this.jointLength(start, goal.q_rad, move) });
         q = goal.q_rad;
@@ -106,11 +116,19 @@ export class RunPath {
   }
 
   /** Posture at the end of a pose leg: along every pose leg since the last posture that is known. */
-  private march(leg: Leg, moves: readonly Move[], i: number, legs: readonly Leg[], q0: Float64Array):
-    { readonly kind: "end"; readonly q_rad: Float64Array } | { readonly kind: "stop"; readonly move: number; readonly share: number; readonly stop: Stop } {
+  private march(
+    leg: Leg,
+    moves: readonly Move[],
+    i: number,
+    legs: readonly Leg[],
+    q0: Float64Array,
+  ):
+    | { readonly kind: "end"; readonly q_rad: Float64Array }
+    | { readonly kind: "stop"; readonly move: number; readonly share: number; readonly stop: Stop } {
     let first = i;
     while (first > 0 && legs[first]!.q0 === undefined) first--;
-    const q = (legs[first]?.q0 ?? q0).slice(), trial = new HermitePath(this.follower, Number.POSITIVE_INFINITY);
+    const q = (legs[first]?.q0 ?? q0).slice();
+    const trial = new HermitePath(this.follower, Number.POSITIVE_INFINITY);
     for (let k = first; k <= i; k++) {
       const passed = k === i ? leg : legs[k]!;
       if (passed.path === undefined || passed.length < SHORTEST_M) continue;
@@ -123,12 +141,15 @@ export class RunPath {
 
   /** TCP distance along a joint move, so that its blends can be measured in metres. */
   private jointLength(q0: Float64Array, q1: Float64Array, move: Move): number {
-    let way = 0, turn = 0;
+    let way = 0;
+    let turn = 0;
     const last: Vector3 = this.tcpAt(q0, q1, 0, move);
     for (let k = 1; k <= 8; k++) {
       const p = this.tcpAt(q0, q1, k / 8, move);
       way += distance(last, p);
-      last[0] = p[0]; last[1] = p[1]; last[2] = p[2];
+      last[0] = p[0];
+      last[1] = p[1];
+      last[2] = p[2];
     }
     for (let j = 0; j < q0.length; j++) turn = Math.max(turn, Math.abs(q1[j]! - q0[j]!));
     return Math.max(way, TURN_M_PER_RAD * turn);
@@ -140,8 +161,13 @@ export class RunPath {
   }
 
   private smooth(leg: Leg, next: Leg): boolean {
-    return leg.move.step.path === "spline" && next.move.step.path === "spline" && leg.move.step.target.tool === next.move.step.target.tool
-      && leg.length >= SHORTEST_M && next.length >= SHORTEST_M;
+    return (
+      leg.move.step.path === "spline" &&
+      next.move.step.path === "spline" &&
+      leg.move.step.target.tool === next.move.step.target.tool &&
+      leg.length >= SHORTEST_M &&
+      next.length >= SHORTEST_M
+    );
   }
 
   /** How far along each leg its corner begins and ends. Half of a leg at most, so that two corners never meet. */
@@ -150,10 +176,11 @@ export class RunPath {
     // A move to where the robot stands has no direction a curve could leave in.
     if (leg.length <= SHORTEST_M || next.length <= SHORTEST_M) return { leave: leg.length, join: 0 };
     if (leg.path !== undefined && next.path !== undefined) {
-      const half = Math.min(leg.length, next.length) / 2, d = ratio > 0 ? ratio * half : Math.min(blend, half);
+      const half = Math.min(leg.length, next.length) / 2;
+      const d = ratio > 0 ? ratio * half : Math.min(blend, half);
       return { leave: leg.length - d, join: d };
     }
-    if (ratio > 0) return { leave: leg.length * (1 - ratio / 2), join: next.length * ratio / 2 };
+    if (ratio > 0) return { leave: leg.length * (1 - ratio / 2), join: (next.length * ratio) / 2 };
     return { leave: leg.length - this.withinBlend(leg, blend, true), join: this.withinBlend(next, blend, false) };
   }
 
@@ -162,10 +189,14 @@ export class RunPath {
     const half = leg.length / 2;
     if (leg.path !== undefined || leg.q0 === undefined || leg.q1 === undefined) return Math.min(blend, half);
     const corner = this.tcpAt(leg.q0, leg.q1, atEnd ? 1 : 0, leg.move);
-    let low = 0, high = 0.5;
+    let low = 0;
+    let high = 0.5;
     for (let k = 0; k < 24; k++) {
       const share = k === 0 ? high : (low + high) / 2;
-      if (distance(this.tcpAt(leg.q0, leg.q1, atEnd ? 1 - share : share, leg.move), corner) <= blend) { low = share; if (k === 0) break; } else high = share;
+      if (distance(this.tcpAt(leg.q0, leg.q1, atEnd ? 1 - share : share, leg.move), corner) <= blend) {
+        low = share;
+        if (k === 0) break;
+      } else high = share;
     }
     return low * leg.length;
   }
@@ -177,7 +208,9 @@ export class RunPath {
       return stop === undefined ? undefined : { kind: "path", move: i, share: stop.s / leg.length, stop };
     }
     if (leg.length <= SHORTEST_M * 1e-3) return undefined;
-    const a = this.onJointLeg(leg, from), b = this.onJointLeg(leg, to), d = this.jointSlope(leg);
+    const a = this.onJointLeg(leg, from);
+    const b = this.onJointLeg(leg, to);
+    const d = this.jointSlope(leg);
     this.path.addJoints(a, d, b, d, to - from, i, i);
     q.set(b);
     return undefined;
@@ -187,15 +220,29 @@ export class RunPath {
     const length = leg.length - leave + join;
     if (length <= 2 * SHORTEST_M) return undefined;
     if (leg.path !== undefined && next.path !== undefined && leg.move.step.target.tool === next.move.step.target.tool) {
-      const a: Pose = identity(), b: Pose = identity(), t0 = new Float64Array(6), t1 = new Float64Array(6);
-      posePoint(leg.path, leave, a, this.scratch); poseTwist(leg.path, leave, t0, this.scratch);
-      posePoint(next.path, join, b, this.scratch); poseTwist(next.path, join, t1, this.scratch);
+      const a: Pose = identity();
+      const b: Pose = identity();
+      const t0 = new Float64Array(6);
+      const t1 = new Float64Array(6);
+      posePoint(leg.path, leave, a, this.scratch);
+      poseTwist(leg.path, leave, t0, this.scratch);
+      posePoint(next.path, join, b, this.scratch);
+      poseTwist(next.path, join, t1, this.scratch);
       const curve = curvePath(a, t0, b, t1, length);
       const stop = this.path.addPoses(curve, next.move.tcpFromFlange, 0, length, q, i, i + 1);
-      return stop === undefined ? undefined : { kind: "path", move: stop.s < length / 2 ? i : i + 1, share: stop.s < length / 2 ? 1 : 0, stop };
+      return stop === undefined
+        ? undefined
+        : { kind: "path", move: stop.s < length / 2 ? i : i + 1, share: stop.s < length / 2 ? 1 : 0, stop };
     }
-    const d0 = this.slopeAt(leg, leave, q), end = this.postureAt(next, join, leg.q1 ?? q);
-    if (end === undefined) return { kind: "path", move: i + 1, share: join / next.length, stop: { kind: "out-of-reach", s: join, goal: next.move.baseFromFlange } };
+    const d0 = this.slopeAt(leg, leave, q);
+    const end = this.postureAt(next, join, leg.q1 ?? q);
+    if (end === undefined)
+      return {
+        kind: "path",
+        move: i + 1,
+        share: join / next.length,
+        stop: { kind: "out-of-reach", s: join, goal: next.move.baseFromFlange },
+      };
     this.path.addJoints(q, d0, end, this.slopeAt(next, join, end), length, i, i + 1);
     q.set(end);
     return undefined;
@@ -211,17 +258,20 @@ export class RunPath {
   private postureAt(leg: Leg, s: number, near: Float64Array): Float64Array | undefined {
     if (leg.path === undefined) return this.onJointLeg(leg, s);
     const q = near.slice();
-    for (let k = 1; k <= 4; k++) if (!this.path.reach(leg.path, leg.move.tcpFromFlange, (s * k) / 4, q)) return undefined;
+    for (let k = 1; k <= 4; k++)
+      if (!this.path.reach(leg.path, leg.move.tcpFromFlange, (s * k) / 4, q)) return undefined;
     return q;
   }
 
   private onJointLeg(leg: Leg, s: number): Float64Array {
-    const q0 = leg.q0!, q1 = leg.q1!;
+    const q0 = leg.q0!;
+    const q1 = leg.q1!;
     return q0.map((a, j) => a + ((q1[j]! - a) * s) / leg.length);
   }
 
   private jointSlope(leg: Leg): Float64Array {
-    const q0 = leg.q0!, q1 = leg.q1!;
+    const q0 = leg.q0!;
+    const q1 = leg.q1!;
     return q0.map((a, j) => (q1[j]! - a) / leg.length);
   }
 }

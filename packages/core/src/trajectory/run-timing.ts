@@ -11,9 +11,11 @@ import { PathTimer, type TimingGrid, type TimingLimits } from "./timing.ts";
  * Share of the published limits the planner uses. The rest covers what lies between two nodes, so that the limits hold
  * at every instant.
  */
-const SPEED_SHARE = 0.999, ACCELERATION_SHARE = 0.98;
+const SPEED_SHARE = 0.999;
+const ACCELERATION_SHARE = 0.98;
 /** Intervals of the timing grid on a piece, and on one that begins or ends at rest. */
-const INTERVALS = 4, INTERVALS_AT_REST = 12;
+const INTERVALS = 4;
+const INTERVALS_AT_REST = 12;
 /** How often the grid is made denser when the cubics between its nodes are over a limit. */
 const MOST_DENSE = 4;
 /** Least ṡ² inside a run. */
@@ -23,7 +25,9 @@ const NEAR = 1e-6;
 /** A run is tried with less acceleration when this share of it or less would do. */
 const WORTHWHILE = 0.9;
 /** A run over its limits by more than this factor of time is eased where it is, not as a whole; so often; and a little more each time than was missing. */
-const WORTH_EASING = 1.003, EASING_ROUNDS = 8, EASING_MORE = 1.01;
+const WORTH_EASING = 1.003;
+const EASING_ROUNDS = 8;
+const EASING_MORE = 1.01;
 /** Rounds in which the pace of moves of a given duration is tuned inside a run. */
 const ROUNDS = 12;
 
@@ -41,21 +45,36 @@ export interface Slowed {
 }
 
 /** A run laid out in time: for each move its part, `start_s` counted from the start of the run. */
-export interface TimedRun { readonly parts: readonly MotionSegment[]; readonly slowed: readonly Slowed[]; readonly duration_s: number }
+export interface TimedRun {
+  readonly parts: readonly MotionSegment[];
+  readonly slowed: readonly Slowed[];
+  readonly duration_s: number;
+}
 
 /** Joint limits of a robot as the planner uses them. */
 export const planningLimits = (robot: Robot): TimingLimits => ({
   speed_rad_s: Float64Array.from(robot.arm.joints, joint => joint.limits.speed_rad_s * SPEED_SHARE),
-  acceleration_rad_s2: Float64Array.from(robot.arm.joints, joint => joint.limits.acceleration_rad_s2 * ACCELERATION_SHARE),
+  acceleration_rad_s2: Float64Array.from(
+    robot.arm.joints,
+    joint => joint.limits.acceleration_rad_s2 * ACCELERATION_SHARE,
+  ),
 });
 
 /** What a step's speed means along the path: a share of joint speed and a speed of the TCP. */
-export interface Pace { readonly ratio: number; readonly mps: number; readonly time_s: number }
+export interface Pace {
+  readonly ratio: number;
+  readonly mps: number;
+  readonly time_s: number;
+}
 
 export function paceOf(speed: Speed, path: MoveStep["path"], robot: Robot): Pace {
   if ("mps" in speed) return { ratio: 1, mps: speed.mps, time_s: 0 };
   if ("time_s" in speed) return { ratio: 1, mps: Number.POSITIVE_INFINITY, time_s: speed.time_s };
-  return { ratio: speed.ratio, mps: path === "ptp" ? Number.POSITIVE_INFINITY : speed.ratio * robot.maxTcpSpeed_mps, time_s: 0 };
+  return {
+    ratio: speed.ratio,
+    mps: path === "ptp" ? Number.POSITIVE_INFINITY : speed.ratio * robot.maxTcpSpeed_mps,
+    time_s: 0,
+  };
 }
 
 /** Gives a run's path its times. One per planner; its arrays are reused. */
@@ -87,19 +106,36 @@ export class RunTimer {
     this.rounder = new Rounder(robot);
     this.emission = new Emission(this.rounder.law, this.joints);
     this.bend = new Float64Array(2 * this.joints);
-    this.q = new Float64Array(64 * this.joints); this.q1 = this.q.slice(); this.q2 = this.q.slice();
+    this.q = new Float64Array(64 * this.joints);
+    this.q1 = this.q.slice();
+    this.q2 = this.q.slice();
   }
 
   /** @param tcpSlope  |dp/ds| of the TCP of a move at a posture, for joint legs that have a speed in m/s. */
-  time(path: HermitePath, steps: readonly MoveStep[], q0: Float64Array, tcpSlope: (move: number, q: Float64Array, q1: Float64Array) => number): TimedRun {
-    const paces = steps.map(step => paceOf(step.speed, step.path, this.robot)), slowed: Slowed[] = [];
+  time(
+    path: HermitePath,
+    steps: readonly MoveStep[],
+    q0: Float64Array,
+    tcpSlope: (move: number, q: Float64Array, q1: Float64Array) => number,
+  ): TimedRun {
+    const paces = steps.map(step => paceOf(step.speed, step.path, this.robot));
+    const slowed: Slowed[] = [];
     if (path.nodes < 2) return { parts: steps.map(step => this.standing(step, q0)), slowed, duration_s: 0 };
-    let run: TimedRun | undefined, over = 1;
+    let run: TimedRun | undefined;
+    let over = 1;
     for (let density = 1; density <= MOST_DENSE; density *= 2) {
       slowed.length = 0;
       this.spread(path, density);
       this.capSpeeds(path, paces, tcpSlope, slowed);
-      const grid: TimingGrid = { nodes: this.nodes, joints: this.joints, s: this.s, q1: this.q1, q2: this.q2, cap: this.cap, share: this.share };
+      const grid: TimingGrid = {
+        nodes: this.nodes,
+        joints: this.joints,
+        s: this.s,
+        q1: this.q1,
+        q2: this.q2,
+        cap: this.cap,
+        share: this.share,
+      };
       const softness = this.soften(grid, steps);
       let stretch = 1;
       if (steps.length === 1 && paces[0]!.time_s > 0) stretch = this.stretchOf(paces[0]!.time_s, slowed);
@@ -156,21 +192,33 @@ export class RunTimer {
   /** How far, as a factor of time, the cubics of the parts are over the published limits; at most 1 when they are not. */
   private worstShare(parts: readonly MotionSegment[]): number {
     let worst = 0;
-    for (const part of parts) for (let i = 0; i + 1 < part.times_s.length; i++) worst = Math.max(worst, this.shareIn(part, i));
+    for (const part of parts)
+      for (let i = 0; i + 1 < part.times_s.length; i++) worst = Math.max(worst, this.shareIn(part, i));
     return worst;
   }
 
   /** The same for one interval of one part. */
   private shareIn(part: MotionSegment, i: number): number {
-    const joints = this.robot.arm.joints, n = this.joints, bend = this.bend;
+    const joints = this.robot.arm.joints;
+    const n = this.joints;
+    const bend = this.bend;
     intervalAccelerations(part, i, n, bend);
     const h = part.times_s[i + 1]! - part.times_s[i]!;
     let worst = 0;
     for (let j = 0; j < n; j++) {
-      const { speed_rad_s, acceleration_rad_s2 } = joints[j]!.limits, at = i * n + j;
-      const middle = h > 0 ? (1.5 * (part.q_rad[at + n]! - part.q_rad[at]!)) / h - (part.qd_rad_s[at]! + part.qd_rad_s[at + n]!) / 4 : 0;
+      const { speed_rad_s, acceleration_rad_s2 } = joints[j]!.limits;
+      const at = i * n + j;
+      const middle =
+        h > 0
+          ? (1.5 * (part.q_rad[at + n]! - part.q_rad[at]!)) / h - (part.qd_rad_s[at]! + part.qd_rad_s[at + n]!) / 4
+          : 0;
       const acceleration = Math.max(Math.abs(bend[j]!), Math.abs(bend[n + j]!));
-      worst = Math.max(worst, Math.sqrt(acceleration / acceleration_rad_s2), Math.abs(middle) / speed_rad_s, Math.abs(part.qd_rad_s[at]!) / speed_rad_s);
+      worst = Math.max(
+        worst,
+        Math.sqrt(acceleration / acceleration_rad_s2),
+        Math.abs(middle) / speed_rad_s,
+        Math.abs(part.qd_rad_s[at]!) / speed_rad_s,
+      );
     }
     return worst;
   }
@@ -180,16 +228,19 @@ export class RunTimer {
    * bend of the path be entered faster than its place allows. The rest of the run keeps its pace.
    */
   private ease(parts: readonly MotionSegment[]): void {
-    const { law } = this.rounder, around_s = law.window_s;
+    const { law } = this.rounder;
+    const around_s = law.window_s;
     let node = 0;
     for (const part of parts) {
       for (let i = 0; i + 1 < part.times_s.length; i++) {
         const share = this.shareIn(part, i);
         if (share <= 1) continue;
-        const from_s = part.start_s + part.times_s[i]! - around_s, to_s = part.start_s + part.times_s[i + 1]!;
+        const from_s = part.start_s + part.times_s[i]! - around_s;
+        const to_s = part.start_s + part.times_s[i + 1]!;
         while (node > 0 && law.t[node]! > from_s) node--;
         while (node < this.nodes && law.t[node]! < from_s) node++;
-        for (let k = Math.max(0, node - 1); k < this.nodes && law.t[k]! <= to_s; k++) this.eased[k] = Math.max(this.eased[k]!, share);
+        for (let k = Math.max(0, node - 1); k < this.nodes && law.t[k]! <= to_s; k++)
+          this.eased[k] = Math.max(this.eased[k]!, share);
       }
     }
     for (let i = 0; i < this.nodes; i++) {
@@ -200,7 +251,16 @@ export class RunTimer {
 
   private standing(step: MoveStep, q0: Float64Array): MotionSegment {
     const n = this.joints;
-    return { kind: "motion", path: step.path, step: step.id, start_s: 0, duration_s: 0, times_s: new Float64Array(1), q_rad: q0.slice(), qd_rad_s: new Float64Array(n) };
+    return {
+      kind: "motion",
+      path: step.path,
+      step: step.id,
+      start_s: 0,
+      duration_s: 0,
+      times_s: new Float64Array(1),
+      q_rad: q0.slice(),
+      qd_rad_s: new Float64Array(n),
+    };
   }
 
   /** Fills the grid: nodes closer together where the run stands still, one at every change of move. */
@@ -208,10 +268,14 @@ export class RunTimer {
     this.nodes = 0;
     const last = path.pieces.length - 1;
     for (let k = 0; k <= last; k++) {
-      const piece = path.pieces[k]!, a = path.s[piece.first]!, b = path.s[piece.last]!;
-      const rests = (k === 0 ? 1 : 0) + (k === last ? 2 : 0), dense = piece.last - piece.first;
+      const piece = path.pieces[k]!;
+      const a = path.s[piece.first]!;
+      const b = path.s[piece.last]!;
+      const rests = (k === 0 ? 1 : 0) + (k === last ? 2 : 0);
+      const dense = piece.last - piece.first;
       const count = density * (rests === 0 ? Math.max(INTERVALS, dense) : Math.max(INTERVALS_AT_REST, 2 * dense));
-      let i = piece.first, split = piece.before !== piece.after;
+      let i = piece.first;
+      let split = piece.before !== piece.after;
       const near = (b - a) * NEAR;
       for (let m = 0; m <= count; m++) {
         let s = m === count ? b : a + (b - a) * graded(m / count, rests);
@@ -238,18 +302,44 @@ export class RunTimer {
   }
 
   private grow(): void {
-    const more = this.s.length * 2, n = this.joints, to = (from: Float64Array, size: number): Float64Array<ArrayBuffer> => { const big = new Float64Array(size); big.set(from); return big; };
-    const ints = (from: Int32Array): Int32Array<ArrayBuffer> => { const big = new Int32Array(more); big.set(from); return big; };
-    this.s = to(this.s, more); this.cap = to(this.cap, more); this.x = to(this.x, more); this.share = to(this.share, more); this.eased = new Float64Array(more).fill(1);
-    this.q = to(this.q, more * n); this.q1 = to(this.q1, more * n); this.q2 = to(this.q2, more * n);
-    this.owner = ints(this.owner); this.knot = ints(this.knot);
+    const more = this.s.length * 2;
+    const n = this.joints;
+    const to = (from: Float64Array, size: number): Float64Array<ArrayBuffer> => {
+      const big = new Float64Array(size);
+      big.set(from);
+      return big;
+    };
+    const ints = (from: Int32Array): Int32Array<ArrayBuffer> => {
+      const big = new Int32Array(more);
+      big.set(from);
+      return big;
+    };
+    this.s = to(this.s, more);
+    this.cap = to(this.cap, more);
+    this.x = to(this.x, more);
+    this.share = to(this.share, more);
+    this.eased = new Float64Array(more).fill(1);
+    this.q = to(this.q, more * n);
+    this.q1 = to(this.q1, more * n);
+    this.q2 = to(this.q2, more * n);
+    this.owner = ints(this.owner);
+    this.knot = ints(this.knot);
   }
 
   /** ṡ² that the commanded speeds allow, and which joints could not follow them. */
-  private capSpeeds(path: HermitePath, paces: readonly Pace[], tcpSlope: (move: number, q: Float64Array, q1: Float64Array) => number, slowed: Slowed[]): void {
-    const n = this.joints, v = this.limits.speed_rad_s, worst = new Map<number, Slowed>();
+  private capSpeeds(
+    path: HermitePath,
+    paces: readonly Pace[],
+    tcpSlope: (move: number, q: Float64Array, q1: Float64Array) => number,
+    slowed: Slowed[],
+  ): void {
+    const n = this.joints;
+    const v = this.limits.speed_rad_s;
+    const worst = new Map<number, Slowed>();
     for (let i = 0; i < this.nodes; i++) {
-      const move = this.owner[i]!, pace = paces[move]!, at = i * n;
+      const move = this.owner[i]!;
+      const pace = paces[move]!;
+      const at = i * n;
       let cap = Number.POSITIVE_INFINITY;
       if (pace.mps < Number.POSITIVE_INFINITY) {
         const k = this.knot[i]!;
@@ -266,8 +356,10 @@ export class RunTimer {
       } else if (cap < Number.POSITIVE_INFINITY) {
         const rate = Math.sqrt(cap);
         for (let j = 0; j < n; j++) {
-          const wanted = Math.abs(this.q1[at + j]!) * rate, by = wanted / v[j]!;
-          const limit = this.robot.arm.joints[j]!.limits.speed_rad_s, found = worst.get(move);
+          const wanted = Math.abs(this.q1[at + j]!) * rate;
+          const by = wanted / v[j]!;
+          const limit = this.robot.arm.joints[j]!.limits.speed_rad_s;
+          const found = worst.get(move);
           if (by > 1 && (found === undefined || wanted / limit > found.wanted / found.limit)) {
             worst.set(move, { move, joint: j + 1, wanted, limit, unit: "rad/s", s: this.s[i]! });
           }
@@ -304,13 +396,18 @@ export class RunTimer {
   /** The joint that a duration shorter by `factor` asks too much of. */
   private tooShort(move: number, factor: number): Slowed {
     const n = this.joints;
-    let found: Slowed = { move, joint: 1, wanted: 0, limit: 1, unit: "rad/s2", s: 0 }, by = 0;
+    let found: Slowed = { move, joint: 1, wanted: 0, limit: 1, unit: "rad/s2", s: 0 };
+    let by = 0;
     for (let i = 0; i + 1 < this.nodes; i++) {
       if (this.owner[i] !== move) continue;
-      const rate = Math.sqrt(this.x[i]!), h = this.s[i + 1]! - this.s[i]!, u = h > 0 ? (this.x[i + 1]! - this.x[i]!) / (2 * h) : 0;
+      const rate = Math.sqrt(this.x[i]!);
+      const h = this.s[i + 1]! - this.s[i]!;
+      const u = h > 0 ? (this.x[i + 1]! - this.x[i]!) / (2 * h) : 0;
       for (let j = 0; j < n; j++) {
-        const limit = this.robot.arm.joints[j]!.limits, at = i * n + j;
-        const speed = Math.abs(this.q1[at]!) * rate * factor, bend = Math.abs(this.q1[at]! * u + this.q2[at]! * this.x[i]!) * factor * factor;
+        const limit = this.robot.arm.joints[j]!.limits;
+        const at = i * n + j;
+        const speed = Math.abs(this.q1[at]!) * rate * factor;
+        const bend = Math.abs(this.q1[at]! * u + this.q2[at]! * this.x[i]!) * factor * factor;
         // A speed over its limit is the plainer reason; acceleration only speaks when no speed does.
         if (speed / limit.speed_rad_s > Math.max(1, found.unit === "rad/s" ? by : 0)) {
           by = speed / limit.speed_rad_s;
@@ -328,7 +425,9 @@ export class RunTimer {
 
   /** Moves of given duration inside a run: their pace is lowered until each takes its time. */
   private tune(grid: TimingGrid, paces: readonly Pace[], softness: number, slowed: Slowed[]): void {
-    const first = this.moveTimes_s(paces.length), lengths = new Float64Array(paces.length), pace = new Float64Array(paces.length);
+    const first = this.moveTimes_s(paces.length);
+    const lengths = new Float64Array(paces.length);
+    const pace = new Float64Array(paces.length);
     for (let i = 0; i + 1 < this.nodes; i++) lengths[this.owner[i]!]! += this.s[i + 1]! - this.s[i]!;
     for (let m = 0; m < paces.length; m++) {
       const time_s = paces[m]!.time_s;
@@ -356,22 +455,33 @@ export class RunTimer {
   }
 
   private emit(path: HermitePath, steps: readonly MoveStep[], stretch: number, slowed: readonly Slowed[]): TimedRun {
-    const parts: MotionSegment[] = [], out = this.emission;
+    const parts: MotionSegment[] = [];
+    const out = this.emission;
     out.start(path, stretch);
-    let start_s = 0, move = 0;
-    const begin = (i: number): void => { out.begin(this.knot[i]!, this.s[i]!, i); };
+    let start_s = 0;
+    let move = 0;
+    const begin = (i: number): void => {
+      out.begin(this.knot[i]!, this.s[i]!, i);
+    };
     begin(0);
     const close = (): void => {
-      const step = steps[move]!, part = out.part(step, start_s);
+      const step = steps[move]!;
+      const part = out.part(step, start_s);
       parts.push(part);
       start_s += part.duration_s;
       move++;
     };
     for (let i = 0; i + 1 < this.nodes; i++) {
-      while (this.owner[i]! > move) { close(); begin(i); }
+      while (this.owner[i]! > move) {
+        close();
+        begin(i);
+      }
       if (this.s[i + 1]! > this.s[i]!) out.interval(this.s[i + 1]!, i + 1, this.knot[i]!);
     }
-    while (move < steps.length) { close(); begin(this.nodes - 1); }
+    while (move < steps.length) {
+      close();
+      begin(this.nodes - 1);
+    }
     return { parts, slowed, duration_s: start_s };
   }
 }
@@ -379,9 +489,13 @@ export class RunTimer {
 /** Share of a piece at share m of its nodes: closer together at an end that rests (1 the first, 2 the last, 3 both). */
 function graded(m: number, rests: number): number {
   switch (rests) {
-    case 1: return 1 - Math.cos((m * Math.PI) / 2);
-    case 2: return Math.sin((m * Math.PI) / 2);
-    case 3: return (1 - Math.cos(m * Math.PI)) / 2;
-    default: return m;
+    case 1:
+      return 1 - Math.cos((m * Math.PI) / 2);
+    case 2:
+      return Math.sin((m * Math.PI) / 2);
+    case 3:
+      return (1 - Math.cos(m * Math.PI)) / 2;
+    default:
+      return m;
   }
 }

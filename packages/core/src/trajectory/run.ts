@@ -15,7 +15,9 @@ export const PATH_TOLERANCE_M = 5e-7;
 /** A posture this far [rad] outside its limit is rounding. */
 export const LIMIT_SLACK_RAD = 1e-9;
 
-export type RunAnswer = { readonly kind: "timed"; readonly run: TimedRun } | { readonly kind: "stopped"; readonly stop: RunStop };
+export type RunAnswer =
+  | { readonly kind: "timed"; readonly run: TimedRun }
+  | { readonly kind: "stopped"; readonly stop: RunStop };
 
 /**
  * Lays out runs of moves: geometry first, then time. One per planner or stepper: its working memory is reused from run
@@ -55,20 +57,34 @@ export class RunPlanner {
     }
     const stop = this.path.lay(moves, q0);
     if (stop !== undefined) return { kind: "stopped", stop };
-    const run = this.timer.time(this.path.path, moves.map(move => move.step), q0, (move, q, q1) => this.tcpSlope(moves[move]!, q, q1));
+    const run = this.timer.time(
+      this.path.path,
+      moves.map(move => move.step),
+      q0,
+      (move, q, q1) => this.tcpSlope(moves[move]!, q, q1),
+    );
     return { kind: "timed", run };
   }
 
   /** The first node that lies outside the joint limits. */
   private firstBeyond(run: TimedRun): RunStop | undefined {
-    const joints = this.robot.arm.joints, n = joints.length;
+    const joints = this.robot.arm.joints;
+    const n = joints.length;
     for (let move = 0; move < run.parts.length; move++) {
       const part = run.parts[move]!;
       for (let i = 0; i < part.q_rad.length; i++) {
-        const { lower_rad, upper_rad } = joints[i % n]!.limits, q = part.q_rad[i]!;
+        const { lower_rad, upper_rad } = joints[i % n]!.limits;
+        const q = part.q_rad[i]!;
         if (q > upper_rad + LIMIT_SLACK_RAD || q < lower_rad - LIMIT_SLACK_RAD) {
           const share = part.duration_s > 0 ? part.times_s[Math.floor(i / n)]! / part.duration_s : 1;
-          return { kind: "limit", move, share, joint: (i % n) + 1, wanted_rad: q, limit_rad: q > upper_rad ? upper_rad : lower_rad };
+          return {
+            kind: "limit",
+            move,
+            share,
+            joint: (i % n) + 1,
+            wanted_rad: q,
+            limit_rad: q > upper_rad ? upper_rad : lower_rad,
+          };
         }
       }
     }
@@ -77,7 +93,15 @@ export class RunPlanner {
 
   /** |dp/ds| of the TCP on a joint leg. */
   private tcpSlope(move: Move, q: Float64Array, q1: Float64Array): number {
-    const step = 1e-5, at = (k: number) => compose(flangePose(this.robot.arm, q.map((a, j) => a + q1[j]! * k)), move.flangeFromTcp).position;
+    const step = 1e-5;
+    const at = (k: number) =>
+      compose(
+        flangePose(
+          this.robot.arm,
+          q.map((a, j) => a + q1[j]! * k),
+        ),
+        move.flangeFromTcp,
+      ).position;
     return distance(at(-step), at(step)) / (2 * step);
   }
 }

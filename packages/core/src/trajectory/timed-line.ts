@@ -34,19 +34,34 @@ export class TimedLine {
   private readonly law: LawPoint = { value: 0, speed: 0, acceleration: 0 };
 
   constructor(from: Pose, to: Pose, duration_s: number, { angles = "cubic", sequence = "yxz" }: TimedLineOptions = {}) {
-    this.from = from; this.to = to; this.duration_s = duration_s;
+    this.from = from;
+    this.to = to;
+    this.duration_s = duration_s;
     this.linear = angles === "linear";
     this.sequence = sequence;
     this.begin = toTurns(sequence, from.quaternion);
     const end = toTurns(sequence, to.quaternion);
-    this.sweep = [wrapAngle(end[0] - this.begin[0]), wrapAngle(end[1] - this.begin[1]), wrapAngle(end[2] - this.begin[2])];
+    this.sweep = [
+      wrapAngle(end[0] - this.begin[0]),
+      wrapAngle(end[1] - this.begin[1]),
+      wrapAngle(end[2] - this.begin[2]),
+    ];
   }
 
   /** Pose of the tool at t; before the start the first, after the end the last. */
   at(t_s: number, out: Pose = identity()): Pose {
-    const tau = this.duration_s > 0 ? Math.min(1, Math.max(0, t_s / this.duration_s)) : 1, share = cubicLaw(tau, this.law).value, turn = this.linear ? tau : share;
-    for (let i = 0; i < 3; i++) out.position[i] = this.from.position[i]! + (this.to.position[i]! - this.from.position[i]!) * share;
-    fromTurns(this.sequence, this.begin[0] + this.sweep[0] * turn, this.begin[1] + this.sweep[1] * turn, this.begin[2] + this.sweep[2] * turn, out.quaternion);
+    const tau = this.duration_s > 0 ? Math.min(1, Math.max(0, t_s / this.duration_s)) : 1;
+    const share = cubicLaw(tau, this.law).value;
+    const turn = this.linear ? tau : share;
+    for (let i = 0; i < 3; i++)
+      out.position[i] = this.from.position[i]! + (this.to.position[i]! - this.from.position[i]!) * share;
+    fromTurns(
+      this.sequence,
+      this.begin[0] + this.sweep[0] * turn,
+      this.begin[1] + this.sweep[1] * turn,
+      this.begin[2] + this.sweep[2] * turn,
+      out.quaternion,
+    );
     return out;
   }
 }
@@ -55,7 +70,13 @@ export class TimedLine {
 export type FrameVerdict =
   | { readonly kind: "fine" }
   | { readonly kind: "unreachable"; readonly reach: Reach; readonly sentence: string }
-  | { readonly kind: "position" | "speed"; readonly joint: number; readonly value: number; readonly limit: number; readonly sentence: string };
+  | {
+      readonly kind: "position" | "speed";
+      readonly joint: number;
+      readonly value: number;
+      readonly limit: number;
+      readonly sentence: string;
+    };
 
 const FINE: FrameVerdict = { kind: "fine" };
 
@@ -79,15 +100,22 @@ export class FrameCheck {
 
   /** @param dt_s  since the frame before; the first frame has no speed. */
   frame(baseFromFlange: Pose<"base", "flange">, dt_s: number): FrameVerdict {
-    const { robot, q_rad, qd_rad_s } = this, joints = robot.arm.joints, reach = solveAll(robot, baseFromFlange, { near: q_rad }, this.scratch);
+    const { robot, q_rad, qd_rad_s } = this;
+    const joints = robot.arm.joints;
+    const reach = solveAll(robot, baseFromFlange, { near: q_rad }, this.scratch);
     if (reach.kind === "outside-limits") return position(reach.joint, reach.wanted_rad, reach.limit_rad);
     if (reach.kind !== "reached") return { kind: "unreachable", reach, sentence: explainReach(reach) };
     const q = reach.solutions[0]!.q_rad;
-    let worst: FrameVerdict = FINE, by = 1;
+    let worst: FrameVerdict = FINE;
+    let by = 1;
     for (let j = 0; j < q.length; j++) {
       qd_rad_s[j] = this.begun && dt_s > 0 ? (q[j]! - q_rad[j]!) / dt_s : 0;
-      const limit = joints[j]!.limits.speed_rad_s, load = Math.abs(qd_rad_s[j]!) / limit;
-      if (load > by) { by = load; worst = speed(j + 1, qd_rad_s[j]!, limit); }
+      const limit = joints[j]!.limits.speed_rad_s;
+      const load = Math.abs(qd_rad_s[j]!) / limit;
+      if (load > by) {
+        by = load;
+        worst = speed(j + 1, qd_rad_s[j]!, limit);
+      }
     }
     q_rad.set(q);
     this.begun = true;
@@ -95,7 +123,17 @@ export class FrameCheck {
   }
 }
 
-const position = (joint: number, value: number, limit: number): FrameVerdict =>
-  ({ kind: "position", joint, value, limit, sentence: `Joint position q${joint} out of limit: ${degrees(value).toFixed(1)}°, its limit is ${degrees(limit).toFixed(1)}°.` });
-const speed = (joint: number, value: number, limit: number): FrameVerdict =>
-  ({ kind: "speed", joint, value, limit, sentence: `Joint speed q̇${joint} out of limit: ${degrees(value).toFixed(1)}°/s, its limit is ${degrees(limit).toFixed(1)}°/s.` });
+const position = (joint: number, value: number, limit: number): FrameVerdict => ({
+  kind: "position",
+  joint,
+  value,
+  limit,
+  sentence: `Joint position q${joint} out of limit: ${degrees(value).toFixed(1)}°, its limit is ${degrees(limit).toFixed(1)}°.`,
+});
+const speed = (joint: number, value: number, limit: number): FrameVerdict => ({
+  kind: "speed",
+  joint,
+  value,
+  limit,
+  sentence: `Joint speed q̇${joint} out of limit: ${degrees(value).toFixed(1)}°/s, its limit is ${degrees(limit).toFixed(1)}°/s.`,
+});

@@ -19,9 +19,17 @@ export interface TimingGrid {
  *
  *   p = M q′,   r = M q″ + C(q, q′) q′,   low = −τ_max − g(q),   high = τ_max − g(q)
  */
-export interface TorqueRows { readonly p: Float64Array; readonly r: Float64Array; readonly low: Float64Array; readonly high: Float64Array }
+export interface TorqueRows {
+  readonly p: Float64Array;
+  readonly r: Float64Array;
+  readonly low: Float64Array;
+  readonly high: Float64Array;
+}
 
-export interface TimingLimits { readonly speed_rad_s: Float64Array; readonly acceleration_rad_s2: Float64Array }
+export interface TimingLimits {
+  readonly speed_rad_s: Float64Array;
+  readonly acceleration_rad_s2: Float64Array;
+}
 
 /** Below this |dq/ds| [rad per unit of s] a joint does not take part in choosing s̈. */
 const STILL = 1e-9;
@@ -48,7 +56,9 @@ export class PathTimer {
   private high = new Float64Array(0);
   /** Slope over x of the line that `lower` or `upper` found to rule. */
   private slope = 0;
-  constructor(limits: TimingLimits) { this.limits = limits; }
+  constructor(limits: TimingLimits) {
+    this.limits = limits;
+  }
 
   /**
    * @param start @param end  ṡ² at both ends; 0 is standstill.
@@ -56,12 +66,14 @@ export class PathTimer {
    * @returns  false when `start` is too fast to be slowed down in time; x[0] is then lower than asked for.
    */
   fastest(grid: TimingGrid, start: number, end: number, x: Float64Array): boolean {
-    const { nodes, s } = grid, last = nodes - 1;
+    const { nodes, s } = grid;
+    const last = nodes - 1;
     this.collect(grid);
     for (let i = 0; i < nodes; i++) x[i] = this.ceiling(grid, i);
     if (x[last]! > end) x[last] = end;
     for (let i = last - 1; i >= 0; i--) {
-      const h = s[i + 1]! - s[i]!, next = x[i + 1]!;
+      const h = s[i + 1]! - s[i]!;
+      const next = x[i + 1]!;
       if (h > 0) x[i] = this.largestStart(i, h, x[i]!, next);
       else if (x[i]! > next) x[i] = next;
       else x[i + 1] = x[i]!;
@@ -70,7 +82,10 @@ export class PathTimer {
     if (x[0]! > start) x[0] = start;
     for (let i = 0; i < last; i++) {
       const h = s[i + 1]! - s[i]!;
-      if (h <= 0) { x[i + 1] = Math.min(x[i + 1]!, x[i]!); continue; }
+      if (h <= 0) {
+        x[i + 1] = Math.min(x[i + 1]!, x[i]!);
+        continue;
+      }
       const u = Math.min(this.upper(i, h, x[i]!), (x[i + 1]! - x[i]!) / (2 * h));
       x[i + 1] = Math.max(0, x[i]! + 2 * h * u);
     }
@@ -79,37 +94,48 @@ export class PathTimer {
 
   /** Accelerations of the joints, then their torques where the grid has them. */
   private collect({ nodes, joints, q1, q2, share, torque }: TimingGrid): void {
-    const rows = torque === undefined ? joints : 2 * joints, size = nodes * rows, a = this.limits.acceleration_rad_s2;
+    const rows = torque === undefined ? joints : 2 * joints;
+    const size = nodes * rows;
+    const a = this.limits.acceleration_rad_s2;
     if (this.p.length < size) {
       const more = Math.max(size, 2 * this.p.length);
-      this.p = new Float64Array(more); this.r = new Float64Array(more); this.low = new Float64Array(more); this.high = new Float64Array(more);
+      this.p = new Float64Array(more);
+      this.r = new Float64Array(more);
+      this.low = new Float64Array(more);
+      this.high = new Float64Array(more);
     }
     this.rows = rows;
     const { p, r, low, high } = this;
     for (let i = 0, at = 0; i < nodes; i++) {
       const part = share === undefined ? 1 : share[i]!;
       for (let j = 0, from = i * joints; j < joints; j++, at++, from++) {
-        p[at] = q1[from]!; r[at] = q2[from]!;
-        high[at] = a[j]! * part; low[at] = -high[at]!;
+        p[at] = q1[from]!;
+        r[at] = q2[from]!;
+        high[at] = a[j]! * part;
+        low[at] = -high[at]!;
       }
       if (torque === undefined) continue;
       for (let j = 0, from = i * joints; j < joints; j++, at++, from++) {
-        p[at] = torque.p[from]!; r[at] = torque.r[from]!;
-        low[at] = torque.low[from]!; high[at] = torque.high[from]!;
+        p[at] = torque.p[from]!;
+        r[at] = torque.r[from]!;
+        low[at] = torque.low[from]!;
+        high[at] = torque.high[from]!;
       }
     }
   }
 
   /** From speeds, from the grid's own cap, and from rules in which s̈ has no part. */
   private ceiling(grid: TimingGrid, i: number): number {
-    const { joints, q1 } = grid, v = this.limits.speed_rad_s;
+    const { joints, q1 } = grid;
+    const v = this.limits.speed_rad_s;
     let x = grid.cap[i]!;
     for (let j = 0; j < joints; j++) {
       const p = Math.abs(q1[i * joints + j]!);
       if (p > STILL && x * p * p > v[j]! * v[j]!) x = (v[j]! * v[j]!) / (p * p);
     }
     for (let k = 0, at = i * this.rows; k < this.rows; k++, at++) {
-      const p = this.p[at]!, r = this.r[at]!;
+      const p = this.p[at]!;
+      const r = this.r[at]!;
       if (p > STILL || p < -STILL) continue;
       if (r > STILL && x * r > this.high[at]!) x = Math.max(0, this.high[at]! / r);
       else if (r < -STILL && x * r < this.low[at]!) x = Math.max(0, this.low[at]! / r);
@@ -124,10 +150,15 @@ export class PathTimer {
     this.slope = -1 / (2 * h);
     for (let at = i * rows, end = 0; end < 2; end++) {
       for (let k = 0; k < rows; k++, at++) {
-        const r = rs[at]!, p = end === 0 ? ps[at]! : ps[at]! + 2 * h * r;
+        const r = rs[at]!;
+        const p = end === 0 ? ps[at]! : ps[at]! + 2 * h * r;
         if (p <= STILL && p >= -STILL) continue;
-        const slope = -r / p, u = (p > 0 ? low[at]! : high[at]!) / p + slope * x;
-        if (u > best) { best = u; this.slope = slope; }
+        const slope = -r / p;
+        const u = (p > 0 ? low[at]! : high[at]!) / p + slope * x;
+        if (u > best) {
+          best = u;
+          this.slope = slope;
+        }
       }
     }
     return best;
@@ -140,10 +171,15 @@ export class PathTimer {
     this.slope = 0;
     for (let at = i * rows, end = 0; end < 2; end++) {
       for (let k = 0; k < rows; k++, at++) {
-        const r = rs[at]!, p = end === 0 ? ps[at]! : ps[at]! + 2 * h * r;
+        const r = rs[at]!;
+        const p = end === 0 ? ps[at]! : ps[at]! + 2 * h * r;
         if (p <= STILL && p >= -STILL) continue;
-        const slope = -r / p, u = (p > 0 ? high[at]! : low[at]!) / p + slope * x;
-        if (u < best) { best = u; this.slope = slope; }
+        const slope = -r / p;
+        const u = (p > 0 ? high[at]! : low[at]!) / p + slope * x;
+        if (u < best) {
+          best = u;
+          this.slope = slope;
+        }
       }
     }
     return best;
@@ -156,11 +192,17 @@ export class PathTimer {
   private largestStart(i: number, h: number, ceiling: number, next: number): number {
     let x = ceiling;
     for (let turn = 0; turn < MOST_TURNS; turn++) {
-      const low = this.lower(i, h, x), lowSlope = this.slope;
-      let high = this.upper(i, h, x), highSlope = this.slope;
+      const low = this.lower(i, h, x);
+      const lowSlope = this.slope;
+      let high = this.upper(i, h, x);
+      let highSlope = this.slope;
       const landing = (next - x) / (2 * h);
-      if (landing < high) { high = landing; highSlope = -1 / (2 * h); }
-      const gap = low - high, closing = lowSlope - highSlope;
+      if (landing < high) {
+        high = landing;
+        highSlope = -1 / (2 * h);
+      }
+      const gap = low - high;
+      const closing = lowSlope - highSlope;
       if (gap <= 1e-12 * (1 + Math.abs(low))) return x;
       const lower = closing > 0 ? x - gap / closing : 0;
       if (!(lower > 0)) return 0;

@@ -11,13 +11,15 @@ export interface FileSource {
 
 /** Files held in memory, by path. */
 export function filesInMemory(files: ReadonlyMap<string, Uint8Array>): FileSource {
-  const folders = new Map<string, Set<string>>([["", new Set()]]), byPath = new Map<string, Uint8Array>();
+  const folders = new Map<string, Set<string>>([["", new Set()]]);
+  const byPath = new Map<string, Uint8Array>();
   for (const [path, bytes] of files) {
     const normal = normalPath(path);
     if (normal === undefined || normal === "") continue;
     byPath.set(normal, bytes);
     for (let at = normal; at !== ""; at = folderOf(at)) {
-      const folder = folderOf(at), names = folders.get(folder) ?? new Set();
+      const folder = folderOf(at);
+      const names = folders.get(folder) ?? new Set();
       names.add(at.slice(folder === "" || folder === "/" ? folder.length : folder.length + 1));
       folders.set(folder, names);
       if (folder === "/") break;
@@ -25,13 +27,17 @@ export function filesInMemory(files: ReadonlyMap<string, Uint8Array>): FileSourc
   }
   return {
     read: path => byPath.get(normalPath(path) ?? ""),
-    list: folder => { const names = folders.get(normalPath(folder) ?? "?"); return names && [...names].sort(); },
+    list: folder => {
+      const names = folders.get(normalPath(folder) ?? "?");
+      return names && [...names].sort();
+    },
   };
 }
 
 /** Forward slashes, no `.`, no `..`; undefined when it climbs above its beginning. `C:\x` becomes `C:/x`. */
 export function normalPath(path: string): string | undefined {
-  const parts: string[] = [], slashed = path.replaceAll("\\", "/");
+  const parts: string[] = [];
+  const slashed = path.replaceAll("\\", "/");
   for (const part of slashed.split("/")) {
     if (part === "" || part === ".") continue;
     if (part === ".." && parts.pop() === undefined) return undefined;
@@ -46,5 +52,6 @@ export function folderOf(path: string): string {
   return slash < 0 ? "" : slash === 0 ? "/" : path.slice(0, slash);
 }
 
-export const joinPath = (folder: string, name: string): string => (folder === "" ? name : folder.endsWith("/") ? folder + name : `${folder}/${name}`);
+export const joinPath = (folder: string, name: string): string =>
+  folder === "" ? name : folder.endsWith("/") ? folder + name : `${folder}/${name}`;
 export const nameOf = (path: string): string => path.slice(path.lastIndexOf("/") + 1);

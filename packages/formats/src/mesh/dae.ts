@@ -5,10 +5,23 @@ import { byId, count, daeGeometry, numbersOf, type DaeGeometry } from "./dae-geo
 import { moved, passedOver, scaled, Soup, times, UNMOVED, type Matrix4 } from "./placed.ts";
 import { finishMesh, type MeshRead } from "./report.ts";
 
-const BOUNDS = { characters: 256_000_000, elements: 500_000 }, DEEPEST = 64, LARGEST_FILE = 256_000_000;
+const BOUNDS = { characters: 256_000_000, elements: 500_000 };
+const DEEPEST = 64;
+const LARGEST_FILE = 256_000_000;
 /** What turns x-up and y-up files upright. */
-const UPRIGHT: Readonly<Record<string, Matrix4>> = { X_UP: [0, -1, 0, 0, 0, 0, -1, 0, 1, 0, 0, 0, 0, 0, 0, 1], Y_UP: [1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1], Z_UP: UNMOVED };
-const TRANSFORMS = new Set(["translate", "rotate", "scale", "matrix"]), PASSED = new Map([["instance_controller", "moving skin"], ["instance_camera", "camera"], ["instance_light", "light"], ["lookat", "lookat"], ["skew", "skew"]]);
+const UPRIGHT: Readonly<Record<string, Matrix4>> = {
+  X_UP: [0, -1, 0, 0, 0, 0, -1, 0, 1, 0, 0, 0, 0, 0, 0, 1],
+  Y_UP: [1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1],
+  Z_UP: UNMOVED,
+};
+const TRANSFORMS = new Set(["translate", "rotate", "scale", "matrix"]);
+const PASSED = new Map([
+  ["instance_controller", "moving skin"],
+  ["instance_camera", "camera"],
+  ["instance_light", "light"],
+  ["lookat", "lookat"],
+  ["skew", "skew"],
+]);
 
 /**
  * Reads the surfaces of a COLLADA file, every node where its matrices put it, in metres and z up whatever the file counts in.
@@ -16,11 +29,19 @@ const TRANSFORMS = new Set(["translate", "rotate", "scale", "matrix"]), PASSED =
  */
 export function readDae(bytes: Uint8Array): MeshRead | NotUnderstood {
   return answering(() => {
-    if (bytes.length > LARGEST_FILE) throw new Refusal(`The file has ${bytes.length} bytes; at most ${LARGEST_FILE} are read.`);
+    if (bytes.length > LARGEST_FILE)
+      throw new Refusal(`The file has ${bytes.length} bytes; at most ${LARGEST_FILE} are read.`);
     const root = parseXml(utf8(bytes), undefined, BOUNDS);
-    if (root.name !== "COLLADA") throw new Refusal(`The file begins with <${shorten(root.name)}>; a COLLADA file begins with <COLLADA>.`, root.line);
-    const scene = new Scene(root), warnings: string[] = [];
-    const asset = childOf(root, "asset"), unit = Number(asset && childOf(asset, "unit")?.attributes["meter"] || 1), up = (asset && childOf(asset, "up_axis")?.text.trim()) || "Y_UP";
+    if (root.name !== "COLLADA")
+      throw new Refusal(
+        `The file begins with <${shorten(root.name)}>; a COLLADA file begins with <COLLADA>.`,
+        root.line,
+      );
+    const scene = new Scene(root);
+    const warnings: string[] = [];
+    const asset = childOf(root, "asset");
+    const unit = Number((asset && childOf(asset, "unit")?.attributes["meter"]) || 1);
+    const up = (asset && childOf(asset, "up_axis")?.text.trim()) || "Y_UP";
     const upright = UPRIGHT[up];
     if (!(unit > 0 && unit <= 1e6)) throw new Refusal(`The unit of the file is ${unit} m.`, asset?.line);
     if (!upright) throw new Refusal(`The file is “${shorten(up)}”; X_UP, Y_UP and Z_UP are known.`, asset?.line);
@@ -43,17 +64,25 @@ class Scene {
     this.geometries = this.library("library_geometries", "geometry");
     this.nodes = this.library("library_nodes", "node");
   }
-  private library(name: string, of: string): Element[] { return childrenOf(this.root, name).flatMap(library => childrenOf(library, of)); }
+  private library(name: string, of: string): Element[] {
+    return childrenOf(this.root, name).flatMap(library => childrenOf(library, of));
+  }
 
   whole(start: Matrix4): void {
-    const scenes = this.library("library_visual_scenes", "visual_scene"), instance = childOf(this.root, "scene"), chosen = instance && childOf(instance, "instance_visual_scene");
+    const scenes = this.library("library_visual_scenes", "visual_scene");
+    const instance = childOf(this.root, "scene");
+    const chosen = instance && childOf(instance, "instance_visual_scene");
     const scene = byId(scenes, chosen?.attributes["url"]) ?? scenes[0];
     if (scene) for (const node of childrenOf(scene, "node")) this.node(node, start, 0);
     else for (const geometry of this.geometries) this.geometry(geometry, start);
   }
 
   private node(element: Element, outer: Matrix4, depth: number): void {
-    if (depth > DEEPEST || ++this.visits > 200_000) throw new Refusal(`The nodes of the file hold each other ${depth > DEEPEST ? `more than ${DEEPEST} deep` : "more than 200000 times"}.`, element.line);
+    if (depth > DEEPEST || ++this.visits > 200_000)
+      throw new Refusal(
+        `The nodes of the file hold each other ${depth > DEEPEST ? `more than ${DEEPEST} deep` : "more than 200000 times"}.`,
+        element.line,
+      );
     let matrix = outer;
     for (const child of element.children) if (TRANSFORMS.has(child.name)) matrix = times(matrix, transformOf(child));
     for (const child of element.children) {
@@ -65,7 +94,8 @@ class Scene {
   }
   private found(among: readonly Element[], instance: Element): Element {
     const element = byId(among, instance.attributes["url"]);
-    if (!element) throw new Refusal(`“${shorten(instance.attributes["url"] ?? "")}” is not in the file.`, instance.line);
+    if (!element)
+      throw new Refusal(`“${shorten(instance.attributes["url"] ?? "")}” is not in the file.`, instance.line);
     return element;
   }
   private geometry(element: Element, matrix: Matrix4): void {
@@ -76,14 +106,20 @@ class Scene {
 }
 
 function transformOf(element: Element): Matrix4 {
-  const n = numbersOf(element.text, element), wanted = { translate: 3, scale: 3, rotate: 4, matrix: 16 }[element.name] ?? 0;
-  if (n.length !== wanted || !n.every(Number.isFinite)) throw new Refusal(`A <${element.name}> has ${n.length} numbers instead of ${wanted} finite ones.`, element.line);
+  const n = numbersOf(element.text, element);
+  const wanted = { translate: 3, scale: 3, rotate: 4, matrix: 16 }[element.name] ?? 0;
+  if (n.length !== wanted || !n.every(Number.isFinite))
+    throw new Refusal(`A <${element.name}> has ${n.length} numbers instead of ${wanted} finite ones.`, element.line);
   const [x, y, z, angle] = n;
   switch (element.name) {
-    case "translate": return moved(x!, y!, z!);
-    case "scale": return scaled(x!, y!, z!);
-    case "matrix": return n;
-    default: return rotation(x!, y!, z!, angle! * Math.PI / 180);
+    case "translate":
+      return moved(x!, y!, z!);
+    case "scale":
+      return scaled(x!, y!, z!);
+    case "matrix":
+      return n;
+    default:
+      return rotation(x!, y!, z!, (angle! * Math.PI) / 180);
   }
 }
 
@@ -91,6 +127,28 @@ function transformOf(element: Element): Matrix4 {
 function rotation(ax: number, ay: number, az: number, angle_rad: number): Matrix4 {
   const length = Math.hypot(ax, ay, az);
   if (length === 0) return UNMOVED;
-  const x = ax / length, y = ay / length, z = az / length, c = Math.cos(angle_rad), s = Math.sin(angle_rad), v = 1 - c;
-  return [x * x * v + c, x * y * v - z * s, x * z * v + y * s, 0, x * y * v + z * s, y * y * v + c, y * z * v - x * s, 0, x * z * v - y * s, y * z * v + x * s, z * z * v + c, 0, 0, 0, 0, 1];
+  const x = ax / length;
+  const y = ay / length;
+  const z = az / length;
+  const c = Math.cos(angle_rad);
+  const s = Math.sin(angle_rad);
+  const v = 1 - c;
+  return [
+    x * x * v + c,
+    x * y * v - z * s,
+    x * z * v + y * s,
+    0,
+    x * y * v + z * s,
+    y * y * v + c,
+    y * z * v - x * s,
+    0,
+    x * z * v - y * s,
+    y * z * v + x * s,
+    z * z * v + c,
+    0,
+    0,
+    0,
+    0,
+    1,
+  ];
 }

@@ -14,7 +14,10 @@ const DEEPEST = 256;
  *
  * @param other  bytes of a file that a JSON glTF names, by its address.
  */
-export function readGltf(bytes: Uint8Array, other: (address: string) => Uint8Array | undefined = () => undefined): MeshRead | NotUnderstood {
+export function readGltf(
+  bytes: Uint8Array,
+  other: (address: string) => Uint8Array | undefined = () => undefined,
+): MeshRead | NotUnderstood {
   return answering(() => {
     const { root, buffers, isBinary } = openGltf(bytes, other);
     const scene = new Scene(root, buffers);
@@ -40,8 +43,12 @@ class Scene {
   }
   private node(index: unknown, outer: Matrix4, depth: number): void {
     if (typeof index !== "number") throw new Refusal("A node of the glTF is not named by its number.");
-    if (depth > DEEPEST || ++this.visits > 200_000) throw new Refusal(`The nodes of the glTF hold each other ${depth > DEEPEST ? `more than ${DEEPEST} deep` : "more than 200000 times"}.`);
-    const node = this.root.entry("nodes", index), matrix = times(outer, placeOf(node));
+    if (depth > DEEPEST || ++this.visits > 200_000)
+      throw new Refusal(
+        `The nodes of the glTF hold each other ${depth > DEEPEST ? `more than ${DEEPEST} deep` : "more than 200000 times"}.`,
+      );
+    const node = this.root.entry("nodes", index);
+    const matrix = times(outer, placeOf(node));
     if (node.has("skin")) count(this.skipped, "skin", 1);
     if (node.has("camera")) count(this.skipped, "camera", 1);
     if (node.has("mesh")) this.mesh(this.root.entry("meshes", node.whole("mesh")), matrix);
@@ -49,12 +56,19 @@ class Scene {
   }
   private mesh(mesh: GltfEntry, matrix: Matrix4): void {
     mesh.list("primitives").forEach((value, i) => {
-      const primitive = new GltfEntry(value, `${mesh.place}.primitives[${i}]`), mode = primitive.whole("mode", 4);
-      if (mode < 4) { count(this.skipped, mode === 0 ? "point set" : "line set", 1); return; }
+      const primitive = new GltfEntry(value, `${mesh.place}.primitives[${i}]`);
+      const mode = primitive.whole("mode", 4);
+      if (mode < 4) {
+        count(this.skipped, mode === 0 ? "point set" : "line set", 1);
+        return;
+      }
       if (mode > 6) throw new Refusal(`${primitive.place} of the glTF has the mode ${mode}.`);
       if (primitive.has("targets")) count(this.skipped, "morph", 1);
       const attributes = primitive.child("attributes");
-      if (!attributes.has("POSITION")) { count(this.skipped, "part without corners", 1); return; }
+      if (!attributes.has("POSITION")) {
+        count(this.skipped, "part without corners", 1);
+        return;
+      }
       const points = this.buffers.numbers(attributes.whole("POSITION"), 3);
       this.soup.add(points, triangleCorners(primitive, this.buffers, points.length / 3), matrix);
     });

@@ -6,7 +6,10 @@ import { finishMesh, type MeshRead } from "./report.ts";
 import { latin1 } from "./text.ts";
 
 /** Gives the numbers of the file one after the other; refuses when there are no more. */
-interface Numbers { next(type: PlyNumber): number; where(): number | undefined }
+interface Numbers {
+  next(type: PlyNumber): number;
+  where(): number | undefined;
+}
 
 /**
  * Reads the surface of a PLY, as scanners write it: ASCII and binary of both byte orders (row N-65). Elements and
@@ -17,55 +20,82 @@ interface Numbers { next(type: PlyNumber): number; where(): number | undefined }
  */
 export function readPly(bytes: Uint8Array): MeshRead | NotUnderstood {
   return answering(() => {
-    const header = plyHeader(bytes), binary = header.encoding !== "ascii";
-    const numbers = binary ? binaryNumbers(bytes, header) : textNumbers(latin1(bytes.subarray(header.end)), header.lines);
+    const header = plyHeader(bytes);
+    const binary = header.encoding !== "ascii";
+    const numbers = binary
+      ? binaryNumbers(bytes, header)
+      : textNumbers(latin1(bytes.subarray(header.end)), header.lines);
     let positions = new Float64Array(0);
     const indices: number[] = [];
     for (const element of header.elements) {
-      if (!binary && element.count > bytes.length || binary && element.count * leastSize(element) > bytes.length) {
-        throw new Refusal(`The header promises ${element.count} elements “${shorten(element.name)}”, but the file has ${bytes.length} bytes.`);
+      if ((!binary && element.count > bytes.length) || (binary && element.count * leastSize(element) > bytes.length)) {
+        throw new Refusal(
+          `The header promises ${element.count} elements “${shorten(element.name)}”, but the file has ${bytes.length} bytes.`,
+        );
       }
       if (element.name === "vertex") positions = vertices(element, numbers);
       else readFaces(element, numbers, positions, indices);
     }
     if (indices.length === 0) {
-      throw new Refusal(`The file is a cloud of ${positions.length / 3} points without faces: make a surface of it first (for example screened Poisson reconstruction in the scanner's software or MeshLab) and export that as PLY.`);
+      throw new Refusal(
+        `The file is a cloud of ${positions.length / 3} points without faces: make a surface of it first (for example screened Poisson reconstruction in the scanner's software or MeshLab) and export that as PLY.`,
+      );
     }
     return finishMesh(binary ? "PLY (binary)" : "PLY (ASCII)", { positions, indices: Uint32Array.from(indices) }, []);
   });
 }
 
-const leastSize = ({ properties }: PlyElement): number => Math.max(1, properties.reduce((sum, { type, count }) => sum + sizeOf(count ?? type), 0));
+const leastSize = ({ properties }: PlyElement): number =>
+  Math.max(
+    1,
+    properties.reduce((sum, { type, count }) => sum + sizeOf(count ?? type), 0),
+  );
 
 function vertices({ count, properties }: PlyElement, numbers: Numbers): Float64Array<ArrayBuffer> {
-  const axes = properties.map(({ name }) => ["x", "y", "z"].indexOf(name)), positions = new Float64Array(3 * count);
-  for (const [axis, name] of ["x", "y", "z"].entries()) if (!axes.includes(axis)) throw new Refusal(`The vertices have no property “${name}”.`);
-  for (let v = 0; v < count; v++) for (const [p, property] of properties.entries()) {
-    const values = property.count === undefined ? 1 : length(numbers.next(property.count), numbers);
-    for (let i = 0; i < values; i++) {
-      const value = numbers.next(property.type), axis = axes[p]!;
-      if (axis >= 0) positions[3 * v + axis] = value;
+  const axes = properties.map(({ name }) => ["x", "y", "z"].indexOf(name));
+  const positions = new Float64Array(3 * count);
+  for (const [axis, name] of ["x", "y", "z"].entries())
+    if (!axes.includes(axis)) throw new Refusal(`The vertices have no property “${name}”.`);
+  for (let v = 0; v < count; v++)
+    for (const [p, property] of properties.entries()) {
+      const values = property.count === undefined ? 1 : length(numbers.next(property.count), numbers);
+      for (let i = 0; i < values; i++) {
+        const value = numbers.next(property.type);
+        const axis = axes[p]!;
+        if (axis >= 0) positions[3 * v + axis] = value;
+      }
     }
-  }
   return positions;
 }
 
 /** Any element but the vertices; its list `vertex_indices`, if it has one, is a face. */
-function readFaces({ name, count, properties }: PlyElement, numbers: Numbers, positions: Float64Array, indices: number[]): void {
-  const known = positions.length / 3, corners: number[] = [];
-  for (let f = 0; f < count; f++) for (const property of properties) {
-    const isFace = name === "face" && property.count !== undefined && /^vertex_ind(ex|ices)$/.test(property.name);
-    const values = property.count === undefined ? 1 : length(numbers.next(property.count), numbers);
-    if (isFace && (values < 3 || values > MOST_CORNERS)) throw new Refusal(`Face ${f + 1} has ${values} corners; 3 to ${MOST_CORNERS} are read.`, numbers.where());
-    corners.length = 0;
-    for (let i = 0; i < values; i++) {
-      const value = numbers.next(property.type);
-      if (!isFace) continue;
-      if (!Number.isInteger(value) || value < 0 || value >= known) throw new Refusal(`Face ${f + 1} names vertex ${value}; the file has ${known}, counted from 0.`, numbers.where());
-      corners.push(value);
+function readFaces(
+  { name, count, properties }: PlyElement,
+  numbers: Numbers,
+  positions: Float64Array,
+  indices: number[],
+): void {
+  const known = positions.length / 3;
+  const corners: number[] = [];
+  for (let f = 0; f < count; f++)
+    for (const property of properties) {
+      const isFace = name === "face" && property.count !== undefined && /^vertex_ind(ex|ices)$/.test(property.name);
+      const values = property.count === undefined ? 1 : length(numbers.next(property.count), numbers);
+      if (isFace && (values < 3 || values > MOST_CORNERS))
+        throw new Refusal(`Face ${f + 1} has ${values} corners; 3 to ${MOST_CORNERS} are read.`, numbers.where());
+      corners.length = 0;
+      for (let i = 0; i < values; i++) {
+        const value = numbers.next(property.type);
+        if (!isFace) continue;
+        if (!Number.isInteger(value) || value < 0 || value >= known)
+          throw new Refusal(
+            `Face ${f + 1} names vertex ${value}; the file has ${known}, counted from 0.`,
+            numbers.where(),
+          );
+        corners.push(value);
+      }
+      if (isFace) addPolygon(corners, positions, indices);
     }
-    if (isFace) addPolygon(corners, positions, indices);
-  }
 }
 
 function length(value: number, numbers: Numbers): number {
@@ -74,7 +104,8 @@ function length(value: number, numbers: Numbers): number {
 }
 
 function binaryNumbers(bytes: Uint8Array, { end, encoding }: PlyHeader): Numbers {
-  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength), little = encoding === "binary_little_endian";
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const little = encoding === "binary_little_endian";
   let at = end;
   return {
     where: () => undefined,
@@ -83,14 +114,22 @@ function binaryNumbers(bytes: Uint8Array, { end, encoding }: PlyHeader): Numbers
       at += sizeOf(type);
       if (at > bytes.length) throw new Refusal(`The file ends after ${bytes.length} bytes, inside its data.`);
       switch (type) {
-        case "int8": return view.getInt8(here);
-        case "uint8": return view.getUint8(here);
-        case "int16": return view.getInt16(here, little);
-        case "uint16": return view.getUint16(here, little);
-        case "int32": return view.getInt32(here, little);
-        case "uint32": return view.getUint32(here, little);
-        case "float32": return view.getFloat32(here, little);
-        case "float64": return view.getFloat64(here, little);
+        case "int8":
+          return view.getInt8(here);
+        case "uint8":
+          return view.getUint8(here);
+        case "int16":
+          return view.getInt16(here, little);
+        case "uint16":
+          return view.getUint16(here, little);
+        case "int32":
+          return view.getInt32(here, little);
+        case "uint32":
+          return view.getUint32(here, little);
+        case "float32":
+          return view.getFloat32(here, little);
+        case "float64":
+          return view.getFloat64(here, little);
       }
     },
   };
@@ -105,10 +144,14 @@ function textNumbers(text: string, linesBefore: number): Numbers {
     where,
     next() {
       const match = words.exec(text);
-      if (!match) { last = text.length; throw new Refusal("The file ends inside its data.", where()); }
+      if (!match) {
+        last = text.length;
+        throw new Refusal("The file ends inside its data.", where());
+      }
       last = match.index;
       const value = Number(match[0]);
-      if (Number.isNaN(value) && !/^[+-]?(nan|inf)/i.test(match[0])) throw new Refusal(`“${shorten(match[0])}” stands where a number is expected.`, where());
+      if (Number.isNaN(value) && !/^[+-]?(nan|inf)/i.test(match[0]))
+        throw new Refusal(`“${shorten(match[0])}” stands where a number is expected.`, where());
       return value;
     },
   };

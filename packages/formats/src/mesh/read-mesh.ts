@@ -12,14 +12,28 @@ import { readStl } from "./stl.ts";
  *
  * @param other  bytes of a file that this one names.
  */
-export function readMesh(name: string, bytes: Uint8Array, other?: (address: string) => Uint8Array | undefined): MeshRead | NotUnderstood {
+export function readMesh(
+  name: string,
+  bytes: Uint8Array,
+  other?: (address: string) => Uint8Array | undefined,
+): MeshRead | NotUnderstood {
   const ending = /\.([a-z0-9]+)$/i.exec(nameOf(name))?.[1]?.toLowerCase();
   switch (ending) {
-    case "stl": return readStl(bytes);
-    case "obj": return readObj(bytes);
-    case "ply": return readPly(bytes);
-    case "dae": return readDae(bytes);
-    case "glb": case "gltf": return readGltf(bytes, other);
-    default: return { kind: "not-understood", sentence: `${nameOf(name)} is no mesh that is read: STL, OBJ, PLY, DAE, GLB and glTF are.` };
+    case "stl":
+      return readStl(bytes);
+    case "obj":
+      return readObj(bytes);
+    case "ply":
+      return readPly(bytes);
+    case "dae":
+      return readDae(bytes);
+    case "glb":
+    case "gltf":
+      return readGltf(bytes, other);
+    default:
+      return {
+        kind: "not-understood",
+        sentence: `${nameOf(name)} is no mesh that is read: STL, OBJ, PLY, DAE, GLB and glTF are.`,
+      };
   }
 }

@@ -1,4 +1,13 @@
-import { compose, copyPose, identity, inverse, type Joint, type LinkMass, type Pose, type SerialArm } from "@twincell/core";
+import {
+  compose,
+  copyPose,
+  identity,
+  inverse,
+  type Joint,
+  type LinkMass,
+  type Pose,
+  type SerialArm,
+} from "@twincell/core";
 import { limitsWith } from "../limits.ts";
 import { answering, Refusal, type NotUnderstood } from "../refusal.ts";
 import { shorten } from "../xml.ts";
@@ -39,16 +48,23 @@ export function armFromUrdf(robot: UrdfRobot, base = robot.root, tip = defaultTi
   return answering(() => {
     const upTo = new Map(robot.joints.map(joint => [joint.child, joint]));
     for (const name of [base, tip]) {
-      if (!robot.links.some(link => link.name === name)) throw new Refusal(`${robot.name} has no link ${shorten(name)}.`);
+      if (!robot.links.some(link => link.name === name))
+        throw new Refusal(`${robot.name} has no link ${shorten(name)}.`);
     }
-    const fromRoot = pathTo(upTo, tip), side = pathTo(upTo, base);
+    const fromRoot = pathTo(upTo, tip);
+    const side = pathTo(upTo, base);
     let shared = 0;
     while (shared < side.length && side[shared] === fromRoot[shared]) shared++;
-    const assumptions: string[] = [], joints: Joint[] = [];
+    const assumptions: string[] = [];
+    const joints: Joint[] = [];
     const linkOf = new Map<string, { link: number; armLinkFromLink: Pose }>();
     const running: Pose = identity();
     for (const joint of side.slice(shared).reverse()) {
-      if (joint.type !== "fixed") throw new Refusal(`Joint ${shorten(joint.name)} moves between ${shorten(base)} and the chain to ${shorten(tip)}.`, joint.line);
+      if (joint.type !== "fixed")
+        throw new Refusal(
+          `Joint ${shorten(joint.name)} moves between ${shorten(base)} and the chain to ${shorten(tip)}.`,
+          joint.line,
+        );
       compose(running, inverse(joint.parentFromJoint as Pose), running);
     }
     linkOf.set(shared > 0 ? fromRoot[shared - 1]!.child : robot.root, { link: 0, armLinkFromLink: copyPose(running) });
@@ -64,7 +80,12 @@ export function armFromUrdf(robot: UrdfRobot, base = robot.root, tip = defaultTi
     placeSideLinks(robot, upTo, linkOf, assumptions);
     const masses = massesOf(robot, linkOf, joints.length);
     return {
-      kind: "chain", base, tip, assumptions, shapes: shapesOf(robot, linkOf), ...(masses ? { masses } : {}),
+      kind: "chain",
+      base,
+      tip,
+      assumptions,
+      shapes: shapesOf(robot, linkOf),
+      ...(masses ? { masses } : {}),
       arm: { name: robot.name, joints, lastJointFromFlange: copyPose(running as Pose<"joint", "flange">) },
     };
   });
@@ -74,10 +95,14 @@ export function armFromUrdf(robot: UrdfRobot, base = robot.root, tip = defaultTi
 export function defaultTip(robot: UrdfRobot): string {
   for (const name of ["tool0", "flange"]) if (robot.links.some(link => link.name === name)) return name;
   const upTo = new Map(robot.joints.map(joint => [joint.child, joint]));
-  let best = robot.root, longest = 0;
+  let best = robot.root;
+  let longest = 0;
   for (const { name } of robot.links) {
     const length = pathTo(upTo, name).length;
-    if (length > longest) { longest = length; best = name; }
+    if (length > longest) {
+      longest = length;
+      best = name;
+    }
   }
   return best;
 }
@@ -97,22 +122,41 @@ function pathTo(upTo: ReadonlyMap<string, UrdfJoint>, link: string): UrdfJoint[]
 
 function armJoint(joint: UrdfJoint, parentFromJoint: Pose, assumptions: string[]): Joint {
   const { name, type, axis, limit } = joint;
-  if (type !== "revolute" && type !== "continuous" && type !== "prismatic") throw new Refusal(`Joint ${shorten(name)} is ${type}; an arm here has joints that turn or slide.`, joint.line);
-  if (joint.mimic) throw new Refusal(`Joint ${shorten(name)} follows joint ${shorten(joint.mimic.joint)}; it has no motion of its own.`, joint.line);
+  if (type !== "revolute" && type !== "continuous" && type !== "prismatic")
+    throw new Refusal(`Joint ${shorten(name)} is ${type}; an arm here has joints that turn or slide.`, joint.line);
+  if (joint.mimic)
+    throw new Refusal(
+      `Joint ${shorten(name)} follows joint ${shorten(joint.mimic.joint)}; it has no motion of its own.`,
+      joint.line,
+    );
   const isBounded = type !== "continuous" && limit !== undefined;
   const kind = type === "prismatic" ? type : undefined;
   return {
-    name, axis, ...(kind === undefined ? {} : { kind }), parentFromJoint: parentFromJoint as Pose<"parent", "joint">,
-    limits: limitsWith(name, {
-      ...(isBounded ? { lower_rad: limit.lower, upper_rad: limit.upper } : {}), speed_rad_s: limit?.velocity,
-      torque_Nm: limit && limit.effort > 0 ? limit.effort : undefined,
-    }, assumptions, kind),
+    name,
+    axis,
+    ...(kind === undefined ? {} : { kind }),
+    parentFromJoint: parentFromJoint as Pose<"parent", "joint">,
+    limits: limitsWith(
+      name,
+      {
+        ...(isBounded ? { lower_rad: limit.lower, upper_rad: limit.upper } : {}),
+        speed_rad_s: limit?.velocity,
+        torque_Nm: limit && limit.effort > 0 ? limit.effort : undefined,
+      },
+      assumptions,
+      kind,
+    ),
   };
 }
 
 type Places = Map<string, { link: number; armLinkFromLink: Pose }>;
 
-function placeSideLinks(robot: UrdfRobot, upTo: ReadonlyMap<string, UrdfJoint>, places: Places, assumptions: string[]): void {
+function placeSideLinks(
+  robot: UrdfRobot,
+  upTo: ReadonlyMap<string, UrdfJoint>,
+  places: Places,
+  assumptions: string[],
+): void {
   const still = new Set<string>();
   for (const { name } of robot.links) {
     const path = pathTo(upTo, name);
@@ -120,7 +164,10 @@ function placeSideLinks(robot: UrdfRobot, upTo: ReadonlyMap<string, UrdfJoint>, 
     if (first < 0) continue;
     for (const joint of path.slice(first)) {
       const parent = places.get(joint.parent)!;
-      places.set(joint.child, { link: parent.link, armLinkFromLink: compose(parent.armLinkFromLink, joint.parentFromJoint as Pose) });
+      places.set(joint.child, {
+        link: parent.link,
+        armLinkFromLink: compose(parent.armLinkFromLink, joint.parentFromJoint as Pose),
+      });
       if (joint.type !== "fixed") still.add(joint.name);
     }
   }

@@ -3,7 +3,10 @@ import type { DressedSurface } from "../mesh/gltf-surfaces.ts";
 import type { UrdfChain } from "./chain.ts";
 
 /** A surface on a moving link of the arm: its positions are in that link's frame. */
-export interface LinkSurface extends DressedSurface { readonly link: number; readonly name: string }
+export interface LinkSurface extends DressedSurface {
+  readonly link: number;
+  readonly name: string;
+}
 
 /** One robot: the arm of the URDF in the surfaces of the glTF. */
 export interface DressedArm {
@@ -20,21 +23,35 @@ export interface DressedArm {
  * second robot is dropped. Spelling with or without capitals, blanks and exporters' suffixes (“.001”) is the same name.
  */
 export function dressArm(chain: UrdfChain, surfaces: readonly DressedSurface[]): DressedArm {
-  const n = chain.arm.joints.length, atZero = Array.from({ length: n + 1 }, () => identity<"base", "link">());
+  const n = chain.arm.joints.length;
+  const atZero = Array.from({ length: n + 1 }, () => identity<"base", "link">());
   linkPoses(chain.arm, new Float64Array(n), atZero);
   const linkOf = new Map<string, { readonly link: number; readonly name: string }>();
   for (const { link, name } of chain.shapes) linkOf.set(plain(name), { link, name });
-  const dressed: LinkSurface[] = [], worn = new Set<string>(), spare = new Set<string>();
+  const dressed: LinkSurface[] = [];
+  const worn = new Set<string>();
+  const spare = new Set<string>();
   for (const surface of surfaces) {
     const found = surface.nodes.map(node => linkOf.get(plain(node))).find(each => each !== undefined);
-    if (!found) { spare.add(surface.nodes[0] ?? ""); continue; }
+    if (!found) {
+      spare.add(surface.nodes[0] ?? "");
+      continue;
+    }
     worn.add(found.name);
     dressed.push({ ...surface, ...found, positions: movedBy(inverse(atZero[found.link]!), surface.positions) });
   }
-  return { surfaces: dressed, bare: [...linkOf.values()].map(({ name }) => name).filter(name => !worn.has(name)), spare: [...spare] };
+  return {
+    surfaces: dressed,
+    bare: [...linkOf.values()].map(({ name }) => name).filter(name => !worn.has(name)),
+    spare: [...spare],
+  };
 }
 
-const plain = (name: string): string => name.toLowerCase().replace(/\.\d+$/, "").replace(/[\s_-]+/g, "_");
+const plain = (name: string): string =>
+  name
+    .toLowerCase()
+    .replace(/\.\d+$/, "")
+    .replace(/[\s_-]+/g, "_");
 
 function movedBy(pose: Pose, positions: Float64Array): Float64Array {
   const out = new Float64Array(positions.length);

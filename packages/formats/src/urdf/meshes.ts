@@ -19,16 +19,33 @@ export interface LoadedMeshes {
  * @param path  of the robot file, where its references start from.
  */
 export function loadMeshes(shapes: readonly PlacedShape[], path: string, files: FileSource): LoadedMeshes {
-  const meshes = new Map<string, TriangleMesh>(), missing: string[] = [], notes: string[] = [], seen = new Set<string>();
-  for (const { shape: { geometry } } of shapes) {
+  const meshes = new Map<string, TriangleMesh>();
+  const missing: string[] = [];
+  const notes: string[] = [];
+  const seen = new Set<string>();
+  for (const {
+    shape: { geometry },
+  } of shapes) {
     if (geometry.kind !== "mesh" || seen.has(geometry.reference)) continue;
-    const { reference } = geometry, found = resolveFile(reference, path, files);
+    const { reference } = geometry;
+    const found = resolveFile(reference, path, files);
     seen.add(reference);
-    if (found.kind === "missing") { missing.push(reference); notes.push(found.sentence); continue; }
+    if (found.kind === "missing") {
+      missing.push(reference);
+      notes.push(found.sentence);
+      continue;
+    }
     if (found.note !== undefined) notes.push(found.note);
-    const answer = readMesh(found.path, files.read(found.path) ?? new Uint8Array(), address => files.read(joinPath(folderOf(found.path), address)));
+    const answer = readMesh(found.path, files.read(found.path) ?? new Uint8Array(), address =>
+      files.read(joinPath(folderOf(found.path), address)),
+    );
     if (answer.kind === "read") meshes.set(reference, answer.mesh);
-    else { missing.push(reference); notes.push(`${nameOf(found.path)}${answer.line === undefined ? "" : `, line ${answer.line}`}: ${answer.sentence}`); }
+    else {
+      missing.push(reference);
+      notes.push(
+        `${nameOf(found.path)}${answer.line === undefined ? "" : `, line ${answer.line}`}: ${answer.sentence}`,
+      );
+    }
   }
   return { meshOf: reference => meshes.get(reference), missing, notes };
 }

@@ -13,7 +13,11 @@ export interface UrdfLink {
   readonly name: string;
   readonly visuals: readonly UrdfShape[];
   readonly collisions: readonly UrdfShape[];
-  readonly inertial?: { readonly linkFromInertial: Pose<"link", "inertial">; readonly mass_kg: number; readonly inertia_kg_m2: readonly number[] };
+  readonly inertial?: {
+    readonly linkFromInertial: Pose<"link", "inertial">;
+    readonly mass_kg: number;
+    readonly inertia_kg_m2: readonly number[];
+  };
 }
 
 export type UrdfGeometry =
@@ -37,7 +41,12 @@ export interface UrdfJoint {
   readonly parentFromJoint: Pose<"parent", "joint">;
   /** Unit vector in the joint's frame. */
   readonly axis: Vector3;
-  readonly limit?: { readonly lower: number; readonly upper: number; readonly velocity: number; readonly effort: number };
+  readonly limit?: {
+    readonly lower: number;
+    readonly upper: number;
+    readonly velocity: number;
+    readonly effort: number;
+  };
   readonly mimic?: { readonly joint: string; readonly multiplier: number; readonly offset: number };
   readonly line: number;
 }

@@ -3,14 +3,18 @@ import type { PlacedShape, UrdfChain } from "./chain.ts";
 import type { UrdfGeometry } from "./model.ts";
 
 /** Where a mesh reference points: a package by name, or a path beside the robot file. */
-export interface MeshPlace { readonly package?: string; readonly path: string }
+export interface MeshPlace {
+  readonly package?: string;
+  readonly path: string;
+}
 
 /**
  * Takes `package://name/path`, `file:///path`, `model://name/path` and plain paths apart. `.` and `..` are resolved.
  * A path that leaves its package, or climbs above the robot file, is undefined: files elsewhere are nobody's business.
  */
 export function meshPlace(reference: string): MeshPlace | undefined {
-  const scheme = /^([a-z]+):\/\//.exec(reference)?.[1], rest = scheme ? reference.slice(scheme.length + 3) : reference;
+  const scheme = /^([a-z]+):\/\//.exec(reference)?.[1];
+  const rest = scheme ? reference.slice(scheme.length + 3) : reference;
   const parts: string[] = [];
   for (const part of rest.replaceAll("\\", "/").split("/")) {
     if (part === "" || part === ".") continue;
@@ -27,12 +31,21 @@ export function meshPlace(reference: string): MeshPlace | undefined {
 }
 
 /** A simple shape as a mesh; a mesh reference is answered by `meshOf`. */
-export function geometryMesh(geometry: UrdfGeometry, meshOf: (reference: string) => TriangleMesh | undefined): TriangleMesh | undefined {
+export function geometryMesh(
+  geometry: UrdfGeometry,
+  meshOf: (reference: string) => TriangleMesh | undefined,
+): TriangleMesh | undefined {
   switch (geometry.kind) {
-    case "box": return boxMesh(geometry.size_m);
-    case "cylinder": return cylinderMesh(geometry.radius_m, geometry.length_m);
-    case "sphere": return sphereMesh(geometry.radius_m);
-    case "mesh": { const mesh = meshOf(geometry.reference); return mesh && stretched(mesh, geometry.scale); }
+    case "box":
+      return boxMesh(geometry.size_m);
+    case "cylinder":
+      return cylinderMesh(geometry.radius_m, geometry.length_m);
+    case "sphere":
+      return sphereMesh(geometry.radius_m);
+    case "mesh": {
+      const mesh = meshOf(geometry.reference);
+      return mesh && stretched(mesh, geometry.scale);
+    }
   }
 }
 
@@ -55,8 +68,12 @@ export function solidShapes(chain: UrdfChain): readonly PlacedShape[] {
  *
  * @param meshOf  the mesh of a reference [m], or undefined when it is not at hand.
  */
-export function urdfSolids(chain: UrdfChain, meshOf: (reference: string) => TriangleMesh | undefined): { readonly solids: readonly LinkSolid[]; readonly missing: readonly string[] } {
-  const solids: LinkSolid[] = [], missing = new Set<string>();
+export function urdfSolids(
+  chain: UrdfChain,
+  meshOf: (reference: string) => TriangleMesh | undefined,
+): { readonly solids: readonly LinkSolid[]; readonly missing: readonly string[] } {
+  const solids: LinkSolid[] = [];
+  const missing = new Set<string>();
   for (const { link, name, armLinkFromShape, shape } of solidShapes(chain)) {
     const mesh = geometryMesh(shape.geometry, meshOf);
     if (mesh) solids.push({ link, name, mesh: transformMesh(mesh, armLinkFromShape) });

@@ -20,41 +20,88 @@ export interface UrdfOptions {
  * read again, forward kinematics is the same to 1e-12. URDF has no place for accelerations.
  */
 export function writeUrdf(arm: SerialArm, options: UrdfOptions = {}): string {
-  const { base = "base_link", tip = "tool0", side } = options, used = new Set([base, tip, side?.name]), n = arm.joints.length;
-  const linkName = (link: number): string => { let name = link === 0 ? base : `link_${link}`; while (link > 0 && used.has(name)) name += "_"; return name; };
+  const { base = "base_link", tip = "tool0", side } = options;
+  const used = new Set([base, tip, side?.name]);
+  const n = arm.joints.length;
+  const linkName = (link: number): string => {
+    let name = link === 0 ? base : `link_${link}`;
+    while (link > 0 && used.has(name)) name += "_";
+    return name;
+  };
   const children: Written[] = [];
-  for (let link = 0; link <= n; link++) children.push({ name: "link", attributes: { name: linkName(link) }, children: [...massIn(link, options), ...shapesIn(link, options)] });
+  for (let link = 0; link <= n; link++)
+    children.push({
+      name: "link",
+      attributes: { name: linkName(link) },
+      children: [...massIn(link, options), ...shapesIn(link, options)],
+    });
   arm.joints.forEach(({ name, kind = "revolute", parentFromJoint, axis, limits }, i) => {
-    children.push(element("joint", { name, type: kind }, [
-      origin(parentFromJoint as Pose), element("parent", { link: linkName(i) }), element("child", { link: linkName(i + 1) }), element("axis", { xyz: axis.map(digits).join(" ") }),
-      element("limit", { lower: digits(limits.lower_rad), upper: digits(limits.upper_rad), velocity: digits(limits.speed_rad_s), effort: digits(limits.torque_Nm ?? 0) }),
-    ]));
+    children.push(
+      element("joint", { name, type: kind }, [
+        origin(parentFromJoint as Pose),
+        element("parent", { link: linkName(i) }),
+        element("child", { link: linkName(i + 1) }),
+        element("axis", { xyz: axis.map(digits).join(" ") }),
+        element("limit", {
+          lower: digits(limits.lower_rad),
+          upper: digits(limits.upper_rad),
+          velocity: digits(limits.speed_rad_s),
+          effort: digits(limits.torque_Nm ?? 0),
+        }),
+      ]),
+    );
   });
   children.push(...fixed(tip, linkName(n), arm.lastJointFromFlange as Pose));
   if (side) children.push(...fixed(side.name, base, side.baseFromSide));
   return writeXml({ name: "robot", attributes: { name: options.name ?? arm.name }, children });
 }
 
-const element = (name: string, attributes: Record<string, string>, children: readonly Written[] = []): Written => ({ name, attributes, children });
+const element = (name: string, attributes: Record<string, string>, children: readonly Written[] = []): Written => ({
+  name,
+  attributes,
+  children,
+});
 
 function fixed(name: string, parent: string, parentFromLink: Pose): Written[] {
-  return [element("link", { name }), element("joint", { name: `${parent}-${name}`, type: "fixed" }, [origin(parentFromLink), element("parent", { link: parent }), element("child", { link: name })])];
+  return [
+    element("link", { name }),
+    element("joint", { name: `${parent}-${name}`, type: "fixed" }, [
+      origin(parentFromLink),
+      element("parent", { link: parent }),
+      element("child", { link: name }),
+    ]),
+  ];
 }
 
 function massIn(link: number, { masses }: UrdfOptions): Written[] {
   const mass = link > 0 ? masses?.[link - 1] : undefined;
   if (!mass?.linkFromCentre || !mass.inertia_kgm2) return [];
   const [ixx, iyy, izz, ixy, ixz, iyz] = mass.inertia_kgm2;
-  const inertia = Object.fromEntries(Object.entries({ ixx, ixy, ixz, iyy, iyz, izz }).map(([key, value]) => [key, digits(value)]));
-  return [element("inertial", {}, [origin(mass.linkFromCentre as Pose), element("mass", { value: digits(mass.mass_kg) }), element("inertia", inertia)])];
+  const inertia = Object.fromEntries(
+    Object.entries({ ixx, ixy, ixz, iyy, iyz, izz }).map(([key, value]) => [key, digits(value)]),
+  );
+  return [
+    element("inertial", {}, [
+      origin(mass.linkFromCentre as Pose),
+      element("mass", { value: digits(mass.mass_kg) }),
+      element("inertia", inertia),
+    ]),
+  ];
 }
 
 function shapesIn(link: number, { meshesOf }: UrdfOptions): Written[] {
-  return ["visual", "collision"].flatMap(use => (meshesOf?.(link) ?? []).map(filename => element(use, {}, [element("geometry", {}, [element("mesh", { filename })])])));
+  return ["visual", "collision"].flatMap(use =>
+    (meshesOf?.(link) ?? []).map(filename =>
+      element(use, {}, [element("geometry", {}, [element("mesh", { filename })])]),
+    ),
+  );
 }
 
 function origin({ position, quaternion }: Pose): Written {
-  return element("origin", { xyz: position.map(digits).join(" "), rpy: rollPitchYaw(quaternion).map(digits).join(" ") });
+  return element("origin", {
+    xyz: position.map(digits).join(" "),
+    rpy: rollPitchYaw(quaternion).map(digits).join(" "),
+  });
 }
 
 /** The shortest digits that give the number back; no −0. */
@@ -65,6 +112,9 @@ const digits = (value: number): string => String(value || 0);
  * and roll turn about one line, they still make up for each other's rounding.
  */
 function rollPitchYaw(quaternion: Quaternion): readonly [roll: number, pitch: number, yaw: number] {
-  const [r00, r01, r02, r10, r11, r12, r20] = toMatrix(quaternion), yaw = Math.hypot(r00, r10) < 1e-15 ? 0 : Math.atan2(r10, r00), s = Math.sin(yaw), c = Math.cos(yaw);
+  const [r00, r01, r02, r10, r11, r12, r20] = toMatrix(quaternion);
+  const yaw = Math.hypot(r00, r10) < 1e-15 ? 0 : Math.atan2(r10, r00);
+  const s = Math.sin(yaw);
+  const c = Math.cos(yaw);
   return [Math.atan2(s * r02 - c * r12, c * r11 - s * r01), Math.atan2(-r20, c * r00 + s * r10), yaw];
 }

@@ -12,7 +12,10 @@ export class Budget {
   /** One unit is an operation, a character put together or an item of a list. */
   spend(work: number): void {
     this.work -= work;
-    if (!(this.work >= 0)) throw new Refusal("The xacro grows without end: more than 20 million characters and operations were made from it.");
+    if (!(this.work >= 0))
+      throw new Refusal(
+        "The xacro grows without end: more than 20 million characters and operations were made from it.",
+      );
   }
   element(): void {
     if (--this.elements < 0) throw new Refusal("The xacro becomes more than 200000 elements.");

@@ -24,9 +24,14 @@ export interface XacroExpanded {
  * The URDF that a xacro stands for. Pure: what it names is asked of `files`, nothing else is opened; there are no environment
  * variables. Work, depth and size are bounded, so that every file ends in a robot or in a sentence.
  */
-export function expandXacro(path: string, files: FileSource, { args = {} }: XacroOptions = {}): XacroExpanded | NotUnderstood {
+export function expandXacro(
+  path: string,
+  files: FileSource,
+  { args = {} }: XacroOptions = {},
+): XacroExpanded | NotUnderstood {
   return answering(() => {
-    const expansion = new Expansion(files, args), root = expansion.whole(path);
+    const expansion = new Expansion(files, args);
+    const root = expansion.whole(path);
     return { kind: "expanded", text: writeXml(root), read: expansion.read, warnings: [...expansion.warnings] };
   });
 }
@@ -34,7 +39,9 @@ export function expandXacro(path: string, files: FileSource, { args = {} }: Xacr
 /** A robot straight from a URDF or xacro; refusals name file and line of what was written by hand, not of what it became. */
 export function readRobot(path: string, files: FileSource, { args = {} }: XacroOptions = {}): UrdfRead | NotUnderstood {
   return answering(() => {
-    const expansion = new Expansion(files, args), root = expansion.whole(path), { robot, warnings } = robotOf(root);
+    const expansion = new Expansion(files, args);
+    const root = expansion.whole(path);
+    const { robot, warnings } = robotOf(root);
     return { kind: "read", robot, warnings: [...expansion.warnings, ...warnings] };
   });
 }

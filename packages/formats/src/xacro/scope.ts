@@ -11,9 +11,17 @@ export interface Macro {
   readonly parameters: readonly Parameter[];
 }
 /** `a`, `a:=default`, `a:=^` (from around the call), `a:=^|default`, `*block`, `**block`. */
-export interface Parameter { readonly name: string; readonly fallback?: string; readonly forwarded: boolean }
+export interface Parameter {
+  readonly name: string;
+  readonly fallback?: string;
+  readonly forwarded: boolean;
+}
 
-interface Entry { value: Value; pending?: string; beingRead?: boolean }
+interface Entry {
+  value: Value;
+  pending?: string;
+  beingRead?: boolean;
+}
 
 /** Properties, blocks and macros of one place: a file, a macro call, an included name space. What is not here is looked for outside. */
 export class Scope {
@@ -40,15 +48,24 @@ export class Scope {
     const value = typeof given === "string" ? literalOf(given) : given;
     this.values.set(name, isPending && typeof value === "string" ? { value: null, pending: value } : { value });
   }
-  setBlock(name: string, block: Element): void { this.blocks.set(name, block); }
-  setMacro(macro: Macro): void { this.macros.set(macro.name, macro); }
+  setBlock(name: string, block: Element): void {
+    this.blocks.set(name, block);
+  }
+  setMacro(macro: Macro): void {
+    this.macros.set(macro.name, macro);
+  }
   setSpace(name: string, space: Scope): void {
     this.spaces.set(name, space);
     this.values.set(name, { value: new Names(name, inner => space.get(inner)) });
   }
-  remove(name: string): void { this.values.delete(name); this.outer?.remove(name); }
+  remove(name: string): void {
+    this.values.delete(name);
+    this.outer?.remove(name);
+  }
 
-  has(name: string): boolean { return this.values.has(name) || (this.outer?.has(name) ?? false); }
+  has(name: string): boolean {
+    return this.values.has(name) || (this.outer?.has(name) ?? false);
+  }
   get(name: string): Value | undefined {
     const entry = this.values.get(name);
     if (!entry) return this.outer?.get(name);
@@ -58,10 +75,12 @@ export class Scope {
     const value = this.textIn(entry.pending, this);
     entry.beingRead = false;
     delete entry.pending;
-    return entry.value = typeof value === "string" ? literalOf(value) : value;
+    return (entry.value = typeof value === "string" ? literalOf(value) : value);
   }
   /** `name` or `*name`, from here outwards. */
-  block(name: string): Element | undefined { return this.blocks.get(name) ?? this.outer?.block(name); }
+  block(name: string): Element | undefined {
+    return this.blocks.get(name) ?? this.outer?.block(name);
+  }
 
   /** The macro of a name, dots leading into name spaces, and the scope its names are looked up in. */
   macro(name: string): { readonly macro: Macro; readonly scope: Scope } | undefined {
@@ -70,11 +89,17 @@ export class Scope {
     const dot = name.indexOf(".");
     return dot < 0 ? undefined : this.space(name.slice(0, dot))?.macro(name.slice(dot + 1));
   }
-  private macroHere(name: string): Macro | undefined { return this.macros.get(name) ?? (this.isNameSpace ? undefined : this.outer?.macroHere(name)); }
-  private space(name: string): Scope | undefined { return this.spaces.get(name) ?? this.outer?.space(name); }
+  private macroHere(name: string): Macro | undefined {
+    return this.macros.get(name) ?? (this.isNameSpace ? undefined : this.outer?.macroHere(name));
+  }
+  private space(name: string): Scope | undefined {
+    return this.spaces.get(name) ?? this.outer?.space(name);
+  }
 
   /** The outermost scope of the file. */
-  top(): Scope { return this.outer?.top() ?? this; }
+  top(): Scope {
+    return this.outer?.top() ?? this;
+  }
   /** Where a macro was called from. */
   caller(): Scope | undefined {
     let scope = this.outer;
@@ -90,8 +115,17 @@ export function parametersOf(text: string): Parameter[] {
   const parameters: Parameter[] = [];
   let rest = text.trim();
   while (rest !== "") {
-    const match = PARAMETER.exec(rest), name = match?.[1] ?? rest.split(/\s/, 1)[0]!;
-    parameters.push(match ? { name, forwarded: match[2] !== undefined, ...(match[3] === "" || match[3] === undefined ? {} : { fallback: match[3] }) } : { name, forwarded: false });
+    const match = PARAMETER.exec(rest);
+    const name = match?.[1] ?? rest.split(/\s/, 1)[0]!;
+    parameters.push(
+      match
+        ? {
+            name,
+            forwarded: match[2] !== undefined,
+            ...(match[3] === "" || match[3] === undefined ? {} : { fallback: match[3] }),
+          }
+        : { name, forwarded: false },
+    );
     if (parameters.length > 500) throw new Refusal("A macro has more than 500 parameters.");
     rest = rest.slice(match ? match[0].length : name.length).trimStart();
   }

@@ -19,21 +19,32 @@ export interface Surroundings {
  * that a file means the same everywhere. A package that is not at hand stays `package://name`, and only what is in it is missing.
  */
 export function substitute(inside: string, around: Surroundings): Value {
-  const [command = "", ...words] = inside.trim().split(/\s+/), [name] = words;
+  const [command = "", ...words] = inside.trim().split(/\s+/);
+  const [name] = words;
   switch (command) {
     case "arg": {
       const value = name === undefined ? undefined : around.argument(name);
-      if (value === undefined) throw new Refusal(`The argument ${shorten(name ?? "")} has no value; give it as ${shorten(name ?? "name")}:=value.`);
+      if (value === undefined)
+        throw new Refusal(
+          `The argument ${shorten(name ?? "")} has no value; give it as ${shorten(name ?? "name")}:=value.`,
+        );
       return value;
     }
     case "find": {
       if (name === undefined) throw new Refusal("“$(find)” names no package.");
       return findPackage(name, around.file(), around.files) ?? `package://${name}`;
     }
-    case "dirname": return folderOf(around.file()) || ".";
-    case "eval": return around.expression(inside.trim().slice(4));
-    case "optenv": return words.slice(1).join(" ");
-    case "env": throw new Refusal(`“$(env ${shorten(name ?? "")})” asks for a variable of the computer's environment, which is not read; use an argument.`);
-    default: throw new Refusal(`“$(${shorten(inside)})” is not known; arg, find, dirname, eval and optenv are.`);
+    case "dirname":
+      return folderOf(around.file()) || ".";
+    case "eval":
+      return around.expression(inside.trim().slice(4));
+    case "optenv":
+      return words.slice(1).join(" ");
+    case "env":
+      throw new Refusal(
+        `“$(env ${shorten(name ?? "")})” asks for a variable of the computer's environment, which is not read; use an argument.`,
+      );
+    default:
+      throw new Refusal(`“$(${shorten(inside)})” is not known; arg, find, dirname, eval and optenv are.`);
   }
 }

@@ -13,7 +13,9 @@ const MOST_STEPS = 200_000;
  * points. A program with jumps other than those of loops and decisions is executed with every input off and comes out as what it does.
  */
 export const { interpret: interpretFanucLs, parse: parseFanucLs }: Pick<Dialect, "parse" | "interpret"> = blockDoors({
-  name: "FANUC TP", speaks: hasPendant, read: readSource,
+  name: "FANUC TP",
+  speaks: hasPendant,
+  read: readSource,
   script: (source, robot, worldFromBase) => ({
     title: source.title,
     machine: (surroundings, signals) => new Machine(source, robot, worldFromBase, surroundings, signals, false),
@@ -22,8 +24,22 @@ export const { interpret: interpretFanucLs, parse: parseFanucLs }: Pick<Dialect,
     block: machine => machine.open(),
     unrolled: source.hasJumps ? executed : undefined,
     warnings: ({ assumed }) => [
-      ...[...assumed].map(([name, at]) => textFault(at, `${name.replace(" ", "[")}=PR[n]`, `${name} is set up nowhere in the text: it is taken to be no different from the ${name.startsWith("UF") ? "world" : "flange"}.`)),
-      ...(source.hasJumps ? [textFault(source.main, "loops and decisions", "The program jumps: it was executed with every input off and written out.")] : []),
+      ...[...assumed].map(([name, at]) =>
+        textFault(
+          at,
+          `${name.replace(" ", "[")}=PR[n]`,
+          `${name} is set up nowhere in the text: it is taken to be no different from the ${name.startsWith("UF") ? "world" : "flange"}.`,
+        ),
+      ),
+      ...(source.hasJumps
+        ? [
+            textFault(
+              source.main,
+              "loops and decisions",
+              "The program jumps: it was executed with every input off and written out.",
+            ),
+          ]
+        : []),
     ],
   }),
 });
@@ -32,7 +48,12 @@ function executed(machine: Machine): Step[] {
   const steps: Step[] = [];
   for (const { step, line } of machine.main()) {
     if (step === undefined) continue;
-    if (steps.length >= MOST_STEPS) throw new TextError({ line, column: 1 }, "a program that ends", `The program has more than ${MOST_STEPS} steps: it repeats itself for ever.`);
+    if (steps.length >= MOST_STEPS)
+      throw new TextError(
+        { line, column: 1 },
+        "a program that ends",
+        `The program has more than ${MOST_STEPS} steps: it repeats itself for ever.`,
+      );
     steps.push(step);
   }
   return steps;

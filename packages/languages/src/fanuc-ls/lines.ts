@@ -7,5 +7,8 @@ export const LINES: LineShapes = {
   closes: /^\s*[0-9]*\s*:\s*(?:ENDIF|ENDFOR)\b/i,
   keeps: /^\s*(?:\/|P\[|GP[0-9]|UF\b|\}|[XJ][0-9]?\s*=)/i,
   // Lines are counted: the number stays.
-  blank: line => { const number = /^\s*[0-9]+\s*:/.exec(line); return number === null ? "" : `${number[0]}   ;`; },
+  blank: line => {
+    const number = /^\s*[0-9]+\s*:/.exec(line);
+    return number === null ? "" : `${number[0]}   ;`;
+  },
 };

@@ -9,24 +9,58 @@ const bench: DialectBench = {
 };
 
 /** Changes a number of every position, by its name. */
-const field = (name: string, change: (value: number) => number) => (text: string): string =>
-  text.replace(new RegExp(`(\\t${name} ?= +)(-?[0-9.]+)`, "g"), (_, head: string, value: string) => head + change(Number(value)).toFixed(3));
-const fields = (names: readonly string[], change: (value: number) => number) => (text: string): string => names.reduce((all, name) => field(name, change)(all), text);
-const exchanged = (a: string, b: string) => (text: string): string => text.replace(new RegExp(`\\t${a} =`, "g"), "\t? =").replace(new RegExp(`\\t${b} =`, "g"), `\t${a} =`).replaceAll("\t? =", `\t${b} =`);
-const config = (change: (flags: string) => string) => (text: string): string => text.replace(/(CONFIG : ')([^']*)/g, (_, head: string, flags: string) => head + change(flags));
-const register = (first: number, last: number, element: number, change: (value: number) => number) => (text: string): string =>
-  text.replace(new RegExp(`(PR\\[([0-9]+),${element}\\]=)\\(?(-?[0-9.]+)\\)?`, "g"), (whole, head: string, n: string, value: string) => Number(n) >= first && Number(n) <= last ? `${head}(${change(Number(value))})` : whole);
+const field =
+  (name: string, change: (value: number) => number) =>
+  (text: string): string =>
+    text.replace(
+      new RegExp(`(\\t${name} ?= +)(-?[0-9.]+)`, "g"),
+      (_, head: string, value: string) => head + change(Number(value)).toFixed(3),
+    );
+const fields =
+  (names: readonly string[], change: (value: number) => number) =>
+  (text: string): string =>
+    names.reduce((all, name) => field(name, change)(all), text);
+const exchanged =
+  (a: string, b: string) =>
+  (text: string): string =>
+    text
+      .replace(new RegExp(`\\t${a} =`, "g"), "\t? =")
+      .replace(new RegExp(`\\t${b} =`, "g"), `\t${a} =`)
+      .replaceAll("\t? =", `\t${b} =`);
+const config =
+  (change: (flags: string) => string) =>
+  (text: string): string =>
+    text.replace(/(CONFIG : ')([^']*)/g, (_, head: string, flags: string) => head + change(flags));
+const register =
+  (first: number, last: number, element: number, change: (value: number) => number) =>
+  (text: string): string =>
+    text.replace(
+      new RegExp(`(PR\\[([0-9]+),${element}\\]=)\\(?(-?[0-9.]+)\\)?`, "g"),
+      (whole, head: string, n: string, value: string) =>
+        Number(n) >= first && Number(n) <= last ? `${head}(${change(Number(value))})` : whole,
+    );
 const negated = (value: number): number => -value;
-const once = (pattern: RegExp, by: string) => (text: string): string => text.replace(pattern, by);
+const once =
+  (pattern: RegExp, by: string) =>
+  (text: string): string =>
+    text.replace(pattern, by);
 
 describeMutations(fanucLs, bench, {
   "J1 with the wrong sign": field("J1", negated),
-  "J3 against the upper arm": text => text.replace(/(J2 = +)(-?[0-9.]+)( deg,\tJ3 = +)(-?[0-9.]+)/g, (_, a: string, j2: string, b: string, j3: string) => `${a}${j2}${b}${(Number(j3) + Number(j2)).toFixed(3)}`),
-  "J3 with the coupling twice": text => text.replace(/(J2 = +)(-?[0-9.]+)( deg,\tJ3 = +)(-?[0-9.]+)/g, (_, a: string, j2: string, b: string, j3: string) => `${a}${j2}${b}${(Number(j3) - Number(j2)).toFixed(3)}`),
+  "J3 against the upper arm": text =>
+    text.replace(
+      /(J2 = +)(-?[0-9.]+)( deg,\tJ3 = +)(-?[0-9.]+)/g,
+      (_, a: string, j2: string, b: string, j3: string) => `${a}${j2}${b}${(Number(j3) + Number(j2)).toFixed(3)}`,
+    ),
+  "J3 with the coupling twice": text =>
+    text.replace(
+      /(J2 = +)(-?[0-9.]+)( deg,\tJ3 = +)(-?[0-9.]+)/g,
+      (_, a: string, j2: string, b: string, j3: string) => `${a}${j2}${b}${(Number(j3) - Number(j2)).toFixed(3)}`,
+    ),
   "J4 with the wrong sign": field("J4", negated),
   "J6 with the wrong sign": field("J6", negated),
   "J4 and J5 in the wrong order": exchanged("J4", "J5"),
-  "radians for degrees": fields(["J1", "J2", "J3", "J4", "J5", "J6"], value => value / 180 * Math.PI),
+  "radians for degrees": fields(["J1", "J2", "J3", "J4", "J5", "J6"], value => (value / 180) * Math.PI),
   "a hundredth of a degree too much": field("J2", value => value + 0.01),
   "metres for millimetres": field("X", value => value / 1000),
   "heights from the floor": field("Z", value => value + 330),
@@ -35,9 +69,9 @@ describeMutations(fanucLs, bench, {
   "P with the wrong sign": field("P", negated),
   "R with the wrong sign": field("R", negated),
   "a tenth of a millimetre too much": field("Y", value => value + 0.1),
-  "a wrist turned over": config(flags => flags.replace(/^[FN]/, flag => flag === "F" ? "N" : "F")),
-  "an elbow turned over": config(flags => flags.replace(/[UD]/, flag => flag === "U" ? "D" : "U")),
-  "a shoulder turned over": config(flags => flags.replace(/[TB]/, flag => flag === "T" ? "B" : "T")),
+  "a wrist turned over": config(flags => flags.replace(/^[FN]/, flag => (flag === "F" ? "N" : "F"))),
+  "an elbow turned over": config(flags => flags.replace(/[UD]/, flag => (flag === "U" ? "D" : "U"))),
+  "a shoulder turned over": config(flags => flags.replace(/[TB]/, flag => (flag === "T" ? "B" : "T"))),
   "no configuration": text => text.replace(/CONFIG : '[^']*',/g, ""),
   "a tool with the wrong sign": register(1, 10, 1, negated),
   "a tool in metres": register(1, 10, 3, value => value / 1000),
@@ -57,15 +91,26 @@ describeMutations(fanucLs, bench, {
   "a lost motion": once(/ +[0-9]+:[JL] P[^\r]*\r\n/, ""),
   "a motion twice": once(/( +[0-9]+:[JL] P[^\r]*\r\n)/, "$1$1"),
   "another position": once(/(:[JL] P\[)([0-9]+)/, "$199"),
-  "a lost stop": text => text.replace(/FINE(?= {4};\r\n +[0-9]+: {2}WAIT)/g, "CNT100").replace(/:([JL]) (P\[[0-9]+\] [^ ]+) FINE/g, ":$1 $2 CNT100"),
+  "a lost stop": text =>
+    text
+      .replace(/FINE(?= {4};\r\n +[0-9]+: {2}WAIT)/g, "CNT100")
+      .replace(/:([JL]) (P\[[0-9]+\] [^ ]+) FINE/g, ":$1 $2 CNT100"),
   "a speed in centimetres a minute": once(/mm\/sec/, "cm/min"),
   "a speed of its own": once(/ ([0-9]+)mm\/sec/, " 7mm/sec"),
-  "per mille for per cent": text => text.replace(/(:J P\[[0-9]+\]) ([0-9]+)%/, (_, head: string, percent: string) => `${head} ${Math.max(1, Math.round(Number(percent) / 10)) === Number(percent) ? 50 : Math.max(1, Math.round(Number(percent) / 10))}%`),
+  "per mille for per cent": text =>
+    text.replace(
+      /(:J P\[[0-9]+\]) ([0-9]+)%/,
+      (_, head: string, percent: string) =>
+        `${head} ${Math.max(1, Math.round(Number(percent) / 10)) === Number(percent) ? 50 : Math.max(1, Math.round(Number(percent) / 10))}%`,
+    ),
   "half the acceleration": once(/(:J P\[[0-9]+\] [^ ]+ [A-Z0-9]+)( {4};)/, "$1 ACC50$2"),
   "an offset that is not there": once(/(:L P\[[0-9]+\] [^ ]+ [A-Z0-9]+)( {4};)/, "$1 Offset,PR[90]$2"),
-  "open for close": text => text.replace(/RO\[1\]=(ON|OFF)/, (_, state: string) => `RO[1]=${state === "ON" ? "OFF" : "ON"}`),
+  "open for close": text =>
+    text.replace(/RO\[1\]=(ON|OFF)/, (_, state: string) => `RO[1]=${state === "ON" ? "OFF" : "ON"}`),
   "another output": once(/RO\[1\]=/, "RO[2]="),
-  "a wait in milliseconds": text => text.replace(/WAIT +([0-9.]+)\(sec\)/, (_, s: string) => `WAIT ${Number(s) * 1000 + 1}(sec)`),
+  "a wait in milliseconds": text =>
+    text.replace(/WAIT +([0-9.]+)\(sec\)/, (_, s: string) => `WAIT ${Number(s) * 1000 + 1}(sec)`),
   "a lost wait": once(/ +[0-9]+: {2}WAIT[^\r]*\r\n/, ""),
-  "a program that ends too early": text => text.replace(/( +[0-9]+:[JL] P[^\r]*\r\n)(?=[^]*:[JL] P)/, "$1      END ;\r\n"),
+  "a program that ends too early": text =>
+    text.replace(/( +[0-9]+:[JL] P[^\r]*\r\n)(?=[^]*:[JL] P)/, "$1      END ;\r\n"),
 });

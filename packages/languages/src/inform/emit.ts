@@ -1,4 +1,14 @@
-import { capabilitiesOf, everyStep, type Dialect, type Emitted, type MoveStep, type Pose, type Program, type Robot, type Step } from "@twincell/core";
+import {
+  capabilitiesOf,
+  everyStep,
+  type Dialect,
+  type Emitted,
+  type MoveStep,
+  type Pose,
+  type Program,
+  type Robot,
+  type Step,
+} from "@twincell/core";
 import { axisConvention, type AxisConvention, type PulseData } from "./robots.ts";
 import { Controller } from "./write/controller.ts";
 import { JobWriter } from "./write/job.ts";
@@ -11,7 +21,10 @@ import { FASTEST_MPS, pathSpeed } from "./write/speed.ts";
 export const CANNOT: Dialect["cannot"] = [
   { what: "duration", because: "INFORM gives a motion a speed and no duration." },
   { what: "timeout", because: "When the time of a WAIT is over, INFORM goes on as if nothing were missing." },
-  { what: "read-analogue", because: "INFORM decides by digital lines; analogue inputs need an option of the controller." },
+  {
+    what: "read-analogue",
+    because: "INFORM decides by digital lines; analogue inputs need an option of the controller.",
+  },
   { what: "payload", because: "The load belongs to the tool data of the controller, not to a job." },
 ];
 const HINTS: Readonly<Record<string, string>> = {
@@ -34,38 +47,92 @@ type Refusal = Extract<Emitted, { kind: "cannot" }>;
  *
  * @param pulses  write positions in pulses, by these numbers of the controller; left out, in X, Y, Z.
  */
-export function emitInform(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">, pulses: PulseData | undefined): Emitted {
+export function emitInform(
+  program: Program,
+  robot: Robot,
+  worldFromBase: Pose<"world", "base">,
+  pulses: PulseData | undefined,
+): Emitted {
   const convention = axisConvention(robot);
   if (convention === undefined) {
-    return { kind: "cannot", step: "", sentence: `How INFORM counts the axes of the ${robot.name} is not known.`, hint: "Export in the language of this robot's own controller." };
+    return {
+      kind: "cannot",
+      step: "",
+      sentence: `How INFORM counts the axes of the ${robot.name} is not known.`,
+      hint: "Export in the language of this robot's own controller.",
+    };
   }
-  if (pulses !== undefined && (pulses.pulsesPerDegree.length !== robot.arm.joints.length || !pulses.pulsesPerDegree.every(value => Number.isFinite(value) && value !== 0))) {
-    return { kind: "cannot", step: "", sentence: `${pulses.pulsesPerDegree.length} pulse ratios are given; the ${robot.name} has ${robot.arm.joints.length} axes, and no ratio is 0.`, hint: "Take the pulses per degree of every axis from the controller's parameter file." };
+  if (
+    pulses !== undefined &&
+    (pulses.pulsesPerDegree.length !== robot.arm.joints.length ||
+      !pulses.pulsesPerDegree.every(value => Number.isFinite(value) && value !== 0))
+  ) {
+    return {
+      kind: "cannot",
+      step: "",
+      sentence: `${pulses.pulsesPerDegree.length} pulse ratios are given; the ${robot.name} has ${robot.arm.joints.length} axes, and no ratio is 0.`,
+      hint: "Take the pulses per degree of every axis from the controller's parameter file.",
+    };
   }
-  const steps = [...everyStep(program)], refusal = refused(steps) ?? unresolved(program, steps, pulses);
+  const steps = [...everyStep(program)];
+  const refusal = refused(steps) ?? unresolved(program, steps, pulses);
   if (refusal !== undefined) return refusal;
   const whole = written(program, robot, worldFromBase, convention, pulses);
   if (whole.kind !== "too-long") return whole;
-  const parts = inParts(program, MOST_STEPS), again = written(parts, robot, worldFromBase, convention, pulses);
-  if (again.kind === "too-long") return { kind: "cannot", step: "", sentence: again.sentence, hint: "Put parts of it into routines of their own." };
-  return again.kind === "cannot" ? again : { ...again, warnings: [`The program has more positions than one job holds: it was written as ${1 + Object.keys(parts.routines).length} jobs that are called one after the other.`, ...again.warnings] };
+  const parts = inParts(program, MOST_STEPS);
+  const again = written(parts, robot, worldFromBase, convention, pulses);
+  if (again.kind === "too-long")
+    return { kind: "cannot", step: "", sentence: again.sentence, hint: "Put parts of it into routines of their own." };
+  return again.kind === "cannot"
+    ? again
+    : {
+        ...again,
+        warnings: [
+          `The program has more positions than one job holds: it was written as ${1 + Object.keys(parts.routines).length} jobs that are called one after the other.`,
+          ...again.warnings,
+        ],
+      };
 }
 
-function written(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">, convention: AxisConvention, pulses: PulseData | undefined): Emitted | { readonly kind: "too-long"; readonly sentence: string } {
-  const steps = [...everyStep(program)], place = new WalkedPlace(program, robot, worldFromBase), postures = posturesOf(place, convention, pulses !== undefined);
+function written(
+  program: Program,
+  robot: Robot,
+  worldFromBase: Pose<"world", "base">,
+  convention: AxisConvention,
+  pulses: PulseData | undefined,
+): Emitted | { readonly kind: "too-long"; readonly sentence: string } {
+  const steps = [...everyStep(program)];
+  const place = new WalkedPlace(program, robot, worldFromBase);
+  const postures = posturesOf(place, convention, pulses !== undefined);
   if (postures.kind === "cannot") return postures;
 
-  const controller = new Controller(place), taken = new Set<string>(), main = jobName(program.name, taken);
+  const controller = new Controller(place);
+  const taken = new Set<string>();
+  const main = jobName(program.name, taken);
   const jobs = new Map(Object.keys(program.routines).map(name => [name, jobName(name, taken)]));
   const setting = { place, controller, convention, pulses, postures: postures.of, jobs };
   const files = [new JobWriter(setting, true).write(main, program.name, program.steps)];
   for (const [name, job] of jobs) files.push(new JobWriter(setting, false).write(job, name, program.routines[name]!));
-  for (const what of controller.spent) return { kind: "cannot", step: "", sentence: `The program needs more ${what} than the controller has.`, hint: "Export it in parts." };
+  for (const what of controller.spent)
+    return {
+      kind: "cannot",
+      step: "",
+      sentence: `The program needs more ${what} than the controller has.`,
+      hint: "Export it in parts.",
+    };
   for (const { name, text } of files) {
     const count = Number(/^\/\/\/NPOS ([0-9]+)/m.exec(text)?.[1] ?? 0);
-    if (count > MOST_POSITIONS) return { kind: "too-long", sentence: `Job ${name} would have ${count} positions; a job holds ${MOST_POSITIONS}.` };
+    if (count > MOST_POSITIONS)
+      return {
+        kind: "too-long",
+        sentence: `Job ${name} would have ${count} positions; a job holds ${MOST_POSITIONS}.`,
+      };
   }
-  return { kind: "emitted", files: [...files, ...controller.files()], warnings: warnings(program, robot, steps, pulses, controller) };
+  return {
+    kind: "emitted",
+    files: [...files, ...controller.files()],
+    warnings: warnings(program, robot, steps, pulses, controller),
+  };
 }
 
 function refused(steps: readonly Step[]): Refusal | undefined {
@@ -73,11 +140,35 @@ function refused(steps: readonly Step[]): Refusal | undefined {
     const called = `Step ${step.name ?? step.id}`;
     for (const capability of capabilitiesOf(step)) {
       const why = CANNOT.find(({ what }) => what === capability);
-      if (why !== undefined) return { kind: "cannot", step: step.id, sentence: `${called} asks for what INFORM lacks. ${why.because}`, hint: HINTS[capability]! };
+      if (why !== undefined)
+        return {
+          kind: "cannot",
+          step: step.id,
+          sentence: `${called} asks for what INFORM lacks. ${why.because}`,
+          hint: HINTS[capability]!,
+        };
     }
-    if (step.type === "wait" && step.s > LONGEST_WAIT_S) return { kind: "cannot", step: step.id, sentence: `${called} waits ${step.s} s; TIMER ends at ${LONGEST_WAIT_S} s.`, hint: "Wait several times." };
-    if (step.type === "set" && step.pulse_s !== undefined && step.to === false) return { kind: "cannot", step: step.id, sentence: `${called} is a pulse that takes an output off; PULSE of INFORM puts it on.`, hint: "Write two steps with a wait between them." };
-    if (step.type === "move" && step.path === "circ" && step.via === undefined) return { kind: "cannot", step: step.id, sentence: `${called} is an arc without a point to pass through.`, hint: "Teach the point in the middle of the arc." };
+    if (step.type === "wait" && step.s > LONGEST_WAIT_S)
+      return {
+        kind: "cannot",
+        step: step.id,
+        sentence: `${called} waits ${step.s} s; TIMER ends at ${LONGEST_WAIT_S} s.`,
+        hint: "Wait several times.",
+      };
+    if (step.type === "set" && step.pulse_s !== undefined && step.to === false)
+      return {
+        kind: "cannot",
+        step: step.id,
+        sentence: `${called} is a pulse that takes an output off; PULSE of INFORM puts it on.`,
+        hint: "Write two steps with a wait between them.",
+      };
+    if (step.type === "move" && step.path === "circ" && step.via === undefined)
+      return {
+        kind: "cannot",
+        step: step.id,
+        sentence: `${called} is an arc without a point to pass through.`,
+        hint: "Teach the point in the middle of the arc.",
+      };
   }
   return undefined;
 }
@@ -88,40 +179,102 @@ function unresolved(program: Program, steps: readonly Step[], pulses: PulseData 
     const called = `Step ${step.name ?? step.id}`;
     for (const name of signalsOf(step)) {
       const line = Object.hasOwn(program.signals, name) ? program.signals[name] : undefined;
-      if (line === undefined) return { kind: "cannot", step: step.id, sentence: `${called} uses the signal "${name}", which the program does not have.`, hint: "Add the signal to the program." };
-      if (line.address === undefined || line.address < 1) return { kind: "cannot", step: step.id, sentence: `${called} uses the signal "${name}", whose number on the controller is not given.`, hint: "Give the signal the number of its line: IN# and OT# count from 1." };
+      if (line === undefined)
+        return {
+          kind: "cannot",
+          step: step.id,
+          sentence: `${called} uses the signal "${name}", which the program does not have.`,
+          hint: "Add the signal to the program.",
+        };
+      if (line.address === undefined || line.address < 1)
+        return {
+          kind: "cannot",
+          step: step.id,
+          sentence: `${called} uses the signal "${name}", whose number on the controller is not given.`,
+          hint: "Give the signal the number of its line: IN# and OT# count from 1.",
+        };
     }
-    if (step.type === "call" && !Object.hasOwn(program.routines, step.routine)) return { kind: "cannot", step: step.id, sentence: `${called} calls "${step.routine}", which the program does not have.`, hint: "Add the routine to the program." };
+    if (step.type === "call" && !Object.hasOwn(program.routines, step.routine))
+      return {
+        kind: "cannot",
+        step: step.id,
+        sentence: `${called} calls "${step.routine}", which the program does not have.`,
+        hint: "Add the routine to the program.",
+      };
     if (step.type !== "pallet") continue;
-    if (!Object.hasOwn(program.pallets, step.pallet)) return { kind: "cannot", step: step.id, sentence: `${called} uses the pallet "${step.pallet}", which the program does not have.`, hint: "Add the pallet to the program." };
-    if (pulses !== undefined) return { kind: "cannot", step: step.id, sentence: `${called} is a pallet, whose places are shifts in X, Y, Z: positions in pulses are not shifted.`, hint: "Export with positions in X, Y, Z." };
+    if (!Object.hasOwn(program.pallets, step.pallet))
+      return {
+        kind: "cannot",
+        step: step.id,
+        sentence: `${called} uses the pallet "${step.pallet}", which the program does not have.`,
+        hint: "Add the pallet to the program.",
+      };
+    if (pulses !== undefined)
+      return {
+        kind: "cannot",
+        step: step.id,
+        sentence: `${called} is a pallet, whose places are shifts in X, Y, Z: positions in pulses are not shifted.`,
+        hint: "Export with positions in X, Y, Z.",
+      };
   }
   return undefined;
 }
 
 function signalsOf(step: Step): string[] {
   switch (step.type) {
-    case "set": return [step.signal];
-    case "wait-for": case "if": return [step.when.signal];
-    case "move": return step.until === undefined ? [] : [step.until.when.signal];
-    default: return [];
+    case "set":
+      return [step.signal];
+    case "wait-for":
+    case "if":
+      return [step.when.signal];
+    case "move":
+      return step.until === undefined ? [] : [step.until.when.signal];
+    default:
+      return [];
   }
 }
 
-function warnings(program: Program, robot: Robot, steps: readonly Step[], pulses: PulseData | undefined, controller: Controller): string[] {
-  const said: string[] = [], moves = steps.filter((step): step is MoveStep => step.type === "move"), max = robot.maxTcpSpeed_mps;
-  if (program.robot !== robot.id) said.push(`The program was taught on ${program.robot} and is written for ${robot.id}.`);
-  if (pulses?.source === "example") said.push("The pulses per degree are an example for the virtual controller: on a real robot these positions are others.");
+function warnings(
+  program: Program,
+  robot: Robot,
+  steps: readonly Step[],
+  pulses: PulseData | undefined,
+  controller: Controller,
+): string[] {
+  const said: string[] = [];
+  const moves = steps.filter((step): step is MoveStep => step.type === "move");
+  const max = robot.maxTcpSpeed_mps;
+  if (program.robot !== robot.id)
+    said.push(`The program was taught on ${program.robot} and is written for ${robot.id}.`);
+  if (pulses?.source === "example")
+    said.push(
+      "The pulses per degree are an example for the virtual controller: on a real robot these positions are others.",
+    );
   else if (pulses !== undefined) said.push(`Positions are in pulses by ${pulses.source}: they fit that robot alone.`);
   const paced = moves.filter(({ path, speed }) => path === "ptp" && "mps" in speed).length;
-  if (paced > 0) said.push(`INFORM gives joint motions a share of the axis speeds: on ${counted(paced, "joint motion", "joint motions")} the speed in mm/s became its share of ${max} m/s.`);
+  if (paced > 0)
+    said.push(
+      `INFORM gives joint motions a share of the axis speeds: on ${counted(paced, "joint motion", "joint motions")} the speed in mm/s became its share of ${max} m/s.`,
+    );
   const cut = moves.filter(({ path, speed }) => path !== "ptp" && pathSpeed(speed, max) > FASTEST_MPS).length;
-  if (cut > 0) said.push(`${counted(cut, "path is", "paths are")} slowed down to ${FASTEST_MPS * 1000} mm/s, where V= ends.`);
-  if (moves.some(({ path, blend_m, blend_ratio = 0 }) => path !== "lin" && (blend_m > 0 || blend_ratio > 0))) said.push("Corners off straight paths are written as the position level that is nearest to their size; the sizes are parameters of the controller.");
-  if (moves.some(({ path, blend_m, blend_ratio = 0 }) => path === "lin" && (blend_m > 0 || blend_ratio > 0))) said.push("CR= needs a DX100 or later.");
-  if (steps.some(({ type }) => type === "gripper")) said.push("The gripper is HAND 1 of the handling application, ON closes.");
-  const names = controller.files().map(({ name }) => name).join(" and ");
-  if (names !== "") said.push(`${names} say which tools and user frames the numbers of the job mean. Loading them replaces what the controller has under these numbers.`);
+  if (cut > 0)
+    said.push(`${counted(cut, "path is", "paths are")} slowed down to ${FASTEST_MPS * 1000} mm/s, where V= ends.`);
+  if (moves.some(({ path, blend_m, blend_ratio = 0 }) => path !== "lin" && (blend_m > 0 || blend_ratio > 0)))
+    said.push(
+      "Corners off straight paths are written as the position level that is nearest to their size; the sizes are parameters of the controller.",
+    );
+  if (moves.some(({ path, blend_m, blend_ratio = 0 }) => path === "lin" && (blend_m > 0 || blend_ratio > 0)))
+    said.push("CR= needs a DX100 or later.");
+  if (steps.some(({ type }) => type === "gripper"))
+    said.push("The gripper is HAND 1 of the handling application, ON closes.");
+  const names = controller
+    .files()
+    .map(({ name }) => name)
+    .join(" and ");
+  if (names !== "")
+    said.push(
+      `${names} say which tools and user frames the numbers of the job mean. Loading them replaces what the controller has under these numbers.`,
+    );
   return said;
 }
 

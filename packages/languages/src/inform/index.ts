@@ -16,25 +16,39 @@ export interface InformOptions {
 }
 
 /** Half a step of VJ=, V= and TIMER, and where V= ends. TIMER is at least 0.01 s. */
-const STEPS: Resolution = { ratio: 0.5e-4, leastRatio: 1e-4, leastAcceleration: 0.2, mps: 0.5e-4, mostMps: 1.5, wait_s: 0.01, anglesAsPoses: true, posesAsAngles: true };
+const STEPS: Resolution = {
+  ratio: 0.5e-4,
+  leastRatio: 1e-4,
+  leastAcceleration: 0.2,
+  mps: 0.5e-4,
+  mostMps: 1.5,
+  wait_s: 0.01,
+  anglesAsPoses: true,
+  posesAsAngles: true,
+};
 /** Longest lever of an axis of the hand that is reckoned with [m]. */
 const HAND_M = 0.4;
 const DEG = Math.PI / 180;
 
 /** What half a pulse of every axis at once does to the tool at most, over the robots that are known. */
 function pulseResolution(pulses: Readonly<Record<string, PulseData>>): Resolution {
-  let angle_rad = 0, position_m = 0;
+  let angle_rad = 0;
+  let position_m = 0;
   for (const { pulsesPerDegree } of Object.values(pulses)) {
-    const half = pulsesPerDegree.map(value => 0.5 / Math.abs(value) * DEG), sum = half.reduce((a, b) => a + b, 0);
+    const half = pulsesPerDegree.map(value => (0.5 / Math.abs(value)) * DEG);
+    const sum = half.reduce((a, b) => a + b, 0);
     angle_rad = Math.max(angle_rad, sum);
-    position_m = Math.max(position_m, half.reduce((total, value, i) => total + value * (i < 3 ? 1 + HAND_M : HAND_M), 0));
+    position_m = Math.max(
+      position_m,
+      half.reduce((total, value, i) => total + value * (i < 3 ? 1 + HAND_M : HAND_M), 0),
+    );
   }
   return { ...STEPS, anglesAsPoses: false, angle_rad, position_m };
 }
 
 /** INFORM of Yaskawa controllers from the NX100 on. */
 export function informDialect({ pulses = {}, positions = "rectan" }: InformOptions = {}): Dialect {
-  const of = (robot: Robot): PulseData | undefined => Object.hasOwn(pulses, robot.id) ? pulses[robot.id] : undefined;
+  const of = (robot: Robot): PulseData | undefined => (Object.hasOwn(pulses, robot.id) ? pulses[robot.id] : undefined);
   const inPulses = positions === "pulse";
   return skippingDialect({
     id: inPulses ? "inform-pulse" : "inform",
@@ -43,13 +57,26 @@ export function informDialect({ pulses = {}, positions = "rectan" }: InformOptio
     extensions: [".jbi"],
     // Position levels and TOOL.CND are recalled, not read off a controller.
     maturity: "experimental",
-    cannot: inPulses ? [...CANNOT, { what: "pallet", because: "The places of a pallet are shifts in X, Y, Z, and positions in pulses are not shifted." }] : CANNOT,
+    cannot: inPulses
+      ? [
+          ...CANNOT,
+          {
+            what: "pallet",
+            because: "The places of a pallet are shifts in X, Y, Z, and positions in pulses are not shifted.",
+          },
+        ]
+      : CANNOT,
     resolution: inPulses ? pulseResolution(pulses) : STEPS,
     runnable: asOne,
     emit(program, robot, worldFromBase = identity()) {
       const data = of(robot);
       if (inPulses && data === undefined) {
-        return { kind: "cannot", step: "", sentence: `The pulses per degree of this ${robot.name} are not known.`, hint: "Take them from the parameter file (ALL.PRM) of its controller, or export positions in X, Y, Z." };
+        return {
+          kind: "cannot",
+          step: "",
+          sentence: `The pulses per degree of this ${robot.name} are not known.`,
+          hint: "Take them from the parameter file (ALL.PRM) of its controller, or export positions in X, Y, Z.",
+        };
       }
       return emitInform(program, robot, worldFromBase, inPulses ? data : undefined);
     },
@@ -61,7 +88,11 @@ export function informDialect({ pulses = {}, positions = "rectan" }: InformOptio
 
 /** The jobs and what they mean by numbers, one behind the other. */
 function asOne(files: readonly EmittedFile[]): EmittedFile {
-  return { name: files[0]!.name, text: files.map(({ text }) => text).join(""), lines: files.flatMap(({ lines }) => lines) };
+  return {
+    name: files[0]!.name,
+    text: files.map(({ text }) => text).join(""),
+    lines: files.flatMap(({ lines }) => lines),
+  };
 }
 
 /** With positions in X, Y, Z: needs nothing of the controller. */

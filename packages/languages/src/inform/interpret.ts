@@ -10,25 +10,48 @@ import { ControllerState, type Context } from "./run/state.ts";
 export type Opened =
   | { readonly kind: "opened"; readonly context: Context; readonly start: (signals?: Signals) => Run }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
-export interface Run { readonly steps: Generator<Executed, void>; readonly assumed: ReadonlyMap<string, TextPlace> }
+export interface Run {
+  readonly steps: Generator<Executed, void>;
+  readonly assumed: ReadonlyMap<string, TextPlace>;
+}
 
-export function openInform(text: string, robot: Robot, worldFromBase: Pose<"world", "base">, pulses: PulseData | undefined): Opened {
+export function openInform(
+  text: string,
+  robot: Robot,
+  worldFromBase: Pose<"world", "base">,
+  pulses: PulseData | undefined,
+): Opened {
   const arm = Arm.of(robot);
   if (arm === undefined) {
-    return { kind: "not-understood", faults: [textFault({ line: 1, column: 1 }, "a robot whose controller speaks INFORM", `How INFORM counts the axes of the ${robot.name} is not known.`)] };
+    return {
+      kind: "not-understood",
+      faults: [
+        textFault(
+          { line: 1, column: 1 },
+          "a robot whose controller speaks INFORM",
+          `How INFORM counts the axes of the ${robot.name} is not known.`,
+        ),
+      ],
+    };
   }
   const read = readSource(text);
   if (read.kind === "not-understood") return read;
   const context: Context = { tools: {}, frames: {}, signals: {} };
   const start = (signals?: Signals): Run => {
-    const state = new ControllerState(robot, arm, read.source, worldFromBase, context, pulses?.pulsesPerDegree), machine = new Machine(read.source, state, signals, context.signals);
+    const state = new ControllerState(robot, arm, read.source, worldFromBase, context, pulses?.pulsesPerDegree);
+    const machine = new Machine(read.source, state, signals, context.signals);
     return { steps: machine.run(), assumed: state.assumed };
   };
   return { kind: "opened", context, start };
 }
 
 /** Executes INFORM jobs, the first one of the text, with tools and user frames where the text has them. */
-export function interpretInform(text: string, robot: Robot, worldFromBase: Pose<"world", "base">, pulses: PulseData | undefined): Interpreted {
+export function interpretInform(
+  text: string,
+  robot: Robot,
+  worldFromBase: Pose<"world", "base">,
+  pulses: PulseData | undefined,
+): Interpreted {
   const opened = openInform(text, robot, worldFromBase, pulses);
   if (opened.kind === "not-understood") return opened;
   const fault = rehearse(opened.start().steps);

@@ -7,22 +7,44 @@ import type { PulseData } from "./robots.ts";
  * The neutral program that jobs amount to, with TOOL.CND and UFRAME.CND behind them. The first job is executed with every
  * input off and its motions written down, so loops, calls and shifts come out as what they do.
  */
-export function parseInform(text: string, robot: Robot, worldFromBase: Pose<"world", "base">, pulses: PulseData | undefined): Parsed {
+export function parseInform(
+  text: string,
+  robot: Robot,
+  worldFromBase: Pose<"world", "base">,
+  pulses: PulseData | undefined,
+): Parsed {
   const opened = openInform(text, robot, worldFromBase, pulses);
   if (opened.kind === "not-understood") return opened;
-  const run = opened.start(), done = unrolled(run.steps, { program: "job", statement: "an instruction" });
+  const run = opened.start();
+  const done = unrolled(run.steps, { program: "job", statement: "an instruction" });
   if (done.kind === "not-understood") return done;
-  const lines = textLines(text).map(plainText), { tools, frames, signals } = opened.context;
-  const assumed = [...run.assumed].map(([name, at]) => textFault(at, "TOOL.CND or UFRAME.CND behind the job", `${name} is kept on the controller: it is taken to be 0.`));
-  return { kind: "parsed", warnings: [...done.waits, ...assumed, ...done.repeated], program: { ...emptyProgram(robot.id, nameOf(lines)), ...withComments(lines, done, comment), tools, frames, signals } };
+  const lines = textLines(text).map(plainText);
+  const { tools, frames, signals } = opened.context;
+  const assumed = [...run.assumed].map(([name, at]) =>
+    textFault(at, "TOOL.CND or UFRAME.CND behind the job", `${name} is kept on the controller: it is taken to be 0.`),
+  );
+  return {
+    kind: "parsed",
+    warnings: [...done.waits, ...assumed, ...done.repeated],
+    program: {
+      ...emptyProgram(robot.id, nameOf(lines)),
+      ...withComments(lines, done, comment),
+      tools,
+      frames,
+      signals,
+    },
+  };
 }
 
 /** What a person called the job: its comment, or its name. */
 function nameOf(lines: readonly string[]): string {
-  const end = lines.findIndex(line => /^END\b/i.test(line.trim())), head = lines.slice(0, end < 0 ? undefined : end);
-  const of = (word: RegExp): string | undefined => head.map(line => word.exec(line)?.[1]).find(text => text !== undefined);
+  const end = lines.findIndex(line => /^END\b/i.test(line.trim()));
+  const head = lines.slice(0, end < 0 ? undefined : end);
+  const of = (word: RegExp): string | undefined =>
+    head.map(line => word.exec(line)?.[1]).find(text => text !== undefined);
   return of(/^\/\/\/COMM\s+(.*\S)/i) ?? of(/^\/\/NAME\s+(\S+)/i) ?? "Job";
 }
 
 /** `'name` before a step, `'== name` before a group of steps, `'* text` for a comment of its own. */
-const comment = (line: string): Comment | undefined => /^\/JOB\b/i.test(line) ? { kind: "new-part" } : headingOr(/^\s*'(.*)/.exec(line)?.[1]);
+const comment = (line: string): Comment | undefined =>
+  /^\/JOB\b/i.test(line) ? { kind: "new-part" } : headingOr(/^\s*'(.*)/.exec(line)?.[1]);

@@ -8,20 +8,32 @@ export const CANNOT: Dialect["cannot"] = [
   { what: "spline", because: "AS moves on joint-interpolated, straight and circular paths only." },
   { what: "search", because: "AS stops a move on a signal by options of the controller that not every robot has." },
   { what: "timeout", because: "SWAIT has no limit of time." },
-  { what: "set-analogue", because: "Analogue lines are an option of the controller, reached by instructions of the board." },
-  { what: "read-analogue", because: "Analogue lines are an option of the controller, reached by instructions of the board." },
+  {
+    what: "set-analogue",
+    because: "Analogue lines are an option of the controller, reached by instructions of the board.",
+  },
+  {
+    what: "read-analogue",
+    because: "Analogue lines are an option of the controller, reached by instructions of the board.",
+  },
 ];
 
 /** One file with the program and its routines, or the step that stands in the way: never a part of a program. */
 export function emitAs(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
   const spoken = spokenBy(robot);
   if (spoken === undefined) {
-    return { kind: "cannot", step: "", sentence: `The controller of the ${robot.name} does not speak AS.`, hint: "Export in the language of this robot's own controller." };
+    return {
+      kind: "cannot",
+      step: "",
+      sentence: `The controller of the ${robot.name} does not speak AS.`,
+      hint: "Export in the language of this robot's own controller.",
+    };
   }
   const cannot = undeclared(program, CANNOT);
   if (cannot !== undefined) return cannot;
   return writtenOr(() => {
-    const writer = new ProgramWriter(new Place(program, robot, worldFromBase), spoken), file = writer.write();
+    const writer = new ProgramWriter(new Place(program, robot, worldFromBase), spoken);
+    const file = writer.write();
     return { kind: "emitted", files: [file], warnings: [...tellsRobot(program, robot), ...warnings(program)] };
   });
 }
@@ -33,8 +45,11 @@ function warnings(program: Program): string[] {
     said.push("AS holds a speed in mm/s on straight paths and arcs: on joint motions it is a guide only.");
   }
   if (steps.some(step => step.type === "move" && "pose" in step.target && step.target.branch !== undefined)) {
-    said.push("RIGHTY is taken for a wrist in front of the shoulder axis, LEFTY for one behind it, UWRIST for a JT5 above 0; try the first motion slowly.");
+    said.push(
+      "RIGHTY is taken for a wrist in front of the shoulder axis, LEFTY for one behind it, UWRIST for a JT5 above 0; try the first motion slowly.",
+    );
   }
-  if (steps.some(({ type }) => type === "gripper")) said.push("The gripper is taken to be clamp 1: CLOSEI closes it, OPENI opens it.");
+  if (steps.some(({ type }) => type === "gripper"))
+    said.push("The gripper is taken to be clamp 1: CLOSEI closes it, OPENI opens it.");
   return said;
 }

@@ -5,9 +5,14 @@ import { Machine, speaksAs } from "./run/machine.ts";
 
 /** Executes and reads AS: the first program of the text that no other one calls, with the locations that stand in the text's own lists. */
 export const { interpret: interpretAs, parse: parseAs }: Pick<Dialect, "parse" | "interpret"> = blockDoors({
-  name: "AS", speaks: speaksAs, read: readSource,
+  name: "AS",
+  speaks: speaksAs,
+  read: readSource,
   script(source, robot, worldFromBase) {
     const constants = constantsOf(source.main, source.routines.values());
-    return mainScript(source, (surroundings, signals) => new Machine(source, constants, robot, worldFromBase, surroundings, signals));
+    return mainScript(
+      source,
+      (surroundings, signals) => new Machine(source, constants, robot, worldFromBase, surroundings, signals),
+    );
   },
 });

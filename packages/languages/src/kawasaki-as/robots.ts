@@ -15,7 +15,8 @@ const SPOKEN: Readonly<Record<string, Spoken>> = {
 };
 
 /** What is known of the robot's controller, or undefined for a robot whose controller does not speak AS. */
-export const spokenBy = (robot: Robot): Spoken | undefined => Object.hasOwn(SPOKEN, robot.id) ? SPOKEN[robot.id] : undefined;
+export const spokenBy = (robot: Robot): Spoken | undefined =>
+  Object.hasOwn(SPOKEN, robot.id) ? SPOKEN[robot.id] : undefined;
 
 /** Numbers of lines: outputs, and inputs behind them. */
 export const LINES = { outputs: [1, 960], inputs: [1001, 1960] } as const;

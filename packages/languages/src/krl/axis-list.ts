@@ -16,8 +16,17 @@ const PERCENT = 100;
  */
 export function emitPtpAxis(program: Program, robot: Robot): Emitted {
   const convention = axisConvention(robot);
-  if (convention === undefined) return { kind: "cannot", step: "", sentence: `How KRL counts the axes of the ${robot.name} is not known.`, hint: "Export in the language of this robot's own controller." };
-  const isAxisMove = (step: Program["steps"][number]): step is MoveStep & { readonly target: { readonly q: readonly number[] } } => step.type === "move" && step.path === "ptp" && "q" in step.target;
+  if (convention === undefined)
+    return {
+      kind: "cannot",
+      step: "",
+      sentence: `How KRL counts the axes of the ${robot.name} is not known.`,
+      hint: "Export in the language of this robot's own controller.",
+    };
+  const isAxisMove = (
+    step: Program["steps"][number],
+  ): step is MoveStep & { readonly target: { readonly q: readonly number[] } } =>
+    step.type === "move" && step.path === "ptp" && "q" in step.target;
   const out = new TextWriter();
   out.add("DEF PTP_AXIS()");
   for (let axis = 1; axis <= AXES; axis++) out.add(`$VEL_AXIS[${axis}] = ${PERCENT}`);
@@ -25,11 +34,23 @@ export function emitPtpAxis(program: Program, robot: Robot): Emitted {
   for (let axis = 1; axis <= AXES; axis++) out.add(`$ACC_AXIS[${axis}] = ${PERCENT}`);
   out.add("");
   for (const step of program.steps) {
-    if (!isAxisMove(step)) return { kind: "cannot", step: step.id, sentence: `Step ${step.name ?? step.id} is no joint motion to joint angles, and the list of axis positions holds nothing else.`, hint: "Export as KRL." };
-    const [a1, a2, a3, a4, a5, a6] = axisValues(step.target.q, convention).map(value => String(Number(value.toPrecision(DIGITS)) + 0));
+    if (!isAxisMove(step))
+      return {
+        kind: "cannot",
+        step: step.id,
+        sentence: `Step ${step.name ?? step.id} is no joint motion to joint angles, and the list of axis positions holds nothing else.`,
+        hint: "Export as KRL.",
+      };
+    const [a1, a2, a3, a4, a5, a6] = axisValues(step.target.q, convention).map(value =>
+      String(Number(value.toPrecision(DIGITS)) + 0),
+    );
     out.add(`PTP {AXIS:A1 ${a1!}, A2 ${a2!},A3 ${a3!}, A4 ${a4!}, A5 ${a5!}, A6 ${a6!}}`, step.id);
   }
   out.add("END");
   const paced = program.steps.some(step => step.type === "move" && !("ratio" in step.speed && step.speed.ratio === 1));
-  return { kind: "emitted", files: [out.file("PTP_AXIS.src")], warnings: paced ? [`The list moves every axis at ${PERCENT} %, whatever speed was taught.`] : [] };
+  return {
+    kind: "emitted",
+    files: [out.file("PTP_AXIS.src")],
+    warnings: paced ? [`The list moves every axis at ${PERCENT} %, whatever speed was taught.`] : [],
+  };
 }

@@ -10,7 +10,8 @@ export { emitPtpAxis } from "./axis-list.ts";
 /** The module and its data list, one behind the other: what the controller loads together. */
 function asOne(files: readonly EmittedFile[]): EmittedFile {
   const [src, dat] = files;
-  if (src === undefined || dat === undefined) throw new RangeError(`A module of KRL is two files; ${files.length} are given.`);
+  if (src === undefined || dat === undefined)
+    throw new RangeError(`A module of KRL is two files; ${files.length} are given.`);
   return { name: src.name, text: src.text + dat.text, lines: [...src.lines, ...dat.lines] };
 }
 

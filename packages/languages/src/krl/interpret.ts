@@ -8,7 +8,12 @@ import { ControllerState, type Context } from "./run/state.ts";
 
 /** A module ready to be executed, with what only its reader wants to know. */
 export type Opened =
-  | { readonly kind: "opened"; readonly source: Source; readonly context: Context; readonly start: (signals?: Signals) => Run }
+  | {
+      readonly kind: "opened";
+      readonly source: Source;
+      readonly context: Context;
+      readonly start: (signals?: Signals) => Run;
+    }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 export interface Run {
   readonly steps: Generator<Executed, void>;
@@ -19,13 +24,23 @@ export interface Run {
 export function openKrl(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Opened {
   const axes = Axes.of(robot);
   if (axes === undefined) {
-    return { kind: "not-understood", faults: [textFault({ line: 1, column: 1 }, "a robot whose controller speaks KRL", `How KRL counts the axes of the ${robot.name} is not known.`)] };
+    return {
+      kind: "not-understood",
+      faults: [
+        textFault(
+          { line: 1, column: 1 },
+          "a robot whose controller speaks KRL",
+          `How KRL counts the axes of the ${robot.name} is not known.`,
+        ),
+      ],
+    };
   }
   const read = readSource(text);
   if (read.kind === "not-understood") return read;
   const context: Context = { tools: {}, frames: {}, signals: {} };
   const start = (signals?: Signals): Run => {
-    const state = new ControllerState(robot, axes, worldFromBase, context), machine = new Machine(read.source, state, signals, context.signals);
+    const state = new ControllerState(robot, axes, worldFromBase, context);
+    const machine = new Machine(read.source, state, signals, context.signals);
     return { steps: machine.run(), assumed: state.system.assumed, warned: state.system.warned };
   };
   return { kind: "opened", source: read.source, context, start };

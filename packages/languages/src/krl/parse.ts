@@ -9,18 +9,36 @@ import { openKrl } from "./interpret.ts";
 export function parseKrl(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Parsed {
   const opened = openKrl(text, robot, worldFromBase);
   if (opened.kind === "not-understood") return opened;
-  const run = opened.start(), done = unrolled(run.steps, { program: "program", statement: "a statement" });
+  const run = opened.start();
+  const done = unrolled(run.steps, { program: "program", statement: "a statement" });
   if (done.kind === "not-understood") return done;
-  const lines = textLines(text).map(plainText), { tools, frames, signals } = opened.context;
-  const assumed = [...run.assumed].map(([name, at]) => textFault(at, "a value in the text", `${name} is kept on the controller: it is taken as it is on delivery.`));
+  const lines = textLines(text).map(plainText);
+  const { tools, frames, signals } = opened.context;
+  const assumed = [...run.assumed].map(([name, at]) =>
+    textFault(at, "a value in the text", `${name} is kept on the controller: it is taken as it is on delivery.`),
+  );
   const warned = run.warned.map(({ at, sentence }) => textFault(at, "an axis from 1 to 6", sentence));
-  return { kind: "parsed", warnings: [...done.waits, ...assumed, ...warned, ...done.repeated], program: { ...emptyProgram(robot.id, nameOf(lines)), ...withComments(lines, done, comment), tools, frames, signals } };
+  return {
+    kind: "parsed",
+    warnings: [...done.waits, ...assumed, ...warned, ...done.repeated],
+    program: {
+      ...emptyProgram(robot.id, nameOf(lines)),
+      ...withComments(lines, done, comment),
+      tools,
+      frames,
+      signals,
+    },
+  };
 }
 
 /** What a person called the program: its &COMMENT, or the name of its first routine. */
 function nameOf(lines: readonly string[]): string {
   const comment = lines.map(line => /^\s*&\s*COMMENT\s+(.*\S)/i.exec(line)?.[1]).find(text => text !== undefined);
-  return comment ?? lines.map(line => /^\s*(?:GLOBAL\s+)?DEF\s+([^\s(;]+)/i.exec(line)?.[1]).find(text => text !== undefined) ?? "Program";
+  return (
+    comment ??
+    lines.map(line => /^\s*(?:GLOBAL\s+)?DEF\s+([^\s(;]+)/i.exec(line)?.[1]).find(text => text !== undefined) ??
+    "Program"
+  );
 }
 
 /** Folds that the editor of the controller makes by itself. */

@@ -9,5 +9,9 @@ export function interpretPoseList(text: string, robot: Robot, worldFromBase: Pos
   function* run(): Generator<Executed, void> {
     for (const { line, step } of steps) yield step.type === "comment" ? { line } : { line, step };
   }
-  return { kind: "ready", run, context: { tools: Object.fromEntries(tools), frames: Object.fromEntries(frames), signals: {} } };
+  return {
+    kind: "ready",
+    run,
+    context: { tools: Object.fromEntries(tools), frames: Object.fromEntries(frames), signals: {} },
+  };
 }

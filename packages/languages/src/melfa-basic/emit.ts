@@ -4,7 +4,10 @@ import { spokenBy } from "./robots.ts";
 import { MelfaProgram } from "./write/program.ts";
 
 export const CANNOT: Dialect["cannot"] = [
-  { what: "spline", because: "MELFA-BASIC keeps a spline in a file of its own, of which the text says only the number." },
+  {
+    what: "spline",
+    because: "MELFA-BASIC keeps a spline in a file of its own, of which the text says only the number.",
+  },
   { what: "duration", because: "MELFA-BASIC gives motions a speed, not a time." },
   { what: "search", because: "A motion that is skipped by WthIf goes on without a fault when its line never comes." },
   { what: "timeout", because: "Wait has no limit of time." },
@@ -15,11 +18,22 @@ export const CANNOT: Dialect["cannot"] = [
 ];
 
 /** One file with the program, its routines and its positions, or the step that stands in the way: never a part of a program. */
-export const emitMelfa = emitterOf({ language: "MELFA-BASIC", spokenBy, cannot: CANNOT, write: (place, spoken) => new MelfaProgram(place, spoken).write(), warnings });
+export const emitMelfa = emitterOf({
+  language: "MELFA-BASIC",
+  spokenBy,
+  cannot: CANNOT,
+  write: (place, spoken) => new MelfaProgram(place, spoken).write(),
+  warnings,
+});
 
 function warnings(program: Program): string[] {
-  const said: string[] = [], steps = [...everyStep(program)];
-  if (steps.some(step => step.type === "move" && "pose" in step.target)) said.push("The first flag of a position is taken as 4 for a wrist in front of joint 1, 2 for a forearm folded forwards, 1 for a joint 5 above 0; try the first motion slowly.");
-  if (steps.some(({ type }) => type === "gripper")) said.push("The gripper is taken to be hand 1: HClose closes it, HOpen opens it.");
+  const said: string[] = [];
+  const steps = [...everyStep(program)];
+  if (steps.some(step => step.type === "move" && "pose" in step.target))
+    said.push(
+      "The first flag of a position is taken as 4 for a wrist in front of joint 1, 2 for a forearm folded forwards, 1 for a joint 5 above 0; try the first motion slowly.",
+    );
+  if (steps.some(({ type }) => type === "gripper"))
+    said.push("The gripper is taken to be hand 1: HClose closes it, HOpen opens it.");
   return said;
 }

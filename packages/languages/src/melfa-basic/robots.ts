@@ -9,7 +9,8 @@ export interface Spoken {
 const SPOKEN: Readonly<Record<string, Spoken>> = { mitsubishi_rv7fl: { nonFlip: "positive" } };
 
 /** What is known of the robot's controller, or undefined for a robot whose controller does not speak MELFA-BASIC. */
-export const spokenBy = (robot: Robot): Spoken | undefined => Object.hasOwn(SPOKEN, robot.id) ? SPOKEN[robot.id] : undefined;
+export const spokenBy = (robot: Robot): Spoken | undefined =>
+  Object.hasOwn(SPOKEN, robot.id) ? SPOKEN[robot.id] : undefined;
 
 /** Numbers of inputs and of outputs. */
 export const LINES = [0, 32767] as const;

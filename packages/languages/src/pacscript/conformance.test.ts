@@ -16,15 +16,22 @@ const bench: DialectBench = {
 describeDialect(pacScript, bench);
 describeStructure(pacScript, bench);
 
-
-const joints = listIn(/(Move P, @\d+ J\()([^)]*)(\))/), place = listIn(/(Move [PL], @\d+ P\()([^)]*)(\))/);
-const figure = (bit: number) => (text: string): string => text.replace(/^( *Move P, @\d+ P\((?:[^,]*, ){6})([0-7])\)/gm, (_, head: string, value: string) => `${head}${Number(value) ^ bit})`);
+const joints = listIn(/(Move P, @\d+ J\()([^)]*)(\))/);
+const place = listIn(/(Move [PL], @\d+ P\()([^)]*)(\))/);
+const figure =
+  (bit: number) =>
+  (text: string): string =>
+    text.replace(
+      /^( *Move P, @\d+ P\((?:[^,]*, ){6})([0-7])\)/gm,
+      (_, head: string, value: string) => `${head}${Number(value) ^ bit})`,
+    );
 
 describeMutations(pacScript, bench, {
   ...numberFaults(joints, place, 345),
   "a joint motion for a straight one": text => text.replace(/Move L, (@\d+ P)/, "Move P, $1"),
   "a straight motion for a joint motion": text => text.replace(/Move P, (@\d+ P)/, "Move L, $1"),
-  "the middle of an arc and its end in the wrong order": text => text.replace(/Move C, (P\([^)]*\)), (@\d+) ([PJ]\([^)]*\))/, "Move C, $3, $2 $1"),
+  "the middle of an arc and its end in the wrong order": text =>
+    text.replace(/Move C, (P\([^)]*\)), (@\d+) ([PJ]\([^)]*\))/, "Move C, $3, $2 $1"),
   "stops that are passed": text => text.replaceAll("@0 ", "@10 "),
   "points that are never passed": text => text.replaceAll("@10 ", "@0 "),
   "a lost tool": text => text.replace(/ {2}ChangeTool [^0][^\r]*\r\n/, ""),
@@ -32,9 +39,14 @@ describeMutations(pacScript, bench, {
   "a tool with the wrong sign": listIn(/(Tool torch, P\()([^)]*)(\))/)(negatedAt(0)),
   "a work with the wrong sign": listIn(/(Work carton, P\()([^)]*)(\))/)(negatedAt(0)),
   "a lost motion": text => text.replace(/ {2}Move[^\r]*\r\n/, ""),
-  "open for close": text => text.replace(/(Set|Reset) IO\[doGripper\]/, (_, word: string) => `${word === "Set" ? "Reset" : "Set"} IO[doGripper]`),
+  "open for close": text =>
+    text.replace(
+      /(Set|Reset) IO\[doGripper\]/,
+      (_, word: string) => `${word === "Set" ? "Reset" : "Set"} IO[doGripper]`,
+    ),
   "a wait in seconds": text => text.replace(/Delay ([0-9.]+)/, (_, ms: string) => `Delay ${Number(ms) / 1000}`),
-  "millimetres for metres per second": text => text.replace(/Mps\(([0-9.]+)\)/, (_, v: string) => `Mps(${Number(v) * 1000})`),
+  "millimetres for metres per second": text =>
+    text.replace(/Mps\(([0-9.]+)\)/, (_, v: string) => `Mps(${Number(v) * 1000})`),
   "a percentage for metres per second": text => text.replace(/Mps\(([0-9.]+)\)/, "$1"),
   "a share for a percentage": text => text.replace(/Speed = ([0-9.]+)/, (_, v: string) => `Speed = ${Number(v) / 100}`),
   "the wrong arm": figure(1),

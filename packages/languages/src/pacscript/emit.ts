@@ -13,11 +13,22 @@ export const CANNOT: Dialect["cannot"] = [
 ];
 
 /** One file with `Main` and the subs that it calls, or the step that stands in the way: never a part of a program. */
-export const emitPac = emitterOf({ language: "PacScript", spokenBy, cannot: CANNOT, write: (place, spoken) => new PacProgram(place, spoken).write(), warnings });
+export const emitPac = emitterOf({
+  language: "PacScript",
+  spokenBy,
+  cannot: CANNOT,
+  write: (place, spoken) => new PacProgram(place, spoken).write(),
+  warnings,
+});
 
 function warnings(program: Program): string[] {
-  const said: string[] = [], steps = [...everyStep(program)];
-  if (steps.some(step => step.type === "move" && "pose" in step.target && step.target.branch !== undefined)) said.push("The figure of a place is taken as 1 for a wrist in front of axis 1, 2 for an elbow below, 4 for a joint 5 above 0; try the first motion slowly.");
-  if (steps.some(({ type }) => type === "gripper")) said.push(`The gripper is taken to close while IO[${GRIPPER.output}] is on.`);
+  const said: string[] = [];
+  const steps = [...everyStep(program)];
+  if (steps.some(step => step.type === "move" && "pose" in step.target && step.target.branch !== undefined))
+    said.push(
+      "The figure of a place is taken as 1 for a wrist in front of axis 1, 2 for an elbow below, 4 for a joint 5 above 0; try the first motion slowly.",
+    );
+  if (steps.some(({ type }) => type === "gripper"))
+    said.push(`The gripper is taken to close while IO[${GRIPPER.output}] is on.`);
   return said;
 }

@@ -9,7 +9,8 @@ export interface Spoken {
 const SPOKEN: Readonly<Record<string, Spoken>> = { denso_vs060: { nonFlip: "positive" } };
 
 /** What is known of the robot's controller, or undefined for a robot whose controller does not speak PacScript. */
-export const spokenBy = (robot: Robot): Spoken | undefined => Object.hasOwn(SPOKEN, robot.id) ? SPOKEN[robot.id] : undefined;
+export const spokenBy = (robot: Robot): Spoken | undefined =>
+  Object.hasOwn(SPOKEN, robot.id) ? SPOKEN[robot.id] : undefined;
 
 /** Numbers of lines: inputs and outputs are counted in one row. */
 export const LINES = [0, 511] as const;

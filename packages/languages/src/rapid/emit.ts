@@ -13,22 +13,35 @@ const MANY_MOVES = 5_000;
 export function emitRapid(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
   const configuration = configurationOf(robot);
   if (configuration === undefined) {
-    return { kind: "cannot", step: "", sentence: `The controller of the ${robot.name} does not speak RAPID.`, hint: "Export in the language of this robot's own controller." };
+    return {
+      kind: "cannot",
+      step: "",
+      sentence: `The controller of the ${robot.name} does not speak RAPID.`,
+      hint: "Export in the language of this robot's own controller.",
+    };
   }
   const cannot = undeclared(program, CANNOT);
   if (cannot !== undefined) return cannot;
   return writtenOr(() => {
-    const writer = new ProgramWriter(new Place(program, robot, worldFromBase), configuration), files = writer.write();
-    let moves = 0, hasGripper = false;
+    const writer = new ProgramWriter(new Place(program, robot, worldFromBase), configuration);
+    const files = writer.write();
+    let moves = 0;
+    let hasGripper = false;
     for (const { type } of everyStep(program)) {
       if (type === "move") moves++;
       if (type === "gripper") hasGripper = true;
     }
     return {
-      kind: "emitted", files,
+      kind: "emitted",
+      files,
       warnings: [
-        ...tellsRobot(program, robot), ...writer.warnings,
-        ...(hasGripper ? [`The gripper is taken to close while the output ${GRIPPER_SIGNAL} is on; the controller's configuration must have it.`] : []),
+        ...tellsRobot(program, robot),
+        ...writer.warnings,
+        ...(hasGripper
+          ? [
+              `The gripper is taken to close while the output ${GRIPPER_SIGNAL} is on; the controller's configuration must have it.`,
+            ]
+          : []),
         ...(moves > MANY_MOVES ? [`The module has ${moves} moves; more than ${MANY_MOVES} take long to load.`] : []),
       ],
     };

@@ -8,9 +8,14 @@ const SPEAKS: ReadonlySet<string> = new Set(["abb_irb120", "abb_crb15000_5_95"])
 
 /** Executes and reads RAPID: PROC main, or the only routine of the text. */
 export const { interpret: interpretRapid, parse: parseRapid }: Pick<Dialect, "parse" | "interpret"> = blockDoors({
-  name: "RAPID", speaks: ({ id }) => SPEAKS.has(id), read: readSource,
+  name: "RAPID",
+  speaks: ({ id }) => SPEAKS.has(id),
+  read: readSource,
   script(source, robot, worldFromBase) {
     const changing = changedNames([...source.routines.values()].map(({ body }) => body));
-    return routineScript(source.title, (surroundings, signals) => new Machine(source, changing, robot, worldFromBase, surroundings, signals));
+    return routineScript(
+      source.title,
+      (surroundings, signals) => new Machine(source, changing, robot, worldFromBase, surroundings, signals),
+    );
   },
 });

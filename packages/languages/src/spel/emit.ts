@@ -9,19 +9,36 @@ export const CANNOT: Dialect["cannot"] = [
   { what: "acceleration", because: "SPEL+ gives paths an acceleration in mm/s², not a share of the fastest." },
   { what: "search", because: "A motion with Till goes on without a fault when its line never comes." },
   { what: "timeout", because: "Wait with a limit of time goes on as if nothing had been waited for." },
-  { what: "payload", because: "Weight and Inertia take a distance from an axis, not a place, and belong to the stored data of the controller." },
+  {
+    what: "payload",
+    because:
+      "Weight and Inertia take a distance from an axis, not a place, and belong to the stored data of the controller.",
+  },
   { what: "set-analogue", because: "Analogue lines are an option of the controller." },
   { what: "read-analogue", because: "Analogue lines are an option of the controller." },
 ];
 
 /** One file with `main` and the functions that it calls, or the step that stands in the way: never a part of a program. */
-export const emitSpel = emitterOf({ language: "SPEL+", spokenBy, cannot: CANNOT, write: (place, spoken) => new SpelProgram(place, spoken).write(), warnings });
+export const emitSpel = emitterOf({
+  language: "SPEL+",
+  spokenBy,
+  cannot: CANNOT,
+  write: (place, spoken) => new SpelProgram(place, spoken).write(),
+  warnings,
+});
 
 function warnings(program: Program): string[] {
-  const said: string[] = [], steps = [...everyStep(program)];
-  if (steps.some(step => step.type === "move" && (step.blend_m > 0 || (step.blend_ratio ?? 0) > 0))) said.push("SPEL+ passes a point as near as its speed needs: the text says CP, and no distance.");
-  if (steps.some(step => step.type === "move" && step.path === "ptp")) said.push("Joint motions have whole percents of speed, from 1 to 100.");
-  if (steps.some(step => step.type === "move" && "pose" in step.target && step.target.branch !== undefined)) said.push("R is taken for a wrist in front of joint 1, A for an elbow above, NF for a joint 5 below 0; try the first motion slowly.");
-  if (steps.some(({ type }) => type === "gripper")) said.push(`The gripper is taken to close while the output ${GRIPPER.output} is on.`);
+  const said: string[] = [];
+  const steps = [...everyStep(program)];
+  if (steps.some(step => step.type === "move" && (step.blend_m > 0 || (step.blend_ratio ?? 0) > 0)))
+    said.push("SPEL+ passes a point as near as its speed needs: the text says CP, and no distance.");
+  if (steps.some(step => step.type === "move" && step.path === "ptp"))
+    said.push("Joint motions have whole percents of speed, from 1 to 100.");
+  if (steps.some(step => step.type === "move" && "pose" in step.target && step.target.branch !== undefined))
+    said.push(
+      "R is taken for a wrist in front of joint 1, A for an elbow above, NF for a joint 5 below 0; try the first motion slowly.",
+    );
+  if (steps.some(({ type }) => type === "gripper"))
+    said.push(`The gripper is taken to close while the output ${GRIPPER.output} is on.`);
   return said;
 }

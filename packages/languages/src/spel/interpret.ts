@@ -3,4 +3,9 @@ import { readSpel } from "./read/grammar.ts";
 import { SpelMachine, hasSpel } from "./run/machine.ts";
 
 /** Reads and executes SPEL+: `main` and the functions that it calls. */
-export const { interpret: interpretSpel, parse: parseSpel } = basicDoors({ name: "SPEL+", speaks: ({ id }) => hasSpel(id), read: readSpel, machine: stage => new SpelMachine(stage) });
+export const { interpret: interpretSpel, parse: parseSpel } = basicDoors({
+  name: "SPEL+",
+  speaks: ({ id }) => hasSpel(id),
+  read: readSpel,
+  machine: stage => new SpelMachine(stage),
+});

@@ -9,7 +9,8 @@ export interface Spoken {
 const SPOKEN: Readonly<Record<string, Spoken>> = { epson_c4_a601s: { noFlip: "positive" } };
 
 /** What is known of the robot's controller, or undefined for a robot whose controller does not speak SPEL+. */
-export const spokenBy = (robot: Robot): Spoken | undefined => Object.hasOwn(SPOKEN, robot.id) ? SPOKEN[robot.id] : undefined;
+export const spokenBy = (robot: Robot): Spoken | undefined =>
+  Object.hasOwn(SPOKEN, robot.id) ? SPOKEN[robot.id] : undefined;
 
 /** Numbers of inputs and of outputs. */
 export const LINES = [0, 511] as const;

@@ -1,4 +1,15 @@
-import { CAPABILITIES, emptyProgram, everyStep, seededRandom, type Dialect, type EmittedFile, type MoveStep, type Pose, type Program, type Robot } from "@twincell/core";
+import {
+  CAPABILITIES,
+  emptyProgram,
+  everyStep,
+  seededRandom,
+  type Dialect,
+  type EmittedFile,
+  type MoveStep,
+  type Pose,
+  type Program,
+  type Robot,
+} from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { proveText, runnableFile } from "../prove.ts";
 import { damaged, expectSane } from "./damage.ts";
@@ -40,7 +51,17 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
   const chosen = bench.runnable ?? ((files: readonly EmittedFile[]): EmittedFile => runnableFile(dialect, files)!);
   const runnable = (program: Program): EmittedFile => chosen(emit(program));
   const cannot = dialect.cannot.map(({ what }) => what);
-  const random = (seed: number): Program => randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths, cannot, ...(bench.signals === undefined ? {} : { signals: bench.signals }), ...(bench.branches === undefined ? {} : { branches: bench.branches }), ...(bench.structured === true && seed % 2 === 0 ? { can } : {}) });
+  const random = (seed: number): Program =>
+    randomProgram(robot, {
+      seed,
+      steps: STEPS,
+      worldFromBase,
+      paths,
+      cannot,
+      ...(bench.signals === undefined ? {} : { signals: bench.signals }),
+      ...(bench.branches === undefined ? {} : { branches: bench.branches }),
+      ...(bench.structured === true && seed % 2 === 0 ? { can } : {}),
+    });
   const can = new Set(CAPABILITIES.filter(capability => !cannot.includes(capability)));
   const parse = (text: string): Program => {
     const parsed = dialect.parse(text, robot, worldFromBase);
@@ -58,16 +79,28 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
     });
 
     test.each(SEEDS)("L-57 emit, parse, emit gives the same runnable text (seed %d)", seed => {
-      const whole = bench.unrolls === true ? randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths, cannot }) : random(seed);
-      const first = runnable(whole), program = parse(first.text);
+      const whole =
+        bench.unrolls === true
+          ? randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths, cannot })
+          : random(seed);
+      const first = runnable(whole);
+      const program = parse(first.text);
       expect(runnable(program).text).toBe(first.text);
       expectProven(first, program);
     });
 
     test("names of steps and groups come back from the text", () => {
-      const titles = (program: Program): unknown[] => program.steps.map(({ name, group }) => [name, group === undefined ? undefined : program.groups[group]?.name]);
+      const titles = (program: Program): unknown[] =>
+        program.steps.map(({ name, group }) => [name, group === undefined ? undefined : program.groups[group]?.name]);
       for (const seed of SEEDS) {
-        const plain = randomProgram(robot, { seed, steps: STEPS, worldFromBase, paths, cannot, ...(bench.branches === undefined ? {} : { branches: bench.branches }) });
+        const plain = randomProgram(robot, {
+          seed,
+          steps: STEPS,
+          worldFromBase,
+          paths,
+          cannot,
+          ...(bench.branches === undefined ? {} : { branches: bench.branches }),
+        });
         expect(titles(parse(runnable(plain).text))).toEqual(titles(plain));
       }
     });
@@ -76,43 +109,95 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
       expect(parse(runnable(emptyProgram(robot.id)).text).steps).toEqual([]);
     });
 
-    test.each(SEEDS)("the text depends on the program alone, is ASCII, and says for every line which step it belongs to (seed %d)", seed => {
-      const program = random(seed), files = emit(program), ids = new Set(Array.from(everyStep(program), step => step.id));
-      expect(emit(structuredClone(program))).toEqual(files);
-      for (const { name, text, lines } of files) {
-        expect(text, name).toMatch(/^[\r\n\t -~]*$/);
-        expect(lines, name).toHaveLength(text.split("\n").length - 1);
-        expect(lines.filter(id => id !== "" && !ids.has(id)), name).toEqual([]);
-      }
-      const file = chosen(files), covered = new Set(file.lines);
-      expect([...ids].filter(id => !covered.has(id))).toEqual([]);
-      const proof = proveText(dialect, file, program, robot, worldFromBase);
-      expect(proof.kind).toBe("proven");
-      if (proof.kind === "proven") for (const { id, line } of proof.steps) expect(file.lines[line - 1]).toBe(id);
-    });
+    test.each(SEEDS)(
+      "the text depends on the program alone, is ASCII, and says for every line which step it belongs to (seed %d)",
+      seed => {
+        const program = random(seed);
+        const files = emit(program);
+        const ids = new Set(Array.from(everyStep(program), step => step.id));
+        expect(emit(structuredClone(program))).toEqual(files);
+        for (const { name, text, lines } of files) {
+          expect(text, name).toMatch(/^[\r\n\t -~]*$/);
+          expect(lines, name).toHaveLength(text.split("\n").length - 1);
+          expect(
+            lines.filter(id => id !== "" && !ids.has(id)),
+            name,
+          ).toEqual([]);
+        }
+        const file = chosen(files);
+        const covered = new Set(file.lines);
+        expect([...ids].filter(id => !covered.has(id))).toEqual([]);
+        const proof = proveText(dialect, file, program, robot, worldFromBase);
+        expect(proof.kind).toBe("proven");
+        if (proof.kind === "proven") for (const { id, line } of proof.steps) expect(file.lines[line - 1]).toBe(id);
+      },
+    );
 
     const impossible = PATHS.filter(path => !paths.includes(path));
     test(`what it cannot is declared and stops the export at its step: ${impossible.join(", ") || "nothing"}`, () => {
       const q = [...robot.home_rad];
-      const step = (id: string, path: MoveStep["path"]): MoveStep => ({ id, type: "move", path, target: { q }, via: { q }, speed: { ratio: 0.1 }, blend_m: 0 });
+      const step = (id: string, path: MoveStep["path"]): MoveStep => ({
+        id,
+        type: "move",
+        path,
+        target: { q },
+        via: { q },
+        speed: { ratio: 0.1 },
+        blend_m: 0,
+      });
       for (const path of impossible) {
         expect(dialect.cannot.map(({ what }) => what)).toContain(path);
-        const emitted = dialect.emit({ ...emptyProgram(robot.id), steps: [step("a", "ptp"), step("b", path), step("c", "ptp")] }, robot, worldFromBase);
+        const emitted = dialect.emit(
+          { ...emptyProgram(robot.id), steps: [step("a", "ptp"), step("b", path), step("c", "ptp")] },
+          robot,
+          worldFromBase,
+        );
         expect(emitted).toMatchObject({ kind: "cannot", step: "b" });
       }
     });
 
     test("a remark between two moves is no stop", () => {
       if (cannot.includes("comment")) return;
-      const q = [...robot.home_rad], move = (id: string, turn_rad: number): MoveStep => ({ id, type: "move", path: "ptp", target: { q: q.map((angle, i) => i === 0 ? angle + turn_rad : angle) }, speed: { ratio: 0.5 }, blend_m: 0.01 });
-      const program: Program = { ...emptyProgram(robot.id), steps: [move("a", 0.1), { id: "c", type: "comment", text: "Now the other one" }, move("b", 0.3), move("d", 0.2)] };
+      const q = [...robot.home_rad];
+      const move = (id: string, turn_rad: number): MoveStep => ({
+        id,
+        type: "move",
+        path: "ptp",
+        target: { q: q.map((angle, i) => (i === 0 ? angle + turn_rad : angle)) },
+        speed: { ratio: 0.5 },
+        blend_m: 0.01,
+      });
+      const program: Program = {
+        ...emptyProgram(robot.id),
+        steps: [
+          move("a", 0.1),
+          { id: "c", type: "comment", text: "Now the other one" },
+          move("b", 0.3),
+          move("d", 0.2),
+        ],
+      };
       expectProven(runnable(program), program);
     });
 
     test("a stop where a point should be passed is seen, between moves of two tools too", () => {
-      const q = [...robot.home_rad], tools: Program["tools"] = { one: { position: [0, 0, 0.1], quaternion: [0, 0, 0, 1] }, two: { position: [0, 0, 0.2], quaternion: [0, 0, 0, 1] } };
-      const move = (id: string, tool: string, turn_rad: number, blend_m: number): MoveStep => ({ id, type: "move", path: "ptp", target: { q: q.map((angle, i) => i === 0 ? angle + turn_rad : angle), tool }, speed: { ratio: 0.5 }, blend_m });
-      const across = (second: string, blend_m: number): Program => ({ ...emptyProgram(robot.id), tools, steps: [move("a", "one", 0.1, 0), move("b", "one", 0.3, blend_m), move("c", second, 0.2, 0)] });
+      const q = [...robot.home_rad];
+      const tools: Program["tools"] = {
+        one: { position: [0, 0, 0.1], quaternion: [0, 0, 0, 1] },
+        two: { position: [0, 0, 0.2], quaternion: [0, 0, 0, 1] },
+      };
+      const move = (id: string, tool: string, turn_rad: number, blend_m: number): MoveStep => ({
+        id,
+        type: "move",
+        path: "ptp",
+        target: { q: q.map((angle, i) => (i === 0 ? angle + turn_rad : angle)), tool },
+        speed: { ratio: 0.5 },
+        blend_m,
+      });
+      const across = (second: string, blend_m: number): Program => ({
+        ...emptyProgram(robot.id),
+        tools,
+        steps: [move("a", "one", 0.1, 0), move("b", "one", 0.3, blend_m), move("c", second, 0.2, 0)],
+      });
       for (const second of ["one", "two"]) {
         expectProven(runnable(across(second, 0.01)), across(second, 0.01));
         const stopping = proveText(dialect, runnable(across(second, 0)), across(second, 0.01), robot, worldFromBase);
@@ -133,7 +218,10 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
       for (let i = 0; i < DAMAGES; i++) {
         const text = damaged(sources[i % sources.length]!, next);
         const started = performance.now();
-        for (const answer of [dialect.parse(text, robot, worldFromBase), dialect.interpret(text, robot, worldFromBase)]) {
+        for (const answer of [
+          dialect.parse(text, robot, worldFromBase),
+          dialect.interpret(text, robot, worldFromBase),
+        ]) {
           if (answer.kind === "not-understood") expectSane(answer.faults, text);
         }
         expect(performance.now() - started).toBeLessThan(PATIENCE_MS);
@@ -141,7 +229,14 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
     });
 
     test("text of quite another sort is refused", () => {
-      for (const text of ["{\"format\":\"twincell.program\"}", "lorem ipsum dolor sit amet", "\0\0\0", "(".repeat(5000), `x = ${"(".repeat(5000)}1\n`, `x = ${"-".repeat(50000)}1\n`]) {
+      for (const text of [
+        '{"format":"twincell.program"}',
+        "lorem ipsum dolor sit amet",
+        "\0\0\0",
+        "(".repeat(5000),
+        `x = ${"(".repeat(5000)}1\n`,
+        `x = ${"-".repeat(50000)}1\n`,
+      ]) {
         const answer = dialect.interpret(text, robot);
         if (answer.kind === "not-understood") expectSane(answer.faults, text);
         if (!text.includes("--")) expect(answer.kind, text.slice(0, 40)).toBe("not-understood");
@@ -151,18 +246,32 @@ export function describeDialect(dialect: Dialect, bench: DialectBench): void {
 }
 
 /** Texts that a faulty emitter would have written: each must be told from the right one. */
-export function describeMutations(dialect: Dialect, bench: DialectBench, mutations: Readonly<Record<string, (text: string) => string>>): void {
+export function describeMutations(
+  dialect: Dialect,
+  bench: DialectBench,
+  mutations: Readonly<Record<string, (text: string) => string>>,
+): void {
   describe(`faults put into ${dialect.name} text are found by executing it`, () => {
     test.each(Object.entries(mutations))("%s", (_, mutate) => {
       let changed = 0;
       for (const seed of SEEDS) {
-        const program = randomProgram(bench.robot, { seed, steps: STEPS, worldFromBase: bench.worldFromBase, paths: bench.paths, cannot: dialect.cannot.map(({ what }) => what) });
+        const program = randomProgram(bench.robot, {
+          seed,
+          steps: STEPS,
+          worldFromBase: bench.worldFromBase,
+          paths: bench.paths,
+          cannot: dialect.cannot.map(({ what }) => what),
+        });
         const emitted = dialect.emit(program, bench.robot, bench.worldFromBase);
         if (emitted.kind === "cannot") throw new Error(emitted.sentence);
-        const file = (bench.runnable ?? (files => runnableFile(dialect, files)!))(emitted.files), text = mutate(file.text);
+        const file = (bench.runnable ?? (files => runnableFile(dialect, files)!))(emitted.files);
+        const text = mutate(file.text);
         if (text === file.text) continue;
         changed++;
-        expect(proveText(dialect, { ...file, text }, program, bench.robot, bench.worldFromBase).kind, `seed ${seed}`).not.toBe("proven");
+        expect(
+          proveText(dialect, { ...file, text }, program, bench.robot, bench.worldFromBase).kind,
+          `seed ${seed}`,
+        ).not.toBe("proven");
       }
       expect(changed).toBeGreaterThan(SEEDS.length / 2);
     });

@@ -9,8 +9,14 @@ const MOST_S = 2;
  *
  * @returns what was read, and the shortest time [s]
  */
-export function readInTime(dialect: Dialect, text: string, robot: Robot): { readonly parsed: Parsed; readonly least_s: number } {
-  let parsed: Parsed, least_s = Number.POSITIVE_INFINITY, tries = 3;
+export function readInTime(
+  dialect: Dialect,
+  text: string,
+  robot: Robot,
+): { readonly parsed: Parsed; readonly least_s: number } {
+  let parsed: Parsed;
+  let least_s = Number.POSITIVE_INFINITY;
+  let tries = 3;
   do {
     const before = process.threadCpuUsage();
     parsed = dialect.parse(text, robot);

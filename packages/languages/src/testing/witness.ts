@@ -17,7 +17,8 @@ export function witnessOf(dialect: Dialect, robot: Robot): Witness {
       const interpreted = dialect.interpret(text, robot);
       if (interpreted.kind === "not-understood") throw new Error(JSON.stringify(interpreted.faults));
       const done: Executed[] = [];
-      for (let next = interpreted.run(signals), one = next.next(); one.done !== true; one = next.next()) if (one.value.step !== undefined) done.push(one.value);
+      for (let next = interpreted.run(signals), one = next.next(); one.done !== true; one = next.next())
+        if (one.value.step !== undefined) done.push(one.value);
       return done;
     },
     faults: text => {
@@ -28,14 +29,23 @@ export function witnessOf(dialect: Dialect, robot: Robot): Witness {
 }
 
 /** Numbers to nine digits, for `toMatchObject`. */
-export const near = (values: readonly number[], digits = 9): number[] => values.map(value => expect.closeTo(value, digits) as number);
+export const near = (values: readonly number[], digits = 9): number[] =>
+  values.map(value => expect.closeTo(value, digits) as number);
 /** Inputs that are all on. */
-export const ALL_ON: Signals = { read: () => true, write: () => { /* nobody listens */ } };
+export const ALL_ON: Signals = {
+  read: () => true,
+  write: () => {
+    /* nobody listens */
+  },
+};
 
 /** @param text  100,000 lines, each of which is a step. */
 export function testLongText(dialect: Dialect, robot: Robot, text: () => string): void {
   test("100,000 lines are read in less than two seconds", () => {
-    const long = text(), before = process.threadCpuUsage(), parsed = dialect.parse(long, robot), { user, system } = process.threadCpuUsage(before);
+    const long = text();
+    const before = process.threadCpuUsage();
+    const parsed = dialect.parse(long, robot);
+    const { user, system } = process.threadCpuUsage(before);
     expect(parsed.kind === "parsed" && parsed.program.steps.length).toBe(100_000);
     expect((user + system) / 1e6).toBeLessThan(2);
   });
@@ -44,7 +54,14 @@ export function testLongText(dialect: Dialect, robot: Robot, text: () => string)
 export function testHundredPrograms(dialect: Dialect, robot: Robot): void {
   test("100 random programs are met by their texts", () => {
     for (let seed = 101; seed <= 200; seed++) {
-      const program = randomProgram(robot, { seed, steps: 12, worldFromBase: identity(), paths: ["ptp", "lin", "circ"], cannot: dialect.cannot.map(({ what }) => what) }), emitted = dialect.emit(program, robot);
+      const program = randomProgram(robot, {
+        seed,
+        steps: 12,
+        worldFromBase: identity(),
+        paths: ["ptp", "lin", "circ"],
+        cannot: dialect.cannot.map(({ what }) => what),
+      });
+      const emitted = dialect.emit(program, robot);
       if (emitted.kind === "cannot") throw new Error(emitted.sentence);
       const proof = proveText(dialect, runnableFile(dialect, emitted.files)!, program, robot);
       expect(proof.kind, `seed ${seed}: ${proof.sentence}`).toBe("proven");

@@ -20,5 +20,7 @@ export class TextError extends Fault {
     this.hint = `Line ${at.line}, column ${at.column}: ${expected}.`;
   }
 
-  get fault(): TextFault { return textFault(this, this.expected, this.message); }
+  get fault(): TextFault {
+    return textFault(this, this.expected, this.message);
+  }
 }

@@ -24,21 +24,38 @@ export class LineCursor<Kind extends string> {
 
   /** @throws {TextError} at a character that has no meaning in the language, or when the line is too long for anybody. */
   constructor(text: string, line: number, { tokens, longest, called }: LineRules<Kind>) {
-    if (text.length > longest) throw new TextError({ line, column: longest + 1 }, `a line of at most ${longest} characters`, `Line ${line} has ${text.length} characters.`);
+    if (text.length > longest)
+      throw new TextError(
+        { line, column: longest + 1 },
+        `a line of at most ${longest} characters`,
+        `Line ${line} has ${text.length} characters.`,
+      );
     this.tokens = lineTokens(TYPOGRAPHIC.test(text) ? plainText(text) : text, line, tokens);
     this.upper = this.tokens.map(token => token.text.toUpperCase());
     this.end = { line, column: text.length + 1 };
     this.called = called;
   }
 
-  get here(): TextPlace { return this.tokens[this.at] ?? this.end; }
-  get done(): boolean { return this.at >= this.tokens.length; }
+  get here(): TextPlace {
+    return this.tokens[this.at] ?? this.end;
+  }
+  get done(): boolean {
+    return this.at >= this.tokens.length;
+  }
   /** The next token in upper case, or "" at the end. */
-  get next(): string { return this.upper[this.at] ?? ""; }
-  get nextKind(): Kind | "end" { return this.tokens[this.at]?.kind ?? "end"; }
+  get next(): string {
+    return this.upper[this.at] ?? "";
+  }
+  get nextKind(): Kind | "end" {
+    return this.tokens[this.at]?.kind ?? "end";
+  }
   /** The token after the next, in upper case. */
-  get second(): string { return this.upper[this.at + 1] ?? ""; }
-  get secondKind(): Kind | "end" { return this.tokens[this.at + 1]?.kind ?? "end"; }
+  get second(): string {
+    return this.upper[this.at + 1] ?? "";
+  }
+  get secondKind(): Kind | "end" {
+    return this.tokens[this.at + 1]?.kind ?? "end";
+  }
 
   /** The next token as it stands. */
   take(): string {
@@ -63,12 +80,18 @@ export class LineCursor<Kind extends string> {
     if (!this.done) throw this.unexpected(`the end of the ${this.called}`);
   }
 
-  skip(): void { this.at = this.tokens.length; }
+  skip(): void {
+    this.at = this.tokens.length;
+  }
 
   unexpected(expected: string): TextError {
     const token = this.tokens[this.at];
-    return new TextError(this.here, expected, token === undefined
-      ? `The line ends where ${expected} is expected.`
-      : `"${token.text}" stands where ${expected} is expected.`);
+    return new TextError(
+      this.here,
+      expected,
+      token === undefined
+        ? `The line ends where ${expected} is expected.`
+        : `"${token.text}" stands where ${expected} is expected.`,
+    );
   }
 }

@@ -17,6 +17,15 @@ export const plainText = (line: string): string => line.replace(DASHES, "-").rep
 /** ASCII for a comment or a name: accents are dropped, ligatures written out, other letters become `?`. */
 export function asciiText(text: string): string {
   return text
-    .replace(/ß/g, "ss").replace(/[æÆ]/g, "ae").replace(/[øØ]/g, "o").replace(DASHES, "-").replace(/[“”]/g, '"').replace(/[‘’]/g, "'")
-    .normalize("NFKD").replace(/[\u0300-\u036f]/g, "").replace(/\s+/g, " ").replace(/[^ -~]/g, "?").trim();
+    .replace(/ß/g, "ss")
+    .replace(/[æÆ]/g, "ae")
+    .replace(/[øØ]/g, "o")
+    .replace(DASHES, "-")
+    .replace(/[“”]/g, '"')
+    .replace(/[‘’]/g, "'")
+    .normalize("NFKD")
+    .replace(/[\u0300-\u036f]/g, "")
+    .replace(/\s+/g, " ")
+    .replace(/[^ -~]/g, "?")
+    .trim();
 }

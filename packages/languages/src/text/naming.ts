@@ -7,7 +7,8 @@
 export function nameIn<T>(table: Record<string, T>, value: T, wanted: string, joint: string): string {
   const text = JSON.stringify(value);
   for (let i = 1; ; i++) {
-    const name = i === 1 ? wanted : `${wanted}${joint}${i}`, known = Object.hasOwn(table, name) ? table[name] : undefined;
+    const name = i === 1 ? wanted : `${wanted}${joint}${i}`;
+    const known = Object.hasOwn(table, name) ? table[name] : undefined;
     if (known === undefined) table[name] = value;
     if (known === undefined || JSON.stringify(known) === text) return name;
   }

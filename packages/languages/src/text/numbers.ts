@@ -15,7 +15,9 @@ export function singleText(value: number): string {
 
 /** A number with that many significant digits, without exponent and without trailing zeros. */
 export function decimalText(value: number, digits: number): string {
-  const [mantissa, exponent] = Math.abs(value).toExponential(digits - 1).split("e") as [string, string];
+  const [mantissa, exponent] = Math.abs(value)
+    .toExponential(digits - 1)
+    .split("e") as [string, string];
   const figures = mantissa.replace(".", "").replace(/0+$/, "");
   if (figures === "") return "0";
   const point = Number(exponent) + 1;

@@ -12,7 +12,8 @@ const BEFOREHAND = { steps: 5_000, statements: 150_000 } as const;
  *          thrown goes on to the caller.
  */
 export function rehearse(run: Iterable<Executed>): TextFault | undefined {
-  let steps = 0, statements = 0;
+  let steps = 0;
+  let statements = 0;
   try {
     for (const { step } of run) {
       if (step !== undefined) steps++;

@@ -24,7 +24,15 @@ export function skippingDialect(dialect: Dialect): Dialect {
         const answer = dialect.interpret(shorter, robot, worldFromBase);
         if (answer.kind === "not-understood") return answer;
         // Decisions may hide what is not understood: they are tried both ways.
-        const fault = rehearse({ [Symbol.iterator]: () => answer.run({ read: () => true, write: () => { /* nobody looks */ } }) });
+        const fault = rehearse({
+          [Symbol.iterator]: () =>
+            answer.run({
+              read: () => true,
+              write: () => {
+                /* nobody looks */
+              },
+            }),
+        });
         return fault === undefined ? answer : { kind: "not-understood" as const, faults: [fault] };
       });
     },
@@ -33,25 +41,46 @@ export function skippingDialect(dialect: Dialect): Dialect {
 
 type NotUnderstood = { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
-function without<A extends { readonly kind: string }>(text: string, shapes: LineShapes, read: (text: string) => A | NotUnderstood): (A & { readonly skipped: readonly Skipped[] }) | NotUnderstood {
-  const ends = text.match(/\r\n|\n|\r/g) ?? [], lines = text.split(/\r\n|\n|\r/), skipped: Skipped[] = [], gone = new Set<number>();
+function without<A extends { readonly kind: string }>(
+  text: string,
+  shapes: LineShapes,
+  read: (text: string) => A | NotUnderstood,
+): (A & { readonly skipped: readonly Skipped[] }) | NotUnderstood {
+  const ends = text.match(/\r\n|\n|\r/g) ?? [];
+  const lines = text.split(/\r\n|\n|\r/);
+  const skipped: Skipped[] = [];
+  const gone = new Set<number>();
   const blank = shapes.blank ?? (() => "");
-  let faults: readonly TextFault[] = [], first: readonly TextFault[] | undefined;
+  let faults: readonly TextFault[] = [];
+  let first: readonly TextFault[] | undefined;
   for (let reading = 0; reading < MOST_READINGS; reading++) {
     const answer = read(lines.map((line, i) => line + (ends[i] ?? "")).join(""));
     // Where nothing stays there was no program.
-    if (first !== undefined && lines.every(line => line.trim() === "")) return { kind: "not-understood", faults: first };
+    if (first !== undefined && lines.every(line => line.trim() === ""))
+      return { kind: "not-understood", faults: first };
     if (!isNotUnderstood(answer)) return { ...answer, skipped: skipped.toSorted((a, b) => a.line - b.line) };
     ({ faults } = answer);
     first ??= faults;
     let isShorter = false;
     for (const fault of faults) {
-      const at = fault.line - 1, line = lines[at];
+      const at = fault.line - 1;
+      const line = lines[at];
       if (line === undefined || gone.has(at) || line.trim() === "" || shapes.keeps.test(line)) continue;
       // Where the end of a block is not understood, all of the block goes: nobody knows how often it runs.
-      const from = firstOf(lines, at, shapes), last = Math.max(at, lastOf(lines, from, shapes));
-      skipped.push(told({ ...fault, line: from + 1, column: from === at ? fault.column : 1 }, lines[from]!, lines.slice(from, last + 1), shapes));
-      for (let i = from; i <= last; i++) { lines[i] = blank(lines[i]!); gone.add(i); }
+      const from = firstOf(lines, at, shapes);
+      const last = Math.max(at, lastOf(lines, from, shapes));
+      skipped.push(
+        told(
+          { ...fault, line: from + 1, column: from === at ? fault.column : 1 },
+          lines[from]!,
+          lines.slice(from, last + 1),
+          shapes,
+        ),
+      );
+      for (let i = from; i <= last; i++) {
+        lines[i] = blank(lines[i]!);
+        gone.add(i);
+      }
       isShorter = true;
       // A block that was not understood throws the ends of all that follows out of step: they are looked at again.
       if (shapes.opens.test(line) || shapes.parts.test(line) || shapes.closes.test(line)) break;
@@ -61,7 +90,8 @@ function without<A extends { readonly kind: string }>(text: string, shapes: Line
   return { kind: "not-understood", faults };
 }
 
-const isNotUnderstood = (answer: { readonly kind: string }): answer is NotUnderstood => answer.kind === "not-understood";
+const isNotUnderstood = (answer: { readonly kind: string }): answer is NotUnderstood =>
+  answer.kind === "not-understood";
 
 /** The line that opened what a line closes, or the line itself. */
 function firstOf(lines: readonly string[], at: number, { opens, closes, keeps }: LineShapes): number {
@@ -76,7 +106,8 @@ function firstOf(lines: readonly string[], at: number, { opens, closes, keeps }:
 
 /** The last line that goes with a line: the end of a block, or where its next part begins. */
 function lastOf(lines: readonly string[], at: number, { opens, parts, closes, keeps }: LineShapes): number {
-  const isOpening = opens.test(lines[at]!), isPart = parts.test(lines[at]!);
+  const isOpening = opens.test(lines[at]!);
+  const isPart = parts.test(lines[at]!);
   if (!isOpening && !isPart) return at;
   for (let i = at + 1, depth = 1; i < lines.length; i++) {
     const line = lines[i]!;
@@ -89,11 +120,29 @@ function lastOf(lines: readonly string[], at: number, { opens, parts, closes, ke
 }
 
 function told(fault: TextFault, text: string, block: readonly string[], { motion, opens, parts }: LineShapes): Skipped {
-  const { line } = fault, lastLine = line + block.length - 1, moves = block.filter(each => motion.test(each)).length;
+  const { line } = fault;
+  const lastLine = line + block.length - 1;
+  const moves = block.filter(each => motion.test(each)).length;
   if (opens.test(text) || parts.test(text)) {
-    const which = block.length > 1 ? `Lines ${line} to ${lastLine} are left out with all that they do` : `The branch in line ${line} is left out`;
-    return { ...fault, what: "branch", text, lastLine, sentence: `${which}${moves === 0 ? "" : `, ${moves === 1 ? "a motion" : `${moves} motions`} among it`}. ${fault.sentence}` };
+    const which =
+      block.length > 1
+        ? `Lines ${line} to ${lastLine} are left out with all that they do`
+        : `The branch in line ${line} is left out`;
+    return {
+      ...fault,
+      what: "branch",
+      text,
+      lastLine,
+      sentence: `${which}${moves === 0 ? "" : `, ${moves === 1 ? "a motion" : `${moves} motions`} among it`}. ${fault.sentence}`,
+    };
   }
-  if (moves > 0) return { ...fault, what: "motion", text, lastLine, sentence: `The motion in line ${line} is left out: the robot goes on to the next point from where it is. ${fault.sentence}` };
+  if (moves > 0)
+    return {
+      ...fault,
+      what: "motion",
+      text,
+      lastLine,
+      sentence: `The motion in line ${line} is left out: the robot goes on to the next point from where it is. ${fault.sentence}`,
+    };
   return { ...fault, what: "statement", text, lastLine, sentence: `Line ${line} is left out. ${fault.sentence}` };
 }

@@ -27,7 +27,11 @@ export function lineTokens<Kind extends string>(text: string, line: number, rule
       continue scan;
     }
     const letter = String.fromCodePoint(text.codePointAt(at)!);
-    throw new TextError({ line, column: at + 1 }, "a name, a number or a sign of the language", `The character "${letter}" has no meaning here.`);
+    throw new TextError(
+      { line, column: at + 1 },
+      "a name, a number or a sign of the language",
+      `The character "${letter}" has no meaning here.`,
+    );
   }
   return tokens;
 }

@@ -6,7 +6,10 @@ import { ProgramWriter } from "./write/program.ts";
 export const CANNOT: Dialect["cannot"] = [
   { what: "spline", because: "URScript has no spline: movep cuts corners, and servoj needs a new point every 2 ms." },
   { what: "search", because: "URScript stops a move on a signal only from a second thread." },
-  { what: "acceleration", because: "The greatest accelerations of these robots are not published, so a share of them cannot be written." },
+  {
+    what: "acceleration",
+    because: "The greatest accelerations of these robots are not published, so a share of them cannot be written.",
+  },
   { what: "pulse", because: "An output that falls back by itself needs a second thread." },
   { what: "timeout", because: "A wait is a loop without a clock." },
 ];
@@ -14,16 +17,27 @@ export const CANNOT: Dialect["cannot"] = [
 /** One script, or the step that stands in the way: never a part of a program. */
 export function emitUrScript(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
   if (fullJointSpeed(robot) === undefined) {
-    return { kind: "cannot", step: "", sentence: `The controller of the ${robot.name} does not speak URScript.`, hint: "Export in the language of this robot's own controller." };
+    return {
+      kind: "cannot",
+      step: "",
+      sentence: `The controller of the ${robot.name} does not speak URScript.`,
+      hint: "Export in the language of this robot's own controller.",
+    };
   }
   const cannot = undeclared(program, CANNOT);
   if (cannot !== undefined) return cannot;
   return writtenOr(() => {
-    const writer = new ProgramWriter(new Place(program, robot, worldFromBase)), file = writer.write();
+    const writer = new ProgramWriter(new Place(program, robot, worldFromBase));
+    const file = writer.write();
     const hasGripper = file.text.includes("set_tool_digital_out(0, ");
     return {
-      kind: "emitted", files: [file],
-      warnings: [...tellsRobot(program, robot), ...writer.warnings, ...(hasGripper ? ["The gripper is taken to close while output 0 at the tool is on."] : [])],
+      kind: "emitted",
+      files: [file],
+      warnings: [
+        ...tellsRobot(program, robot),
+        ...writer.warnings,
+        ...(hasGripper ? ["The gripper is taken to close while output 0 at the tool is on."] : []),
+      ],
     };
   });
 }

@@ -5,9 +5,14 @@ import { Machine, speaksUrScript } from "./run/machine.ts";
 
 /** Executes and reads URScript: one program `def … end` with the routines inside it, or the statements of a bare script. */
 export const { interpret: interpretUrScript, parse: parseUrScript }: Pick<Dialect, "parse" | "interpret"> = blockDoors({
-  name: "URScript", speaks: speaksUrScript, read: readSource,
+  name: "URScript",
+  speaks: speaksUrScript,
+  read: readSource,
   script(source, robot, worldFromBase) {
     const constants = constantsOf(source.main, source.routines.values());
-    return mainScript(source, (surroundings, signals) => new Machine(source, constants, robot, worldFromBase, surroundings, signals));
+    return mainScript(
+      source,
+      (surroundings, signals) => new Machine(source, constants, robot, worldFromBase, surroundings, signals),
+    );
   },
 });

@@ -5,7 +5,7 @@ import type { Robot } from "@twincell/core";
  * joint move. Joint angles are those of the library: the arm lies stretched out at 0, every joint turns right-handed.
  */
 const FULL_SPEED_RAD_S: Readonly<Record<string, number>> = {
-  ur10e: 2 * Math.PI / 3,
+  ur10e: (2 * Math.PI) / 3,
 };
 
 /** Full joint speed [rad/s], or undefined for a robot whose controller does not speak URScript. */

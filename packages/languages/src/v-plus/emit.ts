@@ -1,4 +1,14 @@
-import { capabilitiesUsed, everyStep, type Capability, type Emitted, type MoveStep, type Pose, type Program, type Robot, type Step } from "@twincell/core";
+import {
+  capabilitiesUsed,
+  everyStep,
+  type Capability,
+  type Emitted,
+  type MoveStep,
+  type Pose,
+  type Program,
+  type Robot,
+  type Step,
+} from "@twincell/core";
 import { jointConvention } from "./robots.ts";
 import { MOST_POINTS, pointList } from "./write/point-list.ts";
 import { posturesOf, type Place } from "./write/postures.ts";
@@ -22,43 +32,81 @@ const MOST_TIMES = 2 ** 24;
 export function emitVPlus(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
   const convention = jointConvention(robot);
   if (convention === undefined) {
-    return { kind: "cannot", step: "", sentence: `How V+ counts the joints of the ${robot.name} is not known.`, hint: "Export in the language of this robot's own controller." };
+    return {
+      kind: "cannot",
+      step: "",
+      sentence: `How V+ counts the joints of the ${robot.name} is not known.`,
+      hint: "Export in the language of this robot's own controller.",
+    };
   }
-  const steps = [...everyStep(program)], moves = steps.filter((step): step is MoveStep => step.type === "move");
+  const steps = [...everyStep(program)];
+  const moves = steps.filter((step): step is MoveStep => step.type === "move");
   const refused = unspeakable(program, steps);
   if (refused !== undefined) return refused;
   if (moves.length > MOST_POINTS) {
-    return { kind: "cannot", step: moves[MOST_POINTS]!.id, sentence: `The program has ${moves.length} points; the array of the point list ends after ${MOST_POINTS}.`, hint: "Export it in parts." };
+    return {
+      kind: "cannot",
+      step: moves[MOST_POINTS]!.id,
+      sentence: `The program has ${moves.length} points; the array of the point list ends after ${MOST_POINTS}.`,
+      hint: "Export it in parts.",
+    };
   }
   const place: Place = { robot, worldFromBase, tools: program.tools, frames: program.frames };
   const postures = posturesOf(program, place);
   if (postures.kind === "cannot") return postures;
   return {
     kind: "emitted",
-    files: [new ProgramWriter(program, place, convention, postures.q_rad).write(), pointList(moves, postures.q_rad, convention)],
+    files: [
+      new ProgramWriter(program, place, convention, postures.q_rad).write(),
+      pointList(moves, postures.q_rad, convention),
+    ],
     warnings: warnings(program, robot, moves),
   };
 }
 
 /** The first step that V+ has no words for. */
 function unspeakable(program: Program, steps: readonly Step[]): Extract<Emitted, { kind: "cannot" }> | undefined {
-  const refuse = (step: Step, sentence: string, hint: string): Extract<Emitted, { kind: "cannot" }> => ({ kind: "cannot", step: step.id, sentence: `Step ${step.name ?? step.id} ${sentence}`, hint });
+  const refuse = (step: Step, sentence: string, hint: string): Extract<Emitted, { kind: "cannot" }> => ({
+    kind: "cannot",
+    step: step.id,
+    sentence: `Step ${step.name ?? step.id} ${sentence}`,
+    hint,
+  });
   const used = capabilitiesUsed(program);
   for (const { what, because } of CANNOT) {
     const step = used.get(what);
     if (step === undefined) continue;
-    if (step.type === "move" && step.path === what) return refuse(step, `is a ${what} move. ${because}`, "Replace it by straight moves through points on the curve.");
+    if (step.type === "move" && step.path === what)
+      return refuse(step, `is a ${what} move. ${because}`, "Replace it by straight moves through points on the curve.");
     return refuse(step, `asks for: ${what}. ${because}`, "Say it in another way, or export in another language.");
   }
   for (const step of steps) {
-    const signal = step.type === "set" ? step.signal : step.type === "wait-for" || step.type === "if" ? step.when.signal : undefined;
-    if (signal !== undefined && (Object.hasOwn(program.signals, signal) ? program.signals[signal]!.address : undefined) === undefined) {
-      return refuse(step, `names the signal “${signal}”, whose number is not known. V+ counts its lines.`, "Give the signal its address: outputs count from 1, inputs from 1001.");
+    const signal =
+      step.type === "set" ? step.signal : step.type === "wait-for" || step.type === "if" ? step.when.signal : undefined;
+    if (
+      signal !== undefined &&
+      (Object.hasOwn(program.signals, signal) ? program.signals[signal]!.address : undefined) === undefined
+    ) {
+      return refuse(
+        step,
+        `names the signal “${signal}”, whose number is not known. V+ counts its lines.`,
+        "Give the signal its address: outputs count from 1, inputs from 1001.",
+      );
     }
-    if (step.type === "repeat" && step.times !== "forever" && step.times > MOST_TIMES) return refuse(step, `repeats ${step.times} times; a loop of V+ counts to ${MOST_TIMES}.`, "Put one loop into another.");
+    if (step.type === "repeat" && step.times !== "forever" && step.times > MOST_TIMES)
+      return refuse(
+        step,
+        `repeats ${step.times} times; a loop of V+ counts to ${MOST_TIMES}.`,
+        "Put one loop into another.",
+      );
     if (step.type !== "pallet") continue;
     const pallet = program.pallets[step.pallet];
-    if (pallet?.interleave === "odd-rows-shifted" && pallet.order?.startsWith("columns") === true) return refuse(step, "visits shifted rows column by column, which loops of V+ do not say.", "Visit the pallet row by row.");
+    if (pallet?.interleave === "odd-rows-shifted" && pallet.order?.startsWith("columns") === true)
+      return refuse(
+        step,
+        "visits shifted rows column by column, which loops of V+ do not say.",
+        "Visit the pallet row by row.",
+      );
   }
   return undefined;
 }
@@ -66,11 +114,21 @@ function unspeakable(program: Program, steps: readonly Step[]): Extract<Emitted,
 function warnings(program: Program, robot: Robot, moves: readonly MoveStep[]): string[] {
   const said: string[] = [];
   const blended = moves.filter(step => step.blend_m > 0 || (step.blend_ratio ?? 0) > 0);
-  if (program.robot !== robot.id) said.push(`The program was taught on ${program.robot} and is written for ${robot.id}.`);
-  if (blended.length > 0) said.push(`V+ has no blend radius: ${counted(blended.length, "step passes", "steps pass")} its point on a continuous path whose corner depends on the speed.`);
+  if (program.robot !== robot.id)
+    said.push(`The program was taught on ${program.robot} and is written for ${robot.id}.`);
+  if (blended.length > 0)
+    said.push(
+      `V+ has no blend radius: ${counted(blended.length, "step passes", "steps pass")} its point on a continuous path whose corner depends on the speed.`,
+    );
   const paced = moves.filter(step => step.path === "ptp" && "mps" in step.speed);
-  if (paced.length > 0) said.push(`V+ holds a speed in mm/s on straight paths: on ${counted(paced.length, "joint motion", "joint motions")} it is a guide only.`);
-  if (moves.some(({ target }) => "pose" in target)) said.push("RIGHTY is taken for a wrist in front of the shoulder axis and LEFTY for one behind it; try the first motion slowly.");
+  if (paced.length > 0)
+    said.push(
+      `V+ holds a speed in mm/s on straight paths: on ${counted(paced.length, "joint motion", "joint motions")} it is a guide only.`,
+    );
+  if (moves.some(({ target }) => "pose" in target))
+    said.push(
+      "RIGHTY is taken for a wrist in front of the shoulder axis and LEFTY for one behind it; try the first motion slowly.",
+    );
   return said;
 }
 

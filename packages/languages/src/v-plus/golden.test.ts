@@ -1,10 +1,25 @@
 /** Poses in V+ numbers that scipy, robodk and pinocchio worked out: neither the emitter nor the interpreter had a hand in them. */
 import { readFileSync } from "node:fs";
-import { angleBetween, compose, distance, emptyProgram, flangePose, fromMatrix, pose, robotById, type MoveStep, type Pose, type Program } from "@twincell/core";
+import {
+  angleBetween,
+  compose,
+  distance,
+  emptyProgram,
+  flangePose,
+  fromMatrix,
+  pose,
+  robotById,
+  type MoveStep,
+  type Pose,
+  type Program,
+} from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import { PROOF_TOLERANCE, vPlus } from "../index.ts";
 
-interface Orientation { readonly matrix: readonly (readonly number[])[]; readonly vplus_ypr_deg: readonly number[] }
+interface Orientation {
+  readonly matrix: readonly (readonly number[])[];
+  readonly vplus_ypr_deg: readonly number[];
+}
 interface Sample {
   readonly q: readonly number[];
   /** Rows of baseFromFlange. */
@@ -12,7 +27,8 @@ interface Sample {
   /** Of the flange, in mm from the shoulder; its angles are those of another language. */
   readonly vendor_pose: { readonly X: number; readonly Y: number; readonly Z: number };
 }
-const fixture = <T>(path: string): T => JSON.parse(readFileSync(new URL(`../../../../fixtures/${path}`, import.meta.url), "utf8")) as T;
+const fixture = <T>(path: string): T =>
+  JSON.parse(readFileSync(new URL(`../../../../fixtures/${path}`, import.meta.url), "utf8")) as T;
 const orientations = fixture<{ readonly cases: readonly Orientation[] }>("conventions/orientations.json").cases;
 const samples = fixture<{ readonly samples: readonly Sample[] }>("kinematics/staubli_rx90l.forward.json").samples;
 const robot = robotById("staubli_rx90l")!;
@@ -22,8 +38,12 @@ const anywhere = { ...robot, baseFromVendorWorld: pose<"base", "vendor-world">()
 
 /** Yaw, pitch and roll [deg] read off the matrix Rz(y)·Ry(p)·Rz(r): its last column is (cy sp, sy sp, cp), its last row (−sp cr, sp sr, cp). */
 function anglesOf(rows: Sample["T"]): number[] {
-  const angles = [Math.atan2(rows[1]![2]!, rows[0]![2]!), Math.acos(Math.max(-1, Math.min(1, rows[2]![2]!))), Math.atan2(rows[2]![1]!, -rows[2]![0]!)];
-  return angles.map(angle => angle / Math.PI * 180);
+  const angles = [
+    Math.atan2(rows[1]![2]!, rows[0]![2]!),
+    Math.acos(Math.max(-1, Math.min(1, rows[2]![2]!))),
+    Math.atan2(rows[2]![1]!, -rows[2]![0]!),
+  ];
+  return angles.map(angle => (angle / Math.PI) * 180);
 }
 const isUpright = ({ T }: Sample): boolean => Math.hypot(T[0]![2]!, T[1]![2]!) < 1e-3;
 
@@ -42,10 +62,12 @@ describe("golden poses", () => {
   test("47 orientations, 7 of them singular: TRANS means the matrix that scipy and robodk say", () => {
     expect(orientations).toHaveLength(47);
     for (const { matrix, vplus_ypr_deg } of orientations) {
-      const wanted = fromMatrix(matrix.slice(0, 3).flatMap(row => row.slice(0, 3))), position = matrix.slice(0, 3).map(row => row[3]!);
+      const wanted = fromMatrix(matrix.slice(0, 3).flatMap(row => row.slice(0, 3)));
+      const position = matrix.slice(0, 3).map(row => row[3]!);
       const got = executedPose([...position, ...vplus_ypr_deg], anywhere);
       expect(angleBetween(got.quaternion, wanted)).toBeLessThan(PROOF_TOLERANCE.angle_rad);
-      for (const [i, v] of got.position.entries()) expect(Math.abs(v - position[i]! / 1000)).toBeLessThan(PROOF_TOLERANCE.position_m);
+      for (const [i, v] of got.position.entries())
+        expect(Math.abs(v - position[i]! / 1000)).toBeLessThan(PROOF_TOLERANCE.position_m);
     }
   });
 
@@ -54,7 +76,8 @@ describe("golden poses", () => {
     for (const sample of samples) {
       if (isUpright(sample)) continue;
       const { X, Y, Z } = sample.vendor_pose;
-      const wanted = flangePose(robot.arm, sample.q), got = executedPose([X, Y, Z, ...anglesOf(sample.T)]);
+      const wanted = flangePose(robot.arm, sample.q);
+      const got = executedPose([X, Y, Z, ...anglesOf(sample.T)]);
       expect(distance(got.position, wanted.position)).toBeLessThan(PROOF_TOLERANCE.position_m);
       expect(angleBetween(got.quaternion, wanted.quaternion)).toBeLessThan(PROOF_TOLERANCE.angle_rad);
     }
@@ -62,8 +85,22 @@ describe("golden poses", () => {
 
   test("what is written for these postures are the same numbers", () => {
     for (const sample of samples) {
-      const { q, vendor_pose: { X, Y, Z } } = sample;
-      const step: MoveStep = { id: "a", type: "move", path: "ptp", target: { pose: compose(pose<"frame", "base">(), compose(flangePose(robot.arm, q), pose<"flange", "tcp">())), frame: "world", tool: "flange" }, speed: { ratio: 1 }, blend_m: 0 };
+      const {
+        q,
+        vendor_pose: { X, Y, Z },
+      } = sample;
+      const step: MoveStep = {
+        id: "a",
+        type: "move",
+        path: "ptp",
+        target: {
+          pose: compose(pose<"frame", "base">(), compose(flangePose(robot.arm, q), pose<"flange", "tcp">())),
+          frame: "world",
+          tool: "flange",
+        },
+        speed: { ratio: 1 },
+        blend_m: 0,
+      };
       const program: Program = { ...emptyProgram(robot.id), steps: [step] };
       const emitted = vPlus.emit(program, robot);
       // A few samples lie on the border of reach: whether they can be exported is not the question here.
@@ -72,7 +109,8 @@ describe("golden poses", () => {
       for (const [i, mm] of [X, Y, Z].entries()) expect(Math.abs(numbers[i]! - mm)).toBeLessThan(1e-3);
       if (isUpright(sample)) continue;
       // Half the difference, so that −180 and 180 are the same.
-      for (const [i, angle] of anglesOf(sample.T).entries()) expect(Math.abs(Math.sin((numbers[3 + i]! - angle) / 360 * Math.PI)), `${numbers}`).toBeLessThan(1e-5);
+      for (const [i, angle] of anglesOf(sample.T).entries())
+        expect(Math.abs(Math.sin(((numbers[3 + i]! - angle) / 360) * Math.PI)), `${numbers}`).toBeLessThan(1e-5);
     }
   });
 });

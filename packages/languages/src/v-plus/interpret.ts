@@ -12,12 +12,22 @@ import type { Met } from "./run/state.ts";
 export function interpretVPlus(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Interpreted {
   const convention = jointConvention(robot);
   if (convention === undefined) {
-    return { kind: "not-understood", faults: [textFault({ line: 1, column: 1 }, "a robot whose controller speaks V+", `How V+ counts the joints of the ${robot.name} is not known.`)] };
+    return {
+      kind: "not-understood",
+      faults: [
+        textFault(
+          { line: 1, column: 1 },
+          "a robot whose controller speaks V+",
+          `How V+ counts the joints of the ${robot.name} is not known.`,
+        ),
+      ],
+    };
   }
   const read = readSource(text);
   if (read.kind === "not-understood") return read;
   const met: Met = { tools: {}, lines: {} };
-  const run = (signals?: Signals): Generator<Executed, void> => new Machine(read.source, robot, convention, worldFromBase, met, signals).run();
+  const run = (signals?: Signals): Generator<Executed, void> =>
+    new Machine(read.source, robot, convention, worldFromBase, met, signals).run();
   const fault = rehearse(run());
   if (fault !== undefined) return { kind: "not-understood", faults: [fault] };
   return { kind: "ready", run, context: { tools: met.tools, frames: {}, signals: met.lines } };

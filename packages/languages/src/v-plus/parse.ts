@@ -1,5 +1,14 @@
 import { emptyProgram, type Parsed, type Pose, type Robot } from "@twincell/core";
-import { headingOr, plainText, textFault, textLines, unrolled, withComments, type Comment, type Unrolled } from "../text/index.ts";
+import {
+  headingOr,
+  plainText,
+  textFault,
+  textLines,
+  unrolled,
+  withComments,
+  type Comment,
+  type Unrolled,
+} from "../text/index.ts";
 import { interpretVPlus } from "./interpret.ts";
 import { structuredProgram } from "./read/structure.ts";
 
@@ -24,21 +33,39 @@ export function parseVPlus(text: string, robot: Robot, worldFromBase: Pose<"worl
 
   const done = unrolled(interpreted.run(), { program: "program", statement: "a statement" });
   if (done.kind === "not-understood") return done;
-  const moved: Unrolled = isList ? { ...done, steps: done.steps.map(step => step.type === "move" ? { ...step, speed: { ratio: POINT_LIST_RATIO } } : step) } : done;
-  const list = isList ? [textFault({ line: 1, column: 1 }, "a program with MOVE", "A point list fills an array and moves nothing: each of its points became a joint move.")] : [];
+  const moved: Unrolled = isList
+    ? {
+        ...done,
+        steps: done.steps.map(step => (step.type === "move" ? { ...step, speed: { ratio: POINT_LIST_RATIO } } : step)),
+      }
+    : done;
+  const list = isList
+    ? [
+        textFault(
+          { line: 1, column: 1 },
+          "a program with MOVE",
+          "A point list fills an array and moves nothing: each of its points became a joint move.",
+        ),
+      ]
+    : [];
   const { tools, signals = {} } = interpreted.context;
-  return { kind: "parsed", warnings: [...done.waits, ...list, ...done.repeated], program: { ...emptyProgram(robot.id, nameOf(lines)), ...withComments(lines, moved, comment), tools, signals } };
+  return {
+    kind: "parsed",
+    warnings: [...done.waits, ...list, ...done.repeated],
+    program: { ...emptyProgram(robot.id, nameOf(lines)), ...withComments(lines, moved, comment), tools, signals },
+  };
 }
 
 /** The line of a point list as the move to its point, every character of the point in its column. Other lines stay as they are. */
-const asMove = (line: string): string => POINT.test(line) ? "MOVE".padEnd(line.indexOf("#")) + line.slice(line.indexOf("#")) : line;
+const asMove = (line: string): string =>
+  POINT.test(line) ? "MOVE".padEnd(line.indexOf("#")) + line.slice(line.indexOf("#")) : line;
 
 /** What a person called the program: the comment behind its name, or its name. */
 function nameOf(lines: readonly string[]): string {
   const header = lines.find(line => /^\s*\.PROGRAM\b/i.test(line));
   if (header === undefined) return "Point list";
   const comment = /;(.*)/.exec(header)?.[1]?.trim() ?? "";
-  return comment !== "" ? comment : /\.PROGRAM\s+([^\s(;]+)/i.exec(header)?.[1] ?? "Program";
+  return comment !== "" ? comment : (/\.PROGRAM\s+([^\s(;]+)/i.exec(header)?.[1] ?? "Program");
 }
 
 /** `;name` before a step, `;== name` before a group of steps; `;*` is neither. */

@@ -13,17 +13,29 @@ export const CANNOT: Dialect["cannot"] = [
 
 /** The files of an application, or the step that stands in the way: never a part of a program. */
 export function emitVal3(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
-  if (!speaksVal3(robot)) return { kind: "cannot", step: "", sentence: `The controller of the ${robot.name} does not speak VAL 3.`, hint: "Export in the language of this robot's own controller." };
+  if (!speaksVal3(robot))
+    return {
+      kind: "cannot",
+      step: "",
+      sentence: `The controller of the ${robot.name} does not speak VAL 3.`,
+      hint: "Export in the language of this robot's own controller.",
+    };
   const cannot = undeclared(program, CANNOT);
   if (cannot !== undefined) return cannot;
   return writtenOr(() => {
-    const files = new ApplicationWriter(new Place(program, robot, worldFromBase)).write(), steps = [...everyStep(program)], title = files.at(-1)!.name.replace(/\.pjx$/, "");
+    const files = new ApplicationWriter(new Place(program, robot, worldFromBase)).write();
+    const steps = [...everyStep(program)];
+    const title = files.at(-1)!.name.replace(/\.pjx$/, "");
     const usesLines = steps.some(({ type }) => type === "set" || type === "wait-for" || type === "if");
     return {
-      kind: "emitted", files,
+      kind: "emitted",
+      files,
       warnings: [
-        ...tellsRobot(program, robot), `All files belong into one folder with the name ${title}.`,
-        ...(steps.some(({ type }) => type === "gripper") ? [`The gripper is the valve ${VALVE}: link the tool to that of your cell.`] : []),
+        ...tellsRobot(program, robot),
+        `All files belong into one folder with the name ${title}.`,
+        ...(steps.some(({ type }) => type === "gripper")
+          ? [`The gripper is the valve ${VALVE}: link the tool to that of your cell.`]
+          : []),
         ...(usesLines ? ["Lines are variables by their names: link each to its line in the controller."] : []),
       ],
     };

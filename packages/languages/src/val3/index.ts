@@ -7,7 +7,11 @@ import { LINES } from "./lines.ts";
 /** Programs and data one behind the other: what the controller loads of an application. */
 function asOne(files: readonly EmittedFile[]): EmittedFile {
   const parts = files.filter(({ name }) => !name.endsWith(".pjx"));
-  return { name: parts[0]?.name ?? "", text: parts.map(({ text }) => text).join(""), lines: parts.flatMap(({ lines }) => lines) };
+  return {
+    name: parts[0]?.name ?? "",
+    text: parts.map(({ text }) => text).join(""),
+    lines: parts.flatMap(({ lines }) => lines),
+  };
 }
 
 /** VAL 3 of Stäubli's CS8 and CS9 controllers. */

@@ -6,9 +6,14 @@ import { Machine } from "./run/machine.ts";
 
 /** Executes and reads VAL 3: the program "start", or the first of the text, with the data that stand behind it. */
 export const { interpret: interpretVal3, parse: parseVal3 }: Pick<Dialect, "parse" | "interpret"> = blockDoors({
-  name: "VAL 3", speaks: hasWorld, read: readApplication,
+  name: "VAL 3",
+  speaks: hasWorld,
+  read: readApplication,
   script(application, robot, worldFromBase) {
     const changing = changedNames([...application.routines.values()].map(({ body }) => body));
-    return routineScript(application.title, (surroundings, signals) => new Machine(application, changing, robot, worldFromBase, surroundings, signals));
+    return routineScript(
+      application.title,
+      (surroundings, signals) => new Machine(application, changing, robot, worldFromBase, surroundings, signals),
+    );
   },
 });

@@ -9,15 +9,30 @@ const bench: DialectBench = {
 };
 
 /** Changes the values of every datum of that type. */
-const values = (type: string, change: (value: string) => string) => (text: string): string =>
-  text.replace(new RegExp(`(type="${type}" size="1">\\s*)(<Value[^>]*>)`, "g"), (_, head: string, value: string) => head + change(value));
+const values =
+  (type: string, change: (value: string) => string) =>
+  (text: string): string =>
+    text.replace(
+      new RegExp(`(type="${type}" size="1">\\s*)(<Value[^>]*>)`, "g"),
+      (_, head: string, value: string) => head + change(value),
+    );
 const field = (type: string, name: string, change: (value: number) => number): ((text: string) => string) =>
-  values(type, value => value.replace(new RegExp(` ${name}="([^"]*)"`), (_, number: string) => ` ${name}="${change(Number(number))}"`));
+  values(type, value =>
+    value.replace(new RegExp(` ${name}="([^"]*)"`), (_, number: string) => ` ${name}="${change(Number(number))}"`),
+  );
 const exchanged = (type: string, a: string, b: string): ((text: string) => string) =>
   values(type, value => value.replace(` ${a}=`, " ?=").replace(` ${b}=`, ` ${a}=`).replace(" ?=", ` ${b}=`));
-const word = (a: string, b: string) => (text: string): string => text.replace(new RegExp(`"(${a}|${b})"`, "g"), (_, found: string) => `"${found === a ? b : a}"`);
-const once = (pattern: RegExp, by: string) => (text: string): string => text.replace(pattern, by);
-const negated = (value: number): number => -value, POINT = "pointRx", JOINT = "jointRx";
+const word =
+  (a: string, b: string) =>
+  (text: string): string =>
+    text.replace(new RegExp(`"(${a}|${b})"`, "g"), (_, found: string) => `"${found === a ? b : a}"`);
+const once =
+  (pattern: RegExp, by: string) =>
+  (text: string): string =>
+    text.replace(pattern, by);
+const negated = (value: number): number => -value;
+const POINT = "pointRx";
+const JOINT = "jointRx";
 
 describeMutations(val3, bench, {
   "joint 1 with the wrong sign": field(JOINT, "j1", negated),
@@ -26,7 +41,7 @@ describeMutations(val3, bench, {
   "joint 4 with the wrong sign": field(JOINT, "j4", negated),
   "joint 6 with the wrong sign": field(JOINT, "j6", negated),
   "joints 4 and 5 in the wrong order": exchanged(JOINT, "j4", "j5"),
-  "radians for degrees": field(JOINT, "j3", value => value / 180 * Math.PI),
+  "radians for degrees": field(JOINT, "j3", value => (value / 180) * Math.PI),
   "a hundredth of a degree too much": field(JOINT, "j5", value => value + 0.01),
   "metres for millimetres": field(POINT, "x", value => value / 1000),
   "heights from the foot": field(POINT, "z", value => value + 550),
@@ -38,8 +53,8 @@ describeMutations(val3, bench, {
   "the other shoulder": word("righty", "lefty"),
   "the other elbow": word("epositive", "enegative"),
   "the other wrist": word("wpositive", "wnegative"),
-  "points of the world": text => text.replace(/fatherId="(?!world|flange)[^"]*"(?= ?\/?>)/g, "fatherId=\"world[0]\""),
-  "a frame that is not there": once(/fatherId="(?!world|flange)[^"]*"/, "fatherId=\"nowhere[0]\""),
+  "points of the world": text => text.replace(/fatherId="(?!world|flange)[^"]*"(?= ?\/?>)/g, 'fatherId="world[0]"'),
+  "a frame that is not there": once(/fatherId="(?!world|flange)[^"]*"/, 'fatherId="nowhere[0]"'),
   "a frame with the wrong sign": field("frame", "x", negated),
   "a frame from the foot": field("frame", "z", value => value + 550),
   "a frame turned the wrong way": field("frame", "rz", negated),
@@ -54,13 +69,15 @@ describeMutations(val3, bench, {
   "a lost motion": once(/ +move[jl]\([^\r]*\r\n/, ""),
   "a motion twice": once(/( +move[jl]\([^\r]*\r\n)/, "$1$1"),
   "a motion that waits for nothing": once(/ +waitEndMove\(\)\r\n(?= +(?:\/\/[^\r]*\r\n +)*delay)/, ""),
-  "a lost stop": text => text.replaceAll("blend=\"off\"", "blend=\"joint\""),
+  "a lost stop": text => text.replaceAll('blend="off"', 'blend="joint"'),
   "half the speed of joints": field("mdesc", "vel", value => value / 2),
   "speeds in metres": field("mdesc", "tmax", value => value / 1000),
   "half the acceleration": field("mdesc", "accel", value => value / 2),
   "another description": once(/,m\)/, ",m_2)"),
-  "open for close": text => text.replace(/(open|close)\(/, (_, found: string) => `${found === "open" ? "close" : "open"}(`),
-  "a wait in milliseconds": text => text.replace(/delay\(([0-9.]+)\)/, (_, s: string) => `delay(${Number(s) * 1000 + 1})`),
+  "open for close": text =>
+    text.replace(/(open|close)\(/, (_, found: string) => `${found === "open" ? "close" : "open"}(`),
+  "a wait in milliseconds": text =>
+    text.replace(/delay\(([0-9.]+)\)/, (_, s: string) => `delay(${Number(s) * 1000 + 1})`),
   "a lost wait": once(/ +delay\([^\r]*\r\n/, ""),
   "an early end": once(/( +move[jl]\([^\r]*\r\n)(?=[^]* +move)/, "$1return\r\n"),
   "no data": text => text.replace(/<Datas>[^]*<\/Datas>/, "<Datas></Datas>"),

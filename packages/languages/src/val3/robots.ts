@@ -8,9 +8,15 @@ const SPEAKS: ReadonlySet<string> = new Set(["staubli_rx160"]);
 export const speaksVal3 = (robot: Robot): boolean => SPEAKS.has(robot.id);
 
 /** Righty has the wrist in front of axis 1; elbow and wrist go by the signs of joints 3 and 5. */
-export const configWords = (branch: Branch | undefined): readonly [shoulder: string, elbow: string, wrist: string] => branch === undefined
-  ? ["ssame", "esame", "wsame"]
-  : [branch.shoulder === "front" ? "righty" : "lefty", (branch.elbow === "up") === (branch.shoulder === "front") ? "epositive" : "enegative", branch.wrist === "positive" ? "wpositive" : "wnegative"];
+export const configWords = (branch: Branch | undefined): readonly [shoulder: string, elbow: string, wrist: string] =>
+  branch === undefined
+    ? ["ssame", "esame", "wsame"]
+    : [
+        branch.shoulder === "front" ? "righty" : "lefty",
+        (branch.elbow === "up") === (branch.shoulder === "front") ? "epositive" : "enegative",
+        branch.wrist === "positive" ? "wpositive" : "wnegative",
+      ];
 
 /** The tool whose valve is the gripper. */
-export const GRIPPER = "gripper", VALVE = "valve1";
+export const GRIPPER = "gripper";
+export const VALVE = "valve1";

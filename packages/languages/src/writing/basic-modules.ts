@@ -24,7 +24,7 @@ export interface ModuleWords extends BasicWords {
 
 export abstract class BasicModules extends BasicProgram {
   protected readonly used: InUse;
-  protected declare readonly words: ModuleWords;
+  declare protected readonly words: ModuleWords;
   private readonly numbers = new Map<string, number>();
   private declared: string[] = [];
 
@@ -45,10 +45,15 @@ export abstract class BasicModules extends BasicProgram {
   protected abstract patterns(): readonly string[];
 
   write(): EmittedFile {
-    const { program, robot } = this.place, { main, open, close, file } = this.words, whole = new BlockWriter();
+    const { program, robot } = this.place;
+    const { main, open, close, file } = this.words;
+    const whole = new BlockWriter();
     for (const line of [...this.head(), ...this.constants()]) whole.add(line);
-    for (const [name, steps] of [[main, program.steps] as const, ...Object.entries(program.routines).map(([routine, list]) => [this.named("routine", routine), list] as const)]) {
-      const inside = this.out = new BlockWriter();
+    for (const [name, steps] of [
+      [main, program.steps] as const,
+      ...Object.entries(program.routines).map(([routine, list]) => [this.named("routine", routine), list] as const),
+    ]) {
+      const inside = (this.out = new BlockWriter());
       this.declared = [];
       this.begin();
       if (name === main) for (const line of this.beginning()) inside.add(line);
@@ -66,11 +71,19 @@ export abstract class BasicModules extends BasicProgram {
     return whole.file(file, "\r\n");
   }
 
-  protected named(sort: string, name: string): string { return this.names.of(sort, name.toLowerCase()); }
-  protected line(signal: string): string { return this.named("signal", signal); }
+  protected named(sort: string, name: string): string {
+    return this.names.of(sort, name.toLowerCase());
+  }
+  protected line(signal: string): string {
+    return this.named("signal", signal);
+  }
   /** The number of a frame; 0 for the base. */
-  protected numberOf(frame: string): number { return this.numbers.get(`frame\0${frame}`) ?? 0; }
-  protected call(routine: string, add: Add): void { add(`Call ${this.named("routine", routine)}`); }
+  protected numberOf(frame: string): number {
+    return this.numbers.get(`frame\0${frame}`) ?? 0;
+  }
+  protected call(routine: string, add: Add): void {
+    add(`Call ${this.named("routine", routine)}`);
+  }
 
   protected counter(name: string): string {
     const variable = this.names.fresh(name);
@@ -79,12 +92,24 @@ export abstract class BasicModules extends BasicProgram {
   }
 
   /** A variable that the routine which is written uses. */
-  protected introduce(variable: string): void { if (!this.declared.includes(variable)) this.declared.push(variable); }
+  protected introduce(variable: string): void {
+    if (!this.declared.includes(variable)) this.declared.push(variable);
+  }
 
   private constants(): string[] {
-    const { tools, frames, signals } = this.used, { most, define, gripper } = this.words, lines: string[] = [];
-    for (const [sort, names, limit, what] of [["tool", tools, most.tools, "tools"], ["frame", frames, most.frames, most.called]] as const) {
-      if (names.size > limit) throw new CannotSay("", `The program uses ${names.size} ${what}; a controller keeps ${limit}.`, "Divide the program.");
+    const { tools, frames, signals } = this.used;
+    const { most, define, gripper } = this.words;
+    const lines: string[] = [];
+    for (const [sort, names, limit, what] of [
+      ["tool", tools, most.tools, "tools"],
+      ["frame", frames, most.frames, most.called],
+    ] as const) {
+      if (names.size > limit)
+        throw new CannotSay(
+          "",
+          `The program uses ${names.size} ${what}; a controller keeps ${limit}.`,
+          "Divide the program.",
+        );
       for (const [i, name] of [...names].entries()) {
         this.numbers.set(`${sort}\0${name}`, i + 1);
         lines.push(`${define} ${this.named(sort, name)} ${i + 1}`);
@@ -93,12 +118,22 @@ export abstract class BasicModules extends BasicProgram {
     lines.push(...this.patterns());
     const taken = new Map<number, string>();
     for (const [signal, step] of signals) {
-      const address = this.address(signal, step), key = this.sharesNumbers ? address : address + (this.place.program.signals[signal]!.kind === "digital-in" ? 0.5 : 0), other = taken.get(key);
-      if (other !== undefined) throw new CannotSay(step.id, `${called(step)} uses the line ${signal} with the number ${address}, which ${other} has.`, "Give every line a number of its own.");
+      const address = this.address(signal, step);
+      const key = this.sharesNumbers
+        ? address
+        : address + (this.place.program.signals[signal]!.kind === "digital-in" ? 0.5 : 0);
+      const other = taken.get(key);
+      if (other !== undefined)
+        throw new CannotSay(
+          step.id,
+          `${called(step)} uses the line ${signal} with the number ${address}, which ${other} has.`,
+          "Give every line a number of its own.",
+        );
       taken.set(key, signal);
       lines.push(`${define} ${this.line(signal)} ${address}`);
     }
-    if (Array.from(everyStep(this.place.program)).some(({ type }) => type === "gripper")) lines.push(`${define} ${gripper.name} ${gripper.output}`);
+    if (Array.from(everyStep(this.place.program)).some(({ type }) => type === "gripper"))
+      lines.push(`${define} ${gripper.name} ${gripper.output}`);
     return lines;
   }
 
@@ -106,10 +141,31 @@ export abstract class BasicModules extends BasicProgram {
   protected abstract readonly sharesNumbers: boolean;
 
   private address(signal: string, step: Step): number {
-    const { signals } = this.place.program, line = Object.hasOwn(signals, signal) ? signals[signal] : undefined, { language, lines: [first, last], gripper } = this.words;
-    if (line?.address === undefined) throw new CannotSay(step.id, `${called(step)} uses the line ${signal}, whose number is not known.`, "Give the line its number in the list of signals.");
-    if (!Number.isInteger(line.address) || line.address < first || line.address > last) throw new CannotSay(step.id, `${called(step)} uses the line ${signal} with the number ${line.address}; ${language} counts lines from ${first} to ${last}.`, "Give the line a number of the controller.");
-    if ((line.kind === "digital-out" || this.sharesNumbers) && line.address === gripper.output) throw new CannotSay(step.id, `${called(step)} uses the output ${gripper.output}, which is the gripper's.`, "Give the line another number.");
+    const { signals } = this.place.program;
+    const line = Object.hasOwn(signals, signal) ? signals[signal] : undefined;
+    const {
+      language,
+      lines: [first, last],
+      gripper,
+    } = this.words;
+    if (line?.address === undefined)
+      throw new CannotSay(
+        step.id,
+        `${called(step)} uses the line ${signal}, whose number is not known.`,
+        "Give the line its number in the list of signals.",
+      );
+    if (!Number.isInteger(line.address) || line.address < first || line.address > last)
+      throw new CannotSay(
+        step.id,
+        `${called(step)} uses the line ${signal} with the number ${line.address}; ${language} counts lines from ${first} to ${last}.`,
+        "Give the line a number of the controller.",
+      );
+    if ((line.kind === "digital-out" || this.sharesNumbers) && line.address === gripper.output)
+      throw new CannotSay(
+        step.id,
+        `${called(step)} uses the output ${gripper.output}, which is the gripper's.`,
+        "Give the line another number.",
+      );
     return line.address;
   }
 }

@@ -18,8 +18,13 @@ export class TooLong extends CannotSay {}
 export const called = ({ id, name }: Pick<Step, "id" | "name">): string => `Step ${name ?? id}`;
 
 const WORDS: Partial<Record<Capability, string>> = {
-  circ: "is a circ move", spline: "is a spline move", duration: "is given a duration", acceleration: "is given an acceleration", search: "is a search move",
-  timeout: "waits with a time limit", pulse: "is a pulse",
+  circ: "is a circ move",
+  spline: "is a spline move",
+  duration: "is given a duration",
+  acceleration: "is given an acceleration",
+  search: "is a search move",
+  timeout: "waits with a time limit",
+  pulse: "is a pulse",
 };
 
 /** The first step that asks for what the dialect declares it cannot. */
@@ -27,7 +32,13 @@ export function undeclared(program: Program, cannot: Dialect["cannot"]): Cannot 
   const used = capabilitiesUsed(program);
   for (const { what, because } of cannot) {
     const step = used.get(what);
-    if (step !== undefined) return { kind: "cannot", step: step.id, sentence: `${called(step)} ${WORDS[what] ?? `asks for ${what}`}. ${because}`, hint: "Say it in another way, or take the step out." };
+    if (step !== undefined)
+      return {
+        kind: "cannot",
+        step: step.id,
+        sentence: `${called(step)} ${WORDS[what] ?? `asks for ${what}`}. ${because}`,
+        hint: "Say it in another way, or take the step out.",
+      };
   }
   return undefined;
 }
@@ -42,4 +53,5 @@ export function writtenOr(write: () => Emitted): Emitted {
   }
 }
 
-export const tellsRobot = (program: Program, robot: Robot): string[] => program.robot === robot.id ? [] : [`The program was taught on ${program.robot} and is written for ${robot.id}.`];
+export const tellsRobot = (program: Program, robot: Robot): string[] =>
+  program.robot === robot.id ? [] : [`The program was taught on ${program.robot} and is written for ${robot.id}.`];

@@ -15,8 +15,23 @@ export interface Emitter<Spoken> {
 }
 
 /** One file, or the step that stands in the way: never a part of a program. */
-export const emitterOf = <Spoken>({ language, spokenBy, cannot, write, warnings }: Emitter<Spoken>): Dialect["emit"] => (program, robot, worldFromBase = identity()) => {
-  const spoken = spokenBy(robot);
-  if (spoken === undefined) return { kind: "cannot", step: "", sentence: `The controller of the ${robot.name} does not speak ${language}.`, hint: "Export in the language of this robot's own controller." };
-  return undeclared(program, cannot) ?? writtenOr(() => ({ kind: "emitted", files: [write(new Place(program, robot, worldFromBase), spoken)], warnings: [...tellsRobot(program, robot), ...warnings(program)] }));
-};
+export const emitterOf =
+  <Spoken>({ language, spokenBy, cannot, write, warnings }: Emitter<Spoken>): Dialect["emit"] =>
+  (program, robot, worldFromBase = identity()) => {
+    const spoken = spokenBy(robot);
+    if (spoken === undefined)
+      return {
+        kind: "cannot",
+        step: "",
+        sentence: `The controller of the ${robot.name} does not speak ${language}.`,
+        hint: "Export in the language of this robot's own controller.",
+      };
+    return (
+      undeclared(program, cannot) ??
+      writtenOr(() => ({
+        kind: "emitted",
+        files: [write(new Place(program, robot, worldFromBase), spoken)],
+        warnings: [...tellsRobot(program, robot), ...warnings(program)],
+      }))
+    );
+  };

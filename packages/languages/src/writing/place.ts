@@ -1,5 +1,20 @@
 import {
-  compose, degrees, distance, explainReach, flangeOfTcp, flangePose, identity, inverse, palletPlaces, solveAll, type MoveStep, type Pose, type Program, type Robot, type Step, type Target,
+  compose,
+  degrees,
+  distance,
+  explainReach,
+  flangeOfTcp,
+  flangePose,
+  identity,
+  inverse,
+  palletPlaces,
+  solveAll,
+  type MoveStep,
+  type Pose,
+  type Program,
+  type Robot,
+  type Step,
+  type Target,
 } from "@twincell/core";
 import { CannotSay, called } from "./cannot.ts";
 
@@ -27,7 +42,8 @@ export class Place {
   frame(name: string): Pose<"world", "frame"> {
     const { frames, pallets } = this.program;
     if (Object.hasOwn(pallets, name)) {
-      const { frame, origin } = pallets[name]!, first: Pose<"frame", "place"> = palletPlaces(pallets[name]!)[0] ?? origin;
+      const { frame, origin } = pallets[name]!;
+      const first: Pose<"frame", "place"> = palletPlaces(pallets[name]!)[0] ?? origin;
       return compose(compose(this.frame(frame), first), identity<"place", "frame">());
     }
     return Object.hasOwn(frames, name) ? frames[name]! : identity();
@@ -50,28 +66,53 @@ export class Place {
    *
    * @throws {CannotSay} when the target is out of reach, or outside the limits of a joint.
    */
-  posture(step: Pick<Step, "id" | "name">, target: Target, near: readonly number[] | undefined): readonly number[] | undefined {
-    const { robot } = this, name = called(step);
+  posture(
+    step: Pick<Step, "id" | "name">,
+    target: Target,
+    near: readonly number[] | undefined,
+  ): readonly number[] | undefined {
+    const { robot } = this;
+    const name = called(step);
     if ("q" in target) {
       if (target.q.length !== robot.arm.joints.length) {
-        throw new CannotSay(step.id, `${name} holds ${target.q.length} joint angles; the ${robot.name} has ${robot.arm.joints.length} joints.`, "Teach the step again on this robot.");
+        throw new CannotSay(
+          step.id,
+          `${name} holds ${target.q.length} joint angles; the ${robot.name} has ${robot.arm.joints.length} joints.`,
+          "Teach the step again on this robot.",
+        );
       }
       this.insideLimits(step, target.q);
       return target.q;
     }
-    const reach = solveAll(robot, flangeOfTcp(this.worldFromBase, compose(this.worldFromBase, this.tip(target)), this.tool(target.tool)), {
-      ...(near === undefined ? {} : { near }), ...(target.branch === undefined ? {} : { branch: target.branch }),
-    });
+    const reach = solveAll(
+      robot,
+      flangeOfTcp(this.worldFromBase, compose(this.worldFromBase, this.tip(target)), this.tool(target.tool)),
+      {
+        ...(near === undefined ? {} : { near }),
+        ...(target.branch === undefined ? {} : { branch: target.branch }),
+      },
+    );
     if (reach.kind === "no-solver") return undefined;
-    if (reach.kind !== "reached") throw new CannotSay(step.id, `${name} cannot be reached. ${explainReach(reach)}`, "Check the program: it says what would bring the step into reach.");
+    if (reach.kind !== "reached")
+      throw new CannotSay(
+        step.id,
+        `${name} cannot be reached. ${explainReach(reach)}`,
+        "Check the program: it says what would bring the step into reach.",
+      );
     return [...reach.solutions[0]!.q_rad];
   }
 
   private insideLimits(step: Pick<Step, "id" | "name">, q: readonly number[]): void {
-    for (const [i, { limits: { lower_rad, upper_rad } }] of this.robot.arm.joints.entries()) {
+    for (const [
+      i,
+      {
+        limits: { lower_rad, upper_rad },
+      },
+    ] of this.robot.arm.joints.entries()) {
       if (q[i]! >= lower_rad - LIMIT_SLACK_RAD && q[i]! <= upper_rad + LIMIT_SLACK_RAD) continue;
       throw new CannotSay(
-        step.id, `${called(step)} turns joint ${i + 1} to ${degrees(q[i]!).toFixed(2)}°; it may turn from ${degrees(lower_rad).toFixed(1)}° to ${degrees(upper_rad).toFixed(1)}°.`,
+        step.id,
+        `${called(step)} turns joint ${i + 1} to ${degrees(q[i]!).toFixed(2)}°; it may turn from ${degrees(lower_rad).toFixed(1)}° to ${degrees(upper_rad).toFixed(1)}°.`,
         "Move the point, or choose another branch for it.",
       );
     }
@@ -82,9 +123,13 @@ export class Place {
     const { blend_ratio: ratio = 0 } = step;
     if (next?.type !== "move") return 0;
     if (!(ratio > 0)) return step.blend_m;
-    const here = this.tip(step.target).position, from = before === undefined ? undefined : this.tip(before.target).position;
-    const ways = [distance(here, this.tip(next.target).position), ...(from === undefined ? [] : [distance(here, from)])];
-    return ratio * Math.min(...ways) / 2;
+    const here = this.tip(step.target).position;
+    const from = before === undefined ? undefined : this.tip(before.target).position;
+    const ways = [
+      distance(here, this.tip(next.target).position),
+      ...(from === undefined ? [] : [distance(here, from)]),
+    ];
+    return (ratio * Math.min(...ways)) / 2;
   }
 }
 const LIMIT_SLACK_RAD = 1e-9;

@@ -2,7 +2,8 @@ import { degrees, millimetres, toTurns, type Pose } from "@twincell/core";
 import { fixed } from "./numbers.ts";
 
 /** A tenth of a micrometre; a hundred-thousandth of a degree. */
-const MM_DECIMALS = 4, DEG_DECIMALS = 5;
+const MM_DECIMALS = 4;
+const DEG_DECIMALS = 5;
 const UPRIGHT = "90";
 
 export const mmText = (value_m: number): string => fixed(millimetres(value_m), MM_DECIMALS);
@@ -10,7 +11,8 @@ export const degText = (value_rad: number): string => fixed(degrees(value_rad), 
 
 /** Turns about the fixed x, y and z [°], R = Rz · Ry · Rx. Where the second is upright to the last digit, the first says nothing: it is 0. */
 export function turnTexts(q: Pose["quaternion"]): readonly [aboutX: string, aboutY: string, aboutZ: string] {
-  const [c, b, a] = toTurns("zyx", q), pitch = degText(b);
+  const [c, b, a] = toTurns("zyx", q);
+  const pitch = degText(b);
   if (pitch !== UPRIGHT && pitch !== `-${UPRIGHT}`) return [inTurn(a), pitch, inTurn(c)];
   return ["0", pitch, inTurn(c - Math.sign(b) * a)];
 }

@@ -8,7 +8,8 @@ import type { CallStep, Program, Step } from "@twincell/core";
  * @param most  steps of a list, without those inside its blocks. A list that cannot be cut stays longer.
  */
 export function inParts(program: Program, most: number): Program {
-  const routines: Record<string, readonly Step[]> = {}, taken = new Set(Object.keys(program.routines));
+  const routines: Record<string, readonly Step[]> = {};
+  const taken = new Set(Object.keys(program.routines));
   const cut = (name: string, steps: readonly Step[]): readonly Step[] => {
     if (steps.length <= most) return steps;
     return parts(steps, most).map((part, i): CallStep => {
@@ -26,11 +27,14 @@ export function inParts(program: Program, most: number): Program {
 
 function parts(steps: readonly Step[], most: number): (readonly Step[])[] {
   const found: (readonly Step[])[] = [];
-  for (let from = 0; from < steps.length;) {
+  for (let from = 0; from < steps.length; ) {
     let to = Math.min(from + most, steps.length);
     if (to < steps.length) {
       while (to > from && !stands(steps, to)) to--;
-      if (to === from) { to = from + most; while (to < steps.length && !stands(steps, to)) to++; }
+      if (to === from) {
+        to = from + most;
+        while (to < steps.length && !stands(steps, to)) to++;
+      }
     }
     found.push(steps.slice(from, to));
     from = to;
@@ -41,7 +45,9 @@ function parts(steps: readonly Step[], most: number): (readonly Step[])[] {
 /** Whether the robot stands before the step. */
 function stands(steps: readonly Step[], at: number): boolean {
   const before = lastBefore(steps, at);
-  return before?.type !== "move" || (before.path !== "spline" && before.blend_m === 0 && (before.blend_ratio ?? 0) === 0);
+  return (
+    before?.type !== "move" || (before.path !== "spline" && before.blend_m === 0 && (before.blend_ratio ?? 0) === 0)
+  );
 }
 
 function lastBefore(steps: readonly Step[], at: number): Step | undefined {

@@ -18,7 +18,9 @@ export abstract class StepWriter {
   }
 
   /** What is said at one place holds nowhere else: routines and blocks say it anew. */
-  protected begin(): void { this.before = undefined; }
+  protected begin(): void {
+    this.before = undefined;
+  }
   protected abstract remark(text: string, step: string): void;
   /** @param next  what is done after the step, if anything. */
   protected abstract step(step: Step, next: Step | undefined): void;
@@ -37,7 +39,8 @@ export abstract class StepWriter {
   }
 
   private heading(step: Step): void {
-    const { groups } = this.place.program, group = step.group === undefined ? "" : remark(groups[step.group]?.name ?? step.group);
+    const { groups } = this.place.program;
+    const group = step.group === undefined ? "" : remark(groups[step.group]?.name ?? step.group);
     if (group !== this.group) this.remark(`== ${group}`.trimEnd(), step.id);
     this.group = group;
     const name = remark(step.name ?? "");
@@ -56,17 +59,23 @@ export abstract class BlockStepWriter extends StepWriter {
   }
 
   protected loop(head: string, end: string, step: Extract<Step, { type: "repeat" }>): void {
-    this.out.block(head, end, step.id, () => { this.inside(step.steps, step.id); });
+    this.out.block(head, end, step.id, () => {
+      this.inside(step.steps, step.id);
+    });
     this.begin();
   }
 
   protected choice(step: Extract<Step, { type: "if" }>, head: string, otherwise: string, end: string): void {
     const { out } = this;
     out.add(head, step.id);
-    out.indented(() => { this.inside(step.then, step.id); });
+    out.indented(() => {
+      this.inside(step.then, step.id);
+    });
     if (step.else !== undefined) {
       out.add(otherwise, step.id);
-      out.indented(() => { this.inside(step.else!, step.id); });
+      out.indented(() => {
+        this.inside(step.else!, step.id);
+      });
     }
     out.add(end, step.id);
     this.begin();

@@ -1,5 +1,20 @@
 import {
-  branchOf, compose, degrees, explainReach, flangeOfTcp, flangePose, identity, inverse, palletPlaces, solveAll, type MoveStep, type Pose, type Program, type Robot, type Step, type Target,
+  branchOf,
+  compose,
+  degrees,
+  explainReach,
+  flangeOfTcp,
+  flangePose,
+  identity,
+  inverse,
+  palletPlaces,
+  solveAll,
+  type MoveStep,
+  type Pose,
+  type Program,
+  type Robot,
+  type Step,
+  type Target,
 } from "@twincell/core";
 import { called, type Cannot } from "./cannot.ts";
 
@@ -35,7 +50,8 @@ export class WalkedPlace {
 
   /** Pose of the tool in the world. */
   worldFromTarget(target: Target, tool: string): Pose<"world", "tcp"> {
-    if ("q" in target) return compose(compose(this.worldFromBase, flangePose(this.robot.arm, target.q)), this.tool(tool));
+    if ("q" in target)
+      return compose(compose(this.worldFromBase, flangePose(this.robot.arm, target.q)), this.tool(tool));
     return compose(this.worldFromFrame(target.frame), target.pose);
   }
 }
@@ -54,8 +70,16 @@ const SAME_RAD = 1e-6;
  *
  * @param visit  the posture that a move ends in when the arm starts from `near`, or what is wrong with it; the walk ends there.
  */
-export function walkMoves(place: WalkedPlace, visit: (step: MoveStep, near: ArrayLike<number>) => { readonly kind: "reached"; readonly q_rad: ArrayLike<number> } | Cannot): Cannot | undefined {
-  const { program, robot } = place, { routines, pallets } = program, walked = new Set<string>();
+export function walkMoves(
+  place: WalkedPlace,
+  visit: (
+    step: MoveStep,
+    near: ArrayLike<number>,
+  ) => { readonly kind: "reached"; readonly q_rad: ArrayLike<number> } | Cannot,
+): Cannot | undefined {
+  const { program, robot } = place;
+  const { routines, pallets } = program;
+  const walked = new Set<string>();
   let starts: Starts = [robot.home_rad];
   const routine = (name: string): Cannot | undefined => {
     walked.add(name);
@@ -80,62 +104,111 @@ export function walkMoves(place: WalkedPlace, visit: (step: MoveStep, near: Arra
   };
   const one = (step: Step): Cannot | undefined => {
     switch (step.type) {
-      case "move": return move(step);
-      case "repeat": return walk(step.steps) ?? (step.times === 1 ? undefined : walk(step.steps));
+      case "move":
+        return move(step);
+      case "repeat":
+        return walk(step.steps) ?? (step.times === 1 ? undefined : walk(step.steps));
       case "if": {
-        const before = starts, flaw = walk(step.then), then = starts;
+        const before = starts;
+        const flaw = walk(step.then);
+        const then = starts;
         starts = before;
         const other = flaw ?? walk(step.else ?? []);
         starts = distinct([...then, ...starts]);
         return other;
       }
-      case "call": return routine(step.routine);
+      case "call":
+        return routine(step.routine);
       case "pallet": {
         const pallet = Object.hasOwn(pallets, step.pallet) ? pallets[step.pallet] : undefined;
         if (pallet === undefined) return undefined;
         for (const each of palletPlaces(pallet).slice(0, MOST_PLACES)) {
-          place.visited.set(step.pallet, compose(place.worldFromFrame(pallet.frame), each) as Pose as Pose<"world", "frame">);
+          place.visited.set(
+            step.pallet,
+            compose(place.worldFromFrame(pallet.frame), each) as Pose as Pose<"world", "frame">,
+          );
           const flaw = walk(step.steps);
           if (flaw !== undefined) return flaw;
         }
         place.visited.delete(step.pallet);
         return undefined;
       }
-      default: return undefined;
+      default:
+        return undefined;
     }
   };
-  return walk(program.steps) ?? Object.keys(routines).reduce<Cannot | undefined>((flaw, name) => flaw ?? (walked.has(name) ? undefined : routine(name)), undefined);
+  return (
+    walk(program.steps) ??
+    Object.keys(routines).reduce<Cannot | undefined>(
+      (flaw, name) => flaw ?? (walked.has(name) ? undefined : routine(name)),
+      undefined,
+    )
+  );
 }
 
 function distinct(starts: Starts): Starts {
   const found: ArrayLike<number>[] = [];
   for (const start of starts) {
-    if (found.length < MOST_STARTS && !found.some(other => Array.from(other).every((angle, i) => Math.abs(angle - start[i]!) < SAME_RAD))) found.push(start);
+    if (
+      found.length < MOST_STARTS &&
+      !found.some(other => Array.from(other).every((angle, i) => Math.abs(angle - start[i]!) < SAME_RAD))
+    )
+      found.push(start);
   }
   return found;
 }
 
 /** The joint angles in which a target of a step is reached from `near`: those that were taught on a joint move, otherwise those of least travel. */
-export function reached(place: WalkedPlace, step: MoveStep, target: Target, near: ArrayLike<number>): { readonly kind: "reached"; readonly q_rad: ArrayLike<number> } | Cannot {
-  const { robot, worldFromBase } = place, count = robot.arm.joints.length;
+export function reached(
+  place: WalkedPlace,
+  step: MoveStep,
+  target: Target,
+  near: ArrayLike<number>,
+): { readonly kind: "reached"; readonly q_rad: ArrayLike<number> } | Cannot {
+  const { robot, worldFromBase } = place;
+  const count = robot.arm.joints.length;
   if ("q" in target && target.q.length !== count) {
-    return { kind: "cannot", step: step.id, sentence: `${called(step)} holds ${target.q.length} joint angles; the ${robot.name} has ${count} joints.`, hint: "Teach the step again on this robot." };
+    return {
+      kind: "cannot",
+      step: step.id,
+      sentence: `${called(step)} holds ${target.q.length} joint angles; the ${robot.name} has ${count} joints.`,
+      hint: "Teach the step again on this robot.",
+    };
   }
   if ("q" in target && step.path === "ptp") return { kind: "reached", q_rad: target.q };
   // Along a path the axes arrive in the turn that is nearest, whatever angles were taught.
-  const baseFromFlange = "q" in target ? flangePose(robot.arm, target.q) : flangeOfTcp(worldFromBase, place.worldFromTarget(target, target.tool), place.tool(target.tool));
-  const branch = "q" in target ? branchOf(robot, target.q) : target.branch, reach = solveAll(robot, baseFromFlange, branch === undefined ? { near } : { near, branch });
+  const baseFromFlange =
+    "q" in target
+      ? flangePose(robot.arm, target.q)
+      : flangeOfTcp(worldFromBase, place.worldFromTarget(target, target.tool), place.tool(target.tool));
+  const branch = "q" in target ? branchOf(robot, target.q) : target.branch;
+  const reach = solveAll(robot, baseFromFlange, branch === undefined ? { near } : { near, branch });
   if (reach.kind === "reached") return { kind: "reached", q_rad: reach.solutions[0]!.q_rad };
-  return { kind: "cannot", step: step.id, sentence: `${called(step)} cannot be reached. ${explainReach(reach)}`, hint: "Check the program: it says what would bring the step into reach." };
+  return {
+    kind: "cannot",
+    step: step.id,
+    sentence: `${called(step)} cannot be reached. ${explainReach(reach)}`,
+    hint: "Check the program: it says what would bring the step into reach.",
+  };
 }
 
 /** @param axisName  what the controller calls its axes, counted from 0. */
-export function outsideLimits({ robot }: WalkedPlace, step: MoveStep, q_rad: ArrayLike<number>, axisName: (axis: number) => string): Cannot | undefined {
-  const { joints } = robot.arm, i = joints.findIndex(({ limits }, k) => !(q_rad[k]! >= limits.lower_rad - LIMIT_SLACK_RAD && q_rad[k]! <= limits.upper_rad + LIMIT_SLACK_RAD));
+export function outsideLimits(
+  { robot }: WalkedPlace,
+  step: MoveStep,
+  q_rad: ArrayLike<number>,
+  axisName: (axis: number) => string,
+): Cannot | undefined {
+  const { joints } = robot.arm;
+  const i = joints.findIndex(
+    ({ limits }, k) =>
+      !(q_rad[k]! >= limits.lower_rad - LIMIT_SLACK_RAD && q_rad[k]! <= limits.upper_rad + LIMIT_SLACK_RAD),
+  );
   if (i < 0) return undefined;
   const { lower_rad, upper_rad } = joints[i]!.limits;
   return {
-    kind: "cannot", step: step.id,
+    kind: "cannot",
+    step: step.id,
     sentence: `${called(step)} turns axis ${axisName(i)} to ${degrees(q_rad[i]!).toFixed(2)}°; it may turn from ${degrees(lower_rad).toFixed(1)}° to ${degrees(upper_rad).toFixed(1)}°.`,
     hint: "Move the point, or choose another branch for it.",
   };

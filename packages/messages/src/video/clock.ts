@@ -27,7 +27,11 @@ export function createClockMap(): ClockMap {
       if (trips.length > KEPT) trips.shift();
       best = trips.reduce((least, trip) => (trip.half_s < least.half_s ? trip : least));
     },
-    get offset_s() { return best?.offset_s ?? NaN; },
-    get uncertain_s() { return best?.half_s ?? Infinity; },
+    get offset_s() {
+      return best?.offset_s ?? NaN;
+    },
+    get uncertain_s() {
+      return best?.half_s ?? Infinity;
+    },
   };
 }

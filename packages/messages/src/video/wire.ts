@@ -39,17 +39,29 @@ export type VideoAsk = z.infer<typeof askSchema>;
 export type VideoTell = z.infer<typeof tellSchema>;
 export type VideoTellOf<Type extends VideoTell["type"]> = Extract<VideoTell, { readonly type: Type }>;
 
-export type VideoRead<T> = { readonly kind: "read"; readonly message: T } | { readonly kind: "fault"; readonly sentence: string };
+export type VideoRead<T> =
+  | { readonly kind: "read"; readonly message: T }
+  | { readonly kind: "fault"; readonly sentence: string };
 export const readVideoAsk = (text: string): VideoRead<VideoAsk> => read(text, askSchema);
 export const readVideoTell = (text: string): VideoRead<VideoTell> => read(text, tellSchema);
 export const writeVideo = (message: VideoAsk | VideoTell): string => JSON.stringify(message);
 
 function read<T>(text: string, schema: z.ZodType<T>): VideoRead<T> {
-  if (text.length > LONGEST_VIDEO_TEXT * 8) return { kind: "fault", sentence: `A message of ${text.length} characters is too long to be one about cameras.` };
+  if (text.length > LONGEST_VIDEO_TEXT * 8)
+    return { kind: "fault", sentence: `A message of ${text.length} characters is too long to be one about cameras.` };
   let value: unknown;
-  try { value = JSON.parse(text); } catch { return { kind: "fault", sentence: "A message about cameras is JSON; this one is not." }; }
+  try {
+    value = JSON.parse(text);
+  } catch {
+    return { kind: "fault", sentence: "A message about cameras is JSON; this one is not." };
+  }
   const parsed = schema.safeParse(value);
-  return parsed.success ? { kind: "read", message: parsed.data } : { kind: "fault", sentence: `A message about cameras could not be understood: ${parsed.error.issues[0]?.message ?? "it has no type that is known"}.` };
+  return parsed.success
+    ? { kind: "read", message: parsed.data }
+    : {
+        kind: "fault",
+        sentence: `A message about cameras could not be understood: ${parsed.error.issues[0]?.message ?? "it has no type that is known"}.`,
+      };
 }
 
 /** What stands before the bytes of a picture. All times are of the relay's clock [s]. */
@@ -86,11 +98,20 @@ export function writePictureHead(bytes: Uint8Array, head: PictureHead): void {
 export function readPictureHead(bytes: Uint8Array): PictureHead | null {
   if (bytes.length < PICTURE_HEAD_BYTES + 4 || bytes.length > LARGEST_PICTURE) return null;
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  if (view.getUint16(0, true) !== MAGIC || bytes[PICTURE_HEAD_BYTES] !== 0xff || bytes[PICTURE_HEAD_BYTES + 1] !== 0xd8) return null;
+  if (view.getUint16(0, true) !== MAGIC || bytes[PICTURE_HEAD_BYTES] !== 0xff || bytes[PICTURE_HEAD_BYTES + 1] !== 0xd8)
+    return null;
   const head: PictureHead = {
-    camera: view.getUint16(2, true), sequence: view.getUint32(4, true), captured_s: view.getFloat64(8, true), sent_s: view.getFloat64(16, true), relayed_s: view.getFloat64(24, true), uncertain_s: view.getFloat32(32, true),
+    camera: view.getUint16(2, true),
+    sequence: view.getUint32(4, true),
+    captured_s: view.getFloat64(8, true),
+    sent_s: view.getFloat64(16, true),
+    relayed_s: view.getFloat64(24, true),
+    uncertain_s: view.getFloat32(32, true),
   };
-  return [head.captured_s, head.sent_s, head.relayed_s, head.uncertain_s].every(Number.isFinite) && head.uncertain_s >= 0 ? head : null;
+  return [head.captured_s, head.sent_s, head.relayed_s, head.uncertain_s].every(Number.isFinite) &&
+    head.uncertain_s >= 0
+    ? head
+    : null;
 }
 /** Writes into a picture on its way which camera it is of and when the relay had it. */
 export function stampPicture(bytes: Uint8Array, camera: number, relayed_s: number): void {

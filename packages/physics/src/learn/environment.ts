@@ -1,4 +1,13 @@
-import { fromAxisAngle, multiply, SignalTable, seededRandom, type PhysicalObject, type PhysicalScene, type Refusal, type Signals } from "@twincell/core";
+import {
+  fromAxisAngle,
+  multiply,
+  SignalTable,
+  seededRandom,
+  type PhysicalObject,
+  type PhysicalScene,
+  type Refusal,
+  type Signals,
+} from "@twincell/core";
 import type { Engine } from "../engine.ts";
 import { createWorld, type MujocoWorld } from "../world.ts";
 
@@ -16,7 +25,10 @@ export interface Observation {
 }
 
 /** Joint targets for the next period [rad], and the gripper. Targets beyond limits or speeds are brought back within them. */
-export interface Action { readonly q: readonly number[]; readonly gripper: boolean }
+export interface Action {
+  readonly q: readonly number[];
+  readonly gripper: boolean;
+}
 
 export interface Transition {
   readonly observation: Observation;
@@ -40,24 +52,48 @@ export interface EnvironmentOptions {
   readonly task?: (observation: Observation) => { readonly reward: number; readonly done: boolean };
 }
 
-export type Started = { readonly kind: "started"; readonly observation: Observation } | { readonly kind: "refused"; readonly why: Refusal };
+export type Started =
+  | { readonly kind: "started"; readonly observation: Observation }
+  | { readonly kind: "refused"; readonly why: Refusal };
 
 /** The scene with its parts moved and turned at random: the same seed, the same start. */
 export function shuffled(scene: PhysicalScene, seed: number, jitter_m: number, turn_rad: number): PhysicalScene {
-  const random = seededRandom(seed), some = (scale: number): number => (2 * random() - 1) * scale;
+  const random = seededRandom(seed);
+  const some = (scale: number): number => (2 * random() - 1) * scale;
   const moved = (object: PhysicalObject): PhysicalObject => {
     if (object.role !== "part") return object;
-    const { position: [x, y, z], quaternion } = object.worldFromObject, dx = some(jitter_m), dy = some(jitter_m);
-    return { ...object, worldFromObject: { position: [x + dx, y + dy, z], quaternion: multiply(fromAxisAngle([0, 0, 1], some(turn_rad)), quaternion) } };
+    const {
+      position: [x, y, z],
+      quaternion,
+    } = object.worldFromObject;
+    const dx = some(jitter_m);
+    const dy = some(jitter_m);
+    return {
+      ...object,
+      worldFromObject: {
+        position: [x + dx, y + dy, z],
+        quaternion: multiply(fromAxisAngle([0, 0, 1], some(turn_rad)), quaternion),
+      },
+    };
   };
   return jitter_m === 0 && turn_rad === 0 ? scene : { ...scene, objects: scene.objects.map(moved) };
 }
 
 /** What there is to see now. */
-export function observe({ state, signals }: { readonly state: MujocoWorld["state"]; readonly signals: Signals }): Observation {
+export function observe({
+  state,
+  signals,
+}: {
+  readonly state: MujocoWorld["state"];
+  readonly signals: Signals;
+}): Observation {
   return {
-    t: state.time_s, q: Array.from(state.q_rad), qd: Array.from(state.qd_rad_s), opening: state.opening_m,
-    parts: Array.from({ length: state.parts.length / 7 }, (_, i) => Array.from(state.parts.subarray(7 * i, 7 * i + 7))), grasp: [...state.grasp],
+    t: state.time_s,
+    q: Array.from(state.q_rad),
+    qd: Array.from(state.qd_rad_s),
+    opening: state.opening_m,
+    parts: Array.from({ length: state.parts.length / 7 }, (_, i) => Array.from(state.parts.subarray(7 * i, 7 * i + 7))),
+    grasp: [...state.grasp],
     signals: signals instanceof SignalTable ? Object.fromEntries(signals.all) : {},
   };
 }
@@ -78,19 +114,26 @@ export class LearningEnvironment {
   private readonly qdd: Float64Array;
 
   constructor(engine: Engine, scene: PhysicalScene, options: EnvironmentOptions = {}) {
-    const step_s = scene.step_s ?? 0.002, n = scene.q_rad.length;
-    this.engine = engine; this.scene = scene; this.options = options;
+    const step_s = scene.step_s ?? 0.002;
+    const n = scene.q_rad.length;
+    this.engine = engine;
+    this.scene = scene;
+    this.options = options;
     this.steps = Math.max(1, Math.round((options.period_s ?? 0.04) / step_s));
     this.period_s = this.steps * step_s;
-    this.q = new Float64Array(n); this.qd = new Float64Array(n); this.qdd = new Float64Array(n);
+    this.q = new Float64Array(n);
+    this.qd = new Float64Array(n);
+    this.qdd = new Float64Array(n);
   }
 
   reset(seed: number): Started {
     this.close();
-    const { jitter_m = 0, turn_rad = 0 } = this.options, answer = createWorld(this.engine, shuffled(this.scene, seed, jitter_m, turn_rad));
+    const { jitter_m = 0, turn_rad = 0 } = this.options;
+    const answer = createWorld(this.engine, shuffled(this.scene, seed, jitter_m, turn_rad));
     if (answer.kind === "refused") return answer;
     this.world = answer.world;
-    this.q.set(this.scene.q_rad); this.qd.fill(0);
+    this.q.set(this.scene.q_rad);
+    this.qd.fill(0);
     return { kind: "started", observation: observe(answer.world) };
   }
 
@@ -98,21 +141,35 @@ export class LearningEnvironment {
   step(action: Action): Transition | undefined {
     const { world, q, qd, qdd, steps } = this;
     if (world === undefined) return undefined;
-    const { joints } = world.scene.robot.arm, h = world.step_s, command = { q_rad: q, qd_rad_s: qd, qdd_rad_s2: qdd, gripperClosed: action.gripper };
+    const { joints } = world.scene.robot.arm;
+    const h = world.step_s;
+    const command = { q_rad: q, qd_rad_s: qd, qdd_rad_s2: qdd, gripperClosed: action.gripper };
     for (let k = 0; k < steps; k++) {
       for (let j = 0; j < q.length; j++) {
         // Speed and acceleration stay within the limits of the joint, whatever is asked for.
-        const { limits } = joints[j]!, wanted = Math.max(limits.lower_rad, Math.min(limits.upper_rad, action.q[j] ?? q[j]!)), most = limits.speed_rad_s, reach = limits.acceleration_rad_s2 * h;
-        const left = wanted - q[j]!, brake = Math.sqrt(2 * limits.acceleration_rad_s2 * Math.abs(left)), aim = Math.sign(left) * Math.min(most, brake, Math.abs(left) / h);
+        const { limits } = joints[j]!;
+        const wanted = Math.max(limits.lower_rad, Math.min(limits.upper_rad, action.q[j] ?? q[j]!));
+        const most = limits.speed_rad_s;
+        const reach = limits.acceleration_rad_s2 * h;
+        const left = wanted - q[j]!;
+        const brake = Math.sqrt(2 * limits.acceleration_rad_s2 * Math.abs(left));
+        const aim = Math.sign(left) * Math.min(most, brake, Math.abs(left) / h);
         const speed = qd[j]! + Math.max(-reach, Math.min(reach, aim - qd[j]!));
-        qdd[j] = (speed - qd[j]!) / h; qd[j] = speed; q[j]! += speed * h;
+        qdd[j] = (speed - qd[j]!) / h;
+        qd[j] = speed;
+        q[j]! += speed * h;
       }
       const outcome = world.step(command);
-      if (outcome.kind === "paused") return { observation: observe(world), reward: 0, terminated: true, truncated: false, why: outcome.why };
+      if (outcome.kind === "paused")
+        return { observation: observe(world), reward: 0, terminated: true, truncated: false, why: outcome.why };
     }
-    const observation = observe(world), { reward, done } = this.options.task?.(observation) ?? { reward: 0, done: false };
+    const observation = observe(world);
+    const { reward, done } = this.options.task?.(observation) ?? { reward: 0, done: false };
     return { observation, reward, terminated: done, truncated: observation.t >= (this.options.most_s ?? 60) };
   }
 
-  close(): void { this.world?.close(); this.world = undefined; }
+  close(): void {
+    this.world?.close();
+    this.world = undefined;
+  }
 }

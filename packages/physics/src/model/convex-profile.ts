@@ -16,20 +16,22 @@ export const isConvex = (outline: readonly Point2[]): boolean =>
  * @see Hertel, Mehlhorn, Fast triangulation of simple polygons, FCT 1983.
  */
 export function convexPieces(outline: readonly Point2[]): Point2[][] {
-  const cut = triangulate(outline), pieces: number[][] = [];
+  const cut = triangulate(outline);
+  const pieces: number[][] = [];
   for (let t = 0; t < cut.length; t += 3) {
     const piece = [cut[t]!, cut[t + 1]!, cut[t + 2]!];
     if (Math.abs(doubleArea(piece.map(i => outline[i]!))) > FLAT_M2) pieces.push(piece);
   }
-  for (let merged = true; merged;) {
+  for (let merged = true; merged; ) {
     merged = false;
-    for (let i = 0; i < pieces.length && !merged; i++) for (let j = i + 1; j < pieces.length && !merged; j++) {
-      const union = joined(pieces[i]!, pieces[j]!);
-      if (union === undefined || !isConvex(union.map(k => outline[k]!))) continue;
-      pieces[i] = union;
-      pieces.splice(j, 1);
-      merged = true;
-    }
+    for (let i = 0; i < pieces.length && !merged; i++)
+      for (let j = i + 1; j < pieces.length && !merged; j++) {
+        const union = joined(pieces[i]!, pieces[j]!);
+        if (union === undefined || !isConvex(union.map(k => outline[k]!))) continue;
+        pieces[i] = union;
+        pieces.splice(j, 1);
+        merged = true;
+      }
   }
   return pieces.map(piece => piece.map(i => outline[i]!));
 }
@@ -37,7 +39,9 @@ export function convexPieces(outline: readonly Point2[]): Point2[][] {
 /** Two counter-clockwise rings of corners joined along the edge they share. */
 function joined(a: readonly number[], b: readonly number[]): number[] | undefined {
   for (let i = 0; i < a.length; i++) {
-    const from = a[i]!, to = a[(i + 1) % a.length]!, j = b.findIndex((corner, k) => corner === to && b[(k + 1) % b.length] === from);
+    const from = a[i]!;
+    const to = a[(i + 1) % a.length]!;
+    const j = b.findIndex((corner, k) => corner === to && b[(k + 1) % b.length] === from);
     if (j < 0) continue;
     const ring: number[] = [];
     for (let k = 0; k < a.length; k++) ring.push(a[(i + 1 + k) % a.length]!);

@@ -13,11 +13,18 @@ export class StateLog {
     let { a, b } = this;
     for (let i = 0; i < numbers.length; i++) {
       number[0] = numbers[i]!;
-      for (let k = 0; k < 8; k++) { const byte = bytes[k]!; a = Math.imul(a ^ byte, 0x01000193); b = Math.imul(b ^ byte, 0x85ebca6b) + 1 | 0; }
+      for (let k = 0; k < 8; k++) {
+        const byte = bytes[k]!;
+        a = Math.imul(a ^ byte, 0x01000193);
+        b = (Math.imul(b ^ byte, 0x85ebca6b) + 1) | 0;
+      }
     }
-    this.a = a; this.b = b;
+    this.a = a;
+    this.b = b;
   }
 
   /** Sixteen hexadecimal digits. */
-  get hash(): string { return [this.a, this.b].map(lane => (lane >>> 0).toString(16).padStart(8, "0")).join(""); }
+  get hash(): string {
+    return [this.a, this.b].map(lane => (lane >>> 0).toString(16).padStart(8, "0")).join("");
+  }
 }

@@ -1,4 +1,14 @@
-import { PlainFault, explainReach, flangeOfTcp, compose, identity, robotById, solveAll, type Program, type Step } from "@twincell/core";
+import {
+  PlainFault,
+  explainReach,
+  flangeOfTcp,
+  compose,
+  identity,
+  robotById,
+  solveAll,
+  type Program,
+  type Step,
+} from "@twincell/core";
 import type { CellDocument } from "../document.ts";
 
 /** Far below any robot's resolution, and the same on every engine. */
@@ -16,13 +26,28 @@ export function recordedAsJoints(cell: CellDocument, program: Program): Program 
   const steps = program.steps.map((step): Step => {
     if (step.type !== "move") return step;
     const { target } = step;
-    if ("q" in target) { near = target.q; return step; }
+    if ("q" in target) {
+      near = target.q;
+      return step;
+    }
     const worldFromTcp = compose(program.frames[target.frame] ?? identity<"world", "frame">(), target.pose);
-    const baseFromFlange = flangeOfTcp(cell.robot.worldFromBase, worldFromTcp, program.tools[target.tool] ?? identity());
-    const reach = solveAll(robot, baseFromFlange, target.branch === undefined ? { near } : { near, branch: target.branch });
-    if (reach.kind !== "reached") throw new PlainFault("project.reach", `Step ${step.id}: ${explainReach(reach)}`, "Move the point.");
+    const baseFromFlange = flangeOfTcp(
+      cell.robot.worldFromBase,
+      worldFromTcp,
+      program.tools[target.tool] ?? identity(),
+    );
+    const reach = solveAll(
+      robot,
+      baseFromFlange,
+      target.branch === undefined ? { near } : { near, branch: target.branch },
+    );
+    if (reach.kind !== "reached")
+      throw new PlainFault("project.reach", `Step ${step.id}: ${explainReach(reach)}`, "Move the point.");
     near = reach.solutions[0]!.q_rad;
-    return { ...step, target: { q: Array.from(near, angle => Math.round(angle * DIGITS) / DIGITS + 0), tool: target.tool } };
+    return {
+      ...step,
+      target: { q: Array.from(near, angle => Math.round(angle * DIGITS) / DIGITS + 0), tool: target.tool },
+    };
   });
   return { ...program, frames: {}, steps };
 }

@@ -27,7 +27,12 @@ const TORCH: ToolRecord = {
   shape: {
     kind: "revolved",
     profile_m: [
-      [0.032, 0], [0.032, 0.012], [0.016, 0.018], [0.016, 0.075], [0.011, 0.085], [0.011, 0.108],
+      [0.032, 0],
+      [0.032, 0.012],
+      [0.016, 0.018],
+      [0.016, 0.075],
+      [0.011, 0.085],
+      [0.011, 0.108],
       [0.005, TOOL_LENGTH_M - STICK_OUT_M],
     ],
   },
@@ -36,44 +41,87 @@ const TORCH: ToolRecord = {
 const at = (x: number, y: number, z: number): Pose<"world", "object"> => pose([x, y, z]);
 
 function wall(id: string, name: string, size_m: Vector3, x: number, y: number): ObjectRecord {
-  return { id, name, role: "wall", worldFromObject: at(x, y, size_m[2] / 2), shape: { kind: "box", size_m }, color: "#c9cdd2" };
+  return {
+    id,
+    name,
+    role: "wall",
+    worldFromObject: at(x, y, size_m[2] / 2),
+    shape: { kind: "box", size_m },
+    color: "#c9cdd2",
+  };
 }
 
 /** The RX90L on its column in a walled cell, with a carton of 400 × 300 × 200 mm on a low table: ready to trace the carton's top edges. */
 export function edgeTraceCell(): CellDocument {
   const stand_m = TABLE_TOP_AT_M[2] - TABLE_TOP_M[2] / 2;
   return {
-    format: "twincell.cell", version: 1, name: "Edge trace",
+    format: "twincell.cell",
+    version: 1,
+    name: "Edge trace",
     robot: { id: ROBOT, worldFromBase: pose([0, 0, COLUMN_HEIGHT_M]) },
     tools: [TORCH],
     tool: TORCH.name,
     objects: [
       {
-        id: "column", name: "Column", role: "furniture", worldFromObject: at(0, 0, 0),
-        shape: { kind: "revolved", profile_m: [[0.24, 0], [0.24, 0.02], [0.15, 0.03], [0.15, COLUMN_HEIGHT_M - 0.02], [0.17, COLUMN_HEIGHT_M - 0.015], [0.17, COLUMN_HEIGHT_M]] },
+        id: "column",
+        name: "Column",
+        role: "furniture",
+        worldFromObject: at(0, 0, 0),
+        shape: {
+          kind: "revolved",
+          profile_m: [
+            [0.24, 0],
+            [0.24, 0.02],
+            [0.15, 0.03],
+            [0.15, COLUMN_HEIGHT_M - 0.02],
+            [0.17, COLUMN_HEIGHT_M - 0.015],
+            [0.17, COLUMN_HEIGHT_M],
+          ],
+        },
         color: "#5b6570",
       },
       {
-        id: "table-stand", name: "Table stand", role: "furniture", worldFromObject: at(TABLE_TOP_AT_M[0], 0, 0),
-        shape: { kind: "revolved", profile_m: [[0.2, 0], [0.2, 0.015], [0.06, 0.03], [0.06, stand_m]] },
+        id: "table-stand",
+        name: "Table stand",
+        role: "furniture",
+        worldFromObject: at(TABLE_TOP_AT_M[0], 0, 0),
+        shape: {
+          kind: "revolved",
+          profile_m: [
+            [0.2, 0],
+            [0.2, 0.015],
+            [0.06, 0.03],
+            [0.06, stand_m],
+          ],
+        },
         color: "#5b6570",
       },
       {
-        id: "table", name: "Table", role: "furniture", worldFromObject: at(...TABLE_TOP_AT_M),
-        shape: { kind: "box", size_m: TABLE_TOP_M }, color: "#8a94a0",
+        id: "table",
+        name: "Table",
+        role: "furniture",
+        worldFromObject: at(...TABLE_TOP_AT_M),
+        shape: { kind: "box", size_m: TABLE_TOP_M },
+        color: "#8a94a0",
       },
       {
-        id: "carton", name: "Carton", role: "workpiece", worldFromObject: at(...CARTON_AT_M),
-        shape: { kind: "box", size_m: CARTON_SIZE_M }, color: "#b98a5a",
+        id: "carton",
+        name: "Carton",
+        role: "workpiece",
+        worldFromObject: at(...CARTON_AT_M),
+        shape: { kind: "box", size_m: CARTON_SIZE_M },
+        color: "#b98a5a",
       },
       wall("wall-back", "Back wall", [0.1, 2.7, WALL_HEIGHT_M], -1.15, 0),
       wall("wall-left", "Left wall", [2.6, 0.1, WALL_HEIGHT_M], 0.1, 1.3),
       wall("wall-right", "Right wall", [2.6, 0.1, WALL_HEIGHT_M], 0.1, -1.3),
     ],
-    frames: [{
-      name: "carton",
-      worldFromFrame: pose([0.45, -0.2, 0.5]),
-    }],
+    frames: [
+      {
+        name: "carton",
+        worldFromFrame: pose([0.45, -0.2, 0.5]),
+      },
+    ],
     allowedPairs: [],
     programs: [emptyProgram(ROBOT, "Edge trace")],
     program: "Edge trace",

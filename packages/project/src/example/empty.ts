@@ -4,9 +4,16 @@ import type { CellDocument } from "../document.ts";
 /** A robot alone on the floor, with nothing taught. */
 export function emptyCell(robot = "staubli_rx90l", name = "New cell"): CellDocument {
   return {
-    format: "twincell.cell", version: 1, name,
+    format: "twincell.cell",
+    version: 1,
+    name,
     robot: { id: robot, worldFromBase: pose() },
-    tools: [], tool: "flange", objects: [], frames: [], allowedPairs: [],
-    programs: [emptyProgram(robot)], program: "Program",
+    tools: [],
+    tool: "flange",
+    objects: [],
+    frames: [],
+    allowedPairs: [],
+    programs: [emptyProgram(robot)],
+    program: "Program",
   };
 }

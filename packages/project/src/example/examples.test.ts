@@ -1,18 +1,34 @@
 import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
 import { parseProgram, serializeProgram } from "@twincell/core";
-import { conveyorPalletCell, edgeTraceCell, openDocument, recordedAsJoints, saveDocument, tracedCartonCell } from "../index.ts";
+import {
+  conveyorPalletCell,
+  edgeTraceCell,
+  openDocument,
+  recordedAsJoints,
+  saveDocument,
+  tracedCartonCell,
+} from "../index.ts";
 
-const fileText = (path: string): string => readFileSync(new URL(`../../../../examples/${path}`, import.meta.url), "utf8");
+const fileText = (path: string): string =>
+  readFileSync(new URL(`../../../../examples/${path}`, import.meta.url), "utf8");
 
-test.each([["01-edge-trace", edgeTraceCell()], ["02-traced-carton", tracedCartonCell()], ["03-conveyor-pallet", conveyorPalletCell()]] as const)("example %s is what its function makes and opens; after a change run scripts/write-examples.mjs", (name, cell) => {
-  const text = fileText(`${name}/cell.json`);
-  expect(text).toBe(saveDocument(cell));
-  expect(openDocument(text)).toEqual({ kind: "opened", document: cell, lifted: [] });
-});
+test.each([
+  ["01-edge-trace", edgeTraceCell()],
+  ["02-traced-carton", tracedCartonCell()],
+  ["03-conveyor-pallet", conveyorPalletCell()],
+] as const)(
+  "example %s is what its function makes and opens; after a change run scripts/write-examples.mjs",
+  (name, cell) => {
+    const text = fileText(`${name}/cell.json`);
+    expect(text).toBe(saveDocument(cell));
+    expect(openDocument(text)).toEqual({ kind: "opened", document: cell, lifted: [] });
+  },
+);
 
 test("the example program is the traced one, recorded as joint angles, and needs no cell", () => {
-  const traced = tracedCartonCell(), program = recordedAsJoints(traced, traced.programs[0]!);
+  const traced = tracedCartonCell();
+  const program = recordedAsJoints(traced, traced.programs[0]!);
   const text = fileText("01-edge-trace/program.json");
   expect(text).toBe(serializeProgram(program));
   expect(parseProgram(text)).toEqual({ kind: "program", program });

@@ -1,4 +1,16 @@
-import { compose, fromMatrix, pose, type Group, type MoveStep, type Pose, type Program, type Quaternion, type Speed, type Step, type Vector3 } from "@twincell/core";
+import {
+  compose,
+  fromMatrix,
+  pose,
+  type Group,
+  type MoveStep,
+  type Pose,
+  type Program,
+  type Quaternion,
+  type Speed,
+  type Step,
+  type Vector3,
+} from "@twincell/core";
 import type { CellDocument } from "../document.ts";
 import { edgeTraceCell } from "./edge-trace.ts";
 
@@ -8,9 +20,17 @@ const APPROACH_RATIO = 0.3;
 const TRACE: Speed = { mps: 0.05 };
 
 /** The corners of the carton's top in its frame, and the way out of the side that begins at each. */
-const CORNERS: readonly Vector3[] = [[0, 0, 0], [0.3, 0, 0], [0.3, 0.4, 0], [0, 0.4, 0]];
+const CORNERS: readonly Vector3[] = [
+  [0, 0, 0],
+  [0.3, 0, 0],
+  [0.3, 0.4, 0],
+  [0, 0.4, 0],
+];
 const EDGES: readonly { readonly name: string; readonly out: readonly [number, number] }[] = [
-  { name: "Right edge", out: [0, -1] }, { name: "Far edge", out: [1, 0] }, { name: "Left edge", out: [0, 1] }, { name: "Near edge", out: [-1, 0] },
+  { name: "Right edge", out: [0, -1] },
+  { name: "Far edge", out: [1, 0] },
+  { name: "Left edge", out: [0, 1] },
+  { name: "Near edge", out: [-1, 0] },
 ];
 
 /** Tool axis into the carton, 45° down from the outside; its x axis along the edge. */
@@ -24,19 +44,43 @@ function orientation([x, y]: readonly [number, number]): Quaternion {
 /** The cell of the edge trace with the traced program in it, ready to be played: all four top edges at 45°, one after the other. */
 export function tracedCartonCell(): CellDocument {
   const cell = edgeTraceCell();
-  const tool = cell.tools[0]!, frame = cell.frames[0]!, home = cell.programs[0]!;
-  const steps: Step[] = [], groups: Record<string, Group> = {};
-  const atHome = (id: string): MoveStep => ({ id, name: "Home", type: "move", path: "ptp", target: { q: [0, -Math.PI / 2, Math.PI / 2, 0, 0, 0], tool: tool.name }, speed: { ratio: APPROACH_RATIO }, blend_m: 0 });
+  const tool = cell.tools[0]!;
+  const frame = cell.frames[0]!;
+  const home = cell.programs[0]!;
+  const steps: Step[] = [];
+  const groups: Record<string, Group> = {};
+  const atHome = (id: string): MoveStep => ({
+    id,
+    name: "Home",
+    type: "move",
+    path: "ptp",
+    target: { q: [0, -Math.PI / 2, Math.PI / 2, 0, 0, 0], tool: tool.name },
+    speed: { ratio: APPROACH_RATIO },
+    blend_m: 0,
+  });
   const move = (group: string, name: string, path: MoveStep["path"], to: Pose<"frame", "tcp">, speed: Speed): void => {
     steps.push({
-      id: `s${steps.length + 1}`, name, group, type: "move", path, speed, blend_m: 0,
-      target: { pose: to, frame: frame.name, tool: tool.name, branch: { shoulder: "front", elbow: "up", wrist: "positive" } },
+      id: `s${steps.length + 1}`,
+      name,
+      group,
+      type: "move",
+      path,
+      speed,
+      blend_m: 0,
+      target: {
+        pose: to,
+        frame: frame.name,
+        tool: tool.name,
+        branch: { shoulder: "front", elbow: "up", wrist: "positive" },
+      },
     });
   };
   steps.push(atHome("s1"));
   for (const [i, { name, out }] of EDGES.entries()) {
-    const group = `g${i + 1}`, quaternion = orientation(out);
-    const from: Pose<"frame", "tcp"> = pose(CORNERS[i]!, quaternion), to: Pose<"frame", "tcp"> = pose(CORNERS[(i + 1) % 4]!, quaternion);
+    const group = `g${i + 1}`;
+    const quaternion = orientation(out);
+    const from: Pose<"frame", "tcp"> = pose(CORNERS[i]!, quaternion);
+    const to: Pose<"frame", "tcp"> = pose(CORNERS[(i + 1) % 4]!, quaternion);
     const back: Pose<"tcp", "tcp"> = pose([0, 0, -LEAD_M]);
     groups[group] = { name };
     move(group, `${name}, before`, "ptp", compose(from, back), { ratio: APPROACH_RATIO });
@@ -45,6 +89,12 @@ export function tracedCartonCell(): CellDocument {
     move(group, `${name}, after`, "lin", compose(to, back), TRACE);
   }
   steps.push(atHome(`s${steps.length + 1}`));
-  const program: Program = { ...home, groups, steps, tools: { [tool.name]: tool.flangeFromTcp }, frames: { [frame.name]: frame.worldFromFrame } };
+  const program: Program = {
+    ...home,
+    groups,
+    steps,
+    tools: { [tool.name]: tool.flangeFromTcp },
+    frames: { [frame.name]: frame.worldFromFrame },
+  };
   return { ...cell, name: "Traced carton", programs: [program] };
 }

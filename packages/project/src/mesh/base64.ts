@@ -11,10 +11,15 @@ export function toBase64(bytes: Uint8Array): string {
     const left = bytes.length - i;
     const triple = (bytes[i]! << 16) | ((bytes[i + 1] ?? 0) << 8) | (bytes[i + 2] ?? 0);
     codes.push(
-      ALPHABET.charCodeAt(triple >> 18), ALPHABET.charCodeAt((triple >> 12) & 63),
-      left > 1 ? ALPHABET.charCodeAt((triple >> 6) & 63) : 61, left > 2 ? ALPHABET.charCodeAt(triple & 63) : 61,
+      ALPHABET.charCodeAt(triple >> 18),
+      ALPHABET.charCodeAt((triple >> 12) & 63),
+      left > 1 ? ALPHABET.charCodeAt((triple >> 6) & 63) : 61,
+      left > 2 ? ALPHABET.charCodeAt(triple & 63) : 61,
     );
-    if (codes.length >= CHUNK) { parts.push(String.fromCharCode(...codes)); codes = []; }
+    if (codes.length >= CHUNK) {
+      parts.push(String.fromCharCode(...codes));
+      codes = [];
+    }
   }
   parts.push(String.fromCharCode(...codes));
   return parts.join("");

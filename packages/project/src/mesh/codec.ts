@@ -23,22 +23,29 @@ export function encodeMesh(mesh: TriangleMesh): EncodedMesh {
 
 /** The mesh, when it is one: whole numbers of vertices and triangles, every coordinate finite, every index in range. */
 export function decodeMesh(encoded: EncodedMesh): DecodedMesh {
-  const positionBytes = fromBase64(encoded.positions), indexBytes = fromBase64(encoded.indices);
+  const positionBytes = fromBase64(encoded.positions);
+  const indexBytes = fromBase64(encoded.indices);
   if (positionBytes === undefined) return refuse("The positions of the mesh are not base64.");
   if (indexBytes === undefined) return refuse("The indices of the mesh are not base64.");
-  if (positionBytes.length % 12 !== 0) return refuse(`The positions of the mesh are ${positionBytes.length} bytes long; a vertex takes 12.`);
-  if (indexBytes.length % 12 !== 0) return refuse(`The indices of the mesh are ${indexBytes.length} bytes long; a triangle takes 12.`);
-  const positions = new Float64Array(positionBytes.length / 4), indices = new Uint32Array(indexBytes.length / 4);
-  const positionView = new DataView(positionBytes.buffer), indexView = new DataView(indexBytes.buffer);
+  if (positionBytes.length % 12 !== 0)
+    return refuse(`The positions of the mesh are ${positionBytes.length} bytes long; a vertex takes 12.`);
+  if (indexBytes.length % 12 !== 0)
+    return refuse(`The indices of the mesh are ${indexBytes.length} bytes long; a triangle takes 12.`);
+  const positions = new Float64Array(positionBytes.length / 4);
+  const indices = new Uint32Array(indexBytes.length / 4);
+  const positionView = new DataView(positionBytes.buffer);
+  const indexView = new DataView(indexBytes.buffer);
   for (let i = 0; i < positions.length; i++) {
     const value = positionView.getFloat32(i * 4, true);
-    if (!Number.isFinite(value)) return refuse(`Vertex ${Math.floor(i / 3) + 1} of the mesh has a coordinate that is not a number.`);
+    if (!Number.isFinite(value))
+      return refuse(`Vertex ${Math.floor(i / 3) + 1} of the mesh has a coordinate that is not a number.`);
     positions[i] = value;
   }
   const vertices = positions.length / 3;
   for (let i = 0; i < indices.length; i++) {
     const index = indexView.getUint32(i * 4, true);
-    if (index >= vertices) return refuse(`Triangle ${Math.floor(i / 3) + 1} of the mesh names vertex ${index + 1} of ${vertices}.`);
+    if (index >= vertices)
+      return refuse(`Triangle ${Math.floor(i / 3) + 1} of the mesh names vertex ${index + 1} of ${vertices}.`);
     indices[i] = index;
   }
   return { kind: "mesh", mesh: { positions, indices } };

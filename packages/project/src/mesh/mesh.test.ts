@@ -6,17 +6,21 @@ import { fromBase64, toBase64 } from "./base64.ts";
 
 describe("mesh codec", () => {
   test("base64 agrees with Node's and comes back", () => {
-    fc.assert(fc.property(fc.uint8Array({ maxLength: 100 }), bytes => {
-      const text = toBase64(bytes);
-      expect(text).toBe(Buffer.from(bytes).toString("base64"));
-      expect(fromBase64(text)).toEqual(bytes);
-    }), { seed: 1, numRuns: 200 });
+    fc.assert(
+      fc.property(fc.uint8Array({ maxLength: 100 }), bytes => {
+        const text = toBase64(bytes);
+        expect(text).toBe(Buffer.from(bytes).toString("base64"));
+        expect(fromBase64(text)).toEqual(bytes);
+      }),
+      { seed: 1, numRuns: 200 },
+    );
     const long = Uint8Array.from({ length: 20_000 }, (_, i) => (i * 7919) & 255);
     expect(toBase64(long)).toBe(Buffer.from(long).toString("base64"));
   });
 
   test("what is not canonical base64 is refused", () => {
-    for (const text of ["A", "AB", "ABC", "AB=C", "====", "A===", "AB\n=", "Zé==", "AB=="]) expect(fromBase64(text), text).toBeUndefined();
+    for (const text of ["A", "AB", "ABC", "AB=C", "====", "A===", "AB\n=", "Zé==", "AB=="])
+      expect(fromBase64(text), text).toBeUndefined();
     expect(fromBase64("AA==")).toEqual(Uint8Array.of(0));
   });
 
@@ -30,24 +34,46 @@ describe("mesh codec", () => {
   });
 
   test("one triangle written out by hand", () => {
-    const bytes = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x80, 0x3f, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x40, 0, 0, 0, 0];
-    const decoded = decodeMesh({ positions: Buffer.from(bytes).toString("base64"), indices: Buffer.from([0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]).toString("base64") });
-    expect(decoded).toEqual({ kind: "mesh", mesh: { positions: Float64Array.of(0, 0, 0, 1, 0, 0, 0, 2, 0), indices: Uint32Array.of(0, 1, 2) } });
+    const bytes = [
+      0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x80, 0x3f, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x40, 0, 0, 0,
+      0,
+    ];
+    const decoded = decodeMesh({
+      positions: Buffer.from(bytes).toString("base64"),
+      indices: Buffer.from([0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]).toString("base64"),
+    });
+    expect(decoded).toEqual({
+      kind: "mesh",
+      mesh: { positions: Float64Array.of(0, 0, 0, 1, 0, 0, 0, 2, 0), indices: Uint32Array.of(0, 1, 2) },
+    });
   });
 
   test("a triangle without its vertex and a coordinate that is no number are said", () => {
     const positions = Buffer.from(new Float32Array([0, 0, 0]).buffer).toString("base64");
-    expect(decodeMesh({ positions, indices: Buffer.from(new Uint32Array([0, 0, 1]).buffer).toString("base64") })).toEqual({ kind: "not-a-mesh", sentence: "Triangle 1 of the mesh names vertex 2 of 1." });
-    expect(decodeMesh({ positions: Buffer.from(new Float32Array([0, NaN, 0]).buffer).toString("base64"), indices: "" }).kind).toBe("not-a-mesh");
+    expect(
+      decodeMesh({ positions, indices: Buffer.from(new Uint32Array([0, 0, 1]).buffer).toString("base64") }),
+    ).toEqual({ kind: "not-a-mesh", sentence: "Triangle 1 of the mesh names vertex 2 of 1." });
+    expect(
+      decodeMesh({ positions: Buffer.from(new Float32Array([0, NaN, 0]).buffer).toString("base64"), indices: "" }).kind,
+    ).toBe("not-a-mesh");
   });
 });
 
 describe("solids of a cell", () => {
   test("every shape stands where the document says", () => {
-    expect(meshBounds(shapeMesh({ kind: "box", size_m: [2, 4, 6] }))).toEqual({ lower: [-1, -2, -3], upper: [1, 2, 3] });
+    expect(meshBounds(shapeMesh({ kind: "box", size_m: [2, 4, 6] }))).toEqual({
+      lower: [-1, -2, -3],
+      upper: [1, 2, 3],
+    });
     const cylinder = meshBounds(shapeMesh({ kind: "cylinder", radius_m: 0.5, height_m: 2 }));
     expect([cylinder.lower[2], cylinder.upper[2], cylinder.upper[0]]).toEqual([0, 2, 0.5]);
-    const cone = shapeMesh({ kind: "revolved", profile_m: [[1, 0], [0, 3]] });
+    const cone = shapeMesh({
+      kind: "revolved",
+      profile_m: [
+        [1, 0],
+        [0, 3],
+      ],
+    });
     expect(meshVolume(cone)).toBeGreaterThan(0.99 * Math.PI);
     expect(meshVolume(cone)).toBeLessThan(Math.PI);
   });

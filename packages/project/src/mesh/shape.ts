@@ -1,4 +1,13 @@
-import { PlainFault, boxMesh, revolvedMesh, robotById, type CellGeometry, type LinkSolid, type Pose, type TriangleMesh } from "@twincell/core";
+import {
+  PlainFault,
+  boxMesh,
+  revolvedMesh,
+  robotById,
+  type CellGeometry,
+  type LinkSolid,
+  type Pose,
+  type TriangleMesh,
+} from "@twincell/core";
 import type { CellDocument, Shape } from "../document.ts";
 import { decodeMesh } from "./codec.ts";
 
@@ -12,12 +21,22 @@ const FACES_PER_TURN = 48;
  */
 export function shapeMesh(shape: Shape): TriangleMesh {
   switch (shape.kind) {
-    case "box": return boxMesh(shape.size_m);
-    case "cylinder": return revolvedMesh([[shape.radius_m, 0], [shape.radius_m, shape.height_m]], FACES_PER_TURN);
-    case "revolved": return revolvedMesh(shape.profile_m, FACES_PER_TURN);
+    case "box":
+      return boxMesh(shape.size_m);
+    case "cylinder":
+      return revolvedMesh(
+        [
+          [shape.radius_m, 0],
+          [shape.radius_m, shape.height_m],
+        ],
+        FACES_PER_TURN,
+      );
+    case "revolved":
+      return revolvedMesh(shape.profile_m, FACES_PER_TURN);
     case "mesh": {
       const decoded = decodeMesh(shape);
-      if (decoded.kind === "not-a-mesh") throw new PlainFault("project.mesh", decoded.sentence, `Import ${shape.file} again.`);
+      if (decoded.kind === "not-a-mesh")
+        throw new PlainFault("project.mesh", decoded.sentence, `Import ${shape.file} again.`);
       return decoded.mesh;
     }
   }
@@ -36,8 +55,12 @@ export function cellGeometry(document: CellDocument, links: readonly LinkSolid[]
     ...(tool?.shape === undefined ? {} : { tool: { name: tool.name, mesh: shapeMesh(tool.shape) } }),
     ...(tool === undefined ? {} : { flangeFromGrip: tool.flangeFromTcp as Pose as Pose<"flange", "grip"> }),
     objects: document.objects.map(object => ({
-      id: object.id, name: object.name, worldFromObject: object.worldFromObject, mesh: shapeMesh(object.shape),
-      ...(object.carries_kg === undefined ? {} : { carries_kg: object.carries_kg }), ...(object.role === "workpiece" ? { graspable: true as const } : {}),
+      id: object.id,
+      name: object.name,
+      worldFromObject: object.worldFromObject,
+      mesh: shapeMesh(object.shape),
+      ...(object.carries_kg === undefined ? {} : { carries_kg: object.carries_kg }),
+      ...(object.role === "workpiece" ? { graspable: true as const } : {}),
     })),
     allowedPairs: document.allowedPairs,
     ...pairsOf(document),
@@ -51,5 +74,10 @@ export function cellGeometry(document: CellDocument, links: readonly LinkSolid[]
  */
 function pairsOf({ pairs, robot, tool }: CellDocument): Pick<CellGeometry, "pairs"> {
   if (pairs?.robot !== robot.id) return {};
-  return { pairs: { seed: pairs.seed, entries: pairs.tool === tool ? pairs.entries : pairs.entries.filter(({ a, b }) => a !== "tool" && b !== "tool") } };
+  return {
+    pairs: {
+      seed: pairs.seed,
+      entries: pairs.tool === tool ? pairs.entries : pairs.entries.filter(({ a, b }) => a !== "tool" && b !== "tool"),
+    },
+  };
 }

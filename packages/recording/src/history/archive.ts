@@ -36,9 +36,21 @@ const SILENT_NS = 900_000_000n;
 const TIDY_EVERY_NS = 60_000_000_000n;
 
 export function createArchive(port: ArchivePort, options: ArchiveOptions): Archive {
-  const { robot, cell, program, compact, clock_ns } = options, keeping: Keeping = { ...KEEPING, ...options.keeping };
-  let recorder: RunRecorder | null = null, sink: FileSink | null = null, file = "", ended_ns = 0n, began_ns = 0n, seenAt = 0, seen_ns = 0n, tidied_ns = 0n, deleted = 0;
-  let cycle: OpenCycle | null = null, version: Notes["cell"] | null = null, problem: Refusal | null = null, closed = false;
+  const { robot, cell, program, compact, clock_ns } = options;
+  const keeping: Keeping = { ...KEEPING, ...options.keeping };
+  let recorder: RunRecorder | null = null;
+  let sink: FileSink | null = null;
+  let file = "";
+  let ended_ns = 0n;
+  let began_ns = 0n;
+  let seenAt = 0;
+  let seen_ns = 0n;
+  let tidied_ns = 0n;
+  let deleted = 0;
+  let cycle: OpenCycle | null = null;
+  let version: Notes["cell"] | null = null;
+  let problem: Refusal | null = null;
+  let closed = false;
 
   function open(): RunRecorder {
     const now_ns = clock_ns();
@@ -48,7 +60,15 @@ export function createArchive(port: ArchivePort, options: ArchiveOptions): Archi
     if (cycle) cycle = { ...cycle, from_s: cycle.from_s - Number(began_ns - before_ns) / 1e9 };
     file = fileName(Number(began_ns / 1_000_000n), robot.id);
     sink = port.create(file);
-    recorder = createRunRecorder(sink, { robot, startedAt_ns: began_ns, program, cell, compact, chunk_s: CHUNK_S, cycle });
+    recorder = createRunRecorder(sink, {
+      robot,
+      startedAt_ns: began_ns,
+      program,
+      cell,
+      compact,
+      chunk_s: CHUNK_S,
+      cycle,
+    });
     cycle = null;
     if (version) recorder.note("cell", version);
     return recorder;
@@ -73,7 +93,11 @@ export function createArchive(port: ArchivePort, options: ArchiveOptions): Archi
       try {
         open();
       } catch (reason) {
-        problem = { code: "recording.no-file", sentence: `No recording can be begun: ${reason instanceof Error ? reason.message : "its place takes none"}.`, hint: "Make room, or choose another folder." };
+        problem = {
+          code: "recording.no-file",
+          sentence: `No recording can be begun: ${reason instanceof Error ? reason.message : "its place takes none"}.`,
+          hint: "Make room, or choose another folder.",
+        };
         return null;
       }
     }
@@ -88,20 +112,41 @@ export function createArchive(port: ArchivePort, options: ArchiveOptions): Archi
   }
 
   return {
-    get file() { return file; },
-    get deleted() { return deleted; },
-    get problem() { return recorder?.problem ?? problem; },
-    record(sample) { hand(to => { to.record(sample); }); },
-    event(kind, sentence, level) { hand(to => { to.event(kind, sentence, level); }); },
+    get file() {
+      return file;
+    },
+    get deleted() {
+      return deleted;
+    },
+    get problem() {
+      return recorder?.problem ?? problem;
+    },
+    record(sample) {
+      hand(to => {
+        to.record(sample);
+      });
+    },
+    event(kind, sentence, level) {
+      hand(to => {
+        to.event(kind, sentence, level);
+      });
+    },
     note(kind, what) {
       if (kind === "cell") version = what as Notes["cell"];
-      hand(to => { to.note(kind, what); });
+      hand(to => {
+        to.note(kind, what);
+      });
     },
     async tick() {
       const now_ns = clock_ns();
       // A source that fell silent closes no chunk by its samples.
-      if (sink && sink.position !== seenAt) { seenAt = sink.position; seen_ns = now_ns; }
-      else if (recorder && now_ns - seen_ns >= SILENT_NS) { recorder.flush(); seen_ns = now_ns; }
+      if (sink && sink.position !== seenAt) {
+        seenAt = sink.position;
+        seen_ns = now_ns;
+      } else if (recorder && now_ns - seen_ns >= SILENT_NS) {
+        recorder.flush();
+        seen_ns = now_ns;
+      }
       if (now_ns - tidied_ns < TIDY_EVERY_NS && tidied_ns !== 0n) return;
       tidied_ns = now_ns;
       for (const name of expired(await port.list(), keeping, Number(now_ns / 1_000_000n), file)) {
@@ -109,6 +154,9 @@ export function createArchive(port: ArchivePort, options: ArchiveOptions): Archi
         deleted++;
       }
     },
-    close() { end(); closed = true; },
+    close() {
+      end();
+      closed = true;
+    },
   };
 }

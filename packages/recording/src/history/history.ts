@@ -21,10 +21,20 @@ export interface Moment {
   readonly recorded: boolean;
 }
 /** What one file of the history is, on the history's time. */
-export interface Stretch { readonly name: string; readonly from_s: number; readonly to_s: number; readonly bytes: number; readonly program: string; readonly cell: string; readonly complete: boolean; readonly damaged: number }
+export interface Stretch {
+  readonly name: string;
+  readonly from_s: number;
+  readonly to_s: number;
+  readonly bytes: number;
+  readonly program: string;
+  readonly cell: string;
+  readonly complete: boolean;
+  readonly damaged: number;
+}
 
 /** Hours and days of one robot, in any number of files, of which only what is looked at is read. Times count from its first sample. */
-export interface History extends Pick<RunFacts, "robot" | "robotName" | "program" | "cell" | "startedAt_ns" | "joints"> {
+export interface History
+  extends Pick<RunFacts, "robot" | "robotName" | "program" | "cell" | "startedAt_ns" | "joints"> {
   readonly duration_s: number;
   readonly stretches: readonly Stretch[];
   readonly marks: readonly Mark[];
@@ -42,7 +52,9 @@ export interface History extends Pick<RunFacts, "robot" | "robotName" | "program
   /** The last alarm before that time, or null. */
   lastAlarm(before_s: number): Mark | null;
 }
-export type OpenedHistory = { readonly kind: "history"; readonly history: History } | { readonly kind: "not-a-recording"; readonly sentence: string };
+export type OpenedHistory =
+  | { readonly kind: "history"; readonly history: History }
+  | { readonly kind: "not-a-recording"; readonly sentence: string };
 
 export interface HistoryOptions {
   readonly packing?: Packing;
@@ -59,90 +71,159 @@ const GAP_S = 1.5;
 
 /** Opens all recordings of a place as one history. A file that cannot be read is named and left out. */
 export async function openHistory(port: FilePort, options: HistoryOptions = {}): Promise<OpenedHistory> {
-  const files: CatalogueFile[] = [], troubles: string[] = [];
+  const files: CatalogueFile[] = [];
+  const troubles: string[] = [];
   for (const stored of await port.list()) {
     const read = await (options.catalogue?.(stored) ?? catalogue(port, stored, options.packing));
-    if (read.kind === "file") files.push(read.file); else troubles.push(`${stored.name}: ${read.sentence}`);
+    if (read.kind === "file") files.push(read.file);
+    else troubles.push(`${stored.name}: ${read.sentence}`);
   }
-  files.sort((a, b) => (a.facts.startedAt_ns < b.facts.startedAt_ns ? -1 : a.facts.startedAt_ns > b.facts.startedAt_ns ? 1 : 0));
-  const wanted = options.robot ?? files.at(-1)?.facts.robot, ours = files.filter(({ facts }) => facts.robot === wanted && facts.joints === files.findLast(each => each.facts.robot === wanted)!.facts.joints);
-  for (const { name, facts } of files) if (facts.robot !== wanted) troubles.push(`${name} is of another robot, ${facts.robotName || facts.robot}.`);
+  files.sort((a, b) =>
+    a.facts.startedAt_ns < b.facts.startedAt_ns ? -1 : a.facts.startedAt_ns > b.facts.startedAt_ns ? 1 : 0,
+  );
+  const wanted = options.robot ?? files.at(-1)?.facts.robot;
+  const ours = files.filter(
+    ({ facts }) =>
+      facts.robot === wanted && facts.joints === files.findLast(each => each.facts.robot === wanted)!.facts.joints,
+  );
+  for (const { name, facts } of files)
+    if (facts.robot !== wanted) troubles.push(`${name} is of another robot, ${facts.robotName || facts.robot}.`);
   const [first] = ours;
-  if (!first) return { kind: "not-a-recording", sentence: troubles.length === 1 ? troubles[0]!.replace(/^[^:]*: /, "") : troubles[0] ?? "There is no recording here." };
+  if (!first)
+    return {
+      kind: "not-a-recording",
+      sentence:
+        troubles.length === 1 ? troubles[0]!.replace(/^[^:]*: /, "") : (troubles[0] ?? "There is no recording here."),
+    };
   for (const { name, complete, damaged } of ours) {
-    if (damaged > 0) troubles.push(`${name} is damaged in ${damaged} ${damaged === 1 ? "place" : "places"}; the rest of it is here.`);
+    if (damaged > 0)
+      troubles.push(`${name} is damaged in ${damaged} ${damaged === 1 ? "place" : "places"}; the rest of it is here.`);
     else if (!complete) troubles.push(`${name} was cut off; it is here up to its last second.`);
   }
   return { kind: "history", history: historyOf(port, ours, troubles, options.packing) };
 }
 
-interface Slice { readonly samples: Samples; readonly offset_s: number }
+interface Slice {
+  readonly samples: Samples;
+  readonly offset_s: number;
+}
 
-function historyOf(port: FilePort, files: readonly CatalogueFile[], troubles: readonly string[], packing: Packing | undefined): History {
-  const { facts } = files[0]!, last = files.at(-1)!, zero_s = files[0]!.chunks[0]!.from_s;
+function historyOf(
+  port: FilePort,
+  files: readonly CatalogueFile[],
+  troubles: readonly string[],
+  packing: Packing | undefined,
+): History {
+  const { facts } = files[0]!;
+  const last = files.at(-1)!;
+  const zero_s = files[0]!.chunks[0]!.from_s;
   const offset_s = files.map(file => Number(file.facts.startedAt_ns - facts.startedAt_ns) / 1e9 - zero_s);
   const duration_s = Math.max(...files.map((file, i) => offset_s[i]! + file.chunks.at(-1)!.to_s));
   const slices = new Map<string, Slice | Promise<Slice>>();
 
   /** File and chunk that hold that time, or the last before it. */
   function find(t_s: number): { readonly file: number; readonly chunk: number } {
-    const file = lastAtOrBefore(files.length, i => offset_s[i]! + files[i]!.chunks[0]!.from_s, t_s), { chunks } = files[file]!;
+    const file = lastAtOrBefore(files.length, i => offset_s[i]! + files[i]!.chunks[0]!.from_s, t_s);
+    const { chunks } = files[file]!;
     return { file, chunk: lastAtOrBefore(chunks.length, i => offset_s[file]! + chunks[i]!.from_s, t_s) };
   }
   function keep(key: string, slice: Slice): Slice {
     slices.delete(key);
     slices.set(key, slice);
-    for (const oldest of slices.keys()) { if (slices.size <= KEPT) break; slices.delete(oldest); }
+    for (const oldest of slices.keys()) {
+      if (slices.size <= KEPT) break;
+      slices.delete(oldest);
+    }
     return slice;
   }
   function load({ file, chunk }: { file: number; chunk: number }): Promise<Slice> {
-    const key = `${file}:${chunk}`, known = slices.get(key);
+    const key = `${file}:${chunk}`;
+    const known = slices.get(key);
     if (known) return Promise.resolve(known);
-    const { name, chunks, facts: of } = files[file]!, place = chunks[chunk]!;
+    const { name, chunks, facts: of } = files[file]!;
+    const place = chunks[chunk]!;
     const loading = port.read(name, place.at, place.length).then(bytes => {
-      const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength), shape = chunkShape(view, 0), decoder = createDecoder(packing, of, 256);
+      const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+      const shape = chunkShape(view, 0);
+      const decoder = createDecoder(packing, of, 256);
       // A part that is damaged holds nothing; what was before it is in force.
       if (shape && shape.length <= bytes.length) decoder.chunk(bytes, view, 0, shape);
       return keep(key, { samples: decoder.samples(), offset_s: offset_s[file]! });
     });
-    loading.catch(() => { slices.delete(key); });
+    loading.catch(() => {
+      slices.delete(key);
+    });
     slices.set(key, loading);
     return loading;
   }
   function moment(t_s: number, { samples, offset_s: from_s }: Slice): Moment {
-    const { times_s, q_rad, stateOf, states, sequences, notes } = samples, n = times_s.length;
+    const { times_s, q_rad, stateOf, states, sequences, notes } = samples;
+    const n = times_s.length;
     const index = lastAtOrBefore(n, i => times_s[i]! + from_s, t_s + 1e-9);
-    const lines = notes.findLast(note => note.kind === "io" && note.at_s + from_s <= t_s + 1e-9) ?? notes.find(note => note.kind === "io");
+    const lines =
+      notes.findLast(note => note.kind === "io" && note.at_s + from_s <= t_s + 1e-9) ??
+      notes.find(note => note.kind === "io");
     return {
-      t_s, q_rad: n > 0 ? q_rad.subarray(index * facts.joints, (index + 1) * facts.joints) : new Float64Array(facts.joints), sequence: sequences[index] ?? 0,
-      state: states[stateOf[index] ?? 0]!, signals: lines?.kind === "io" ? lines.signals : {}, recorded: n > 0 && t_s - (times_s[index]! + from_s) <= GAP_S,
+      t_s,
+      q_rad: n > 0 ? q_rad.subarray(index * facts.joints, (index + 1) * facts.joints) : new Float64Array(facts.joints),
+      sequence: sequences[index] ?? 0,
+      state: states[stateOf[index] ?? 0]!,
+      signals: lines?.kind === "io" ? lines.signals : {},
+      recorded: n > 0 && t_s - (times_s[index]! + from_s) <= GAP_S,
     };
   }
   const clamped = (t_s: number): number => Math.min(Math.max(Number.isNaN(t_s) ? 0 : t_s, 0), duration_s);
 
-  const marks = files.flatMap((file, i) => file.digest.marks.map(mark => ({ ...mark, at_s: mark.at_s + offset_s[i]! }))).sort((a, b) => a.at_s - b.at_s);
-  const cycles = files.flatMap((file, i) => {
-    // A cycle that goes on in the next file is told there, whole.
-    const goesOn = (files[i + 1]?.digest.cycles[0]?.from_s ?? 0) < 0;
-    return file.digest.cycles.filter((cycle, k, all) => !(goesOn && k === all.length - 1 && cycle.ending === "open")).map(cycle => ({ ...cycle, from_s: cycle.from_s + offset_s[i]!, to_s: cycle.to_s + offset_s[i]! }));
-  }).sort((a, b) => a.from_s - b.from_s);
-  const minutes = files.flatMap((file, i) => file.digest.minutes.map(minute => ({ ...minute, minute: minute.minute + offset_s[i]! / 60 })));
+  const marks = files
+    .flatMap((file, i) => file.digest.marks.map(mark => ({ ...mark, at_s: mark.at_s + offset_s[i]! })))
+    .sort((a, b) => a.at_s - b.at_s);
+  const cycles = files
+    .flatMap((file, i) => {
+      // A cycle that goes on in the next file is told there, whole.
+      const goesOn = (files[i + 1]?.digest.cycles[0]?.from_s ?? 0) < 0;
+      return file.digest.cycles
+        .filter((cycle, k, all) => !(goesOn && k === all.length - 1 && cycle.ending === "open"))
+        .map(cycle => ({ ...cycle, from_s: cycle.from_s + offset_s[i]!, to_s: cycle.to_s + offset_s[i]! }));
+    })
+    .sort((a, b) => a.from_s - b.from_s);
+  const minutes = files.flatMap((file, i) =>
+    file.digest.minutes.map(minute => ({ ...minute, minute: minute.minute + offset_s[i]! / 60 })),
+  );
 
   return {
-    robot: last.facts.robot, robotName: last.facts.robotName, program: last.facts.program, cell: last.facts.cell, joints: facts.joints,
-    startedAt_ns: facts.startedAt_ns + BigInt(Math.round(zero_s * 1e9)), duration_s, marks, cycles, minutes, troubles,
+    robot: last.facts.robot,
+    robotName: last.facts.robotName,
+    program: last.facts.program,
+    cell: last.facts.cell,
+    joints: facts.joints,
+    startedAt_ns: facts.startedAt_ns + BigInt(Math.round(zero_s * 1e9)),
+    duration_s,
+    marks,
+    cycles,
+    minutes,
+    troubles,
     stretches: files.map((file, i) => ({
-      name: file.name, bytes: file.bytes, from_s: offset_s[i]! + file.chunks[0]!.from_s, to_s: offset_s[i]! + file.chunks.at(-1)!.to_s,
-      program: file.facts.program, cell: file.facts.cell, complete: file.complete, damaged: file.damaged,
+      name: file.name,
+      bytes: file.bytes,
+      from_s: offset_s[i]! + file.chunks[0]!.from_s,
+      to_s: offset_s[i]! + file.chunks.at(-1)!.to_s,
+      program: file.facts.program,
+      cell: file.facts.cell,
+      complete: file.complete,
+      damaged: file.damaged,
     })),
     peek(t_s) {
-      const at_s = clamped(t_s), { file, chunk } = find(at_s), slice = slices.get(`${file}:${chunk}`);
+      const at_s = clamped(t_s);
+      const { file, chunk } = find(at_s);
+      const slice = slices.get(`${file}:${chunk}`);
       return slice && !(slice instanceof Promise) ? moment(at_s, slice) : null;
     },
     async at(t_s) {
-      const at_s = clamped(t_s), place = find(at_s);
+      const at_s = clamped(t_s);
+      const place = find(at_s);
       let slice = await load(place);
-      for (let { file, chunk } = place; slice.samples.times_s.length === 0 && chunk > 0;) slice = await load({ file, chunk: --chunk });
+      for (let { file, chunk } = place; slice.samples.times_s.length === 0 && chunk > 0; )
+        slice = await load({ file, chunk: --chunk });
       return moment(at_s, slice);
     },
     async *samples(from_s, to_s) {
@@ -160,10 +241,12 @@ function historyOf(port: FilePort, files: readonly CatalogueFile[], troubles: re
 
 /** Index of the last of n rising values at or below that one; 0 when none is. */
 function lastAtOrBefore(n: number, value: (i: number) => number, at: number): number {
-  let low = 0, high = n - 1;
+  let low = 0;
+  let high = n - 1;
   while (low < high) {
     const middle = (low + high + 1) >> 1;
-    if (value(middle) <= at) low = middle; else high = middle - 1;
+    if (value(middle) <= at) low = middle;
+    else high = middle - 1;
   }
   return Math.max(low, 0);
 }

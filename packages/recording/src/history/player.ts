@@ -20,26 +20,58 @@ type Lent = { -readonly [K in keyof JointSample]: JointSample[K] };
 
 /** Moments that are at hand are shown at once; for the others the file is read, and the last wish wins. */
 export function playHistory(history: History, robot: Robot, scheduler: Scheduler): HistoryPlayer {
-  const listeners = new Set<(lent: JointSample) => void>(), worried = new Set<(sentence: string) => void>();
-  let position_s = 0, speed = 1, stopPlaying: (() => void) | null = null, moment: Moment | null = null, wish = 0, closed = false;
+  const listeners = new Set<(lent: JointSample) => void>();
+  const worried = new Set<(sentence: string) => void>();
+  let position_s = 0;
+  let speed = 1;
+  let stopPlaying: (() => void) | null = null;
+  let moment: Moment | null = null;
+  let wish = 0;
+  let closed = false;
 
   function show(now: Moment): void {
     moment = now;
     const { state } = now;
-    const lent: Lent = { sequence: now.sequence, time_s: now.t_s, q_rad: now.q_rad, ...state, signals: new Map(Object.entries(now.signals)) };
+    const lent: Lent = {
+      sequence: now.sequence,
+      time_s: now.t_s,
+      q_rad: now.q_rad,
+      ...state,
+      signals: new Map(Object.entries(now.signals)),
+    };
     for (const listen of listeners) listen(lent);
   }
-  const tell = (reason: unknown): void => { for (const listen of worried) listen(`This part of the recording cannot be read: ${reason instanceof Error ? reason.message : String(reason)}.`); };
+  const tell = (reason: unknown): void => {
+    for (const listen of worried)
+      listen(
+        `This part of the recording cannot be read: ${reason instanceof Error ? reason.message : String(reason)}.`,
+      );
+  };
   function seek(to_s: number): void {
     position_s = Math.min(Math.max(Number.isNaN(to_s) ? 0 : to_s, 0), history.duration_s);
-    const mine = ++wish, here = history.peek(position_s);
-    if (here) { show(here); return; }
-    history.at(position_s).then(there => { if (mine === wish && !closed) show(there); }, (reason: unknown) => { if (mine === wish && !closed) { pause(); tell(reason); } });
+    const mine = ++wish;
+    const here = history.peek(position_s);
+    if (here) {
+      show(here);
+      return;
+    }
+    history.at(position_s).then(
+      there => {
+        if (mine === wish && !closed) show(there);
+      },
+      (reason: unknown) => {
+        if (mine === wish && !closed) {
+          pause();
+          tell(reason);
+        }
+      },
+    );
   }
   function readAhead(): void {
     const ahead_s = position_s + speed * AHEAD_S;
     // A part that cannot be read is told when it is reached.
-    if (ahead_s >= 0 && ahead_s <= history.duration_s && !history.peek(ahead_s)) history.at(ahead_s).catch(() => undefined);
+    if (ahead_s >= 0 && ahead_s <= history.duration_s && !history.peek(ahead_s))
+      history.at(ahead_s).catch(() => undefined);
   }
   function pause(): void {
     stopPlaying?.();
@@ -50,7 +82,8 @@ export function playHistory(history: History, robot: Robot, scheduler: Scheduler
     if (position_s >= history.duration_s && speed > 0) seek(0);
     let last_s = scheduler.now_s();
     stopPlaying = scheduler.every(FRAME_S, () => {
-      const now_s = scheduler.now_s(), to_s = position_s + (now_s - last_s) * speed;
+      const now_s = scheduler.now_s();
+      const to_s = position_s + (now_s - last_s) * speed;
       last_s = now_s;
       if ((speed > 0 && to_s >= history.duration_s) || (speed < 0 && to_s <= 0)) pause();
       seek(to_s);
@@ -59,17 +92,46 @@ export function playHistory(history: History, robot: Robot, scheduler: Scheduler
   }
 
   return {
-    name: `Recording of ${robot.name}`, robot, history,
-    get position_s() { return position_s; },
-    get playing() { return stopPlaying !== null; },
-    get moment() { return moment; },
-    onSample(listen) { listeners.add(listen); return () => { listeners.delete(listen); }; },
-    onTrouble(listen) { worried.add(listen); return () => { worried.delete(listen); }; },
-    close() { closed = true; pause(); listeners.clear(); worried.clear(); },
+    name: `Recording of ${robot.name}`,
+    robot,
+    history,
+    get position_s() {
+      return position_s;
+    },
+    get playing() {
+      return stopPlaying !== null;
+    },
+    get moment() {
+      return moment;
+    },
+    onSample(listen) {
+      listeners.add(listen);
+      return () => {
+        listeners.delete(listen);
+      };
+    },
+    onTrouble(listen) {
+      worried.add(listen);
+      return () => {
+        worried.delete(listen);
+      };
+    },
+    close() {
+      closed = true;
+      pause();
+      listeners.clear();
+      worried.clear();
+    },
     timeline: {
-      start_s: 0, end_s: history.duration_s, seek, play, pause,
+      start_s: 0,
+      end_s: history.duration_s,
+      seek,
+      play,
+      pause,
       /** 1 is as it was; 0 stands; below 0 runs backwards. */
-      setSpeed(factor) { if (Number.isFinite(factor)) speed = factor; },
+      setSpeed(factor) {
+        if (Number.isFinite(factor)) speed = factor;
+      },
     },
   };
 }

@@ -1,6 +1,9 @@
 import type { ByteSink } from "../sink.ts";
 
-export interface StoredFile { readonly name: string; readonly bytes: number }
+export interface StoredFile {
+  readonly name: string;
+  readonly bytes: number;
+}
 
 /** Where recordings lie: a folder, a browser's database, a file that was dropped on the page, memory. */
 export interface FilePort {
@@ -15,7 +18,9 @@ export interface ArchivePort extends FilePort {
   create(name: string): FileSink;
   remove(name: string): Promise<void>;
 }
-export interface FileSink extends ByteSink { close(): void }
+export interface FileSink extends ByteSink {
+  close(): void;
+}
 
 /** Files in memory. */
 export function memoryFiles(files: Iterable<readonly [string, Uint8Array]> = []): ArchivePort {
@@ -26,10 +31,12 @@ export function memoryFiles(files: Iterable<readonly [string, Uint8Array]> = [])
     read(name, from, length) {
       const pieces = kept.get(name);
       if (!pieces) return Promise.reject(new Error(`There is no file ${name}`));
-      const until = Math.min(from + length, sizeOf(pieces)), out = new Uint8Array(Math.max(0, until - from));
+      const until = Math.min(from + length, sizeOf(pieces));
+      const out = new Uint8Array(Math.max(0, until - from));
       let at = 0;
       for (const piece of pieces) {
-        const first = Math.max(from, at), last = Math.min(until, at + piece.length);
+        const first = Math.max(from, at);
+        const last = Math.min(until, at + piece.length);
         if (first < last) out.set(piece.subarray(first - at, last - at), first - from);
         at += piece.length;
       }
@@ -39,8 +46,22 @@ export function memoryFiles(files: Iterable<readonly [string, Uint8Array]> = [])
       const pieces: Uint8Array[] = [];
       let position = 0;
       kept.set(name, pieces);
-      return { write(bytes) { pieces.push(bytes); position += bytes.length; }, get position() { return position; }, close() { kept.set(name, pieces); } };
+      return {
+        write(bytes) {
+          pieces.push(bytes);
+          position += bytes.length;
+        },
+        get position() {
+          return position;
+        },
+        close() {
+          kept.set(name, pieces);
+        },
+      };
     },
-    remove(name) { kept.delete(name); return Promise.resolve(); },
+    remove(name) {
+      kept.delete(name);
+      return Promise.resolve();
+    },
   };
 }

@@ -16,44 +16,102 @@ const FIRST = 12;
 
 /** Subject, fact with number, way out. */
 export function WhyCards({ verdict }: { verdict: Verdict }) {
-  const program = useStore(cellStore, state => programOf(state.document)), [all, setAll] = useState(false);
+  const program = useStore(cellStore, state => programOf(state.document));
+  const [all, setAll] = useState(false);
   if (!program) return null;
-  const cards = whyCards(verdict, program), repairs = firstRepairs(verdict);
-  if (cards.length === 0) return <p className="why-fine"><i className="mark" data-verdict={verdict.ok ? "ok" : "unknown"} aria-hidden />{verdict.ok ? words.check.fine : words.check.notYet}</p>;
+  const cards = whyCards(verdict, program);
+  const repairs = firstRepairs(verdict);
+  if (cards.length === 0)
+    return (
+      <p className="why-fine">
+        <i className="mark" data-verdict={verdict.ok ? "ok" : "unknown"} aria-hidden />
+        {verdict.ok ? words.check.fine : words.check.notYet}
+      </p>
+    );
   return (
     <>
-      {repairs.length > 1 && <button className="btn" onClick={() => runCommand("check.repair-all")}>{words.check.repairAll(repairs.length)}</button>}
-      {(all ? cards : cards.slice(0, FIRST)).map(card => <WhyCard key={card.key} card={card} subject={subjectOf(program, card)} />)}
-      {!all && cards.length > FIRST && <button className="btn quiet" onClick={() => setAll(true)}>{words.check.more(cards.length - FIRST)}</button>}
+      {repairs.length > 1 && (
+        <button className="btn" onClick={() => runCommand("check.repair-all")}>
+          {words.check.repairAll(repairs.length)}
+        </button>
+      )}
+      {(all ? cards : cards.slice(0, FIRST)).map(card => (
+        <WhyCard key={card.key} card={card} subject={subjectOf(program, card)} />
+      ))}
+      {!all && cards.length > FIRST && (
+        <button className="btn quiet" onClick={() => setAll(true)}>
+          {words.check.more(cards.length - FIRST)}
+        </button>
+      )}
     </>
   );
 }
 
 /** The group it happens in, or the step itself. */
 function subjectOf(program: Program, card: Why): string {
-  const found = findStep(program, card.step), point = found ? stepWords(found.step, found.index) : card.step, group = card.group === undefined ? undefined : program.groups[card.group]?.name;
+  const found = findStep(program, card.step);
+  const point = found ? stepWords(found.step, found.index) : card.step;
+  const group = card.group === undefined ? undefined : program.groups[card.group]?.name;
   return group === undefined || point.startsWith(group) ? point : `${group} · ${point}`;
 }
 
 function WhyCard({ card, subject }: { card: Why; subject: string }) {
-  const { finding } = card, look = (): void => { select({ kind: "step", id: card.step }); seek(finding.at_s); };
+  const { finding } = card;
+  const look = (): void => {
+    select({ kind: "step", id: card.step });
+    seek(finding.at_s);
+  };
   const [shown, setShown] = useState<Repair | null>(null);
   useEffect(() => {
     if (!shown) return undefined;
-    const leave = (event: KeyboardEvent): void => { if (event.key === "Escape") { setShown(null); previewStep(null); } };
+    const leave = (event: KeyboardEvent): void => {
+      if (event.key === "Escape") {
+        setShown(null);
+        previewStep(null);
+      }
+    };
     window.addEventListener("keydown", leave);
-    return () => { window.removeEventListener("keydown", leave); };
+    return () => {
+      window.removeEventListener("keydown", leave);
+    };
   }, [shown]);
   useEffect(() => () => previewStep(null), []);
   const own = card.repairs.filter(each => each.id === card.step);
   return (
     <article className="why" data-tone={card.verdict}>
-      <button className="why-fact" onClick={look}><i className="mark" data-verdict={card.verdict} aria-hidden /><span><span className="why-subject">{subject}</span><b>{finding.sentence}</b>{card.steps.length > 1 && <span className="muted"> {words.check.affected(card.steps.length)}</span>}</span></button>
+      <button className="why-fact" onClick={look}>
+        <i className="mark" data-verdict={card.verdict} aria-hidden />
+        <span>
+          <span className="why-subject">{subject}</span>
+          <b>{finding.sentence}</b>
+          {card.steps.length > 1 && <span className="muted"> {words.check.affected(card.steps.length)}</span>}
+        </span>
+      </button>
       {own.map(({ id, repair }) => (
         <div className="why-repair" key={repair.sentence}>
           <span className="muted">{repair.sentence}</span>
-          {repair.replace && <button className="btn tight" aria-pressed={shown === repair} onClick={() => { const next = shown === repair ? null : repair; setShown(next); previewStep(next?.replace ?? null); }}>{words.common.show}</button>}
-          <button className="btn tight primary" onClick={() => { previewStep(null); repairStep(id, repair); }}>{words.common.apply}</button>
+          {repair.replace && (
+            <button
+              className="btn tight"
+              aria-pressed={shown === repair}
+              onClick={() => {
+                const next = shown === repair ? null : repair;
+                setShown(next);
+                previewStep(next?.replace ?? null);
+              }}
+            >
+              {words.common.show}
+            </button>
+          )}
+          <button
+            className="btn tight primary"
+            onClick={() => {
+              previewStep(null);
+              repairStep(id, repair);
+            }}
+          >
+            {words.common.apply}
+          </button>
         </div>
       ))}
       {card.finding.code === "collision.contact" && <WayRound step={card.step} />}
@@ -64,11 +122,27 @@ function WhyCard({ card, subject }: { card: Why; subject: string }) {
 
 /** One click: a search away from the page, with its progress, and what it finds as one edit. */
 function WayRound({ step }: { step: string }) {
-  const searching = useStore(collideStore, state => state.searching), mine = searching?.kind === "way" && searching.step === step;
+  const searching = useStore(collideStore, state => state.searching);
+  const mine = searching?.kind === "way" && searching.step === step;
   return (
     <div className="why-repair" aria-busy={mine}>
-      {mine ? <><span className="muted" role="status">{words.collide.searching(Math.round(searching.share * 100))}</span><button className="btn tight" onClick={cancelSearch}>{words.common.cancel}</button></>
-        : <><span /><button className="btn tight" disabled={searching !== null} onClick={() => findWayRound(step)}>{words.collide.wayRound}</button></>}
+      {mine ? (
+        <>
+          <span className="muted" role="status">
+            {words.collide.searching(Math.round(searching.share * 100))}
+          </span>
+          <button className="btn tight" onClick={cancelSearch}>
+            {words.common.cancel}
+          </button>
+        </>
+      ) : (
+        <>
+          <span />
+          <button className="btn tight" disabled={searching !== null} onClick={() => findWayRound(step)}>
+            {words.collide.wayRound}
+          </button>
+        </>
+      )}
     </div>
   );
 }

@@ -16,34 +16,72 @@ const KEPT_M = 0.002;
 
 /** What happens where something would touch, what that rests on, and which parts of the robot are checked against which. */
 export default function CollisionDialog() {
-  const open = useStore(dialogStore, state => state.open === "collision"), robot = useStore(cellStore, state => robotOf(state.document));
-  return <Frame open={open} title={words.collide.title} onClose={closeDialog} width={720}>{open && robot && <Body robot={robot} />}</Frame>;
+  const open = useStore(dialogStore, state => state.open === "collision");
+  const robot = useStore(cellStore, state => robotOf(state.document));
+  return (
+    <Frame open={open} title={words.collide.title} onClose={closeDialog} width={720}>
+      {open && robot && <Body robot={robot} />}
+    </Frame>
+  );
 }
 
 function Body({ robot }: { robot: Robot }) {
-  const behaviour = useStore(collideStore, state => state.behaviour), learning = useStore(collideStore, state => state.searching?.kind === "learn");
-  const pairs = useStore(cellStore, state => state.document?.pairs), tool = useStore(cellStore, state => state.document?.tool), known = pairs?.robot === robot.id ? pairs : undefined;
-  const mm = (length_m: number): string => showNumber(length_m, "length", 0), braking_s = hardBrakingTime_s(robot);
+  const behaviour = useStore(collideStore, state => state.behaviour);
+  const learning = useStore(collideStore, state => state.searching?.kind === "learn");
+  const pairs = useStore(cellStore, state => state.document?.pairs);
+  const tool = useStore(cellStore, state => state.document?.tool);
+  const known = pairs?.robot === robot.id ? pairs : undefined;
+  const mm = (length_m: number): string => showNumber(length_m, "length", 0);
+  const braking_s = hardBrakingTime_s(robot);
   const facts = [
-    [words.collide.kept, words.collide.keptSays(mm(KEPT_M))], [words.collide.shapeError, words.collide.keptSays(mm(robot.shapeError_m))],
-    [words.collide.braking, words.collide.brakingSays(braking_s.toFixed(2), mm(brakingDistance_m(robot, robot.maxTcpSpeed_mps)))],
+    [words.collide.kept, words.collide.keptSays(mm(KEPT_M))],
+    [words.collide.shapeError, words.collide.keptSays(mm(robot.shapeError_m))],
+    [
+      words.collide.braking,
+      words.collide.brakingSays(braking_s.toFixed(2), mm(brakingDistance_m(robot, robot.maxTcpSpeed_mps))),
+    ],
   ] as const;
   return (
     <div className="stack collide">
-      <fieldset className="collide-choice"><legend className="label">{words.collide.behaviour}</legend>
+      <fieldset className="collide-choice">
+        <legend className="label">{words.collide.behaviour}</legend>
         {COLLISION_BEHAVIOURS.map(value => (
           <label key={value} className="collide-option" data-on={value === behaviour}>
-            <input type="radio" name="collision-behaviour" value={value} checked={value === behaviour} onChange={() => chooseBehaviour(value)} />
-            <span><b>{words.collide.behaviours[value]}</b><span className="small muted">{words.collide.says[value]}</span></span>
+            <input
+              type="radio"
+              name="collision-behaviour"
+              value={value}
+              checked={value === behaviour}
+              onChange={() => chooseBehaviour(value)}
+            />
+            <span>
+              <b>{words.collide.behaviours[value]}</b>
+              <span className="small muted">{words.collide.says[value]}</span>
+            </span>
           </label>
         ))}
       </fieldset>
-      <dl className="facts">{facts.map(([name, value]) => <div key={name}><dt>{name}</dt><dd>{value}</dd></div>)}</dl>
+      <dl className="facts">
+        {facts.map(([name, value]) => (
+          <div key={name}>
+            <dt>{name}</dt>
+            <dd>{value}</dd>
+          </div>
+        ))}
+      </dl>
       <p className="small muted">{words.collide.precision}</p>
       <section aria-label={words.collide.matrix} aria-busy={learning}>
-        <div className="collide-head"><h3 className="label">{words.collide.matrix}</h3>
-          <button className="btn tight" disabled={learning} onClick={learnMatrix}>{learning ? words.collide.learning : known ? words.collide.learn : words.collide.learnFirst}</button></div>
-        {known ? <PairTable pairs={known} stale={known.tool !== tool} /> : <p className="small muted">{words.collide.matrixNone}</p>}
+        <div className="collide-head">
+          <h3 className="label">{words.collide.matrix}</h3>
+          <button className="btn tight" disabled={learning} onClick={learnMatrix}>
+            {learning ? words.collide.learning : known ? words.collide.learn : words.collide.learnFirst}
+          </button>
+        </div>
+        {known ? (
+          <PairTable pairs={known} stale={known.tool !== tool} />
+        ) : (
+          <p className="small muted">{words.collide.matrixNone}</p>
+        )}
       </section>
     </div>
   );

@@ -5,4 +5,7 @@ const EPOCH = new Date(1980, 0, 1);
 
 /** Files in one archive, in their order. */
 export const zipped = (files: readonly { readonly name: string; readonly text: string }[]): Uint8Array<ArrayBuffer> =>
-  zipSync(Object.fromEntries(files.map(({ name, text }) => [name, strToU8(text)])), { level: 6, mtime: EPOCH }) as Uint8Array<ArrayBuffer>;
+  zipSync(Object.fromEntries(files.map(({ name, text }) => [name, strToU8(text)])), {
+    level: 6,
+    mtime: EPOCH,
+  }) as Uint8Array<ArrayBuffer>;

@@ -10,38 +10,95 @@ import { words } from "../../words/index.ts";
 import { openFile, openFiles } from "./openFile.ts";
 import "./files.css";
 
-const KINDS = [".json", ".mcap", ".txt", ".stl", ".obj", ".ply", ...new Set(DIALECTS.flatMap(({ extensions }) => extensions))].join();
+const KINDS = [
+  ".json",
+  ".mcap",
+  ".txt",
+  ".stl",
+  ".obj",
+  ".ply",
+  ...new Set(DIALECTS.flatMap(({ extensions }) => extensions)),
+].join();
 
 /** Save, open and drop. */
 export function Files() {
   const input = useRef<HTMLInputElement>(null);
   const [over, setOver] = useState(false);
-  useEffect(() => registerCommands([
-    { id: "file.save", group: "file", words: words.commands.save, keys: ["Mod+S"], can: () => cellStore.getState().document !== null, run: saveFile },
-    { id: "file.load", group: "file", words: words.commands.load, keys: ["Mod+O"], run: () => input.current?.click() },
-    { id: "file.example", group: "file", words: words.commands.example, run: () => openCell(edgeTraceCell()) },
-    { id: "file.conveyor", group: "file", words: words.commands.conveyor, run: () => openCell(conveyorPalletCell()) },
-    { id: "file.new", group: "file", words: words.commands.fresh, run: () => openCell(emptyCell()) },
-  ]), []);
+  useEffect(
+    () =>
+      registerCommands([
+        {
+          id: "file.save",
+          group: "file",
+          words: words.commands.save,
+          keys: ["Mod+S"],
+          can: () => cellStore.getState().document !== null,
+          run: saveFile,
+        },
+        {
+          id: "file.load",
+          group: "file",
+          words: words.commands.load,
+          keys: ["Mod+O"],
+          run: () => input.current?.click(),
+        },
+        { id: "file.example", group: "file", words: words.commands.example, run: () => openCell(edgeTraceCell()) },
+        {
+          id: "file.conveyor",
+          group: "file",
+          words: words.commands.conveyor,
+          run: () => openCell(conveyorPalletCell()),
+        },
+        { id: "file.new", group: "file", words: words.commands.fresh, run: () => openCell(emptyCell()) },
+      ]),
+    [],
+  );
   useEffect(() => {
     const hasFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes("Files") ?? false;
-    const drag = (event: DragEvent): void => { if (hasFiles(event)) { event.preventDefault(); setOver(true); } };
-    const leave = (event: DragEvent): void => { if (event.relatedTarget === null) setOver(false); };
+    const drag = (event: DragEvent): void => {
+      if (hasFiles(event)) {
+        event.preventDefault();
+        setOver(true);
+      }
+    };
+    const leave = (event: DragEvent): void => {
+      if (event.relatedTarget === null) setOver(false);
+    };
     const drop = (event: DragEvent): void => {
       if (!hasFiles(event)) return;
       event.preventDefault();
       setOver(false);
-      void openFiles([...event.dataTransfer?.files ?? []]);
+      void openFiles([...(event.dataTransfer?.files ?? [])]);
     };
     window.addEventListener("dragover", drag);
     window.addEventListener("dragleave", leave);
     window.addEventListener("drop", drop);
-    return () => { window.removeEventListener("dragover", drag); window.removeEventListener("dragleave", leave); window.removeEventListener("drop", drop); };
+    return () => {
+      window.removeEventListener("dragover", drag);
+      window.removeEventListener("dragleave", leave);
+      window.removeEventListener("drop", drop);
+    };
   }, []);
   return (
     <>
-      <input ref={input} type="file" accept={KINDS} hidden aria-label={words.commands.load} data-file-input onChange={event => { const file = event.currentTarget.files?.[0]; if (file) void openFile(file); event.currentTarget.value = ""; }} />
-      {over && <div className="drop-veil" aria-hidden><p>{words.file.drop}</p></div>}
+      <input
+        ref={input}
+        type="file"
+        accept={KINDS}
+        hidden
+        aria-label={words.commands.load}
+        data-file-input
+        onChange={event => {
+          const file = event.currentTarget.files?.[0];
+          if (file) void openFile(file);
+          event.currentTarget.value = "";
+        }}
+      />
+      {over && (
+        <div className="drop-veil" aria-hidden>
+          <p>{words.file.drop}</p>
+        </div>
+      )}
     </>
   );
 }

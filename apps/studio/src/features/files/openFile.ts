@@ -6,7 +6,8 @@ import { DIALECTS } from "@twincell/languages";
 import { words } from "../../words/index.ts";
 
 /** Whether files with that ending are programs of a robot language. */
-const isProgram = (kind: string): boolean => DIALECTS.some(({ extensions }) => extensions.some(each => each.toLowerCase() === `.${kind}`));
+const isProgram = (kind: string): boolean =>
+  DIALECTS.some(({ extensions }) => extensions.some(each => each.toLowerCase() === `.${kind}`));
 
 /** Opens a chosen or dropped file by what it is. Whatever is wrong with it is one sentence; what was open stays open. */
 export async function openFile(file: File): Promise<void> {
@@ -14,7 +15,8 @@ export async function openFile(file: File): Promise<void> {
   try {
     if (kind === "mcap") await (await import("../../live/cell-control.ts")).openRecordingFiles([file]);
     else if (kind === "json") openCellText(await file.text(), file.name);
-    else if (kind === "stl" || kind === "obj" || kind === "ply") await importMesh(file.name, kind, new Uint8Array(await file.arrayBuffer()));
+    else if (kind === "stl" || kind === "obj" || kind === "ply")
+      await importMesh(file.name, kind, new Uint8Array(await file.arrayBuffer()));
     else if (kind === "txt" || isProgram(kind)) {
       const [fault] = importText(await file.text(), file.name);
       if (fault !== undefined) notify("bad", words.file.notCell(file.name, fault), words.file.notCellHint);

@@ -13,17 +13,36 @@ const mm = (m: number): string => (m * 1000).toFixed(m < 0.01 ? 2 : 1);
 
 /** Every cycle of what is open; two of them laid over each other in the view. */
 export function Cycles() {
-  const cycles = useStore(historyStore, state => state.cycles), overlay = useStore(historyStore, state => state.overlay);
-  const [first, setFirst] = useState<number | null>(overlay?.first ?? null), box = useRef<HTMLDivElement>(null);
-  const rows = useVirtualizer({ count: cycles.length, getScrollElement: () => box.current, estimateSize: () => ROW_PX, overscan: 6 });
+  const cycles = useStore(historyStore, state => state.cycles);
+  const overlay = useStore(historyStore, state => state.overlay);
+  const [first, setFirst] = useState<number | null>(overlay?.first ?? null);
+  const box = useRef<HTMLDivElement>(null);
+  const rows = useVirtualizer({
+    count: cycles.length,
+    getScrollElement: () => box.current,
+    estimateSize: () => ROW_PX,
+    overscan: 6,
+  });
   if (cycles.length === 0) return <p className="small muted">{words.history.noCycles}</p>;
   const choose = (index: number): void => {
-    if (first === null || overlay) { setFirst(index); historyStore.setState({ overlay: null }); return; }
-    if (first === index) { setFirst(null); return; }
+    if (first === null || overlay) {
+      setFirst(index);
+      historyStore.setState({ overlay: null });
+      return;
+    }
+    if (first === index) {
+      setFirst(null);
+      return;
+    }
     const { document } = cellStore.getState();
-    if (document) void theHistory.overlay(first, index, { worldFromBase: document.robot.worldFromBase, flangeFromTcp: flangeFromTcpOf(document) });
+    if (document)
+      void theHistory.overlay(first, index, {
+        worldFromBase: document.robot.worldFromBase,
+        flangeFromTcp: flangeFromTcpOf(document),
+      });
   };
-  const mark = (index: number): "first" | "second" | undefined => (index === (overlay?.first ?? first) ? "first" : index === overlay?.second ? "second" : undefined);
+  const mark = (index: number): "first" | "second" | undefined =>
+    index === (overlay?.first ?? first) ? "first" : index === overlay?.second ? "second" : undefined;
   return (
     <div className="history-moment">
       <p className="small muted">{words.history.overlaySays}</p>
@@ -31,12 +50,36 @@ export function Cycles() {
       <div ref={box} className="history-list" role="list" aria-label={words.history.cyclesView}>
         <div style={{ height: rows.getTotalSize(), position: "relative" }}>
           {rows.getVirtualItems().map(({ index, start }) => {
-            const cycle = cycles[index]!, as = mark(index);
+            const cycle = cycles[index]!;
+            const as = mark(index);
             return (
-              <div key={index} role="listitem" className="history-row cycle-row" style={{ transform: `translateY(${start}px)` }}>
-                <button className="btn tight cycle-pick" data-as={as} aria-pressed={as !== undefined} onClick={() => { choose(index); }}>{as ? words.history[as] : words.history.cycle(index + 1)}</button>
-                <button className="link" onClick={() => { theHistory.seek(cycle.from_s); }}>{clockOf(Math.max(0, cycle.from_s))}</button>
-                <span className="grow small muted">{(cycle.to_s - cycle.from_s).toFixed(2)} s · {words.history.cycleEnds[cycle.ending]}</span>
+              <div
+                key={index}
+                role="listitem"
+                className="history-row cycle-row"
+                style={{ transform: `translateY(${start}px)` }}
+              >
+                <button
+                  className="btn tight cycle-pick"
+                  data-as={as}
+                  aria-pressed={as !== undefined}
+                  onClick={() => {
+                    choose(index);
+                  }}
+                >
+                  {as ? words.history[as] : words.history.cycle(index + 1)}
+                </button>
+                <button
+                  className="link"
+                  onClick={() => {
+                    theHistory.seek(cycle.from_s);
+                  }}
+                >
+                  {clockOf(Math.max(0, cycle.from_s))}
+                </button>
+                <span className="grow small muted">
+                  {(cycle.to_s - cycle.from_s).toFixed(2)} s · {words.history.cycleEnds[cycle.ending]}
+                </span>
               </div>
             );
           })}
@@ -49,13 +92,23 @@ export function Cycles() {
 function Difference() {
   const comparison = useStore(historyStore, state => state.overlay?.comparison);
   if (!comparison) return null;
-  const { longer_s, apart_m, apartAt_s, offPath_m } = comparison, by = Math.abs(longer_s).toFixed(2);
+  const { longer_s, apart_m, apartAt_s, offPath_m } = comparison;
+  const by = Math.abs(longer_s).toFixed(2);
   return (
     <div className="history-difference" role="status">
-      <p>{by === "0.00" ? words.history.asLong : longer_s > 0 ? words.history.longer(by) : words.history.shorter(by)}</p>
+      <p>
+        {by === "0.00" ? words.history.asLong : longer_s > 0 ? words.history.longer(by) : words.history.shorter(by)}
+      </p>
       <p>{words.history.apart(mm(apart_m), apartAt_s.toFixed(2))}</p>
       <p>{words.history.offPath(mm(offPath_m))}</p>
-      <button className="btn tight" onClick={() => { historyStore.setState({ overlay: null }); }}>{words.history.endOverlay}</button>
+      <button
+        className="btn tight"
+        onClick={() => {
+          historyStore.setState({ overlay: null });
+        }}
+      >
+        {words.history.endOverlay}
+      </button>
     </div>
   );
 }

@@ -12,7 +12,14 @@ export function Shortcuts() {
     const down = (event: KeyboardEvent): void => {
       if (event.defaultPrevented || isTyping(event.target)) return;
       const inDialog = dialogStore.getState().open !== null;
-      if (!event.ctrlKey && !event.metaKey && !event.altKey && !event.shiftKey && !inDialog && viewStore.getState().mode === "teach") {
+      if (
+        !event.ctrlKey &&
+        !event.metaKey &&
+        !event.altKey &&
+        !event.shiftKey &&
+        !inDialog &&
+        viewStore.getState().mode === "teach"
+      ) {
         const action = bindingStore.getState().keyboard[event.code];
         if (action) {
           event.preventDefault();
@@ -21,10 +28,12 @@ export function Shortcuts() {
           return;
         }
       }
-      const onControl = event.target instanceof HTMLElement && event.target.closest("button, a, [role='slider'], [role='menu'], [role='listbox'], summary") !== null;
+      const onControl =
+        event.target instanceof HTMLElement &&
+        event.target.closest("button, a, [role='slider'], [role='menu'], [role='listbox'], summary") !== null;
       for (const command of commandStore.getState().commands.values()) {
         for (const keys of command.keys ?? []) {
-          if (!isKeys(event, keys) || event.repeat && !keys.includes("Mod")) continue;
+          if (!isKeys(event, keys) || (event.repeat && !keys.includes("Mod"))) continue;
           if (inDialog && !keys.includes("Mod")) return;
           if (onControl && (keys === "Space" || keys.startsWith("Arrow"))) return;
           event.preventDefault();
@@ -37,7 +46,9 @@ export function Shortcuts() {
       const action = bindingStore.getState().keyboard[event.code];
       if (action) release("keyboard", axisOf(action).axis);
     };
-    const hidden = (): void => { if (document.visibilityState === "hidden") releaseAll(); };
+    const hidden = (): void => {
+      if (document.visibilityState === "hidden") releaseAll();
+    };
     window.addEventListener("keydown", down);
     window.addEventListener("keyup", up);
     window.addEventListener("blur", releaseAll);

@@ -2,15 +2,27 @@ import { expect, test } from "vitest";
 import { DEFAULT_BINDINGS } from "../../stores/bindings.ts";
 import { padStep, type PadReading } from "./gamepad.ts";
 
-const pad = (down: Readonly<Record<number, number>> = {}, axes: readonly number[] = [0, 0]): PadReading => ({ buttons: Array.from({ length: 17 }, (_, i) => down[i] ?? 0), axes });
-const step = (now: PadReading, before: PadReading | null = pad(), back = new Set<number>()) => padStep(now, before, DEFAULT_BINDINGS, back);
+const pad = (down: Readonly<Record<number, number>> = {}, axes: readonly number[] = [0, 0]): PadReading => ({
+  buttons: Array.from({ length: 17 }, (_, i) => down[i] ?? 0),
+  axes,
+});
+const step = (now: PadReading, before: PadReading | null = pad(), back = new Set<number>()) =>
+  padStep(now, before, DEFAULT_BINDINGS, back);
 
-test.each([[0, 4, "N-25 +rot Y"], [1, 3, "N-26 +rot X"], [2, 5, "N-27 +rot Z"]])("button %i turns +axis %i (%s)", (button, axis) => {
+test.each([
+  [0, 4, "N-25 +rot Y"],
+  [1, 3, "N-26 +rot X"],
+  [2, 5, "N-27 +rot Z"],
+])("button %i turns +axis %i (%s)", (button, axis) => {
   const { axes } = step(pad({ [button]: 1 }));
   expect([...axes].map(value => value !== 0)).toEqual([0, 1, 2, 3, 4, 5].map(i => i === axis));
   expect(axes[axis]).toBe(1);
 });
-test.each([[0, 4, "N-28 −rot Y"], [1, 3, "N-29 −rot X"], [2, 5, "N-30 −rot Z"]])("button 4 first, then %i turns −axis %i (%s)", (button, axis) => {
+test.each([
+  [0, 4, "N-28 −rot Y"],
+  [1, 3, "N-29 −rot X"],
+  [2, 5, "N-30 −rot Z"],
+])("button 4 first, then %i turns −axis %i (%s)", (button, axis) => {
   const back = new Set<number>();
   step(pad({ 4: 1 }), pad(), back);
   expect(step(pad({ 4: 1, [button]: 1 }), pad({ 4: 1 }), back).axes[axis]).toBe(-1);
@@ -23,7 +35,13 @@ test("N-28 button 4 second does not turn the motion round", () => {
   step(pad({ 0: 1 }), pad(), back);
   expect(step(pad({ 0: 1, 4: 1 }), pad({ 0: 1 }), back).axes[4]).toBe(1);
 });
-test.each([[3, "aid-next", "N-31"], [8, "aid-previous", "N-35"], [5, "record", "N-32"], [9, "ready", "N-34"], [11, "camera", "N-36"]])("button %i presses %s once (%s)", (button, action) => {
+test.each([
+  [3, "aid-next", "N-31"],
+  [8, "aid-previous", "N-35"],
+  [5, "record", "N-32"],
+  [9, "ready", "N-34"],
+  [11, "camera", "N-36"],
+])("button %i presses %s once (%s)", (button, action) => {
   expect(step(pad({ [button]: 1 })).pressed).toEqual([action]);
   expect(step(pad({ [button]: 1 }), pad({ [button]: 1 })).pressed).toEqual([]);
 });

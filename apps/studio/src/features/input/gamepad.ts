@@ -1,7 +1,17 @@
-import { axisOf, axisOfStick, type Bindings, type HeldAction, type PadAction, type PressedAction } from "../../stores/bindings.ts";
+import {
+  axisOf,
+  axisOfStick,
+  type Bindings,
+  type HeldAction,
+  type PadAction,
+  type PressedAction,
+} from "../../stores/bindings.ts";
 
 /** A gamepad at one instant: Gamepad of the browser, or a recorded one. */
-export interface PadReading { readonly buttons: readonly number[]; readonly axes: readonly number[] }
+export interface PadReading {
+  readonly buttons: readonly number[];
+  readonly axes: readonly number[];
+}
 export interface PadStep {
   /** −1 … 1 of each coordinate. */
   readonly axes: Float64Array;
@@ -15,23 +25,40 @@ export interface PadStep {
 const DEAD_ZONE = 0.15;
 export const DOWN = 0.5;
 const isHeld = (action: PadAction): action is HeldAction => action.endsWith("+") || action.endsWith("-");
-const isPressed = (action: PadAction): action is PressedAction => !isHeld(action) && action !== "turn-back" && action !== "tilt";
-const live = (value: number): number => (Number.isFinite(value) && Math.abs(value) > DEAD_ZONE ? (Math.sign(value) * (Math.abs(value) - DEAD_ZONE)) / (1 - DEAD_ZONE) : 0);
+const isPressed = (action: PadAction): action is PressedAction =>
+  !isHeld(action) && action !== "turn-back" && action !== "tilt";
+const live = (value: number): number =>
+  Number.isFinite(value) && Math.abs(value) > DEAD_ZONE
+    ? (Math.sign(value) * (Math.abs(value) - DEAD_ZONE)) / (1 - DEAD_ZONE)
+    : 0;
 
 /**
  * What the pad commands now (rows N-25 … N-37). The turn-back button must go down first, as in the paper:
  * `turningBack` remembers which buttons were pressed while it was held.
  */
-export function padStep(now: PadReading, before: PadReading | null, bindings: Bindings, turningBack: Set<number>): PadStep {
-  const axes = new Float64Array(6), pressed: PressedAction[] = [];
+export function padStep(
+  now: PadReading,
+  before: PadReading | null,
+  bindings: Bindings,
+  turningBack: Set<number>,
+): PadStep {
+  const axes = new Float64Array(6);
+  const pressed: PressedAction[] = [];
   const down = (reading: PadReading | null, button: number): boolean => (reading?.buttons[button] ?? 0) >= DOWN;
-  let back = false, tilt: number | null = null;
-  for (const [key, action] of Object.entries(bindings.buttons)) if (action === "turn-back" && down(now, Number(key))) back = true;
+  let back = false;
+  let tilt: number | null = null;
+  for (const [key, action] of Object.entries(bindings.buttons))
+    if (action === "turn-back" && down(now, Number(key))) back = true;
   for (const [key, action] of Object.entries(bindings.buttons)) {
-    const button = Number(key), isDown = down(now, button), wasDown = down(before, button);
+    const button = Number(key);
+    const isDown = down(now, button);
+    const wasDown = down(before, button);
     if (isHeld(action)) {
       if (isDown && !wasDown && back) turningBack.add(button);
-      if (!isDown) { turningBack.delete(button); continue; }
+      if (!isDown) {
+        turningBack.delete(button);
+        continue;
+      }
       const { axis, sign } = axisOf(action);
       axes[axis] = axes[axis]! + sign * (axis > 2 && turningBack.has(button) ? -1 : 1);
     } else if (isPressed(action)) {

@@ -9,12 +9,31 @@ export function FrameInspector({ document, name }: { document: CellDocument; nam
   if (!frame) return <p className="empty">{words.inspector.nothing}</p>;
   return (
     <section aria-label={name}>
-      <h2 className="heading"><span className="grow">{name}</span><span className="tag">{words.inspector.frame}</span></h2>
+      <h2 className="heading">
+        <span className="grow">{name}</span>
+        <span className="tag">{words.inspector.frame}</span>
+      </h2>
       <div className="section stack">
-        <PoseFields pose={frame.worldFromFrame} onChange={(pose, done) => commit(words.undo.moveObject, before => ({
-          ...before, frames: before.frames.map(each => (each.name === name ? { ...each, worldFromFrame: { position: pose.position, quaternion: pose.quaternion } } : each)),
-        }), done ? undefined : `frame ${name}`)} />
-        <button className="btn" onClick={() => jogStore.setState({ frame: "user", userFrame: name })}>{words.commands.frame(name)}</button>
+        <PoseFields
+          pose={frame.worldFromFrame}
+          onChange={(pose, done) =>
+            commit(
+              words.undo.moveObject,
+              before => ({
+                ...before,
+                frames: before.frames.map(each =>
+                  each.name === name
+                    ? { ...each, worldFromFrame: { position: pose.position, quaternion: pose.quaternion } }
+                    : each,
+                ),
+              }),
+              done ? undefined : `frame ${name}`,
+            )
+          }
+        />
+        <button className="btn" onClick={() => jogStore.setState({ frame: "user", userFrame: name })}>
+          {words.commands.frame(name)}
+        </button>
       </div>
     </section>
   );

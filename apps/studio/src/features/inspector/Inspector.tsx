@@ -13,19 +13,33 @@ import "./inspector.css";
 
 /** The numbers of what is selected, each of them editable where it may be changed. */
 export function Inspector() {
-  const selected = useStore(selectionStore, state => state.selected), document = useStore(cellStore, state => state.document);
+  const selected = useStore(selectionStore, state => state.selected);
+  const document = useStore(cellStore, state => state.document);
   if (!document || !selected) return <p className="empty">{words.inspector.nothing}</p>;
   switch (selected.kind) {
-    case "robot": case "link": return <RobotInspector document={document} />;
-    case "tool": return <ToolInspector document={document} />;
-    case "frame": return <FrameInspector document={document} name={selected.name} />;
+    case "robot":
+    case "link":
+      return <RobotInspector document={document} />;
+    case "tool":
+      return <ToolInspector document={document} />;
+    case "frame":
+      return <FrameInspector document={document} name={selected.name} />;
     case "object": {
       const object = objectOf(document, selected.id);
-      return object ? <ObjectInspector key={object.id} object={object} /> : <p className="empty">{words.inspector.nothing}</p>;
+      return object ? (
+        <ObjectInspector key={object.id} object={object} />
+      ) : (
+        <p className="empty">{words.inspector.nothing}</p>
+      );
     }
     case "step": {
-      const program = programOf(document), found = program ? findStep(program, selected.id) : undefined;
-      return found && program ? <StepInspector key={found.step.id} program={program} step={found.step} index={found.index} /> : <p className="empty">{words.inspector.nothing}</p>;
+      const program = programOf(document);
+      const found = program ? findStep(program, selected.id) : undefined;
+      return found && program ? (
+        <StepInspector key={found.step.id} program={program} step={found.step} index={found.index} />
+      ) : (
+        <p className="empty">{words.inspector.nothing}</p>
+      );
     }
   }
 }

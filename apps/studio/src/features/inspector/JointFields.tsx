@@ -16,13 +16,30 @@ export function JointFields({ robot }: { robot: Robot }) {
   useLive(() => {
     if (clock.waiting) return;
     clock.waiting = true;
-    setTimeout(() => { clock.waiting = false; setQ(Array.from(theLive().q_rad)); }, EVERY_MS);
+    setTimeout(() => {
+      clock.waiting = false;
+      setQ(Array.from(theLive().q_rad));
+    }, EVERY_MS);
   });
   return (
     <div className="fields-3">
       {robot.arm.joints.map(({ name, limits }, i) => (
-        <NumberField key={name} label={words.inspector.joint(i + 1)} mark={words.time.joint(i + 1)} quantity="angle" value={q[i] ?? 0} min={limits.lower_rad} max={limits.upper_rad}
-          onChange={value => { takeRobot("jog"); const next = Array.from(theLive().q_rad); next[i] = value; showJoints(next); setQ(next); }} />
+        <NumberField
+          key={name}
+          label={words.inspector.joint(i + 1)}
+          mark={words.time.joint(i + 1)}
+          quantity="angle"
+          value={q[i] ?? 0}
+          min={limits.lower_rad}
+          max={limits.upper_rad}
+          onChange={value => {
+            takeRobot("jog");
+            const next = Array.from(theLive().q_rad);
+            next[i] = value;
+            showJoints(next);
+            setQ(next);
+          }}
+        />
       ))}
     </div>
   );

@@ -11,11 +11,19 @@ const MARKS = ["X", "Y", "Z"] as const;
 export function ObjectInspector({ object }: { object: ObjectRecord }) {
   const change = (label: string, next: (object: ObjectRecord) => ObjectRecord, done: boolean): boolean =>
     commit(label, document => withObject(document, object.id, next), done ? undefined : `${label} ${object.id}`);
-  const move = (pose: Pose, done: boolean): boolean => change(words.undo.moveObject, before => ({ ...before, worldFromObject: { position: pose.position, quaternion: pose.quaternion } }), done);
+  const move = (pose: Pose, done: boolean): boolean =>
+    change(
+      words.undo.moveObject,
+      before => ({ ...before, worldFromObject: { position: pose.position, quaternion: pose.quaternion } }),
+      done,
+    );
   const { shape } = object;
   return (
     <section aria-label={object.name}>
-      <h2 className="heading"><span className="grow">{object.name}</span><span className="tag">{words.tree.roles[object.role]}</span></h2>
+      <h2 className="heading">
+        <span className="grow">{object.name}</span>
+        <span className="tag">{words.tree.roles[object.role]}</span>
+      </h2>
       <div className="section stack">
         <h3 className="label">{words.inspector.position}</h3>
         <PoseFields pose={object.worldFromObject} onChange={move} />
@@ -24,19 +32,47 @@ export function ObjectInspector({ object }: { object: ObjectRecord }) {
             <h3 className="label">{words.inspector.size}</h3>
             <div className="fields-3">
               {MARKS.map((mark, i) => (
-                <NumberField key={mark} label={`${words.inspector.size} ${SIDES[i]}`} mark={mark} quantity="length" min={0.001} max={20} value={shape.size_m[i]!}
-                  onChange={(value, done) => change(words.undo.size, before => {
-                    if (before.shape.kind !== "box") return before;
-                    const size_m: Vector3 = [before.shape.size_m[0], before.shape.size_m[1], before.shape.size_m[2]];
-                    size_m[i] = value;
-                    return { ...before, shape: { kind: "box", size_m } };
-                  }, done)} />
+                <NumberField
+                  key={mark}
+                  label={`${words.inspector.size} ${SIDES[i]}`}
+                  mark={mark}
+                  quantity="length"
+                  min={0.001}
+                  max={20}
+                  value={shape.size_m[i]!}
+                  onChange={(value, done) =>
+                    change(
+                      words.undo.size,
+                      before => {
+                        if (before.shape.kind !== "box") return before;
+                        const size_m: Vector3 = [
+                          before.shape.size_m[0],
+                          before.shape.size_m[1],
+                          before.shape.size_m[2],
+                        ];
+                        size_m[i] = value;
+                        return { ...before, shape: { kind: "box", size_m } };
+                      },
+                      done,
+                    )
+                  }
+                />
               ))}
             </div>
           </>
         )}
-        {shape.kind === "mesh" && <div className="pair"><span className="label">{words.inspector.shape}</span><span className="num">{shape.file}</span></div>}
-        {shape.kind !== "mesh" && shape.kind !== "box" && <div className="pair"><span className="label">{words.inspector.shape}</span><span className="num">{words.inspector.shapes[shape.kind]}</span></div>}
+        {shape.kind === "mesh" && (
+          <div className="pair">
+            <span className="label">{words.inspector.shape}</span>
+            <span className="num">{shape.file}</span>
+          </div>
+        )}
+        {shape.kind !== "mesh" && shape.kind !== "box" && (
+          <div className="pair">
+            <span className="label">{words.inspector.shape}</span>
+            <span className="num">{words.inspector.shapes[shape.kind]}</span>
+          </div>
+        )}
       </div>
     </section>
   );

@@ -3,10 +3,19 @@ import { fixedXyz, fromFixedXyz } from "../../live/fixed-xyz.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../words/index.ts";
 
-const MARKS = ["X", "Y", "Z"] as const, TURNS = ["Rx", "Ry", "Rz"] as const;
+const MARKS = ["X", "Y", "Z"] as const;
+const TURNS = ["Rx", "Ry", "Rz"] as const;
 
 /** Six numbers of a pose: mm, and degrees about the fixed axes x, y, z. */
-export function PoseFields({ pose, disabled = false, onChange }: { pose: Pose; disabled?: boolean; onChange: (pose: Pose, done: boolean) => void }) {
+export function PoseFields({
+  pose,
+  disabled = false,
+  onChange,
+}: {
+  pose: Pose;
+  disabled?: boolean;
+  onChange: (pose: Pose, done: boolean) => void;
+}) {
   const angles = fixedXyz(pose.quaternion, new Float64Array(3));
   const place = (axis: number, value: number, done: boolean): void => {
     const position: Vector3 = [pose.position[0], pose.position[1], pose.position[2]];
@@ -20,8 +29,32 @@ export function PoseFields({ pose, disabled = false, onChange }: { pose: Pose; d
   };
   return (
     <div className="stack">
-      <div className="fields-3">{MARKS.map((mark, i) => <NumberField key={mark} label={`${words.inspector.position} ${mark}`} mark={mark} quantity="length" value={pose.position[i]!} disabled={disabled} onChange={(value, done) => place(i, value, done)} />)}</div>
-      <div className="fields-3">{TURNS.map((mark, i) => <NumberField key={mark} label={`${words.inspector.rotation} ${mark}`} mark={mark} quantity="angle" value={angles[i]!} disabled={disabled} onChange={(value, done) => turn(i, value, done)} />)}</div>
+      <div className="fields-3">
+        {MARKS.map((mark, i) => (
+          <NumberField
+            key={mark}
+            label={`${words.inspector.position} ${mark}`}
+            mark={mark}
+            quantity="length"
+            value={pose.position[i]!}
+            disabled={disabled}
+            onChange={(value, done) => place(i, value, done)}
+          />
+        ))}
+      </div>
+      <div className="fields-3">
+        {TURNS.map((mark, i) => (
+          <NumberField
+            key={mark}
+            label={`${words.inspector.rotation} ${mark}`}
+            mark={mark}
+            quantity="angle"
+            value={angles[i]!}
+            disabled={disabled}
+            onChange={(value, done) => turn(i, value, done)}
+          />
+        ))}
+      </div>
     </div>
   );
 }

@@ -11,7 +11,13 @@ const STAYS_MS = { info: 5000, done: 5000, warn: 9000, bad: null } as const;
 
 export function Notices() {
   const notices = useStore(noticeStore, state => state.notices);
-  return <div className="notices" aria-live="polite">{notices.map(notice => <Toast key={notice.id} notice={notice} />)}</div>;
+  return (
+    <div className="notices" aria-live="polite">
+      {notices.map(notice => (
+        <Toast key={notice.id} notice={notice} />
+      ))}
+    </div>
+  );
 }
 
 function Toast({ notice }: { notice: Notice }) {
@@ -25,8 +31,13 @@ function Toast({ notice }: { notice: Notice }) {
   return (
     <div className="notice" data-tone={tone} role={tone === "bad" ? "alert" : "status"}>
       <span aria-hidden>{GLYPH[tone]}</span>
-      <div className="grow"><p>{notice.sentence}</p>{notice.hint && <p className="muted">{notice.hint}</p>}</div>
-      <button className="btn quiet icon tight" aria-label={words.common.close} onClick={() => dismiss(id)}><X /></button>
+      <div className="grow">
+        <p>{notice.sentence}</p>
+        {notice.hint && <p className="muted">{notice.hint}</p>}
+      </div>
+      <button className="btn quiet icon tight" aria-label={words.common.close} onClick={() => dismiss(id)}>
+        <X />
+      </button>
     </div>
   );
 }

@@ -11,14 +11,32 @@ const NEAR_M = 0.02;
 
 /** How near the robot is to the cell at this moment, and what to; a click opens what should happen there. */
 export function ClearanceTag() {
-  const clearance_m = useStore(watchStore, state => state.clearance_m), nearest = useStore(watchStore, state => state.nearest), contact = useStore(watchStore, state => state.contacts[0]);
+  const clearance_m = useStore(watchStore, state => state.clearance_m);
+  const nearest = useStore(watchStore, state => state.nearest);
+  const contact = useStore(watchStore, state => state.contacts[0]);
   const objects = useStore(cellStore, state => state.document?.objects);
   if (clearance_m === null || objects === undefined) return null;
-  const touching = contact !== undefined || clearance_m === 0, [a, b] = contact ?? nearest, tone = touching ? "bad" : clearance_m < NEAR_M ? "near" : "";
-  const says = touching ? words.collide.contact : Number.isFinite(clearance_m) ? `${showNumber(clearance_m, "length", clearance_m < 0.1 ? 1 : 0)} mm` : words.collide.plenty(`${showNumber(PLENTY_M, "length", 0)} mm`);
+  const touching = contact !== undefined || clearance_m === 0;
+  const [a, b] = contact ?? nearest;
+  const tone = touching ? "bad" : clearance_m < NEAR_M ? "near" : "";
+  const says = touching
+    ? words.collide.contact
+    : Number.isFinite(clearance_m)
+      ? `${showNumber(clearance_m, "length", clearance_m < 0.1 ? 1 : 0)} mm`
+      : words.collide.plenty(`${showNumber(PLENTY_M, "length", 0)} mm`);
   return (
-    <button className="clearance float" data-tone={tone} title={words.collide.menu} onClick={() => runCommand("view.collision")}>
-      <span className="dim">{words.collide.clearance}</span> <b>{says}</b>{a !== "" && a !== undefined && b !== undefined && (touching || Number.isFinite(clearance_m)) && <span className="clearance-pair">{words.collide.nearest(words.collide.solid(a, objects), words.collide.solid(b, objects))}</span>}
+    <button
+      className="clearance float"
+      data-tone={tone}
+      title={words.collide.menu}
+      onClick={() => runCommand("view.collision")}
+    >
+      <span className="dim">{words.collide.clearance}</span> <b>{says}</b>
+      {a !== "" && a !== undefined && b !== undefined && (touching || Number.isFinite(clearance_m)) && (
+        <span className="clearance-pair">
+          {words.collide.nearest(words.collide.solid(a, objects), words.collide.solid(b, objects))}
+        </span>
+      )}
     </button>
   );
 }

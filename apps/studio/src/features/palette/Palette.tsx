@@ -11,21 +11,39 @@ const GROUPS: readonly CommandGroup[] = ["program", "jog", "play", "view", "edit
 
 /** ⌘K: everything a person can do, by typing. */
 export function Palette() {
-  const open = useStore(dialogStore, state => state.open), commands = useStore(commandStore, state => state.commands);
+  const open = useStore(dialogStore, state => state.open);
+  const commands = useStore(commandStore, state => state.commands);
   return (
     <>
       <Frame open={open === "palette"} title={words.palette.title} onClose={closeDialog} width={560}>
         <Command label={words.palette.title} loop className="palette">
-          <Command.Input className="palette-input" placeholder={words.palette.search} autoFocus aria-label={words.palette.search} />
+          <Command.Input
+            className="palette-input"
+            placeholder={words.palette.search}
+            autoFocus
+            aria-label={words.palette.search}
+          />
           <Command.List className="palette-list" aria-label={words.palette.title}>
             <Command.Empty className="empty">{words.palette.none}</Command.Empty>
             {GROUPS.map(group => (
               <Command.Group key={group} heading={words.palette.groups[group]}>
-                {[...commands.values()].filter(command => command.group === group).map(command => (
-                  <Command.Item key={command.id} className="menu-item" value={`${command.words} ${command.id}`} disabled={command.can?.() === false} onSelect={() => { closeDialog(); runCommand(command.id); }}>
-                    {command.words}{command.keys?.[0] && <span className="kbd">{showKeys(command.keys[0])}</span>}
-                  </Command.Item>
-                ))}
+                {[...commands.values()]
+                  .filter(command => command.group === group)
+                  .map(command => (
+                    <Command.Item
+                      key={command.id}
+                      className="menu-item"
+                      value={`${command.words} ${command.id}`}
+                      disabled={command.can?.() === false}
+                      onSelect={() => {
+                        closeDialog();
+                        runCommand(command.id);
+                      }}
+                    >
+                      {command.words}
+                      {command.keys?.[0] && <span className="kbd">{showKeys(command.keys[0])}</span>}
+                    </Command.Item>
+                  ))}
               </Command.Group>
             ))}
           </Command.List>
@@ -35,10 +53,26 @@ export function Palette() {
         <div className="shortcuts">
           {GROUPS.map(group => {
             const listed = [...commands.values()].filter(command => command.group === group && command.keys);
-            return listed.length > 0 && (
-              <section key={group}><h3 className="heading">{words.palette.groups[group]}</h3>
-                <dl className="facts">{listed.map(command => <div key={command.id}><dt>{command.words}</dt><dd>{command.keys?.map(keys => <span key={keys} className="kbd">{showKeys(keys)}</span>)}</dd></div>)}</dl>
-              </section>
+            return (
+              listed.length > 0 && (
+                <section key={group}>
+                  <h3 className="heading">{words.palette.groups[group]}</h3>
+                  <dl className="facts">
+                    {listed.map(command => (
+                      <div key={command.id}>
+                        <dt>{command.words}</dt>
+                        <dd>
+                          {command.keys?.map(keys => (
+                            <span key={keys} className="kbd">
+                              {showKeys(keys)}
+                            </span>
+                          ))}
+                        </dd>
+                      </div>
+                    ))}
+                  </dl>
+                </section>
+              )
             );
           })}
         </div>

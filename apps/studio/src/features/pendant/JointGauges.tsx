@@ -10,16 +10,24 @@ import { nearness } from "./nearness.ts";
 /** While jogging in space: all joints at a glance, and which one is closest to its limit. */
 export function JointGauges() {
   const robot = useStore(cellStore, state => robotOf(state.document));
-  const gauges = useRef<(HTMLElement | null)[]>([]), line = useRef<HTMLParagraphElement>(null);
+  const gauges = useRef<(HTMLElement | null)[]>([]);
+  const line = useRef<HTMLParagraphElement>(null);
   useLive(live => {
     if (!robot) return;
-    let closest = 0, least = Infinity;
+    let closest = 0;
+    let least = Infinity;
     for (const [i, { limits }] of robot.arm.joints.entries()) {
-      const q = live.q_rad[i]!, gauge = gauges.current[i], left = Math.min(q - limits.lower_rad, limits.upper_rad - q);
-      if (left < least) { least = left; closest = i; }
+      const q = live.q_rad[i]!;
+      const gauge = gauges.current[i];
+      const left = Math.min(q - limits.lower_rad, limits.upper_rad - q);
+      if (left < least) {
+        least = left;
+        closest = i;
+      }
       if (!gauge) continue;
       gauge.style.left = `${Math.min(1, Math.max(0, (q - limits.lower_rad) / (limits.upper_rad - limits.lower_rad))) * 100}%`;
-      const near = nearness(q, limits.lower_rad, limits.upper_rad), cell = gauge.parentElement?.parentElement;
+      const near = nearness(q, limits.lower_rad, limits.upper_rad);
+      const cell = gauge.parentElement?.parentElement;
       if (cell && cell.dataset.near !== near) cell.dataset.near = near;
     }
     const says = words.jog.closest(closest + 1, showNumber(Math.max(0, least), "angle", 1));
@@ -29,7 +37,18 @@ export function JointGauges() {
   return (
     <div>
       <div className="gauges" aria-hidden>
-        {robot.arm.joints.map((joint, i) => <div key={joint.name}><span>{words.time.joint(i + 1)}</span><span className="gauge"><i ref={element => { gauges.current[i] = element; }} /></span></div>)}
+        {robot.arm.joints.map((joint, i) => (
+          <div key={joint.name}>
+            <span>{words.time.joint(i + 1)}</span>
+            <span className="gauge">
+              <i
+                ref={element => {
+                  gauges.current[i] = element;
+                }}
+              />
+            </span>
+          </div>
+        ))}
       </div>
       <p className="small dim gauges-line" ref={line} />
     </div>

@@ -7,18 +7,47 @@ import { words } from "../../words/index.ts";
 
 /** A step in mm has its step in degrees beside it. */
 const stepDegrees = (step_m: number): number => Math.min(10, Math.max(0.01, step_m * 200));
-const shown = (step_m: number): string => words.jog.stepOf(showNumber(step_m, "length", step_m < 0.001 ? 1 : 0), String(stepDegrees(step_m)));
+const shown = (step_m: number): string =>
+  words.jog.stepOf(showNumber(step_m, "length", step_m < 0.001 ? 1 : 0), String(stepDegrees(step_m)));
 
 /** Moving while held, or in steps; how fast, or how far. */
 export function Manner() {
-  const manner = useStore(jogStore, state => state.manner), step = useStore(jogStore, state => state.step_m), speed = useStore(jogStore, state => state.speed);
+  const manner = useStore(jogStore, state => state.manner);
+  const step = useStore(jogStore, state => state.step_m);
+  const speed = useStore(jogStore, state => state.speed);
   const steps = JOG_STEPS_M.map(step_m => ({ value: String(step_m), words: shown(step_m) }));
   return (
     <div className="manner">
-      <Segments<JogState["manner"]> label={words.jog.manner} value={manner} onChange={next => jogStore.setState({ manner: next })} options={[{ value: "hold", words: words.jog.hold }, { value: "steps", words: words.jog.steps }]} />
-      {manner === "steps"
-        ? <Chooser label={words.jog.step} value={String(step)} options={steps} onChange={raw => jogStore.setState({ step_m: Number(raw), step_rad: (stepDegrees(Number(raw)) * Math.PI) / 180 })} />
-        : <div className="manner-speed"><Slide label={words.jog.speed} value={speed} min={0.02} says={words.jog.speedOf(Math.round(speed * 100))} onChange={next => jogStore.setState({ speed: next })} /><span className="num small">{Math.round(speed * 100)} %</span></div>}
+      <Segments<JogState["manner"]>
+        label={words.jog.manner}
+        value={manner}
+        onChange={next => jogStore.setState({ manner: next })}
+        options={[
+          { value: "hold", words: words.jog.hold },
+          { value: "steps", words: words.jog.steps },
+        ]}
+      />
+      {manner === "steps" ? (
+        <Chooser
+          label={words.jog.step}
+          value={String(step)}
+          options={steps}
+          onChange={raw =>
+            jogStore.setState({ step_m: Number(raw), step_rad: (stepDegrees(Number(raw)) * Math.PI) / 180 })
+          }
+        />
+      ) : (
+        <div className="manner-speed">
+          <Slide
+            label={words.jog.speed}
+            value={speed}
+            min={0.02}
+            says={words.jog.speedOf(Math.round(speed * 100))}
+            onChange={next => jogStore.setState({ speed: next })}
+          />
+          <span className="num small">{Math.round(speed * 100)} %</span>
+        </div>
+      )}
     </div>
   );
 }

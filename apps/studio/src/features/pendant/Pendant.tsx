@@ -23,16 +23,33 @@ const TIP_AXES = 6;
 
 /** What a robot programmer's hands know. */
 export function Pendant() {
-  const frame = useStore(jogStore, state => state.frame), blocked = useStore(jogStore, state => state.blocked);
+  const frame = useStore(jogStore, state => state.frame);
+  const blocked = useStore(jogStore, state => state.blocked);
   const noUser = useStore(cellStore, state => (state.document?.frames.length ?? 0) === 0);
   return (
     <section className="pendant" aria-label={words.jog.title}>
-      <h2 className="heading"><span className="grow">{words.jog.title}</span></h2>
+      <h2 className="heading">
+        <span className="grow">{words.jog.title}</span>
+      </h2>
       <div className="section stack">
-        <Segments label={words.jog.frame} value={frame} onChange={next => jogStore.setState({ frame: next, blocked: null })}
-          options={FRAMES.map(value => ({ value, words: words.jog.frames[value], disabled: value === "user" && noUser }))} />
+        <Segments
+          label={words.jog.frame}
+          value={frame}
+          onChange={next => jogStore.setState({ frame: next, blocked: null })}
+          options={FRAMES.map(value => ({
+            value,
+            words: words.jog.frames[value],
+            disabled: value === "user" && noUser,
+          }))}
+        />
         <Axes />
-        {blocked ? <p className="pendant-blocked" role="alert">{blocked.sentence}</p> : frame !== "joint" && <JointGauges />}
+        {blocked ? (
+          <p className="pendant-blocked" role="alert">
+            {blocked.sentence}
+          </p>
+        ) : (
+          frame !== "joint" && <JointGauges />
+        )}
         <Manner />
         <PointButtons />
       </div>
@@ -42,22 +59,31 @@ export function Pendant() {
 
 /** One row a coordinate: − and + jog while held; in the joint frame with the gauge of its limits. */
 function Axes() {
-  const frame = useStore(jogStore, state => state.frame), userFrame = useStore(jogStore, state => state.userFrame), blockedJoint = useStore(jogStore, state => state.blocked?.joint);
-  const cell = useStore(cellStore, state => state.document), robot = robotOf(cell);
-  const numbers = useRef<(HTMLElement | null)[]>([]), gauges = useRef<(HTMLElement | null)[]>([]), rows = useRef<(HTMLElement | null)[]>([]);
+  const frame = useStore(jogStore, state => state.frame);
+  const userFrame = useStore(jogStore, state => state.userFrame);
+  const blockedJoint = useStore(jogStore, state => state.blocked?.joint);
+  const cell = useStore(cellStore, state => state.document);
+  const robot = robotOf(cell);
+  const numbers = useRef<(HTMLElement | null)[]>([]);
+  const gauges = useRef<(HTMLElement | null)[]>([]);
+  const rows = useRef<(HTMLElement | null)[]>([]);
   const values = useRef(new Float64Array(TIP_AXES));
-  const joint = frame === "joint", axes = Array.from({ length: joint ? robot?.arm.joints.length ?? 0 : TIP_AXES }, (_, i) => i);
+  const joint = frame === "joint";
+  const axes = Array.from({ length: joint ? (robot?.arm.joints.length ?? 0) : TIP_AXES }, (_, i) => i);
   useLive(live => {
     if (!joint) readTcp(live.worldFromTcp, worldFromFrameOf(cell, readFrame(frame), userFrame), values.current);
     for (const i of axes) {
-      const value = joint ? live.q_rad[i]! : values.current[i]!, number = numbers.current[i];
+      const value = joint ? live.q_rad[i]! : values.current[i]!;
+      const number = numbers.current[i];
       const text = joint || i > 2 ? `${showNumber(value, "angle")}°` : showNumber(value, "length");
       if (number && number.textContent !== text) number.textContent = text;
-      const limits = robot?.arm.joints[i]?.limits, gauge = gauges.current[i];
+      const limits = robot?.arm.joints[i]?.limits;
+      const gauge = gauges.current[i];
       if (!joint || !limits || !gauge) continue;
       const part = (value - limits.lower_rad) / (limits.upper_rad - limits.lower_rad);
       gauge.style.left = `${Math.min(1, Math.max(0, part)) * 100}%`;
-      const near = nearness(value, limits.lower_rad, limits.upper_rad), row = rows.current[i];
+      const near = nearness(value, limits.lower_rad, limits.upper_rad);
+      const row = rows.current[i];
       if (row && row.dataset.near !== near) row.dataset.near = near;
     }
   });
@@ -66,12 +92,48 @@ function Axes() {
       {axes.map(axis => {
         const name = joint ? words.time.joint(axis + 1) : words.jog.axes[axis]!;
         return (
-          <div className="axis" key={axis} ref={element => { rows.current[axis] = element; }} data-blocked={blockedJoint === axis + 1 && joint}>
+          <div
+            className="axis"
+            key={axis}
+            ref={element => {
+              rows.current[axis] = element;
+            }}
+            data-blocked={blockedJoint === axis + 1 && joint}
+          >
             <span className="axis-name">{name}</span>
-            <HoldButton label={words.jog.minus(name)} className="btn icon axis-button" onHold={() => hold("pendant", axis, -1)} onRelease={() => release("pendant", axis)}><Minus /></HoldButton>
-            {joint ? <span className="gauge" aria-hidden><i ref={element => { gauges.current[axis] = element; }} /></span> : <span className="axis-line" aria-hidden />}
-            <HoldButton label={words.jog.plus(name)} className="btn icon axis-button" onHold={() => hold("pendant", axis, 1)} onRelease={() => release("pendant", axis)}><Plus /></HoldButton>
-            <span className="num axis-value" ref={element => { numbers.current[axis] = element; }} />
+            <HoldButton
+              label={words.jog.minus(name)}
+              className="btn icon axis-button"
+              onHold={() => hold("pendant", axis, -1)}
+              onRelease={() => release("pendant", axis)}
+            >
+              <Minus />
+            </HoldButton>
+            {joint ? (
+              <span className="gauge" aria-hidden>
+                <i
+                  ref={element => {
+                    gauges.current[axis] = element;
+                  }}
+                />
+              </span>
+            ) : (
+              <span className="axis-line" aria-hidden />
+            )}
+            <HoldButton
+              label={words.jog.plus(name)}
+              className="btn icon axis-button"
+              onHold={() => hold("pendant", axis, 1)}
+              onRelease={() => release("pendant", axis)}
+            >
+              <Plus />
+            </HoldButton>
+            <span
+              className="num axis-value"
+              ref={element => {
+                numbers.current[axis] = element;
+              }}
+            />
           </div>
         );
       })}

@@ -14,36 +14,97 @@ import "./poses.css";
 
 /** Poses of the tool tip that a person keeps: taken, put elsewhere, loaded, saved, and driven through. */
 export function SavedPoses() {
-  const cell = useStore(cellStore, state => state.document), poses = useMemo(() => (cell === null ? [] : savedCoords(cell)), [cell]), input = useRef<HTMLInputElement>(null);
+  const cell = useStore(cellStore, state => state.document);
+  const poses = useMemo(() => (cell === null ? [] : savedCoords(cell)), [cell]);
+  const input = useRef<HTMLInputElement>(null);
   const none = poses.length === 0;
   const load = async (file: File): Promise<void> => {
     try {
       const answer = readPoses(await file.text());
-      if (answer.kind === "read") notify("done", words.poses.loaded(answer.count), file.name); else notify("bad", answer.sentence, file.name);
-    } catch (trouble) { notify("bad", words.file.unreadable(file.name), trouble instanceof Error ? trouble.message : undefined); }
+      if (answer.kind === "read") notify("done", words.poses.loaded(answer.count), file.name);
+      else notify("bad", answer.sentence, file.name);
+    } catch (trouble) {
+      notify("bad", words.file.unreadable(file.name), trouble instanceof Error ? trouble.message : undefined);
+    }
   };
-  const save = (): void => { download("poses.poses.txt", new Blob([posesText()], { type: "text/plain" })); notify("done", words.file.saved("poses.poses.txt")); };
+  const save = (): void => {
+    download("poses.poses.txt", new Blob([posesText()], { type: "text/plain" }));
+    notify("done", words.file.saved("poses.poses.txt"));
+  };
   return (
     <section className="poses" aria-label={words.poses.title}>
-      <h2 className="heading"><span className="grow">{words.poses.title}</span><span className="dim small">{none ? "" : poses.length}</span></h2>
+      <h2 className="heading">
+        <span className="grow">{words.poses.title}</span>
+        <span className="dim small">{none ? "" : poses.length}</span>
+      </h2>
       <div className="section stack">
-        {none ? <p className="small muted">{words.poses.none}</p> : <ul className="poses-list">
-          {poses.map(({ name, worldFromFrame: { position } }) => (
-            <li key={name} className="poses-row">
-              <span className="poses-name" title={name}>{name}</span>
-              <span className="num small dim">{position.map(value => showNumber(value, "length")).join("  ")}</span>
-              <Tip words={words.poses.putTip}><button className="btn quiet icon tight" aria-label={words.poses.put(name)} onClick={() => movePose(name, theLive().worldFromTcp)}><LocateFixed /></button></Tip>
-            </li>
-          ))}
-        </ul>}
+        {none ? (
+          <p className="small muted">{words.poses.none}</p>
+        ) : (
+          <ul className="poses-list">
+            {poses.map(({ name, worldFromFrame: { position } }) => (
+              <li key={name} className="poses-row">
+                <span className="poses-name" title={name}>
+                  {name}
+                </span>
+                <span className="num small dim">{position.map(value => showNumber(value, "length")).join("  ")}</span>
+                <Tip words={words.poses.putTip}>
+                  <button
+                    className="btn quiet icon tight"
+                    aria-label={words.poses.put(name)}
+                    onClick={() => movePose(name, theLive().worldFromTcp)}
+                  >
+                    <LocateFixed />
+                  </button>
+                </Tip>
+              </li>
+            ))}
+          </ul>
+        )}
         <div className="poses-buttons">
-          <Tip words={words.poses.addTip}><button className="btn" onClick={() => keepPose(theLive().worldFromTcp)}><MapPinPlus />{words.poses.add}</button></Tip>
-          <Tip words={words.poses.throughTip}><button className="btn" disabled={none} onClick={movesThroughPoses}><Route />{words.poses.through}</button></Tip>
-          <button className="btn" onClick={() => input.current?.click()}><FolderOpen />{words.poses.load}</button>
-          <button className="btn" disabled={none} onClick={save}><Save />{words.poses.save}</button>
-          <button className="btn poses-remove" disabled={none} onClick={() => { if (forgetPoses()) notify("info", words.poses.removed); }}><Trash2 />{words.poses.remove}</button>
+          <Tip words={words.poses.addTip}>
+            <button className="btn" onClick={() => keepPose(theLive().worldFromTcp)}>
+              <MapPinPlus />
+              {words.poses.add}
+            </button>
+          </Tip>
+          <Tip words={words.poses.throughTip}>
+            <button className="btn" disabled={none} onClick={movesThroughPoses}>
+              <Route />
+              {words.poses.through}
+            </button>
+          </Tip>
+          <button className="btn" onClick={() => input.current?.click()}>
+            <FolderOpen />
+            {words.poses.load}
+          </button>
+          <button className="btn" disabled={none} onClick={save}>
+            <Save />
+            {words.poses.save}
+          </button>
+          <button
+            className="btn poses-remove"
+            disabled={none}
+            onClick={() => {
+              if (forgetPoses()) notify("info", words.poses.removed);
+            }}
+          >
+            <Trash2 />
+            {words.poses.remove}
+          </button>
         </div>
-        <input ref={input} type="file" accept=".txt" hidden aria-label={words.poses.load} onChange={event => { const file = event.currentTarget.files?.[0]; if (file) void load(file); event.currentTarget.value = ""; }} />
+        <input
+          ref={input}
+          type="file"
+          accept=".txt"
+          hidden
+          aria-label={words.poses.load}
+          onChange={event => {
+            const file = event.currentTarget.files?.[0];
+            if (file) void load(file);
+            event.currentTarget.value = "";
+          }}
+        />
       </div>
     </section>
   );

@@ -20,53 +20,104 @@ import "./run.css";
 
 /** Run: the exported text on the left of one's mind, the twin in the view. The line under way is lit and kept in sight. */
 export default function Run() {
-  const document = useStore(cellStore, state => state.document), program = programOf(document), robot = robotOf(document);
-  const running = useStore(controlStore, state => state.running), safety = useStore(controlStore, state => state.safety);
-  const held = useStore(playStore, state => state.speed === 0), dialect = useStore(languageStore, state => languageOf(robot, state));
+  const document = useStore(cellStore, state => state.document);
+  const program = programOf(document);
+  const robot = robotOf(document);
+  const running = useStore(controlStore, state => state.running);
+  const safety = useStore(controlStore, state => state.safety);
+  const held = useStore(playStore, state => state.speed === 0);
+  const dialect = useStore(languageStore, state => languageOf(robot, state));
   const nothing = !program || !robot || program.steps.length === 0;
-  const { emitted, trouble } = useStore(postStore), id = dialect?.id ?? "";
-  useEffect(() => { postStore.setState({ emitted: null, proof: null, trouble: null }); postProgram(false); }, [program, id]);
+  const { emitted, trouble } = useStore(postStore);
+  const id = dialect?.id ?? "";
+  useEffect(() => {
+    postStore.setState({ emitted: null, proof: null, trouble: null });
+    postProgram(false);
+  }, [program, id]);
   const file = dialect && emitted?.kind === "emitted" ? runnableFile(dialect, emitted.files) : undefined;
   const foreign = useStore(foreignStore, state => state.open);
   const cannot = trouble ?? (emitted?.kind === "cannot" ? emitted.sentence : null);
 
-  if (foreign) return (
-    <section aria-label={words.run.title}>
-      <h2 className="heading"><span className="grow">{words.run.title}</span></h2>
-      <div className="section run"><Foreign open={foreign} /><TwinError /></div>
-    </section>
-  );
+  if (foreign)
+    return (
+      <section aria-label={words.run.title}>
+        <h2 className="heading">
+          <span className="grow">{words.run.title}</span>
+        </h2>
+        <div className="section run">
+          <Foreign open={foreign} />
+          <TwinError />
+        </div>
+      </section>
+    );
   return (
     <section aria-label={words.run.title}>
-      <h2 className="heading"><span className="grow">{words.run.title}</span></h2>
+      <h2 className="heading">
+        <span className="grow">{words.run.title}</span>
+      </h2>
       <div className="section run">
-      <p className="small muted">{dialect ? words.run.idle : words.run.neutral(robot?.name ?? "")} {words.run.recording}</p>
-      {robot && dialect && <LanguageChoice robot={robot} disabled={running} />}
-      <div className="run-buttons">
-        {running
-          ? <>
-            <button className="btn" onClick={() => playStore.setState({ speed: held ? 1 : 0 })}>{held ? <Play /> : <Pause />}{held ? words.run.resume : words.run.hold}</button>
-            <button className="btn" onClick={() => runCommand("stop")}><Square />{words.run.stop}</button>
-          </>
-          : <button className="btn primary" disabled={nothing || cannot !== null || safety !== "normal"} onClick={() => runCommand("run.start")}><Play />{words.run.run}</button>}
-        {safety !== "normal" && <button className="btn" onClick={() => runCommand("run.reset")}><RotateCcw />{words.control.reset}</button>}
-      </div>
-      <TwinError />
-      {nothing && <p className="muted">{words.run.nothing}</p>}
-      {cannot !== null && <p role="alert" className="run-cannot">{words.run.notEmitted(dialect?.name ?? "")} {cannot}</p>}
-      {program && <SignalList signals={program.signals} />}
-      {file && dialect && <Listing text={file.text} dialect={dialect.id} name={dialect.name} />}
+        <p className="small muted">
+          {dialect ? words.run.idle : words.run.neutral(robot?.name ?? "")} {words.run.recording}
+        </p>
+        {robot && dialect && <LanguageChoice robot={robot} disabled={running} />}
+        <div className="run-buttons">
+          {running ? (
+            <>
+              <button className="btn" onClick={() => playStore.setState({ speed: held ? 1 : 0 })}>
+                {held ? <Play /> : <Pause />}
+                {held ? words.run.resume : words.run.hold}
+              </button>
+              <button className="btn" onClick={() => runCommand("stop")}>
+                <Square />
+                {words.run.stop}
+              </button>
+            </>
+          ) : (
+            <button
+              className="btn primary"
+              disabled={nothing || cannot !== null || safety !== "normal"}
+              onClick={() => runCommand("run.start")}
+            >
+              <Play />
+              {words.run.run}
+            </button>
+          )}
+          {safety !== "normal" && (
+            <button className="btn" onClick={() => runCommand("run.reset")}>
+              <RotateCcw />
+              {words.control.reset}
+            </button>
+          )}
+        </div>
+        <TwinError />
+        {nothing && <p className="muted">{words.run.nothing}</p>}
+        {cannot !== null && (
+          <p role="alert" className="run-cannot">
+            {words.run.notEmitted(dialect?.name ?? "")} {cannot}
+          </p>
+        )}
+        {program && <SignalList signals={program.signals} />}
+        {file && dialect && <Listing text={file.text} dialect={dialect.id} name={dialect.name} />}
       </div>
     </section>
   );
 }
 
 function TwinError() {
-  const error_rad = useStore(controlStore, state => state.twinError_rad), message = useStore(controlStore, state => state.message);
+  const error_rad = useStore(controlStore, state => state.twinError_rad);
+  const message = useStore(controlStore, state => state.message);
   return (
     <dl className="facts run-facts">
-      <div><dt>{words.run.twin}</dt><dd data-testid="twin-error">{((error_rad * 180) / Math.PI).toFixed(6)}°</dd></div>
-      {message && <div><dt>{words.jog.message}</dt><dd>{message}</dd></div>}
+      <div>
+        <dt>{words.run.twin}</dt>
+        <dd data-testid="twin-error">{((error_rad * 180) / Math.PI).toFixed(6)}°</dd>
+      </div>
+      {message && (
+        <div>
+          <dt>{words.jog.message}</dt>
+          <dd>{message}</dd>
+        </div>
+      )}
     </dl>
   );
 }
@@ -74,5 +125,13 @@ function TwinError() {
 /** The text with the line under way lit and kept in sight. */
 function Listing({ text, dialect, name }: { readonly text: string; readonly dialect: string; readonly name: string }) {
   const line = useStore(controlStore, state => (state.running ? state.line : 0));
-  return <CodeView text={text.replace(/\r?\n$/, "")} dialect={dialect} label={words.run.text(name)} current={line} height="min(48vh, 520px)" />;
+  return (
+    <CodeView
+      text={text.replace(/\r?\n$/, "")}
+      dialect={dialect}
+      label={words.run.text(name)}
+      current={line}
+      height="min(48vh, 520px)"
+    />
+  );
 }

@@ -2,13 +2,29 @@ import { soundStore, type Sound } from "../../stores/sound.ts";
 import { viewStore } from "../../stores/view.ts";
 
 /** One short tone: frequency glides from → to [Hz] while it fades. */
-interface Tone { readonly shape: OscillatorType; readonly from_Hz: number; readonly to_Hz: number; readonly start_s: number; readonly duration_s: number; readonly gain: number }
+interface Tone {
+  readonly shape: OscillatorType;
+  readonly from_Hz: number;
+  readonly to_Hz: number;
+  readonly start_s: number;
+  readonly duration_s: number;
+  readonly gain: number;
+}
 const TONES: Readonly<Record<Sound, readonly Tone[]>> = {
-  crash: [{ shape: "sawtooth", from_Hz: 150, to_Hz: 45, start_s: 0, duration_s: 0.22, gain: 0.16 }, { shape: "square", from_Hz: 90, to_Hz: 40, start_s: 0, duration_s: 0.12, gain: 0.1 }],
-  limit: [{ shape: "triangle", from_Hz: 440, to_Hz: 415, start_s: 0, duration_s: 0.09, gain: 0.14 }, { shape: "triangle", from_Hz: 440, to_Hz: 415, start_s: 0.14, duration_s: 0.09, gain: 0.14 }],
+  crash: [
+    { shape: "sawtooth", from_Hz: 150, to_Hz: 45, start_s: 0, duration_s: 0.22, gain: 0.16 },
+    { shape: "square", from_Hz: 90, to_Hz: 40, start_s: 0, duration_s: 0.12, gain: 0.1 },
+  ],
+  limit: [
+    { shape: "triangle", from_Hz: 440, to_Hz: 415, start_s: 0, duration_s: 0.09, gain: 0.14 },
+    { shape: "triangle", from_Hz: 440, to_Hz: 415, start_s: 0.14, duration_s: 0.09, gain: 0.14 },
+  ],
   grip: [{ shape: "sine", from_Hz: 320, to_Hz: 180, start_s: 0, duration_s: 0.06, gain: 0.16 }],
   "link-lost": [{ shape: "triangle", from_Hz: 520, to_Hz: 260, start_s: 0, duration_s: 0.35, gain: 0.14 }],
-  done: [{ shape: "sine", from_Hz: 587, to_Hz: 587, start_s: 0, duration_s: 0.12, gain: 0.1 }, { shape: "sine", from_Hz: 880, to_Hz: 880, start_s: 0.1, duration_s: 0.2, gain: 0.1 }],
+  done: [
+    { shape: "sine", from_Hz: 587, to_Hz: 587, start_s: 0, duration_s: 0.12, gain: 0.1 },
+    { shape: "sine", from_Hz: 880, to_Hz: 880, start_s: 0.1, duration_s: 0.2, gain: 0.1 },
+  ],
 };
 
 /** Plays what the sound store asks for. A browser that gives no audio stays silent; nothing else changes. */
@@ -26,7 +42,10 @@ export function startSounds(): () => void {
 }
 
 function playTone(context: AudioContext, tone: Tone): void {
-  const oscillator = context.createOscillator(), volume = context.createGain(), start = context.currentTime + tone.start_s, end = start + tone.duration_s;
+  const oscillator = context.createOscillator();
+  const volume = context.createGain();
+  const start = context.currentTime + tone.start_s;
+  const end = start + tone.duration_s;
   oscillator.type = tone.shape;
   oscillator.frequency.setValueAtTime(tone.from_Hz, start);
   oscillator.frequency.exponentialRampToValueAtTime(tone.to_Hz, end);

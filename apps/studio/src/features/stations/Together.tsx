@@ -8,8 +8,10 @@ import { words } from "../../words/index.ts";
 
 /** Which of the controllers start together, and the start. */
 export function Together({ stations }: { readonly stations: readonly StationState[] }) {
-  const [left, setLeft] = useState<readonly string[]>([]), running = stations.some(station => station.running);
-  const able = stations.filter(({ link, guard }) => link.state === "open" && !guard.watching), chosen = able.filter(({ id }) => !left.includes(id));
+  const [left, setLeft] = useState<readonly string[]>([]);
+  const running = stations.some(station => station.running);
+  const able = stations.filter(({ link, guard }) => link.state === "open" && !guard.watching);
+  const chosen = able.filter(({ id }) => !left.includes(id));
   const start = (): void => {
     void startTogether(chosen.map(({ id }) => id)).then(outcome => {
       if (outcome.kind === "done") notify("done", words.stations.togetherDone);
@@ -21,9 +23,26 @@ export function Together({ stations }: { readonly stations: readonly StationStat
       <legend className="small dim">{words.stations.togetherOf}</legend>
       {stations.map(({ id, name }) => {
         const may = able.some(each => each.id === id);
-        return <label key={id} className="row-flex small"><input type="checkbox" disabled={!may || running} checked={may && !left.includes(id)} onChange={event => { setLeft(event.currentTarget.checked ? left.filter(each => each !== id) : [...left, id]); }} />{name}</label>;
+        return (
+          <label key={id} className="row-flex small">
+            <input
+              type="checkbox"
+              disabled={!may || running}
+              checked={may && !left.includes(id)}
+              onChange={event => {
+                setLeft(event.currentTarget.checked ? left.filter(each => each !== id) : [...left, id]);
+              }}
+            />
+            {name}
+          </label>
+        );
       })}
-      <Tip words={words.stations.togetherTip}><button className="btn primary" disabled={chosen.length < 2 || running} onClick={start}><Users />{words.stations.together}</button></Tip>
+      <Tip words={words.stations.togetherTip}>
+        <button className="btn primary" disabled={chosen.length < 2 || running} onClick={start}>
+          <Users />
+          {words.stations.together}
+        </button>
+      </Tip>
     </fieldset>
   );
 }

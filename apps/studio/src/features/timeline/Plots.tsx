@@ -21,41 +21,107 @@ const HEIGHT = 124;
 /** Joint angles, speeds or torques over the whole plan; a click looks at that moment. */
 export default function Plots({ plan }: { plan: Plan }) {
   const [what, setWhat] = useState<What>("angles");
-  const host = useRef<HTMLDivElement>(null), theme = useStore(viewStore, state => state.theme);
+  const host = useRef<HTMLDivElement>(null);
+  const theme = useStore(viewStore, state => state.theme);
   const joints = useStore(cellStore, state => robotOf(state.document)?.arm.joints.length ?? 0);
   const torques = useMemo(() => {
-    const { document } = cellStore.getState(), robot = robotOf(document), program = programOf(document);
-    return what === "torques" && document && robot && program ? torquePlot(plan, robot, program, document.robot.worldFromBase, torqueProfile) : null;
+    const { document } = cellStore.getState();
+    const robot = robotOf(document);
+    const program = programOf(document);
+    return what === "torques" && document && robot && program
+      ? torquePlot(plan, robot, program, document.robot.worldFromBase, torqueProfile)
+      : null;
   }, [plan, what]);
   useEffect(() => {
     const element = host.current;
     if (!element) return undefined;
-    const style = getComputedStyle(element), colour = (name: string): string => style.getPropertyValue(name);
+    const style = getComputedStyle(element);
+    const colour = (name: string): string => style.getPropertyValue(name);
     const unit = what === "torques" ? words.time.percent : what === "angles" ? words.time.deg : words.time.degS;
-    const data = what !== "torques" ? plotData(plan, joints, what, samplePlan) : torques?.kind === "known" ? torques.data : undefined;
+    const data =
+      what !== "torques"
+        ? plotData(plan, joints, what, samplePlan)
+        : torques?.kind === "known"
+          ? torques.data
+          : undefined;
     if (!data) return undefined;
     const value = (_plot: uPlot, at: number | null): string => (at === null ? "" : `${at.toFixed(1)}${unit}`);
-    const limits = Array.from({ length: data.length - 1 - joints }, () => ({ label: words.time.limit, stroke: colour("--text-3"), width: 1, dash: [6, 4], points: { show: false }, value }));
-    const axis = { stroke: colour("--text-3"), grid: { stroke: colour("--line"), width: 1 }, ticks: { stroke: colour("--line") }, font: "11px Inter Variable", size: 46 };
-    const plot = new uPlot({
-      width: element.clientWidth, height: HEIGHT, legend: { show: true, live: true }, cursor: { y: false, drag: { x: false, y: false } }, scales: { x: { time: false } },
-      series: [{ label: "s", value: (_plot, value) => (value === null ? "" : value.toFixed(2)) }, ...COLOURS.slice(0, joints).map((stroke, i) => ({ label: words.time.joint(i + 1), stroke, width: 1.4, points: { show: false }, value })), ...limits],
-      axes: [{ ...axis, size: 24 }, axis],
-    }, data, element);
-    const click = (): void => { const { idx } = plot.cursor, at = idx == null ? undefined : plot.data[0][idx]; if (at !== undefined) seek(at); };
+    const limits = Array.from({ length: data.length - 1 - joints }, () => ({
+      label: words.time.limit,
+      stroke: colour("--text-3"),
+      width: 1,
+      dash: [6, 4],
+      points: { show: false },
+      value,
+    }));
+    const axis = {
+      stroke: colour("--text-3"),
+      grid: { stroke: colour("--line"), width: 1 },
+      ticks: { stroke: colour("--line") },
+      font: "11px Inter Variable",
+      size: 46,
+    };
+    const plot = new uPlot(
+      {
+        width: element.clientWidth,
+        height: HEIGHT,
+        legend: { show: true, live: true },
+        cursor: { y: false, drag: { x: false, y: false } },
+        scales: { x: { time: false } },
+        series: [
+          { label: "s", value: (_plot, value) => (value === null ? "" : value.toFixed(2)) },
+          ...COLOURS.slice(0, joints).map((stroke, i) => ({
+            label: words.time.joint(i + 1),
+            stroke,
+            width: 1.4,
+            points: { show: false },
+            value,
+          })),
+          ...limits,
+        ],
+        axes: [{ ...axis, size: 24 }, axis],
+      },
+      data,
+      element,
+    );
+    const click = (): void => {
+      const { idx } = plot.cursor;
+      const at = idx == null ? undefined : plot.data[0][idx];
+      if (at !== undefined) seek(at);
+    };
     plot.over.addEventListener("click", click);
     const line = document.createElement("div");
     line.className = "plot-head";
     plot.over.append(line);
-    const stop = onFrame(() => { line.style.left = `${plot.valToPos(playheadNow(), "x")}px`; });
+    const stop = onFrame(() => {
+      line.style.left = `${plot.valToPos(playheadNow(), "x")}px`;
+    });
     const sizes = new ResizeObserver(() => plot.setSize({ width: element.clientWidth, height: HEIGHT }));
     sizes.observe(element);
-    return () => { stop(); sizes.disconnect(); plot.destroy(); };
+    return () => {
+      stop();
+      sizes.disconnect();
+      plot.destroy();
+    };
   }, [plan, joints, what, theme, torques]);
   return (
     <div className="plots">
-      <Segments<What> label={words.time.plots} value={what} onChange={setWhat} className="seg small-seg" options={[{ value: "angles", words: words.time.angles }, { value: "speeds", words: words.time.speeds }, { value: "torques", words: words.time.torques }]} />
-      {torques?.kind === "unknown" ? <p className="empty">{torques.sentence}</p> : <div ref={host} className="plot-host" />}
+      <Segments<What>
+        label={words.time.plots}
+        value={what}
+        onChange={setWhat}
+        className="seg small-seg"
+        options={[
+          { value: "angles", words: words.time.angles },
+          { value: "speeds", words: words.time.speeds },
+          { value: "torques", words: words.time.torques },
+        ]}
+      />
+      {torques?.kind === "unknown" ? (
+        <p className="empty">{torques.sentence}</p>
+      ) : (
+        <div ref={host} className="plot-host" />
+      )}
     </div>
   );
 }

@@ -22,48 +22,132 @@ const Plots = lazy(() => import("./Plots.tsx"));
 
 /** Bottom: the program as blocks in time, a scrubber, and the plots drawer. */
 export function Timeline() {
-  const plan = useStore(playStore, state => state.plan), verdict = useStore(playStore, state => state.verdict);
-  const program = useStore(cellStore, state => programOf(state.document)), plots = useStore(viewStore, state => state.plots);
-  const blocks = useMemo(() => (plan && program ? timelineBlocks(program, plan, verdict) : []), [program, plan, verdict]);
+  const plan = useStore(playStore, state => state.plan);
+  const verdict = useStore(playStore, state => state.verdict);
+  const program = useStore(cellStore, state => programOf(state.document));
+  const plots = useStore(viewStore, state => state.plots);
+  const blocks = useMemo(
+    () => (plan && program ? timelineBlocks(program, plan, verdict) : []),
+    [program, plan, verdict],
+  );
   return (
     <div className="timeline">
       <Transport hasPlan={plan !== null && plan.duration_s > 0} />
-      {plan && plan.duration_s > 0 ? <Track blocks={blocks} duration_s={plan.duration_s} /> : <p className="timeline-empty">{words.time.empty}</p>}
-      {plots && plan && plan.duration_s > 0 && <Suspense fallback={<div className="plots" />}><Plots plan={plan} /></Suspense>}
+      {plan && plan.duration_s > 0 ? (
+        <Track blocks={blocks} duration_s={plan.duration_s} />
+      ) : (
+        <p className="timeline-empty">{words.time.empty}</p>
+      )}
+      {plots && plan && plan.duration_s > 0 && (
+        <Suspense fallback={<div className="plots" />}>
+          <Plots plan={plan} />
+        </Suspense>
+      )}
     </div>
   );
 }
 
 function Transport({ hasPlan }: { hasPlan: boolean }) {
-  const physics = useStore(physicsStore, state => state.on), moving = useStore(physicsStore, ({ status }) => status === "running" || status === "stopped" || status === "loading");
-  const playing = useStore(playStore, state => (physics ? moving : state.playing)), duration = useStore(playStore, state => state.plan?.duration_s ?? 0);
-  const repairs = useStore(playStore, state => state.verdict?.steps.reduce((count, step) => count + (step.findings.some(finding => finding.repairs.length > 0) ? 1 : 0), 0) ?? 0);
-  const plots = useStore(viewStore, state => state.plots), checking = useStore(playStore, state => state.checking);
-  const robot = useStore(cellStore, state => robotOf(state.document)), language = useStore(languageStore, state => languageOf(robot, state)?.name ?? "");
+  const physics = useStore(physicsStore, state => state.on);
+  const moving = useStore(
+    physicsStore,
+    ({ status }) => status === "running" || status === "stopped" || status === "loading",
+  );
+  const playing = useStore(playStore, state => (physics ? moving : state.playing));
+  const duration = useStore(playStore, state => state.plan?.duration_s ?? 0);
+  const repairs = useStore(
+    playStore,
+    state =>
+      state.verdict?.steps.reduce(
+        (count, step) => count + (step.findings.some(finding => finding.repairs.length > 0) ? 1 : 0),
+        0,
+      ) ?? 0,
+  );
+  const plots = useStore(viewStore, state => state.plots);
+  const checking = useStore(playStore, state => state.checking);
+  const robot = useStore(cellStore, state => robotOf(state.document));
+  const language = useStore(languageStore, state => languageOf(robot, state)?.name ?? "");
   const clock = useRef<HTMLSpanElement>(null);
-  useEffect(() => onFrame(() => {
-    const text = words.time.s(physicsStore.getState().on ? physicsNow()?.t_s ?? 0 : playheadNow());
-    if (clock.current && clock.current.textContent !== text) clock.current.textContent = text;
-  }), []);
+  useEffect(
+    () =>
+      onFrame(() => {
+        const text = words.time.s(physicsStore.getState().on ? (physicsNow()?.t_s ?? 0) : playheadNow());
+        if (clock.current && clock.current.textContent !== text) clock.current.textContent = text;
+      }),
+    [],
+  );
   return (
     <div className="transport">
-      <button className="btn primary" disabled={!hasPlan} onClick={() => runCommand("play.toggle")}>{playing ? <Pause /> : <Play />}{playing ? words.time.pause : words.time.play}</button>
-      <Tip words={words.time.back} keys="ArrowLeft"><button className="btn icon" aria-label={words.time.back} disabled={!hasPlan} onClick={() => runCommand("play.back")}><SkipBack /></button></Tip>
-      <Tip words={words.time.step} keys="ArrowRight"><button className="btn icon" aria-label={words.time.step} disabled={!hasPlan} onClick={() => runCommand("play.step")}><SkipForward /></button></Tip>
-      <span className="clock"><span ref={clock}>0.00</span> s <span className="dim">{words.time.of} {words.time.s(duration)} s</span></span>
+      <button className="btn primary" disabled={!hasPlan} onClick={() => runCommand("play.toggle")}>
+        {playing ? <Pause /> : <Play />}
+        {playing ? words.time.pause : words.time.play}
+      </button>
+      <Tip words={words.time.back} keys="ArrowLeft">
+        <button
+          className="btn icon"
+          aria-label={words.time.back}
+          disabled={!hasPlan}
+          onClick={() => runCommand("play.back")}
+        >
+          <SkipBack />
+        </button>
+      </Tip>
+      <Tip words={words.time.step} keys="ArrowRight">
+        <button
+          className="btn icon"
+          aria-label={words.time.step}
+          disabled={!hasPlan}
+          onClick={() => runCommand("play.step")}
+        >
+          <SkipForward />
+        </button>
+      </Tip>
+      <span className="clock">
+        <span ref={clock}>0.00</span> s{" "}
+        <span className="dim">
+          {words.time.of} {words.time.s(duration)} s
+        </span>
+      </span>
       <span className="grow" />
-      {checking !== null && <span className="row-flex small muted" role="status"><span className="progress checking-bar"><i style={{ width: `${checking * 100}%` }} /></span>{words.check.percent(Math.round(checking * 100))}<button className="btn quiet tight" onClick={() => runCommand("check.cancel")}>{words.common.cancel}</button></span>}
-      <Tip words={words.physics.tip}><button className="btn quiet" aria-pressed={physics} onClick={() => runCommand("play.physics")}><Weight />{words.physics.toggle}</button></Tip>
-      <Tip words={words.time.plots}><button className="btn quiet" aria-pressed={plots} onClick={() => runCommand("view.plots")}><ChartSpline />{words.time.plots}</button></Tip>
-      {repairs > 0 && <button className="btn" onClick={() => runCommand("check.repair-all")}>{words.check.repairAll(repairs)}</button>}
-      <button className="btn" onClick={() => runCommand("export.open")}>{words.export.button(language)}</button>
+      {checking !== null && (
+        <span className="row-flex small muted" role="status">
+          <span className="progress checking-bar">
+            <i style={{ width: `${checking * 100}%` }} />
+          </span>
+          {words.check.percent(Math.round(checking * 100))}
+          <button className="btn quiet tight" onClick={() => runCommand("check.cancel")}>
+            {words.common.cancel}
+          </button>
+        </span>
+      )}
+      <Tip words={words.physics.tip}>
+        <button className="btn quiet" aria-pressed={physics} onClick={() => runCommand("play.physics")}>
+          <Weight />
+          {words.physics.toggle}
+        </button>
+      </Tip>
+      <Tip words={words.time.plots}>
+        <button className="btn quiet" aria-pressed={plots} onClick={() => runCommand("view.plots")}>
+          <ChartSpline />
+          {words.time.plots}
+        </button>
+      </Tip>
+      {repairs > 0 && (
+        <button className="btn" onClick={() => runCommand("check.repair-all")}>
+          {words.check.repairAll(repairs)}
+        </button>
+      )}
+      <button className="btn" onClick={() => runCommand("export.open")}>
+        {words.export.button(language)}
+      </button>
     </div>
   );
 }
 
 /** Blocks and the playhead. The playhead is moved by style in the frame loop, not by React. */
 function Track({ blocks, duration_s }: { blocks: readonly Block[]; duration_s: number }) {
-  const track = useRef<HTMLDivElement>(null), head = useRef<HTMLDivElement>(null);
+  const track = useRef<HTMLDivElement>(null);
+  const head = useRef<HTMLDivElement>(null);
   const selected = useStore(selectionStore, state => (state.selected?.kind === "step" ? state.selected.id : null));
   useEffect(() => {
     let shown = -1;
@@ -80,22 +164,65 @@ function Track({ blocks, duration_s }: { blocks: readonly Block[]; duration_s: n
     if (box) seek(((event.clientX - box.left) / box.width) * duration_s);
   };
   const onKey = (event: KeyboardEvent): void => {
-    const step = event.shiftKey ? 1 : 0.1, to = event.key === "ArrowLeft" ? playheadNow() - step : event.key === "ArrowRight" ? playheadNow() + step : event.key === "Home" ? 0 : event.key === "End" ? duration_s : null;
+    const step = event.shiftKey ? 1 : 0.1;
+    const to =
+      event.key === "ArrowLeft"
+        ? playheadNow() - step
+        : event.key === "ArrowRight"
+          ? playheadNow() + step
+          : event.key === "Home"
+            ? 0
+            : event.key === "End"
+              ? duration_s
+              : null;
     if (to === null) return;
-    event.preventDefault(); event.stopPropagation();
+    event.preventDefault();
+    event.stopPropagation();
     seek(to);
   };
   return (
-    <div className="track" ref={track}
-      onPointerDown={event => { event.currentTarget.setPointerCapture(event.pointerId); at(event); const under = document.elementFromPoint(event.clientX, event.clientY)?.closest<HTMLElement>("[data-block]"); if (under?.dataset.block) select({ kind: "step", id: under.dataset.block }); }}
-      onPointerMove={event => { if (event.currentTarget.hasPointerCapture(event.pointerId)) at(event); }}
+    <div
+      className="track"
+      ref={track}
+      onPointerDown={event => {
+        event.currentTarget.setPointerCapture(event.pointerId);
+        at(event);
+        const under = document.elementFromPoint(event.clientX, event.clientY)?.closest<HTMLElement>("[data-block]");
+        if (under?.dataset.block) select({ kind: "step", id: under.dataset.block });
+      }}
+      onPointerMove={event => {
+        if (event.currentTarget.hasPointerCapture(event.pointerId)) at(event);
+      }}
     >
       {blocks.map(block => (
-        <div key={block.key} className="block" data-block={block.step} data-verdict={block.rest && block.verdict !== "bad" ? "rest" : block.verdict} data-on={block.step === selected} title={block.name}
+        <div
+          key={block.key}
+          className="block"
+          data-block={block.step}
+          data-verdict={block.rest && block.verdict !== "bad" ? "rest" : block.verdict}
+          data-on={block.step === selected}
+          title={block.name}
           style={{ left: `${(block.start_s / duration_s) * 100}%`, width: `${(block.duration_s / duration_s) * 100}%` }}
-        ><span><i className="mark" data-verdict={block.verdict} aria-hidden /><span className="block-name">{block.findings > 0 ? words.time.over(block.name, block.findings) : block.name}</span></span></div>
+        >
+          <span>
+            <i className="mark" data-verdict={block.verdict} aria-hidden />
+            <span className="block-name">
+              {block.findings > 0 ? words.time.over(block.name, block.findings) : block.name}
+            </span>
+          </span>
+        </div>
       ))}
-      <div className="playhead" ref={head} role="slider" tabIndex={0} aria-label={words.time.scrubber} aria-valuemin={0} aria-valuemax={Number(duration_s.toFixed(2))} aria-valuenow={0} onKeyDown={onKey} />
+      <div
+        className="playhead"
+        ref={head}
+        role="slider"
+        tabIndex={0}
+        aria-label={words.time.scrubber}
+        aria-valuemin={0}
+        aria-valuemax={Number(duration_s.toFixed(2))}
+        aria-valuenow={0}
+        onKeyDown={onKey}
+      />
     </div>
   );
 }

@@ -22,20 +22,50 @@ export function timelineBlocks(program: Program, plan: Plan, verdict: Verdict | 
   const reports = new Map(verdict?.steps.map(report => [report.id, report]));
   const places = new Map(Array.from(everyStep(program), (step, index) => [step.id, { step, index }]));
   const blocks: Block[] = [];
-  let group: string | undefined, lastStep = "";
+  let group: string | undefined;
+  let lastStep = "";
   for (const segment of plan.segments) {
-    const place = places.get(segment.step), last = blocks.at(-1), report = reports.get(segment.step);
-    const judged = report?.verdict ?? "unknown", count = segment.step === lastStep ? 0 : report?.findings.length ?? 0;
-    const mine = place?.step.group, rest = segment.kind === "rest";
-    const joins = last !== undefined && (segment.step === lastStep || (mine !== undefined && mine === group)
-      || (rest === last.rest && segment.duration_s < THIN * plan.duration_s && last.duration_s < THIN * plan.duration_s));
+    const place = places.get(segment.step);
+    const last = blocks.at(-1);
+    const report = reports.get(segment.step);
+    const judged = report?.verdict ?? "unknown";
+    const count = segment.step === lastStep ? 0 : (report?.findings.length ?? 0);
+    const mine = place?.step.group;
+    const rest = segment.kind === "rest";
+    const joins =
+      last !== undefined &&
+      (segment.step === lastStep ||
+        (mine !== undefined && mine === group) ||
+        (rest === last.rest &&
+          segment.duration_s < THIN * plan.duration_s &&
+          last.duration_s < THIN * plan.duration_s));
     if (joins) {
-      blocks[blocks.length - 1] = { ...last, duration_s: segment.start_s + segment.duration_s - last.start_s, verdict: worse(last.verdict, judged), findings: last.findings + count };
+      blocks[blocks.length - 1] = {
+        ...last,
+        duration_s: segment.start_s + segment.duration_s - last.start_s,
+        verdict: worse(last.verdict, judged),
+        findings: last.findings + count,
+      };
     } else {
-      const name = mine !== undefined ? program.groups[mine]?.name ?? mine : place ? stepWords(place.step, place.index) : segment.step;
-      blocks.push({ key: `${segment.step} ${segment.start_s}`, step: segment.step, name, start_s: segment.start_s, duration_s: segment.duration_s, verdict: judged, rest, findings: count });
+      const name =
+        mine !== undefined
+          ? (program.groups[mine]?.name ?? mine)
+          : place
+            ? stepWords(place.step, place.index)
+            : segment.step;
+      blocks.push({
+        key: `${segment.step} ${segment.start_s}`,
+        step: segment.step,
+        name,
+        start_s: segment.start_s,
+        duration_s: segment.duration_s,
+        verdict: judged,
+        rest,
+        findings: count,
+      });
     }
-    group = mine; lastStep = segment.step;
+    group = mine;
+    lastStep = segment.step;
   }
   return blocks;
 }

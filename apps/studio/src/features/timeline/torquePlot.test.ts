@@ -2,16 +2,25 @@ import { expect, test } from "vitest";
 import { emptyProgram, planProgram, pose, robotById, torqueProfile, type Program } from "@twincell/core";
 import { LIMIT_LINES, torquePlot } from "./torquePlot.ts";
 
-const programOf = (robot: string, q: number[]): Program => ({ ...emptyProgram(robot), steps: [{ id: "a", type: "move", path: "ptp", target: { q }, speed: { ratio: 0.5 }, blend_m: 0 }] });
+const programOf = (robot: string, q: number[]): Program => ({
+  ...emptyProgram(robot),
+  steps: [{ id: "a", type: "move", path: "ptp", target: { q }, speed: { ratio: 0.5 }, blend_m: 0 }],
+});
 
 test("X-10 torques are plotted as shares of their limits between two lines at 100 %, or the reason is shown", () => {
-  const ur10e = robotById("ur10e")!, program = programOf("ur10e", [0.3, -1.2, 1.4, -1.6, -1.5, 0]), { plan } = planProgram(program, ur10e), plotted = torquePlot(plan, ur10e, program, pose(), torqueProfile);
+  const ur10e = robotById("ur10e")!;
+  const program = programOf("ur10e", [0.3, -1.2, 1.4, -1.6, -1.5, 0]);
+  const { plan } = planProgram(program, ur10e);
+  const plotted = torquePlot(plan, ur10e, program, pose(), torqueProfile);
   if (plotted.kind === "unknown") throw new Error(plotted.sentence);
   expect(plotted.data.length).toBe(1 + 6 + LIMIT_LINES);
   expect(new Set(plotted.data.map(row => row.length)).size).toBe(1);
   expect(plotted.data.slice(-LIMIT_LINES).map(row => row[0])).toEqual([-100, 100]);
   const profile = torqueProfile(plan, ur10e, program);
   expect(plotted.data[2]![0]).toBeCloseTo(profile.kind === "known" ? (100 * profile.torque_Nm[1]!) / 330 : NaN, 9);
-  const rx90l = robotById("staubli_rx90l")!, other = programOf("staubli_rx90l", [0, -1, 2, 0, 0.6, 0]);
-  expect(torquePlot(planProgram(other, rx90l).plan, rx90l, other, pose(), torqueProfile)).toMatchObject({ kind: "unknown" });
+  const rx90l = robotById("staubli_rx90l")!;
+  const other = programOf("staubli_rx90l", [0, -1, 2, 0, 0.6, 0]);
+  expect(torquePlot(planProgram(other, rx90l).plan, rx90l, other, pose(), torqueProfile)).toMatchObject({
+    kind: "unknown",
+  });
 });

@@ -16,17 +16,30 @@ import { StopButton } from "./StopButton.tsx";
 import "./topbar.css";
 
 const MODES: readonly StudioMode[] = ["teach", "check", "run", "history"];
-const MENU: readonly (readonly string[])[] = [["file.save", "file.load", "file.example", "file.new"], ["export.open", "export.import"], ["view.cameras", "view.collision", "help.controls", "help.shortcuts", "help.coach"]];
+const MENU: readonly (readonly string[])[] = [
+  ["file.save", "file.load", "file.example", "file.new"],
+  ["export.open", "export.import"],
+  ["view.cameras", "view.collision", "help.controls", "help.shortcuts", "help.coach"],
+];
 
 /** A phone has no room for these beside the menu. */
-const PHONE_MENU: readonly (readonly string[])[] = [["edit.undo", "edit.redo"], ...MENU, ["view.theme", "view.mute", "help.palette"]];
+const PHONE_MENU: readonly (readonly string[])[] = [
+  ["edit.undo", "edit.redo"],
+  ...MENU,
+  ["view.theme", "view.mute", "help.palette"],
+];
 
 export function TopBar({ phone }: { phone: boolean }) {
   return (
     <header className="topbar area-top">
       <h1 className="visually-hidden">{words.app.name}</h1>
       <CellMenu phone={phone} />
-      {!phone && <><CellName /><UndoRedo /></>}
+      {!phone && (
+        <>
+          <CellName />
+          <UndoRedo />
+        </>
+      )}
       <div className="topbar-space" />
       {!phone && <Modes />}
       <div className="topbar-space" />
@@ -40,24 +53,48 @@ export function TopBar({ phone }: { phone: boolean }) {
 
 function Modes() {
   const mode = useStore(viewStore, state => state.mode);
-  return <Segments className="seg" label={words.mode.label} value={mode} onChange={showMode} options={MODES.map(value => ({ value, words: words.mode[value] }))} />;
+  return (
+    <Segments
+      className="seg"
+      label={words.mode.label}
+      value={mode}
+      onChange={showMode}
+      options={MODES.map(value => ({ value, words: words.mode[value] }))}
+    />
+  );
 }
 
 function CellMenu({ phone }: { phone: boolean }) {
   const commands = useStore(commandStore, state => state.commands);
   return (
     <DropdownMenu.Root modal={false}>
-      <DropdownMenu.Trigger asChild><button className="brand" aria-label={`${words.app.name}: ${words.top.menu}`}><i aria-hidden /><span>{words.app.name}</span></button></DropdownMenu.Trigger>
+      <DropdownMenu.Trigger asChild>
+        <button className="brand" aria-label={`${words.app.name}: ${words.top.menu}`}>
+          <i aria-hidden />
+          <span>{words.app.name}</span>
+        </button>
+      </DropdownMenu.Trigger>
       <DropdownMenu.Portal>
         <DropdownMenu.Content className="menu" align="start" sideOffset={6}>
           {(phone ? PHONE_MENU : MENU).map((ids, i) => (
             <DropdownMenu.Group key={i}>
               {i > 0 && <DropdownMenu.Separator className="menu-line" />}
-              {ids.map(id => commands.get(id)).map(command => command && (
-                <DropdownMenu.Item key={command.id} className="menu-item" disabled={command.can?.() === false} onSelect={() => runCommand(command.id)}>
-                  {command.words}{command.keys?.[0] && <span className="kbd">{showKeys(command.keys[0])}</span>}
-                </DropdownMenu.Item>
-              ))}
+              {ids
+                .map(id => commands.get(id))
+                .map(
+                  command =>
+                    command && (
+                      <DropdownMenu.Item
+                        key={command.id}
+                        className="menu-item"
+                        disabled={command.can?.() === false}
+                        onSelect={() => runCommand(command.id)}
+                      >
+                        {command.words}
+                        {command.keys?.[0] && <span className="kbd">{showKeys(command.keys[0])}</span>}
+                      </DropdownMenu.Item>
+                    ),
+                )}
             </DropdownMenu.Group>
           ))}
         </DropdownMenu.Content>
@@ -67,14 +104,29 @@ function CellMenu({ phone }: { phone: boolean }) {
 }
 
 function UndoRedo() {
-  const undo = useStore(cellStore, state => state.undo[0]), redo = useStore(cellStore, state => state.redo[0]);
+  const undo = useStore(cellStore, state => state.undo[0]);
+  const redo = useStore(cellStore, state => state.redo[0]);
   return (
     <div className="topbar-undo">
       <Tip words={undo ? `${words.common.undo}: ${undo}` : words.undo.nothing} keys="Mod+Z">
-        <button className="btn quiet icon" aria-label={words.common.undo} aria-disabled={!undo} onClick={() => runCommand("edit.undo")}><Undo2 /></button>
+        <button
+          className="btn quiet icon"
+          aria-label={words.common.undo}
+          aria-disabled={!undo}
+          onClick={() => runCommand("edit.undo")}
+        >
+          <Undo2 />
+        </button>
       </Tip>
       <Tip words={redo ? `${words.common.redo}: ${redo}` : words.undo.nothingAhead} keys="Mod+Shift+Z">
-        <button className="btn quiet icon" aria-label={words.common.redo} aria-disabled={!redo} onClick={() => runCommand("edit.redo")}><Redo2 /></button>
+        <button
+          className="btn quiet icon"
+          aria-label={words.common.redo}
+          aria-disabled={!redo}
+          onClick={() => runCommand("edit.redo")}
+        >
+          <Redo2 />
+        </button>
       </Tip>
     </div>
   );
@@ -85,9 +137,28 @@ function RightEnd() {
   return (
     <>
       <HeadsetButton />
-      <Tip words={words.top.theme}><button className="btn quiet icon" aria-label={words.top.theme} onClick={() => runCommand("view.theme")}>{theme === "dark" ? <Sun /> : <Moon />}</button></Tip>
-      <Tip words={muted ? words.top.unmute : words.top.mute}><button className="btn quiet icon" aria-label={words.top.mute} aria-pressed={muted} onClick={() => runCommand("view.mute")}>{muted ? <VolumeX /> : <Volume2 />}</button></Tip>
-      <Tip words={words.top.palette}><button className="topbar-palette" aria-label={words.top.palette} onClick={() => runCommand("help.palette")}><span className="kbd" aria-hidden>{showKeys("Mod+K")}</span></button></Tip>
+      <Tip words={words.top.theme}>
+        <button className="btn quiet icon" aria-label={words.top.theme} onClick={() => runCommand("view.theme")}>
+          {theme === "dark" ? <Sun /> : <Moon />}
+        </button>
+      </Tip>
+      <Tip words={muted ? words.top.unmute : words.top.mute}>
+        <button
+          className="btn quiet icon"
+          aria-label={words.top.mute}
+          aria-pressed={muted}
+          onClick={() => runCommand("view.mute")}
+        >
+          {muted ? <VolumeX /> : <Volume2 />}
+        </button>
+      </Tip>
+      <Tip words={words.top.palette}>
+        <button className="topbar-palette" aria-label={words.top.palette} onClick={() => runCommand("help.palette")}>
+          <span className="kbd" aria-hidden>
+            {showKeys("Mod+K")}
+          </span>
+        </button>
+      </Tip>
     </>
   );
 }
@@ -97,7 +168,17 @@ function HeadsetButton() {
   const { ready, reason } = useStore(headsetStore);
   return (
     <Tip words={ready === false ? reason : words.top.headsetTip}>
-      <button className="btn topbar-headset" aria-label={words.top.headset} aria-disabled={ready !== true} onClick={() => { if (ready) runCommand("view.headset"); }}><Headset /><span>{words.top.headset}</span></button>
+      <button
+        className="btn topbar-headset"
+        aria-label={words.top.headset}
+        aria-disabled={ready !== true}
+        onClick={() => {
+          if (ready) runCommand("view.headset");
+        }}
+      >
+        <Headset />
+        <span>{words.top.headset}</span>
+      </button>
     </Tip>
   );
 }

@@ -13,42 +13,124 @@ import { words } from "../../words/index.ts";
 const same = (a: Thing | null, b: Thing): boolean => a !== null && JSON.stringify(a) === JSON.stringify(b);
 
 export function CellTree() {
-  const document = useStore(cellStore, state => state.document), robot = robotOf(document);
+  const document = useStore(cellStore, state => state.document);
+  const robot = robotOf(document);
   if (!document) return null;
   return (
     <section aria-label={words.tree.cell}>
-      <h2 className="heading"><span className="grow">{words.tree.cell}</span>
-        <Tip words={words.tree.addBox}><button className="btn quiet icon tight" aria-label={words.tree.addBox} onClick={() => runCommand("cell.box")}><Plus /></button></Tip>
+      <h2 className="heading">
+        <span className="grow">{words.tree.cell}</span>
+        <Tip words={words.tree.addBox}>
+          <button
+            className="btn quiet icon tight"
+            aria-label={words.tree.addBox}
+            onClick={() => runCommand("cell.box")}
+          >
+            <Plus />
+          </button>
+        </Tip>
       </h2>
       <div className="scroll cell-tree">
-        <Leaf thing={{ kind: "robot" }} glyph={<RobotGlyph />} kind={words.tree.robot} extra={robot && <span className="tag">{words.tree.axes(robot.arm.joints.length)}</span>}>{robot ? shortName(robot) : document.robot.id}</Leaf>
-        <Leaf thing={{ kind: "tool" }} glyph={<Wrench />} kind={words.tree.tool} inside>{document.tool === "flange" ? words.tree.noTool : document.tool}</Leaf>
+        <Leaf
+          thing={{ kind: "robot" }}
+          glyph={<RobotGlyph />}
+          kind={words.tree.robot}
+          extra={robot && <span className="tag">{words.tree.axes(robot.arm.joints.length)}</span>}
+        >
+          {robot ? shortName(robot) : document.robot.id}
+        </Leaf>
+        <Leaf thing={{ kind: "tool" }} glyph={<Wrench />} kind={words.tree.tool} inside>
+          {document.tool === "flange" ? words.tree.noTool : document.tool}
+        </Leaf>
         {document.objects.map(object => (
-          <Leaf key={object.id} thing={{ kind: "object", id: object.id }} glyph={object.shape.kind === "box" ? <Box /> : object.shape.kind === "mesh" ? <Cone /> : <Cylinder />} kind={words.tree.roles[object.role]}
-            onDelete={() => { commit(words.undo.deleteObject, before => ({ ...before, objects: before.objects.filter(other => other.id !== object.id) })); select(null); }}
-          >{object.name}</Leaf>
+          <Leaf
+            key={object.id}
+            thing={{ kind: "object", id: object.id }}
+            glyph={object.shape.kind === "box" ? <Box /> : object.shape.kind === "mesh" ? <Cone /> : <Cylinder />}
+            kind={words.tree.roles[object.role]}
+            onDelete={() => {
+              commit(words.undo.deleteObject, before => ({
+                ...before,
+                objects: before.objects.filter(other => other.id !== object.id),
+              }));
+              select(null);
+            }}
+          >
+            {object.name}
+          </Leaf>
         ))}
-        {document.frames.map(frame => <Leaf key={frame.name} thing={{ kind: "frame", name: frame.name }} glyph={<Axis3d />} kind={words.tree.frame}>{frame.name}</Leaf>)}
+        {document.frames.map(frame => (
+          <Leaf key={frame.name} thing={{ kind: "frame", name: frame.name }} glyph={<Axis3d />} kind={words.tree.frame}>
+            {frame.name}
+          </Leaf>
+        ))}
       </div>
     </section>
   );
 }
 
-const RobotGlyph = () => <svg viewBox="0 0 16 16" width="15" height="15" fill="none" stroke="currentColor" strokeWidth="1.4" aria-hidden><path d="M3 14h6M6 14V9m0 0a1.4 1.4 0 1 0 0-2.8A1.4 1.4 0 0 0 6 9Zm1-2.5 3.4-3.2M11.400 4.200a1.200 1.200 0 1 0 0-2.400 1.200 1.200 0 0 0 0 2.400Zm.400.100L13 8" /></svg>;
+const RobotGlyph = () => (
+  <svg viewBox="0 0 16 16" width="15" height="15" fill="none" stroke="currentColor" strokeWidth="1.4" aria-hidden>
+    <path d="M3 14h6M6 14V9m0 0a1.4 1.4 0 1 0 0-2.8A1.4 1.4 0 0 0 6 9Zm1-2.5 3.4-3.2M11.400 4.200a1.200 1.200 0 1 0 0-2.400 1.200 1.200 0 0 0 0 2.400Zm.400.100L13 8" />
+  </svg>
+);
 
-function Leaf({ thing, glyph, kind, extra, inside = false, onDelete, children }: { thing: Thing; glyph: ReactNode; kind: string; extra?: ReactNode; inside?: boolean; onDelete?: () => void; children: ReactNode }) {
-  const on = useStore(selectionStore, state => same(state.selected, thing)), under = useStore(selectionStore, state => same(state.hovered, thing));
+function Leaf({
+  thing,
+  glyph,
+  kind,
+  extra,
+  inside = false,
+  onDelete,
+  children,
+}: {
+  thing: Thing;
+  glyph: ReactNode;
+  kind: string;
+  extra?: ReactNode;
+  inside?: boolean;
+  onDelete?: () => void;
+  children: ReactNode;
+}) {
+  const on = useStore(selectionStore, state => same(state.selected, thing));
+  const under = useStore(selectionStore, state => same(state.hovered, thing));
   const row = (
-    <button className="row" data-on={on} data-under={under} aria-pressed={on} style={inside ? { paddingLeft: 24 } : undefined} title={kind}
-      onClick={() => select(on ? null : thing)} onPointerEnter={() => hover(thing)} onPointerLeave={() => hover(null)}
-      onKeyDown={event => { if (event.key === "Delete" && onDelete) { event.stopPropagation(); onDelete(); } }}
-    ><span className="glyph" aria-hidden>{glyph}</span><span className="name">{children}</span>{extra}</button>
+    <button
+      className="row"
+      data-on={on}
+      data-under={under}
+      aria-pressed={on}
+      style={inside ? { paddingLeft: 24 } : undefined}
+      title={kind}
+      onClick={() => select(on ? null : thing)}
+      onPointerEnter={() => hover(thing)}
+      onPointerLeave={() => hover(null)}
+      onKeyDown={event => {
+        if (event.key === "Delete" && onDelete) {
+          event.stopPropagation();
+          onDelete();
+        }
+      }}
+    >
+      <span className="glyph" aria-hidden>
+        {glyph}
+      </span>
+      <span className="name">{children}</span>
+      {extra}
+    </button>
   );
   if (!onDelete) return row;
   return (
     <ContextMenu.Root modal={false}>
       <ContextMenu.Trigger asChild>{row}</ContextMenu.Trigger>
-      <ContextMenu.Portal><ContextMenu.Content className="menu"><ContextMenu.Item className="menu-item danger" onSelect={onDelete}>{words.tree.deleteObject}<span className="kbd">Del</span></ContextMenu.Item></ContextMenu.Content></ContextMenu.Portal>
+      <ContextMenu.Portal>
+        <ContextMenu.Content className="menu">
+          <ContextMenu.Item className="menu-item danger" onSelect={onDelete}>
+            {words.tree.deleteObject}
+            <span className="kbd">Del</span>
+          </ContextMenu.Item>
+        </ContextMenu.Content>
+      </ContextMenu.Portal>
     </ContextMenu.Root>
   );
 }

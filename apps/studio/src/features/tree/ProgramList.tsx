@@ -1,4 +1,12 @@
-import { closestCenter, DndContext, MouseSensor, TouchSensor, useSensor, useSensors, type DragEndEvent } from "@dnd-kit/core";
+import {
+  closestCenter,
+  DndContext,
+  MouseSensor,
+  TouchSensor,
+  useSensor,
+  useSensors,
+  type DragEndEvent,
+} from "@dnd-kit/core";
 import { SortableContext, verticalListSortingStrategy } from "@dnd-kit/sortable";
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { useEffect, useMemo, useRef, useState, type KeyboardEvent } from "react";
@@ -26,17 +34,35 @@ export function ProgramList() {
   const [said, setSaid] = useState("");
   const scroller = useRef<HTMLDivElement>(null);
   const rows = useMemo(() => (program ? programRows(program, verdict, open) : []), [program, verdict, open]);
-  const sensors = useSensors(useSensor(MouseSensor, { activationConstraint: { distance: 5 } }), useSensor(TouchSensor, { activationConstraint: { delay: 250, tolerance: 6 } }));
+  const sensors = useSensors(
+    useSensor(MouseSensor, { activationConstraint: { distance: 5 } }),
+    useSensor(TouchSensor, { activationConstraint: { delay: 250, tolerance: 6 } }),
+  );
   const size = useRowHeight(scroller);
-  const virtual = useVirtualizer({ count: rows.length, getScrollElement: () => scroller.current, estimateSize: () => size, overscan: 12, getItemKey: i => rows[i]?.key ?? i });
-  useEffect(() => { virtual.measure(); }, [size, virtual]);
-  const isOn = (row: ProgramRow): boolean => selected !== null && (row.kind === "step" ? row.step.id === selected : row.kind === "group" && !row.open && row.steps.some(step => step.id === selected));
+  const virtual = useVirtualizer({
+    count: rows.length,
+    getScrollElement: () => scroller.current,
+    estimateSize: () => size,
+    overscan: 12,
+    getItemKey: i => rows[i]?.key ?? i,
+  });
+  useEffect(() => {
+    virtual.measure();
+  }, [size, virtual]);
+  const isOn = (row: ProgramRow): boolean =>
+    selected !== null &&
+    (row.kind === "step"
+      ? row.step.id === selected
+      : row.kind === "group" && !row.open && row.steps.some(step => step.id === selected));
   const current = rows.findIndex(isOn);
-  useEffect(() => { if (current >= 0) virtual.scrollToIndex(current, { align: "auto" }); }, [current, virtual]);
+  useEffect(() => {
+    if (current >= 0) virtual.scrollToIndex(current, { align: "auto" });
+  }, [current, virtual]);
 
   const toggle = (row: ProgramRow): void => {
     if (row.kind !== "group") return;
-    const id = row.steps[0]!.id, next = new Set(open);
+    const id = row.steps[0]!.id;
+    const next = new Set(open);
     if (!next.delete(id)) next.add(id);
     setOpen(next);
   };
@@ -62,18 +88,37 @@ export function ProgramList() {
     if (!rows[next]) return;
     if (placeSteps(ids, anchorOf(rows[by < 0 ? next : next + 1]))) {
       setSaid(words.tree.moved(rowName(row), index + 1 + by, rows.length));
-      requestAnimationFrame(() => scroller.current?.querySelector<HTMLElement>(`[data-index="${index + by}"] .row`)?.focus());
+      requestAnimationFrame(() =>
+        scroller.current?.querySelector<HTMLElement>(`[data-index="${index + by}"] .row`)?.focus(),
+      );
     }
   };
   const onKey = (event: KeyboardEvent, index: number): void => {
     const row = rows[index];
     if (!row || renaming !== null) return;
     const act: Readonly<Record<string, () => void>> = {
-      ArrowUp: () => (event.altKey ? shift(index, -1) : focusRow(index - 1)), ArrowDown: () => (event.altKey ? shift(index, 1) : focusRow(index + 1)),
-      Home: () => focusRow(0), End: () => focusRow(rows.length - 1),
-      ArrowRight: () => { if (row.kind === "group" && !row.open) toggle(row); }, ArrowLeft: () => { if (row.kind === "group" && row.open) toggle(row); },
-      Delete: () => { deleteSteps(idsOf(row)); }, F2: () => setRenaming(row.key), Enter: () => choose(row),
-      ...(event.ctrlKey || event.metaKey ? { d: () => { copySteps(idsOf(row)); } } : {}),
+      ArrowUp: () => (event.altKey ? shift(index, -1) : focusRow(index - 1)),
+      ArrowDown: () => (event.altKey ? shift(index, 1) : focusRow(index + 1)),
+      Home: () => focusRow(0),
+      End: () => focusRow(rows.length - 1),
+      ArrowRight: () => {
+        if (row.kind === "group" && !row.open) toggle(row);
+      },
+      ArrowLeft: () => {
+        if (row.kind === "group" && row.open) toggle(row);
+      },
+      Delete: () => {
+        deleteSteps(idsOf(row));
+      },
+      F2: () => setRenaming(row.key),
+      Enter: () => choose(row),
+      ...(event.ctrlKey || event.metaKey
+        ? {
+            d: () => {
+              copySteps(idsOf(row));
+            },
+          }
+        : {}),
     };
     const chosen = act[event.key];
     if (!chosen) return;
@@ -83,7 +128,9 @@ export function ProgramList() {
   };
   const onDragEnd = ({ active, over }: DragEndEvent): void => {
     if (!over || active.id === over.id) return;
-    const from = rows.findIndex(row => row.key === active.id), to = rows.findIndex(row => row.key === over.id), row = rows[from];
+    const from = rows.findIndex(row => row.key === active.id);
+    const to = rows.findIndex(row => row.key === over.id);
+    const row = rows[from];
     if (!row || to < 0) return;
     placeSteps(idsOf(row), anchorOf(to > from ? rows[to + 1] : rows[to]));
   };
@@ -98,18 +145,33 @@ export function ProgramList() {
             <ol style={{ height: virtual.getTotalSize(), position: "relative" }}>
               {virtual.getVirtualItems().map(item => {
                 const row = rows[item.index];
-                return row && (
-                  <ProgramRowView
-                    key={row.key} row={row} index={item.index} top={item.start} on={isOn(row)} renaming={renaming === row.key} place={`${item.index + 1}`} count={rows.length}
-                    onChoose={() => choose(row)} onToggle={() => toggle(row)} onKey={event => onKey(event, item.index)} onRename={wanted => setRenaming(wanted ? row.key : null)} onShift={by => shift(item.index, by)}
-                  />
+                return (
+                  row && (
+                    <ProgramRowView
+                      key={row.key}
+                      row={row}
+                      index={item.index}
+                      top={item.start}
+                      on={isOn(row)}
+                      renaming={renaming === row.key}
+                      place={`${item.index + 1}`}
+                      count={rows.length}
+                      onChoose={() => choose(row)}
+                      onToggle={() => toggle(row)}
+                      onKey={event => onKey(event, item.index)}
+                      onRename={wanted => setRenaming(wanted ? row.key : null)}
+                      onShift={by => shift(item.index, by)}
+                    />
+                  )
                 );
               })}
             </ol>
           </div>
         </SortableContext>
       </DndContext>
-      <p className="visually-hidden" aria-live="polite">{said}</p>
+      <p className="visually-hidden" aria-live="polite">
+        {said}
+      </p>
     </section>
   );
 }

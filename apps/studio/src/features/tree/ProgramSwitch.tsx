@@ -9,28 +9,71 @@ import { AddStep } from "./AddStep.tsx";
 
 /** Which of the cell's programs is worked on; a new one, a copy, another name, away with it. */
 export function ProgramSwitch() {
-  const programs = useStore(cellStore, state => state.document?.programs), name = useStore(cellStore, state => state.document?.program ?? "");
+  const programs = useStore(cellStore, state => state.document?.programs);
+  const name = useStore(cellStore, state => state.document?.program ?? "");
   const [renaming, setRenaming] = useState(false);
-  if (renaming) return <h2 className="heading"><Rename name={name} onDone={() => setRenaming(false)} /><AddStep /></h2>;
-  const acts = [[words.programs.new, newProgram], [words.programs.duplicate, copyProgram], [words.programs.rename, () => setRenaming(true)]] as const;
+  if (renaming)
+    return (
+      <h2 className="heading">
+        <Rename name={name} onDone={() => setRenaming(false)} />
+        <AddStep />
+      </h2>
+    );
+  const acts = [
+    [words.programs.new, newProgram],
+    [words.programs.duplicate, copyProgram],
+    [words.programs.rename, () => setRenaming(true)],
+  ] as const;
   return (
     <h2 className="heading">
       <DropdownMenu.Root modal={false}>
         <DropdownMenu.Trigger asChild>
-          <button className="program-switch" title={words.programs.switch}><span>{words.tree.program} · {name}</span><ChevronDown aria-hidden /></button>
+          <button className="program-switch" title={words.programs.switch}>
+            <span>
+              {words.tree.program} · {name}
+            </span>
+            <ChevronDown aria-hidden />
+          </button>
         </DropdownMenu.Trigger>
         <DropdownMenu.Portal>
-          <DropdownMenu.Content className="menu program-menu" align="start" onCloseAutoFocus={event => { if (renaming) event.preventDefault(); }}>
+          <DropdownMenu.Content
+            className="menu program-menu"
+            align="start"
+            onCloseAutoFocus={event => {
+              if (renaming) event.preventDefault();
+            }}
+          >
             <DropdownMenu.RadioGroup value={name} onValueChange={chooseProgram}>
               {programs?.map(program => (
                 <DropdownMenu.RadioItem key={program.name} className="menu-item" value={program.name}>
-                  <span className="grow">{program.name}</span><span className="dim small">{words.tree.steps(program.steps.length)}</span><DropdownMenu.ItemIndicator><Check size={14} /></DropdownMenu.ItemIndicator>
+                  <span className="grow">{program.name}</span>
+                  <span className="dim small">{words.tree.steps(program.steps.length)}</span>
+                  <DropdownMenu.ItemIndicator>
+                    <Check size={14} />
+                  </DropdownMenu.ItemIndicator>
                 </DropdownMenu.RadioItem>
               ))}
             </DropdownMenu.RadioGroup>
             <DropdownMenu.Separator className="menu-line" />
-            {acts.map(([says, act]) => <DropdownMenu.Item key={says} className="menu-item" onSelect={() => { act(); }}>{says}</DropdownMenu.Item>)}
-            <DropdownMenu.Item className="menu-item danger" onSelect={() => { deleteProgram(); }}>{words.programs.remove}</DropdownMenu.Item>
+            {acts.map(([says, act]) => (
+              <DropdownMenu.Item
+                key={says}
+                className="menu-item"
+                onSelect={() => {
+                  act();
+                }}
+              >
+                {says}
+              </DropdownMenu.Item>
+            ))}
+            <DropdownMenu.Item
+              className="menu-item danger"
+              onSelect={() => {
+                deleteProgram();
+              }}
+            >
+              {words.programs.remove}
+            </DropdownMenu.Item>
           </DropdownMenu.Content>
         </DropdownMenu.Portal>
       </DropdownMenu.Root>
@@ -43,8 +86,27 @@ export function ProgramSwitch() {
 function Rename({ name, onDone }: { readonly name: string; readonly onDone: () => void }) {
   const [typed, setTyped] = useState(name);
   return (
-    <span className="field text grow"><input autoFocus aria-label={words.programs.name} value={typed} maxLength={60} spellCheck={false} onFocus={event => event.currentTarget.select()}
-      onChange={event => setTyped(event.currentTarget.value)} onBlur={() => { nameProgram(typed); onDone(); }}
-      onKeyDown={event => { event.stopPropagation(); if (event.key === "Enter") { nameProgram(typed); onDone(); } else if (event.key === "Escape") onDone(); }} /></span>
+    <span className="field text grow">
+      <input
+        autoFocus
+        aria-label={words.programs.name}
+        value={typed}
+        maxLength={60}
+        spellCheck={false}
+        onFocus={event => event.currentTarget.select()}
+        onChange={event => setTyped(event.currentTarget.value)}
+        onBlur={() => {
+          nameProgram(typed);
+          onDone();
+        }}
+        onKeyDown={event => {
+          event.stopPropagation();
+          if (event.key === "Enter") {
+            nameProgram(typed);
+            onDone();
+          } else if (event.key === "Escape") onDone();
+        }}
+      />
+    </span>
   );
 }

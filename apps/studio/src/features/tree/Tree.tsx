@@ -4,5 +4,10 @@ import "./tree.css";
 
 /** Left: what stands in the cell, and what the robot does. */
 export function Tree() {
-  return <><CellTree /><ProgramList /></>;
+  return (
+    <>
+      <CellTree />
+      <ProgramList />
+    </>
+  );
 }

@@ -9,7 +9,9 @@ import "./video.css";
 
 /** The pictures of cameras over the view. In a headset they hang in the room. */
 export default function VideoPanels() {
-  const panels = useStore(videoStore, state => state.panels), measured = useStore(videoStore, state => state.measured), inHeadset = useStore(viewStore, state => state.inHeadset);
+  const panels = useStore(videoStore, state => state.panels);
+  const measured = useStore(videoStore, state => state.measured);
+  const inHeadset = useStore(viewStore, state => state.inHeadset);
   useEffect(startHoldingBack, []);
   return (
     <>

@@ -1,7 +1,12 @@
 import type { PictureTimes } from "./freshness.ts";
 
 /** How long a picture was in each place on its way [s]. */
-export interface Stages { readonly taken_s: number; readonly toServer_s: number; readonly toHere_s: number; readonly unpacked_s: number }
+export interface Stages {
+  readonly taken_s: number;
+  readonly toServer_s: number;
+  readonly toHere_s: number;
+  readonly unpacked_s: number;
+}
 
 /** The newest picture of a camera, drawn where panels and the headset take it from. Written in place. */
 export interface Feed {
@@ -21,7 +26,8 @@ const listeners = new Map<string, Set<(feed: Feed) => void>>();
 
 export function newFeed(id: string): Feed {
   const canvas = document.createElement("canvas");
-  canvas.width = 16; canvas.height = 9;
+  canvas.width = 16;
+  canvas.height = 9;
   return { id, canvas, times: null, uncertain_s: 0, stages: null, revision: 0, dropped: 0 };
 }
 
@@ -29,13 +35,25 @@ export function newFeed(id: string): Feed {
 export function onPicture(id: string, listen: (feed: Feed) => void): () => void {
   const all = listeners.get(id) ?? new Set();
   listeners.set(id, all.add(listen));
-  return () => { all.delete(listen); if (all.size === 0) listeners.delete(id); };
+  return () => {
+    all.delete(listen);
+    if (all.size === 0) listeners.delete(id);
+  };
 }
 
 /** Draws a picture and says so. @param captured_s by the page's clock */
-export function drawPicture(feed: Feed, picture: ImageBitmap | HTMLVideoElement, width: number, height: number, captured_s: number): void {
+export function drawPicture(
+  feed: Feed,
+  picture: ImageBitmap | HTMLVideoElement,
+  width: number,
+  height: number,
+  captured_s: number,
+): void {
   const { canvas } = feed;
-  if (canvas.width !== width || canvas.height !== height) { canvas.width = width; canvas.height = height; }
+  if (canvas.width !== width || canvas.height !== height) {
+    canvas.width = width;
+    canvas.height = height;
+  }
   canvas.getContext("2d")!.drawImage(picture, 0, 0);
   feed.times = { captured_s, shown_s: performance.now() / 1000 };
   feed.revision++;

@@ -4,7 +4,10 @@ export const LATE_S = 0.25;
 export const STILL_S = 1;
 
 /** Times of what is shown, all of the page's clock [s]. `captured_s` is NaN when nobody knows it. */
-export interface PictureTimes { readonly captured_s: number; readonly shown_s: number }
+export interface PictureTimes {
+  readonly captured_s: number;
+  readonly shown_s: number;
+}
 
 /**
  * How a picture stands to now. `age_s` is from the light on the sensor to the picture on screen, NaN where that is not known.
@@ -18,7 +21,8 @@ export type Freshness =
 
 export function freshness(times: PictureTimes | null, now_s: number): Freshness {
   if (!times) return { kind: "none" };
-  const still_s = now_s - times.shown_s, age_s = Math.max(0, times.shown_s - times.captured_s);
+  const still_s = now_s - times.shown_s;
+  const age_s = Math.max(0, times.shown_s - times.captured_s);
   if (still_s > STILL_S) return { kind: "still", still_s };
   return { kind: age_s > LATE_S ? "late" : "fresh", age_s };
 }

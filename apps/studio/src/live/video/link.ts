@@ -1,7 +1,18 @@
-import { createClockMap, readVideoTell, VIDEO_PATH, VIDEO_PROTOCOL, writeVideo, type ClockMap, type VideoAsk, type VideoTell } from "@twincell/messages";
+import {
+  createClockMap,
+  readVideoTell,
+  VIDEO_PATH,
+  VIDEO_PROTOCOL,
+  writeVideo,
+  type ClockMap,
+  type VideoAsk,
+  type VideoTell,
+} from "@twincell/messages";
 
-const PING_EVERY_MS = 500, SILENT_MS = 5000;
-const FIRST_PAUSE_MS = 500, LONGEST_PAUSE_MS = 8000;
+const PING_EVERY_MS = 500;
+const SILENT_MS = 5000;
+const FIRST_PAUSE_MS = 500;
+const LONGEST_PAUSE_MS = 8000;
 
 export interface VideoLinkListener {
   /** `sentence`: why it is gone, or "". */
@@ -26,36 +37,60 @@ const now_s = (): number => performance.now() / 1000;
 export function openVideoLink(listener: VideoLinkListener): VideoLink {
   const address = new URL(VIDEO_PATH, location.origin);
   address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
-  let socket: WebSocket | null = null, clock = createClockMap(), closed = false, pause_ms = FIRST_PAUSE_MS, timer = 0, heard_ms = 0, why = "";
-  const say = (message: VideoAsk): void => { if (socket?.readyState === WebSocket.OPEN) socket.send(writeVideo(message)); };
+  let socket: WebSocket | null = null;
+  let clock = createClockMap();
+  let closed = false;
+  let pause_ms = FIRST_PAUSE_MS;
+  let timer = 0;
+  let heard_ms = 0;
+  let why = "";
+  const say = (message: VideoAsk): void => {
+    if (socket?.readyState === WebSocket.OPEN) socket.send(writeVideo(message));
+  };
 
   function hear(text: string): void {
     const heard = readVideoTell(text);
-    if (heard.kind === "fault") { why = heard.sentence; socket?.close(); return; }
+    if (heard.kind === "fault") {
+      why = heard.sentence;
+      socket?.close();
+      return;
+    }
     const { message } = heard;
     switch (message.type) {
-      case "pong": clock.heard(message.sent_s, message.relay_s, now_s()); return;
-      case "fault": why = message.sentence; return;
+      case "pong":
+        clock.heard(message.sent_s, message.relay_s, now_s());
+        return;
+      case "fault":
+        why = message.sentence;
+        return;
       case "hello":
-        if (message.protocol !== VIDEO_PROTOCOL) { why = "The server is of another release than this page. Load the page again."; socket?.close(); return; }
+        if (message.protocol !== VIDEO_PROTOCOL) {
+          why = "The server is of another release than this page. Load the page again.";
+          socket?.close();
+          return;
+        }
         pause_ms = FIRST_PAUSE_MS;
         listener.links?.(message.links);
         listener.state("open", "");
         return;
-      default: listener.tell(message);
+      default:
+        listener.tell(message);
     }
   }
   function connect(): void {
     listener.state("connecting", why);
     why = "";
     clock = createClockMap();
-    const mine = socket = new WebSocket(address);
+    const mine = (socket = new WebSocket(address));
     mine.binaryType = "arraybuffer";
     heard_ms = performance.now();
-    mine.addEventListener("open", () => { for (let i = 0; i < 4; i++) say({ type: "ping", sent_s: now_s() }); });
+    mine.addEventListener("open", () => {
+      for (let i = 0; i < 4; i++) say({ type: "ping", sent_s: now_s() });
+    });
     mine.addEventListener("message", ({ data }: MessageEvent<string | ArrayBuffer>) => {
       heard_ms = performance.now();
-      if (typeof data === "string") hear(data); else listener.picture?.(new Uint8Array(data), heard_ms / 1000);
+      if (typeof data === "string") hear(data);
+      else listener.picture?.(new Uint8Array(data), heard_ms / 1000);
     });
     mine.addEventListener("close", () => {
       if (closed || socket !== mine) return;
@@ -67,15 +102,30 @@ export function openVideoLink(listener: VideoLinkListener): VideoLink {
   const beat = window.setInterval(() => {
     if (socket?.readyState !== WebSocket.OPEN) return;
     // Half open: the other end is gone and nobody said so.
-    if (performance.now() - heard_ms > SILENT_MS) { why = `Nothing was heard of the server for ${SILENT_MS / 1000} s. It is tried again.`; socket.close(); return; }
+    if (performance.now() - heard_ms > SILENT_MS) {
+      why = `Nothing was heard of the server for ${SILENT_MS / 1000} s. It is tried again.`;
+      socket.close();
+      return;
+    }
     say({ type: "ping", sent_s: now_s() });
   }, PING_EVERY_MS);
   connect();
   return {
     say,
-    picture(bytes) { if (socket?.readyState === WebSocket.OPEN) socket.send(bytes as Uint8Array<ArrayBuffer>); },
-    get clock() { return clock; },
-    get waiting() { return socket?.bufferedAmount ?? 0; },
-    close() { closed = true; clearInterval(beat); clearTimeout(timer); socket?.close(); },
+    picture(bytes) {
+      if (socket?.readyState === WebSocket.OPEN) socket.send(bytes as Uint8Array<ArrayBuffer>);
+    },
+    get clock() {
+      return clock;
+    },
+    get waiting() {
+      return socket?.bufferedAmount ?? 0;
+    },
+    close() {
+      closed = true;
+      clearInterval(beat);
+      clearTimeout(timer);
+      socket?.close();
+    },
   };
 }

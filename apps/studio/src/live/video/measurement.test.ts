@@ -2,7 +2,8 @@ import { expect, test } from "vitest";
 import { createMeasurement, figuresOf } from "./measurement.ts";
 
 test("X-40 the first picture that shows a code says how long it took; the same code again says nothing new", () => {
-  const measurement = createMeasurement(0.5), first = measurement.codeAt(10);
+  const measurement = createMeasurement(0.5);
+  const first = measurement.codeAt(10);
   expect(first).toEqual({ counter: 1, session: 128 });
   expect(measurement.codeAt(10.05)).toEqual(first);
   expect(measurement.seen([first], 10.12)).toBeCloseTo(0.12, 9);
@@ -17,7 +18,8 @@ test("X-40 the first picture that shows a code says how long it took; the same c
 
 test("X-40 the counter goes round, and a code from long ago is not taken for a new one", () => {
   const measurement = createMeasurement(0);
-  let t_s = 0, code = measurement.codeAt(t_s);
+  let t_s = 0;
+  let code = measurement.codeAt(t_s);
   for (let i = 0; i < 70_000; i++) {
     t_s += 0.125;
     code = measurement.codeAt(t_s);
@@ -29,6 +31,12 @@ test("X-40 the counter goes round, and a code from long ago is not taken for a n
 
 test("X-40 median, 95th percentile and spread of what was seen", () => {
   expect(figuresOf([])).toBeNull();
-  expect(figuresOf(Array.from({ length: 100 }, (_, i) => (100 - i) / 1000))).toEqual({ n: 100, median_s: 0.05, p95_s: 0.095, least_s: 0.001, most_s: 0.1 });
+  expect(figuresOf(Array.from({ length: 100 }, (_, i) => (100 - i) / 1000))).toEqual({
+    n: 100,
+    median_s: 0.05,
+    p95_s: 0.095,
+    least_s: 0.001,
+    most_s: 0.1,
+  });
   expect(figuresOf([0.2])).toEqual({ n: 1, median_s: 0.2, p95_s: 0.2, least_s: 0.2, most_s: 0.2 });
 });

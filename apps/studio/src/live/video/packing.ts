@@ -15,14 +15,22 @@ export async function packed({ bitmap, quality, headBytes, most }: PackRequest):
   const { width, height } = bitmap;
   try {
     canvas ??= new OffscreenCanvas(width, height);
-    if (canvas.width !== width || canvas.height !== height) { canvas.width = width; canvas.height = height; }
+    if (canvas.width !== width || canvas.height !== height) {
+      canvas.width = width;
+      canvas.height = height;
+    }
     canvas.getContext("2d")!.drawImage(bitmap, 0, 0);
     const blob = await canvas.convertToBlob({ type: "image/jpeg", quality });
-    if (blob.size > most - headBytes) return { fault: `A picture of ${(blob.size / 1e6).toFixed(1)} MB is too large to be sent.` };
+    if (blob.size > most - headBytes)
+      return { fault: `A picture of ${(blob.size / 1e6).toFixed(1)} MB is too large to be sent.` };
     const bytes = new Uint8Array(headBytes + blob.size);
     bytes.set(new Uint8Array(await blob.arrayBuffer()), headBytes);
     return { bytes };
   } catch (trouble) {
-    return { fault: `The picture could not be made into a JPEG: ${trouble instanceof Error ? trouble.message : String(trouble)}.` };
-  } finally { bitmap.close(); }
+    return {
+      fault: `The picture could not be made into a JPEG: ${trouble instanceof Error ? trouble.message : String(trouble)}.`,
+    };
+  } finally {
+    bitmap.close();
+  }
 }

@@ -4,8 +4,18 @@ import { words } from "../../words/index.ts";
 import { drawPicture, type Feed } from "./feed.ts";
 import { openVideoLink, type VideoLink } from "./link.ts";
 
-interface Waiting { readonly bytes: Uint8Array; readonly head: PictureHead; readonly at_s: number }
-interface Watched { readonly feed: Feed; readonly name: string; camera: number | null; busy: boolean; waiting: Waiting | null }
+interface Waiting {
+  readonly bytes: Uint8Array;
+  readonly head: PictureHead;
+  readonly at_s: number;
+}
+interface Watched {
+  readonly feed: Feed;
+  readonly name: string;
+  camera: number | null;
+  busy: boolean;
+  waiting: Waiting | null;
+}
 
 const watched = new Map<string, Watched>();
 let link: VideoLink | null = null;
@@ -16,33 +26,51 @@ export function lookForCameras(): void {
     state(server, sentence) {
       videoStore.setState({ server, sentence, ...(server === "open" ? {} : { cameras: [] }) });
       if (server === "open") link!.say({ type: "viewer" });
-      else for (const each of watched.values()) { each.camera = null; changePanel(each.feed.id, { trouble: sentence || words.video.connecting }); }
+      else
+        for (const each of watched.values()) {
+          each.camera = null;
+          changePanel(each.feed.id, { trouble: sentence || words.video.connecting });
+        }
     },
-    links(links) { videoStore.setState({ links }); },
+    links(links) {
+      videoStore.setState({ links });
+    },
     tell(message) {
       if (message.type !== "cameras") return;
       videoStore.setState({ cameras: message.cameras });
       for (const each of watched.values()) find(each);
     },
     picture(bytes, at_s) {
-      const head = readPictureHead(bytes), each = head && [...watched.values()].find(({ camera }) => camera === head.camera);
+      const head = readPictureHead(bytes);
+      const each = head && [...watched.values()].find(({ camera }) => camera === head.camera);
       if (!each) return;
       const waiting = { bytes, head, at_s };
-      if (!each.busy) { void unpack(each, waiting); return; }
+      if (!each.busy) {
+        void unpack(each, waiting);
+        return;
+      }
       // Only the newest waits; the one it replaces is done with.
-      if (each.waiting) { each.feed.dropped++; seen(each.waiting.head); }
+      if (each.waiting) {
+        each.feed.dropped++;
+        seen(each.waiting.head);
+      }
       each.waiting = waiting;
     },
   });
 }
-const seen = ({ camera, sequence }: PictureHead): void => { link?.say({ type: "seen", camera, sequence }); };
+const seen = ({ camera, sequence }: PictureHead): void => {
+  link?.say({ type: "seen", camera, sequence });
+};
 
 /** The camera of that name, now or when it comes. */
 function find(each: Watched): void {
   const camera = videoStore.getState().cameras.find(({ name }) => name === each.name)?.camera ?? null;
   if (camera === each.camera) return;
   each.camera = camera;
-  if (camera === null) { changePanel(each.feed.id, { trouble: words.video.cameraGone(each.name) }); return; }
+  if (camera === null) {
+    changePanel(each.feed.id, { trouble: words.video.cameraGone(each.name) });
+    return;
+  }
   changePanel(each.feed.id, { trouble: "" });
   link?.say({ type: "watch", camera });
 }
@@ -51,13 +79,23 @@ async function unpack(each: Watched, { bytes, head, at_s }: Waiting): Promise<vo
   each.busy = true;
   const { feed } = each;
   try {
-    const bitmap = await createImageBitmap(new Blob([bytes.subarray(PICTURE_HEAD_BYTES) as Uint8Array<ArrayBuffer>], { type: "image/jpeg" })), clock = link!.clock;
+    const bitmap = await createImageBitmap(
+      new Blob([bytes.subarray(PICTURE_HEAD_BYTES) as Uint8Array<ArrayBuffer>], { type: "image/jpeg" }),
+    );
+    const clock = link!.clock;
     feed.uncertain_s = clock.uncertain_s + head.uncertain_s;
     drawPicture(feed, bitmap, bitmap.width, bitmap.height, head.captured_s - clock.offset_s);
     bitmap.close();
-    feed.stages = { taken_s: head.sent_s - head.captured_s, toServer_s: head.relayed_s - head.sent_s, toHere_s: at_s + clock.offset_s - head.relayed_s, unpacked_s: feed.times!.shown_s - at_s };
+    feed.stages = {
+      taken_s: head.sent_s - head.captured_s,
+      toServer_s: head.relayed_s - head.sent_s,
+      toHere_s: at_s + clock.offset_s - head.relayed_s,
+      unpacked_s: feed.times!.shown_s - at_s,
+    };
   } catch (trouble) {
-    changePanel(feed.id, { trouble: words.video.unreadable(trouble instanceof Error ? trouble.message : String(trouble)) });
+    changePanel(feed.id, {
+      trouble: words.video.unreadable(trouble instanceof Error ? trouble.message : String(trouble)),
+    });
   }
   seen(head);
   each.busy = false;

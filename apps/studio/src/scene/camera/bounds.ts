@@ -24,12 +24,20 @@ const box = new Box3();
  * picture. The margin leaves room for what lies over its rim.
  */
 export function fitDistance(bounds: Box3, direction: Vector3, camera: PerspectiveCamera, margin = 1.17): number {
-  const forward = direction.clone().normalize(), up = Math.abs(forward.y) > 0.999 ? new Vector3(0, 0, -1) : new Vector3(0, 1, 0);
-  const right = new Vector3().crossVectors(forward, up).normalize(), above = new Vector3().crossVectors(right, forward);
-  const tall = Math.tan((camera.fov * Math.PI) / 360), wide = tall * camera.aspect, centre = bounds.getCenter(new Vector3());
+  const forward = direction.clone().normalize();
+  const up = Math.abs(forward.y) > 0.999 ? new Vector3(0, 0, -1) : new Vector3(0, 1, 0);
+  const right = new Vector3().crossVectors(forward, up).normalize();
+  const above = new Vector3().crossVectors(right, forward);
+  const tall = Math.tan((camera.fov * Math.PI) / 360);
+  const wide = tall * camera.aspect;
+  const centre = bounds.getCenter(new Vector3());
   let distance = 0;
   for (let corner = 0; corner < 8; corner++) {
-    const at = new Vector3(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y, corner & 4 ? bounds.max.z : bounds.min.z).sub(centre);
+    const at = new Vector3(
+      corner & 1 ? bounds.max.x : bounds.min.x,
+      corner & 2 ? bounds.max.y : bounds.min.y,
+      corner & 4 ? bounds.max.z : bounds.min.z,
+    ).sub(centre);
     const depth = at.dot(forward);
     distance = Math.max(distance, Math.abs(at.dot(right)) / wide - depth, Math.abs(at.dot(above)) / tall - depth);
   }

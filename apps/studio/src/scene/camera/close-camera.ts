@@ -17,9 +17,14 @@ const UPRIGHT = 1e-6;
  * @param out      unit vector without height; written and returned.
  */
 export function closeCameraSide(aidAxis: Readonly<Vector3> | null, out: Vector3): Vector3 {
-  const x = aidAxis?.[0] ?? 0, y = aidAxis?.[1] ?? 0, level = Math.hypot(x, y), free = level < UPRIGHT;
+  const x = aidAxis?.[0] ?? 0;
+  const y = aidAxis?.[1] ?? 0;
+  const level = Math.hypot(x, y);
+  const free = level < UPRIGHT;
   const sign = x * FREE_SIDE[0] + y * FREE_SIDE[1] < 0 ? -1 : 1;
-  out[0] = free ? FREE_SIDE[0] : (sign * x) / level; out[1] = free ? FREE_SIDE[1] : (sign * y) / level; out[2] = 0;
+  out[0] = free ? FREE_SIDE[0] : (sign * x) / level;
+  out[1] = free ? FREE_SIDE[1] : (sign * y) / level;
+  out[2] = 0;
   return out;
 }
 
@@ -33,8 +38,15 @@ export function closeCameraSide(aidAxis: Readonly<Vector3> | null, out: Vector3)
  * @param side      of `closeCameraSide`.
  * @param out       written and returned; allocates nothing.
  */
-export function closeCameraPosition(worldFromTcp: Pose<"world", "tcp">, placement: "level" | "offset", tilt_rad: number, side: Readonly<Vector3>, out: Vector3): Vector3 {
-  const level = AWAY_M * Math.cos(tilt_rad), tcp = worldFromTcp.position;
+export function closeCameraPosition(
+  worldFromTcp: Pose<"world", "tcp">,
+  placement: "level" | "offset",
+  tilt_rad: number,
+  side: Readonly<Vector3>,
+  out: Vector3,
+): Vector3 {
+  const level = AWAY_M * Math.cos(tilt_rad);
+  const tcp = worldFromTcp.position;
   out[0] = tcp[0] + side[0] * level;
   out[1] = tcp[1] + side[1] * level;
   out[2] = tcp[2] + AWAY_M * Math.sin(tilt_rad) + (placement === "offset" ? CLOSE_OFFSET_M[2] : 0);
@@ -43,6 +55,8 @@ export function closeCameraPosition(worldFromTcp: Pose<"world", "tcp">, placemen
 
 /** What is up in the picture. Straight down there is no "up" but the way the camera came from. */
 export function closeCameraUp(tilt_rad: number, side: Readonly<Vector3>, out: Vector3): Vector3 {
-  out[0] = -side[0] * Math.sin(tilt_rad); out[1] = -side[1] * Math.sin(tilt_rad); out[2] = Math.cos(tilt_rad);
+  out[0] = -side[0] * Math.sin(tilt_rad);
+  out[1] = -side[1] * Math.sin(tilt_rad);
+  out[2] = Math.cos(tilt_rad);
   return out;
 }

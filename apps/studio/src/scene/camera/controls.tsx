@@ -13,17 +13,42 @@ const FIRST_LOOK = new Vector3(-1, -0.42, -0.62);
 const FLIGHT_MS = 260;
 
 /** What the buttons around the viewport ask of its camera. */
-export interface CameraWishes { fit: () => void; look: (direction: Vector3) => void }
+export interface CameraWishes {
+  fit: () => void;
+  look: (direction: Vector3) => void;
+}
 
 /** Orbit, pan, zoom, and short flights to a wished view. One finger is left for selecting; two turn and zoom. */
-export function Controls({ wishes, world, document, interaction }: {
-  readonly wishes: CameraWishes; readonly world: RefObject<Group | null>; readonly document: CellDocument; readonly interaction: Interaction;
+export function Controls({
+  wishes,
+  world,
+  document,
+  interaction,
+}: {
+  readonly wishes: CameraWishes;
+  readonly world: RefObject<Group | null>;
+  readonly document: CellDocument;
+  readonly interaction: Interaction;
 }) {
   const controls = useRef<ComponentRef<typeof OrbitControls>>(null);
-  const camera = useThree(state => state.camera), size = useThree(state => state.size), invalidate = useThree(state => state.invalidate);
-  const close = useStore(viewStore, state => state.camera === "close"), inHeadset = useStore(viewStore, state => state.inHeadset);
-  const flight = useMemo(() => ({ start_ms: 0, on: false, fromPlace: new Vector3(), fromTarget: new Vector3(), place: new Vector3(), target: new Vector3() }), []);
-  const seen = useRef(""), pending = useRef<(() => void) | null>(null);
+  const camera = useThree(state => state.camera);
+  const size = useThree(state => state.size);
+  const invalidate = useThree(state => state.invalidate);
+  const close = useStore(viewStore, state => state.camera === "close");
+  const inHeadset = useStore(viewStore, state => state.inHeadset);
+  const flight = useMemo(
+    () => ({
+      start_ms: 0,
+      on: false,
+      fromPlace: new Vector3(),
+      fromTarget: new Vector3(),
+      place: new Vector3(),
+      target: new Vector3(),
+    }),
+    [],
+  );
+  const seen = useRef("");
+  const pending = useRef<(() => void) | null>(null);
 
   useEffect(() => {
     if (!(camera instanceof PerspectiveCamera)) return;
@@ -35,8 +60,10 @@ export function Controls({ wishes, world, document, interaction }: {
     const fly = (place: Vector3, target: Vector3, atOnce: boolean): void => {
       const orbit = controls.current;
       if (!orbit) return;
-      flight.fromPlace.copy(camera.position); flight.fromTarget.copy(orbit.target);
-      flight.place.copy(place); flight.target.copy(target);
+      flight.fromPlace.copy(camera.position);
+      flight.fromTarget.copy(orbit.target);
+      flight.place.copy(place);
+      flight.target.copy(target);
       const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
       flight.start_ms = atOnce || still ? -Infinity : performance.now();
       flight.on = true;
@@ -44,18 +71,30 @@ export function Controls({ wishes, world, document, interaction }: {
     };
     const towards = (direction: Vector3, atOnce: boolean): void => {
       if (!world.current || !(camera instanceof PerspectiveCamera)) return;
-      const bounds = contentBounds(world.current, document), centre = bounds.getCenter(new Vector3());
-      fly(centre.clone().addScaledVector(direction.clone().normalize(), -fitDistance(bounds, direction, camera)), centre, atOnce);
+      const bounds = contentBounds(world.current, document);
+      const centre = bounds.getCenter(new Vector3());
+      fly(
+        centre.clone().addScaledVector(direction.clone().normalize(), -fitDistance(bounds, direction, camera)),
+        centre,
+        atOnce,
+      );
     };
     // With the next frame: what has just come stands in its place only then.
     wishes.fit = () => {
-      pending.current = () => { const orbit = controls.current; if (orbit) towards(orbit.target.clone().sub(camera.position), false); };
+      pending.current = () => {
+        const orbit = controls.current;
+        if (orbit) towards(orbit.target.clone().sub(camera.position), false);
+      };
       invalidate();
     };
     wishes.look = direction => towards(direction, false);
     // Another cell is another place: look at all of it once.
     const place = `${document.name} ${document.robot.id} ${document.objects.length > 0}`;
-    if (seen.current !== place) { seen.current = place; pending.current = () => towards(FIRST_LOOK, true); invalidate(); }
+    if (seen.current !== place) {
+      seen.current = place;
+      pending.current = () => towards(FIRST_LOOK, true);
+      invalidate();
+    }
   }, [camera, document, flight, invalidate, wishes, world]);
 
   useFrame(() => {
@@ -63,16 +102,33 @@ export function Controls({ wishes, world, document, interaction }: {
     pending.current?.();
     pending.current = null;
     if (!flight.on || !orbit) return;
-    const t = Math.min(1, (performance.now() - flight.start_ms) / FLIGHT_MS), eased = 1 - (1 - t) ** 3;
+    const t = Math.min(1, (performance.now() - flight.start_ms) / FLIGHT_MS);
+    const eased = 1 - (1 - t) ** 3;
     camera.position.lerpVectors(flight.fromPlace, flight.place, eased);
     orbit.target.lerpVectors(flight.fromTarget, flight.target, eased);
     orbit.update();
     interaction.dirty = true;
-    if (t < 1) invalidate(); else flight.on = false;
+    if (t < 1) invalidate();
+    else flight.on = false;
   }, -6);
 
   return (
-    <OrbitControls ref={controls} makeDefault enabled={!close && !inHeadset} enableDamping={false} minDistance={0.15} maxDistance={14} maxPolarAngle={Math.PI * 0.94} zoomToCursor
-      touches={{ TWO: TOUCH.DOLLY_ROTATE }} onStart={() => { flight.on = false; }} onChange={() => { interaction.dirty = true; }} />
+    <OrbitControls
+      ref={controls}
+      makeDefault
+      enabled={!close && !inHeadset}
+      enableDamping={false}
+      minDistance={0.15}
+      maxDistance={14}
+      maxPolarAngle={Math.PI * 0.94}
+      zoomToCursor
+      touches={{ TWO: TOUCH.DOLLY_ROTATE }}
+      onStart={() => {
+        flight.on = false;
+      }}
+      onChange={() => {
+        interaction.dirty = true;
+      }}
+    />
   );
 }

@@ -1,12 +1,27 @@
-import { angleBetween, compose, fromAxisAngle, identity, inverse, normalize, pose, subtract, type Vector3 } from "@twincell/core";
+import {
+  angleBetween,
+  compose,
+  fromAxisAngle,
+  identity,
+  inverse,
+  normalize,
+  pose,
+  subtract,
+  type Vector3,
+} from "@twincell/core";
 import { describe, expect, test } from "vitest";
 import type { HandlePart } from "../interaction.ts";
 import { carried, dragged, type Grip, type Ray } from "./drag-maths.ts";
 
-const eye: Vector3 = [3, -2, 2], centre: Vector3 = [0.6, 0.1, 0.5];
+const eye: Vector3 = [3, -2, 2];
+const centre: Vector3 = [0.6, 0.1, 0.5];
 const towards = (point: Vector3): Ray => ({ origin: eye, direction: normalize(subtract(point, eye)) });
 const grip = (part: HandlePart, from: Vector3): Grip => ({
-  part, worldFromTcp: pose([...centre], fromAxisAngle([1, 0, 0], 0.4)), axes: [0, 0, 0, 1], ray: towards(from), view: normalize(subtract(centre, eye)),
+  part,
+  worldFromTcp: pose([...centre], fromAxisAngle([1, 0, 0], 0.4)),
+  axes: [0, 0, 0, 1],
+  ray: towards(from),
+  view: normalize(subtract(centre, eye)),
 });
 
 describe("desktop drags of the TCP handle", () => {
@@ -32,8 +47,13 @@ describe("desktop drags of the TCP handle", () => {
   });
 
   test("a ring turns by the angle the pointer went round", () => {
-    const at = (angle: number): Vector3 => [centre[0] + 0.1 * Math.cos(angle), centre[1] + 0.1 * Math.sin(angle), centre[2]];
-    const start = grip("rz", at(0.3)), out = dragged(start, towards(at(0.3 + 0.7)), 0, 0, identity());
+    const at = (angle: number): Vector3 => [
+      centre[0] + 0.1 * Math.cos(angle),
+      centre[1] + 0.1 * Math.sin(angle),
+      centre[2],
+    ];
+    const start = grip("rz", at(0.3));
+    const out = dragged(start, towards(at(0.3 + 0.7)), 0, 0, identity());
     expect(angleBetween(out.quaternion, start.worldFromTcp.quaternion)).toBeCloseTo(0.7, 9);
     expect(out.position).toEqual(centre);
     const snapped = dragged(start, towards(at(0.3 + 0.7)), 0, Math.PI / 36, identity());
@@ -42,7 +62,8 @@ describe("desktop drags of the TCP handle", () => {
 });
 
 test("X a grip in the hand does not jump when taken and then follows rigidly", () => {
-  const worldFromHand = pose<"world", "hand">([0.4, 0.2, 1.1], fromAxisAngle([0, 0, 1], 0.8)), worldFromTcp = pose<"world", "tcp">([0.6, 0.1, 0.5], fromAxisAngle([1, 0, 0], 0.4));
+  const worldFromHand = pose<"world", "hand">([0.4, 0.2, 1.1], fromAxisAngle([0, 0, 1], 0.8));
+  const worldFromTcp = pose<"world", "tcp">([0.6, 0.1, 0.5], fromAxisAngle([1, 0, 0], 0.4));
   const handFromTcp = compose(inverse(worldFromHand), worldFromTcp);
   const held = carried(worldFromHand, handFromTcp);
   expect(Math.hypot(...subtract(held.position, worldFromTcp.position))).toBeLessThan(1e-12);

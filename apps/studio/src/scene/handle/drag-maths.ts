@@ -1,8 +1,26 @@
-import { addScaled, compose, copyPose, cross, dot, fromAxisAngle, identity, multiply, normalize, type Pose, type Quaternion, rotate, subtract, type Vector3 } from "@twincell/core";
+import {
+  addScaled,
+  compose,
+  copyPose,
+  cross,
+  dot,
+  fromAxisAngle,
+  identity,
+  multiply,
+  normalize,
+  type Pose,
+  type Quaternion,
+  rotate,
+  subtract,
+  type Vector3,
+} from "@twincell/core";
 import type { HandlePart } from "../interaction.ts";
 
 /** A ray in the world; direction is a unit vector. */
-export interface Ray { readonly origin: Vector3; readonly direction: Vector3 }
+export interface Ray {
+  readonly origin: Vector3;
+  readonly direction: Vector3;
+}
 
 /** A drag as it began. */
 export interface Grip {
@@ -29,7 +47,9 @@ function onPlane(ray: Ray, point: Vector3, normal: Vector3): Vector3 | null {
 
 /** Place along the line point + s · axis nearest to the ray. */
 function alongAxis(ray: Ray, point: Vector3, axis: Vector3): number | null {
-  const between = subtract(point, ray.origin), skew = dot(axis, ray.direction), area = 1 - skew * skew;
+  const between = subtract(point, ray.origin);
+  const skew = dot(axis, ray.direction);
+  const area = 1 - skew * skew;
   return area < 1e-4 ? null : (skew * dot(ray.direction, between) - dot(axis, between)) / area;
 }
 
@@ -39,20 +59,31 @@ function alongAxis(ray: Ray, point: Vector3, axis: Vector3): number | null {
  *
  * @param snap  grid for lengths [m] and angles [rad]; 0 for none.
  */
-export function dragged(grip: Grip, ray: Ray, snap_m: number, snap_rad: number, out: Pose<"world", "tcp">): Pose<"world", "tcp"> {
+export function dragged(
+  grip: Grip,
+  ray: Ray,
+  snap_m: number,
+  snap_rad: number,
+  out: Pose<"world", "tcp">,
+): Pose<"world", "tcp"> {
   copyPose(grip.worldFromTcp, out);
-  const centre = grip.worldFromTcp.position, { part } = grip;
+  const centre = grip.worldFromTcp.position;
+  const { part } = grip;
   const snapped = (value: number, grid: number): number => (grid > 0 ? Math.round(value / grid) * grid : value);
   if (part === "x" || part === "y" || part === "z") {
-    const axis = rotate(grip.axes, AXIS[part]), from = alongAxis(grip.ray, centre, axis), to = alongAxis(ray, centre, axis);
+    const axis = rotate(grip.axes, AXIS[part]);
+    const from = alongAxis(grip.ray, centre, axis);
+    const to = alongAxis(ray, centre, axis);
     if (from !== null && to !== null) addScaled(centre, axis, snapped(to - from, snap_m), out.position);
   } else if (part === "rx" || part === "ry" || part === "rz") {
     const axis = rotate(grip.axes, AXIS[part === "rx" ? "x" : part === "ry" ? "y" : "z"]);
     const angle = snapped(turned(grip, ray, axis), snap_rad);
     multiply(fromAxisAngle(axis, angle), grip.worldFromTcp.quaternion, out.quaternion);
   } else {
-    const normal = part === "free" ? grip.view : rotate(grip.axes, AXIS[part === "yz" ? "x" : part === "zx" ? "y" : "z"]);
-    const from = onPlane(grip.ray, centre, normal), to = onPlane(ray, centre, normal);
+    const normal =
+      part === "free" ? grip.view : rotate(grip.axes, AXIS[part === "yz" ? "x" : part === "zx" ? "y" : "z"]);
+    const from = onPlane(grip.ray, centre, normal);
+    const to = onPlane(ray, centre, normal);
     if (from && to) {
       const move = subtract(to, from);
       for (let k = 0; k < 3; k++) out.position[k] = centre[k]! + snapped(move[k]!, snap_m);
@@ -64,13 +95,17 @@ export function dragged(grip: Grip, ray: Ray, snap_m: number, snap_rad: number, 
 function turned(grip: Grip, ray: Ray, axis: Vector3): number {
   const centre = grip.worldFromTcp.position;
   if (Math.abs(dot(grip.view, axis)) > EDGE_ON) {
-    const from = onPlane(grip.ray, centre, axis), to = onPlane(ray, centre, axis);
+    const from = onPlane(grip.ray, centre, axis);
+    const to = onPlane(ray, centre, axis);
     if (!from || !to) return 0;
-    const a = normalize(subtract(from, centre)), b = normalize(subtract(to, centre));
+    const a = normalize(subtract(from, centre));
+    const b = normalize(subtract(to, centre));
     return Math.atan2(dot(cross(a, b), axis), dot(a, b));
   }
   // Seen from its edge the ring is a line: going along it turns it, as a wheel under the hand.
-  const tangent = normalize(cross(axis, grip.view)), from = onPlane(grip.ray, centre, grip.view), to = onPlane(ray, centre, grip.view);
+  const tangent = normalize(cross(axis, grip.view));
+  const from = onPlane(grip.ray, centre, grip.view);
+  const to = onPlane(ray, centre, grip.view);
   if (!from || !to) return 0;
   const radius = Math.max(0.02, Math.sqrt(dot(subtract(from, centre), subtract(from, centre))));
   return -dot(subtract(to, from), tangent) / radius;
@@ -81,6 +116,10 @@ function turned(grip: Grip, ray: Ray, axis: Vector3): number {
  *
  *   worldFromTcp = worldFromHand · (worldFromHand₀⁻¹ · worldFromTcp₀)
  */
-export function carried(worldFromHand: Pose<"world", "hand">, handFromTcp: Pose<"hand", "tcp">, out: Pose<"world", "tcp"> = identity()): Pose<"world", "tcp"> {
+export function carried(
+  worldFromHand: Pose<"world", "hand">,
+  handFromTcp: Pose<"hand", "tcp">,
+  out: Pose<"world", "tcp"> = identity(),
+): Pose<"world", "tcp"> {
   return compose(worldFromHand, handFromTcp, out);
 }

@@ -6,4 +6,6 @@ import { poseMatrix } from "../pose-matrix.ts";
 
 /** The tool as seen from its tip; a small ball for a bare flange. */
 export const ghostGeometry = (tool: ToolRecord | undefined): BufferGeometry =>
-  (tool?.shape ? shapeGeometry(tool.shape).applyMatrix4(poseMatrix(inverse(tool.flangeFromTcp), new Matrix4())) : new SphereGeometry(0.02, 20, 14));
+  tool?.shape
+    ? shapeGeometry(tool.shape).applyMatrix4(poseMatrix(inverse(tool.flangeFromTcp), new Matrix4()))
+    : new SphereGeometry(0.02, 20, 14);

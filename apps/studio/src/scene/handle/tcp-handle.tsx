@@ -22,34 +22,70 @@ export function handleAxes(worldFromTcp: Pose<"world", "tcp">): Pose<"world", "t
 }
 
 /** Rings, arrows and squares at the tool tip that can be dragged. Drawn over everything, so that it can be taken from any side. */
-export function TcpHandle({ interaction, shown, theme, targets }: {
-  readonly interaction: Interaction; readonly shown: boolean; readonly theme: SceneTheme; readonly targets: { current: readonly Mesh[] };
+export function TcpHandle({
+  interaction,
+  shown,
+  theme,
+  targets,
+}: {
+  readonly interaction: Interaction;
+  readonly shown: boolean;
+  readonly theme: SceneTheme;
+  readonly targets: { current: readonly Mesh[] };
 }) {
   const group = useRef<Group>(null);
   const shapes = useMemo(handleShapes, []);
-  const materials = useMemo(() => shapes.map(shape => new MeshBasicMaterial({
-    color: shape.part === "free" ? theme.accent : new Color(shape.color), transparent: true, depthTest: false, depthWrite: false, toneMapped: false, side: DoubleSide,
-  })), [shapes, theme]);
+  const materials = useMemo(
+    () =>
+      shapes.map(
+        shape =>
+          new MeshBasicMaterial({
+            color: shape.part === "free" ? theme.accent : new Color(shape.color),
+            transparent: true,
+            depthTest: false,
+            depthWrite: false,
+            toneMapped: false,
+            side: DoubleSide,
+          }),
+      ),
+    [shapes, theme],
+  );
   const nothing = useMemo(() => new MeshBasicMaterial({ visible: false }), []);
   const hits = useRef<(Mesh | null)[]>([]);
   useEffect(() => {
     targets.current = shown ? hits.current.filter(mesh => mesh !== null) : [];
-    return () => { targets.current = []; };
+    return () => {
+      targets.current = [];
+    };
   }, [targets, shown, shapes]);
 
   useFrame(({ camera, gl }) => {
     const at = group.current;
     if (!at) return;
-    const { worldFromTcp } = theLive(), presenting = gl.xr.isPresenting;
+    const { worldFromTcp } = theLive();
+    const presenting = gl.xr.isPresenting;
     at.position.set(...worldFromTcp.position);
     const axes = handleAxes(worldFromTcp);
-    if (axes) at.quaternion.set(...axes); else at.quaternion.identity();
+    if (axes) at.quaternion.set(...axes);
+    else at.quaternion.identity();
     const distance = camera.position.distanceTo(toScene(worldFromTcp.position, place));
     const half = camera instanceof PerspectiveCamera ? Math.tan((camera.fov * Math.PI) / 360) * distance : distance;
     at.scale.setScalar(presenting ? HEADSET_RADIUS_M : half * SHARE);
     for (let i = 0; i < shapes.length; i++) {
-      const { part } = shapes[i]!, active = interaction.draggedPart === part, hovered = interaction.hoveredPart === part, square = part.length === 2 && !part.startsWith("r");
-      materials[i]!.opacity = interaction.draggedPart && !active ? 0.16 : active || hovered ? 1 : square ? 0.42 : part === "free" ? 0.85 : 0.72;
+      const { part } = shapes[i]!;
+      const active = interaction.draggedPart === part;
+      const hovered = interaction.hoveredPart === part;
+      const square = part.length === 2 && !part.startsWith("r");
+      materials[i]!.opacity =
+        interaction.draggedPart && !active
+          ? 0.16
+          : active || hovered
+            ? 1
+            : square
+              ? 0.42
+              : part === "free"
+                ? 0.85
+                : 0.72;
     }
   }, -9);
 
@@ -58,7 +94,14 @@ export function TcpHandle({ interaction, shown, theme, targets }: {
       {shapes.map((shape, i) => (
         <group key={shape.part}>
           <mesh geometry={shape.seen} material={materials[i]!} renderOrder={20} raycast={() => undefined} />
-          <mesh ref={mesh => { hits.current[i] = mesh; }} geometry={shape.hit} material={nothing} userData={{ part: shape.part, unpickable: true }} />
+          <mesh
+            ref={mesh => {
+              hits.current[i] = mesh;
+            }}
+            geometry={shape.hit}
+            material={nothing}
+            userData={{ part: shape.part, unpickable: true }}
+          />
         </group>
       ))}
     </group>
@@ -66,7 +109,15 @@ export function TcpHandle({ interaction, shown, theme, targets }: {
 }
 
 /** The tool where the hand wants it while the robot cannot be there. */
-export function Ghost({ interaction, tool, theme }: { readonly interaction: Interaction; readonly tool: ToolRecord | undefined; readonly theme: SceneTheme }) {
+export function Ghost({
+  interaction,
+  tool,
+  theme,
+}: {
+  readonly interaction: Interaction;
+  readonly tool: ToolRecord | undefined;
+  readonly theme: SceneTheme;
+}) {
   const group = useRef<Group>(null);
   useFrame(() => {
     const at = group.current;
@@ -76,11 +127,19 @@ export function Ghost({ interaction, tool, theme }: { readonly interaction: Inte
     at.position.set(...interaction.wanted.position);
     at.quaternion.set(...interaction.wanted.quaternion);
   }, -9);
-  return <group ref={group} visible={false} userData={{ unpickable: true }}><GhostTool tool={tool} theme={theme} /></group>;
+  return (
+    <group ref={group} visible={false} userData={{ unpickable: true }}>
+      <GhostTool tool={tool} theme={theme} />
+    </group>
+  );
 }
 
 function GhostTool({ tool, theme }: { readonly tool: ToolRecord | undefined; readonly theme: SceneTheme }) {
   const geometry = useMemo(() => ghostGeometry(tool), [tool]);
   useEffect(() => () => geometry.dispose(), [geometry]);
-  return <mesh geometry={geometry} renderOrder={8}><meshBasicMaterial color={theme.bad} transparent opacity={0.38} depthWrite={false} toneMapped={false} /></mesh>;
+  return (
+    <mesh geometry={geometry} renderOrder={8}>
+      <meshBasicMaterial color={theme.bad} transparent opacity={0.38} depthWrite={false} toneMapped={false} />
+    </mesh>
+  );
 }

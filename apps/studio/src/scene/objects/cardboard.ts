@@ -9,12 +9,17 @@ export function looksLikeCardboard(color: string): boolean {
 
 /** Kraft paper: fine fibres and faint flutes, made here so that nothing is fetched. */
 export function kraftTexture(color: string): CanvasTexture {
-  const size = 256, canvas = document.createElement("canvas"), random = seededRandom(7);
+  const size = 256;
+  const canvas = document.createElement("canvas");
+  const random = seededRandom(7);
   canvas.width = canvas.height = size;
   const paint = canvas.getContext("2d")!;
   paint.fillStyle = color;
   paint.fillRect(0, 0, size, size);
-  for (let y = 0; y < size; y += 8) { paint.fillStyle = "rgb(90 55 20 / 0.05)"; paint.fillRect(0, y, size, 3); }
+  for (let y = 0; y < size; y += 8) {
+    paint.fillStyle = "rgb(90 55 20 / 0.05)";
+    paint.fillRect(0, y, size, 3);
+  }
   for (let i = 0; i < 2600; i++) {
     paint.fillStyle = random() < 0.5 ? "rgb(60 35 12 / 0.09)" : "rgb(255 235 200 / 0.09)";
     paint.fillRect(random() * size, random() * size, 2 + random() * 12, 0.7);

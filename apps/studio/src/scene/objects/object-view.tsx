@@ -21,7 +21,13 @@ export function ObjectView({ object, theme }: { readonly object: ObjectRecord; r
   const group = useRef<Group>(null);
   const geometry = useMemo(() => shapeGeometry(object.shape), [object.shape]);
   const edges = useMemo(() => new EdgesGeometry(geometry, 40), [geometry]);
-  useEffect(() => () => { geometry.dispose(); edges.dispose(); }, [geometry, edges]);
+  useEffect(
+    () => () => {
+      geometry.dispose();
+      edges.dispose();
+    },
+    [geometry, edges],
+  );
   const moved = useRef<object | null>(null);
   useEffect(() => {
     if (!group.current) return;
@@ -42,26 +48,63 @@ export function ObjectView({ object, theme }: { readonly object: ObjectRecord; r
     }
     group.current.matrixWorldNeedsUpdate = true;
   }, -9);
-  useEffect(() => paintTouching(name => (name === object.name || name === object.id ? group.current : null)), [object.name, object.id]);
+  useEffect(
+    () => paintTouching(name => (name === object.name || name === object.id ? group.current : null)),
+    [object.name, object.id],
+  );
 
-  const wall = object.role === "wall", box = object.shape.kind === "box" ? object.shape.size_m : null;
+  const wall = object.role === "wall";
+  const box = object.shape.kind === "box" ? object.shape.size_m : null;
   const cardboard = object.role === "workpiece" && box !== null && looksLikeCardboard(object.color);
   return (
-    <group ref={group} name={object.id} matrixAutoUpdate={false} userData={{ thing: { kind: "object", id: object.id } }}>
-      {wall ? <Wall geometry={geometry} edges={edges} color={object.color} size_m={box} theme={theme} />
-        : cardboard ? <Carton geometry={geometry} size_m={box} color={object.color} />
-          : <mesh geometry={geometry} castShadow receiveShadow raycast={raycastByTree}><meshStandardMaterial color={object.color} roughness={object.role === "furniture" ? 0.48 : 0.62} metalness={object.role === "furniture" ? 0.25 : 0.05} /></mesh>}
+    <group
+      ref={group}
+      name={object.id}
+      matrixAutoUpdate={false}
+      userData={{ thing: { kind: "object", id: object.id } }}
+    >
+      {wall ? (
+        <Wall geometry={geometry} edges={edges} color={object.color} size_m={box} theme={theme} />
+      ) : cardboard ? (
+        <Carton geometry={geometry} size_m={box} color={object.color} />
+      ) : (
+        <mesh geometry={geometry} castShadow receiveShadow raycast={raycastByTree}>
+          <meshStandardMaterial
+            color={object.color}
+            roughness={object.role === "furniture" ? 0.48 : 0.62}
+            metalness={object.role === "furniture" ? 0.25 : 0.05}
+          />
+        </mesh>
+      )}
       {object.role === "workpiece" && <GraspMark id={object.id} geometry={geometry} theme={theme} />}
     </group>
   );
 }
 
 /** A matt panel that keeps to the background, and is gone when it stands between the camera and the cell. */
-function Wall({ geometry, edges, color, size_m, theme }: {
-  readonly geometry: BufferGeometry; readonly edges: EdgesGeometry; readonly color: string; readonly size_m: readonly [number, number, number] | null; readonly theme: SceneTheme;
+function Wall({
+  geometry,
+  edges,
+  color,
+  size_m,
+  theme,
+}: {
+  readonly geometry: BufferGeometry;
+  readonly edges: EdgesGeometry;
+  readonly color: string;
+  readonly size_m: readonly [number, number, number] | null;
+  readonly theme: SceneTheme;
 }) {
-  const mesh = useRef<Mesh>(null), lines = useRef<LineSegments>(null);
-  const paint = useMemo(() => theme.floor.clone().multiplyScalar(theme.dark ? 1.5 : 1).lerp(new Color(color), theme.dark ? 0.06 : 0.4), [color, theme]);
+  const mesh = useRef<Mesh>(null);
+  const lines = useRef<LineSegments>(null);
+  const paint = useMemo(
+    () =>
+      theme.floor
+        .clone()
+        .multiplyScalar(theme.dark ? 1.5 : 1)
+        .lerp(new Color(color), theme.dark ? 0.06 : 0.4),
+    [color, theme],
+  );
   useFrame(({ camera }) => {
     if (!mesh.current || !lines.current || !size_m) return;
     const hides = wallHides(mesh.current, size_m, MIDDLE, camera);
@@ -70,8 +113,12 @@ function Wall({ geometry, edges, color, size_m, theme }: {
   }, -7);
   return (
     <>
-      <mesh ref={mesh} geometry={geometry} receiveShadow><meshLambertMaterial color={paint} /></mesh>
-      <lineSegments ref={lines} geometry={edges} userData={{ unpainted: true }} raycast={() => undefined}><lineBasicMaterial color={theme.text} transparent opacity={theme.dark ? 0.22 : 0.3} /></lineSegments>
+      <mesh ref={mesh} geometry={geometry} receiveShadow>
+        <meshLambertMaterial color={paint} />
+      </mesh>
+      <lineSegments ref={lines} geometry={edges} userData={{ unpainted: true }} raycast={() => undefined}>
+        <lineBasicMaterial color={theme.text} transparent opacity={theme.dark ? 0.22 : 0.3} />
+      </lineSegments>
     </>
   );
 }
@@ -79,10 +126,22 @@ function Wall({ geometry, edges, color, size_m, theme }: {
 const MIDDLE = new Vector3(0.3, 0.8, 0);
 
 /** A taped carton: kraft paper, a tape over the seam of the lid and down both ends. */
-function Carton({ geometry, size_m: [x, y, z], color }: { readonly geometry: BufferGeometry; readonly size_m: readonly [number, number, number]; readonly color: string }) {
+function Carton({
+  geometry,
+  size_m: [x, y, z],
+  color,
+}: {
+  readonly geometry: BufferGeometry;
+  readonly size_m: readonly [number, number, number];
+  readonly color: string;
+}) {
   const texture = useMemo(() => kraftTexture(color), [color]);
   useEffect(() => () => texture.dispose(), [texture]);
-  const long = x >= y, length = long ? x : y, tape = Math.min(0.05, (long ? y : x) * 0.2), thin = 0.0006, down = Math.min(0.06, z * 0.3);
+  const long = x >= y;
+  const length = long ? x : y;
+  const tape = Math.min(0.05, (long ? y : x) * 0.2);
+  const thin = 0.0006;
+  const down = Math.min(0.06, z * 0.3);
   const strip = (key: string, place: [number, number, number], size: [number, number, number]) => (
     <mesh key={key} position={long ? place : [place[1], place[0], place[2]]} receiveShadow>
       <boxGeometry args={long ? size : [size[1], size[0], size[2]]} />
@@ -91,10 +150,17 @@ function Carton({ geometry, size_m: [x, y, z], color }: { readonly geometry: Buf
   );
   return (
     <>
-      <mesh geometry={geometry} castShadow receiveShadow><meshStandardMaterial map={texture} roughness={0.93} metalness={0} bumpMap={texture} bumpScale={0.25} /></mesh>
-      <mesh position={[0, 0, z / 2 + 0.0001]}><boxGeometry args={long ? [length * 0.994, 0.0018, 0.0004] : [0.0018, length * 0.994, 0.0004]} /><meshStandardMaterial color="#5d4325" roughness={1} /></mesh>
+      <mesh geometry={geometry} castShadow receiveShadow>
+        <meshStandardMaterial map={texture} roughness={0.93} metalness={0} bumpMap={texture} bumpScale={0.25} />
+      </mesh>
+      <mesh position={[0, 0, z / 2 + 0.0001]}>
+        <boxGeometry args={long ? [length * 0.994, 0.0018, 0.0004] : [0.0018, length * 0.994, 0.0004]} />
+        <meshStandardMaterial color="#5d4325" roughness={1} />
+      </mesh>
       {strip("lid", [0, 0, z / 2 + thin / 2], [length + 2 * thin, tape, thin])}
-      {[1, -1].map(side => strip(`end ${side}`, [side * (length / 2 + thin / 2), 0, z / 2 - down / 2], [thin, tape, down]))}
+      {[1, -1].map(side =>
+        strip(`end ${side}`, [side * (length / 2 + thin / 2), 0, z / 2 - down / 2], [thin, tape, down]),
+      )}
     </>
   );
 }

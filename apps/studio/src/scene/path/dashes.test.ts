@@ -2,10 +2,15 @@ import type { Vector3 } from "@twincell/core";
 import { expect, test } from "vitest";
 import { dashes, stations } from "./dashes.ts";
 
-const corner: Vector3[] = [[0, 0, 0], [0.1, 0, 0], [0.1, 0.1, 0]];
+const corner: Vector3[] = [
+  [0, 0, 0],
+  [0.1, 0, 0],
+  [0.1, 0.1, 0],
+];
 const drawn = (pieces: readonly number[]): number => {
   let sum = 0;
-  for (let i = 0; i < pieces.length; i += 6) sum += Math.hypot(pieces[i + 3]! - pieces[i]!, pieces[i + 4]! - pieces[i + 1]!, pieces[i + 5]! - pieces[i + 2]!);
+  for (let i = 0; i < pieces.length; i += 6)
+    sum += Math.hypot(pieces[i + 3]! - pieces[i]!, pieces[i + 4]! - pieces[i + 1]!, pieces[i + 5]! - pieces[i + 2]!);
   return sum;
 };
 
@@ -27,6 +32,13 @@ test("symbols stand at equal distances, and a short stretch has one", () => {
   stations(corner, 0.05, out);
   expect(out.length / 3).toBe(4);
   const one: number[] = [];
-  stations([[0, 0, 0], [0.001, 0, 0]], 0.05, one);
+  stations(
+    [
+      [0, 0, 0],
+      [0.001, 0, 0],
+    ],
+    0.05,
+    one,
+  );
   expect(one.length / 3).toBe(1);
 });

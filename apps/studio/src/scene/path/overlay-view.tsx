@@ -7,14 +7,28 @@ import type { SceneTheme } from "../theme.ts";
 
 /** Two cycles of a recording, one over the other: the first in the colour of runs, the second in that of warnings. */
 export function OverlayView({ theme }: { readonly theme: SceneTheme }) {
-  const ways = useStore(historyStore, state => state.overlay?.ways), shown = useStore(viewStore, state => state.mode === "history");
-  const lines = useMemo(() => (ways ?? []).map((way, i) => {
-    const geometry = new BufferGeometry().setAttribute("position", new Float32BufferAttribute(way.flat(), 3));
-    const line = new Line(geometry, new LineBasicMaterial({ color: i === 0 ? theme.run : theme.near, toneMapped: false, depthTest: false }));
-    line.renderOrder = 5 + i;
-    line.userData.unpickable = true;
-    line.raycast = () => undefined;
-    return line;
-  }), [ways, theme]);
-  return shown ? <>{lines.map((line, i) => <primitive key={i} object={line} />)}</> : null;
+  const ways = useStore(historyStore, state => state.overlay?.ways);
+  const shown = useStore(viewStore, state => state.mode === "history");
+  const lines = useMemo(
+    () =>
+      (ways ?? []).map((way, i) => {
+        const geometry = new BufferGeometry().setAttribute("position", new Float32BufferAttribute(way.flat(), 3));
+        const line = new Line(
+          geometry,
+          new LineBasicMaterial({ color: i === 0 ? theme.run : theme.near, toneMapped: false, depthTest: false }),
+        );
+        line.renderOrder = 5 + i;
+        line.userData.unpickable = true;
+        line.raycast = () => undefined;
+        return line;
+      }),
+    [ways, theme],
+  );
+  return shown ? (
+    <>
+      {lines.map((line, i) => (
+        <primitive key={i} object={line} />
+      ))}
+    </>
+  ) : null;
 }

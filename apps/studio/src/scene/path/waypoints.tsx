@@ -16,25 +16,40 @@ export function waypointPoses(document: CellDocument, program: Program, robot: R
   const tools = new Map(document.tools.map(tool => [tool.name, tool.flangeFromTcp]));
   const flangeFromTcp = (name: string): Pose<"flange", "tcp"> => program.tools[name] ?? tools.get(name) ?? identity();
   // Every place of a pallet is a point; rounds of a loop are not told apart.
-  const points = Array.from(flow(program, { rounds: 1, mostSteps: 0 })).flatMap(happening => (happening.kind === "step" ? [happening.step] : []));
+  const points = Array.from(flow(program, { rounds: 1, mostSteps: 0 })).flatMap(happening =>
+    happening.kind === "step" ? [happening.step] : [],
+  );
   return points.slice(0, MOST_POINTS).flatMap(step => {
     if (step.type !== "move") return [];
     const { target } = step;
     if ("q" in target) {
       if (target.q.length !== robot.arm.joints.length) return [];
-      return [compose(compose(document.robot.worldFromBase, flangePose(robot.arm, target.q)), flangeFromTcp(target.tool ?? document.tool))];
+      return [
+        compose(
+          compose(document.robot.worldFromBase, flangePose(robot.arm, target.q)),
+          flangeFromTcp(target.tool ?? document.tool),
+        ),
+      ];
     }
-    const frame: Pose<"world", "frame"> | undefined = target.frame === "world" ? identity() : program.frames[target.frame] ?? document.frames.find(each => each.name === target.frame)?.worldFromFrame;
+    const frame: Pose<"world", "frame"> | undefined =
+      target.frame === "world"
+        ? identity()
+        : (program.frames[target.frame] ?? document.frames.find(each => each.name === target.frame)?.worldFromFrame);
     return frame ? [compose(frame, target.pose)] : [];
   });
 }
 
 /** Taught points: a small frame with a white dot each, in two draw calls. */
 export function Waypoints({ document }: { readonly document: CellDocument }) {
-  const program = document.programs.find(each => each.name === document.program), robot = robotById(document.robot.id);
-  const poses = useMemo(() => (program && robot ? waypointPoses(document, program, robot) : []), [document, program, robot]);
+  const program = document.programs.find(each => each.name === document.program);
+  const robot = robotById(document.robot.id);
+  const poses = useMemo(
+    () => (program && robot ? waypointPoses(document, program, robot) : []),
+    [document, program, robot],
+  );
   const triad = useMemo(() => triadGeometry(0.026, 0.0011), []);
-  const dots = useRef<InstancedMesh>(null), frames = useRef<InstancedMesh>(null);
+  const dots = useRef<InstancedMesh>(null);
+  const frames = useRef<InstancedMesh>(null);
   useLayoutEffect(() => {
     const matrix = new Matrix4();
     poses.forEach((pose, i) => {
@@ -42,16 +57,31 @@ export function Waypoints({ document }: { readonly document: CellDocument }) {
       dots.current?.setMatrixAt(i, matrix);
       if (i < MOST_FRAMES) frames.current?.setMatrixAt(i, matrix);
     });
-    for (const mesh of [dots.current, frames.current]) if (mesh) { mesh.instanceMatrix.needsUpdate = true; mesh.computeBoundingSphere(); }
+    for (const mesh of [dots.current, frames.current])
+      if (mesh) {
+        mesh.instanceMatrix.needsUpdate = true;
+        mesh.computeBoundingSphere();
+      }
   }, [poses]);
   if (poses.length === 0) return null;
   return (
     <>
-      <instancedMesh key={`dots ${poses.length}`} ref={dots} args={[undefined, undefined, poses.length]} userData={{ unpickable: true }}>
-        <sphereGeometry args={[0.0062, 14, 10]} /><meshBasicMaterial color="#ffffff" toneMapped={false} />
+      <instancedMesh
+        key={`dots ${poses.length}`}
+        ref={dots}
+        args={[undefined, undefined, poses.length]}
+        userData={{ unpickable: true }}
+      >
+        <sphereGeometry args={[0.0062, 14, 10]} />
+        <meshBasicMaterial color="#ffffff" toneMapped={false} />
       </instancedMesh>
       {poses.length <= MOST_FRAMES && (
-        <instancedMesh key={`frames ${poses.length}`} ref={frames} args={[triad, undefined, poses.length]} userData={{ unpickable: true }}>
+        <instancedMesh
+          key={`frames ${poses.length}`}
+          ref={frames}
+          args={[triad, undefined, poses.length]}
+          userData={{ unpickable: true }}
+        >
           <meshBasicMaterial vertexColors toneMapped={false} />
         </instancedMesh>
       )}

@@ -11,7 +11,15 @@ const SIZE_M = [0.034, 0.014] as const;
  * The mark on a work piece (row M-21): a small rectangle whose colour and height say whether the fingers touch or hold it. It is
  * seen through what stands before it, since a gripper hides what it holds.
  */
-export function GraspMark({ id, geometry, theme }: { readonly id: string; readonly geometry: BufferGeometry; readonly theme: SceneTheme }) {
+export function GraspMark({
+  id,
+  geometry,
+  theme,
+}: {
+  readonly id: string;
+  readonly geometry: BufferGeometry;
+  readonly theme: SceneTheme;
+}) {
   const shown = useRef<GraspSignal | null>(null);
   const sprite = useMemo(() => {
     const made = new Sprite(new SpriteMaterial({ depthTest: false, toneMapped: false, transparent: true }));
@@ -23,7 +31,9 @@ export function GraspMark({ id, geometry, theme }: { readonly id: string; readon
     return made;
   }, []);
   useFrame(() => {
-    const frame = physicsNow(), at = partOffset(id) / 7, signal = frame === null || at < 0 ? null : frame.grasp[at] ?? null;
+    const frame = physicsNow();
+    const at = partOffset(id) / 7;
+    const signal = frame === null || at < 0 ? null : (frame.grasp[at] ?? null);
     if (signal === shown.current) return;
     shown.current = signal;
     sprite.visible = signal !== null;

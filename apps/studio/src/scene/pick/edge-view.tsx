@@ -15,21 +15,49 @@ export function EdgeView({ theme }: { readonly theme: SceneTheme }) {
   if (!active) return null;
   return (
     <>
-      {chosen.length > 0 && <Lines polylines={chosen.map(edge => edge.polyline)} color={theme.accent} width_m={0.007} opacity={1} />}
+      {chosen.length > 0 && (
+        <Lines polylines={chosen.map(edge => edge.polyline)} color={theme.accent} width_m={0.007} opacity={1} />
+      )}
       {hovered && <Lines polylines={[hovered.polyline]} color={theme.accent} width_m={0.011} opacity={0.6} />}
     </>
   );
 }
 
-function Lines({ polylines, color, width_m, opacity }: { readonly polylines: readonly (readonly Vector3[])[]; readonly color: Color; readonly width_m: number; readonly opacity: number }) {
+function Lines({
+  polylines,
+  color,
+  width_m,
+  opacity,
+}: {
+  readonly polylines: readonly (readonly Vector3[])[];
+  readonly color: Color;
+  readonly width_m: number;
+  readonly opacity: number;
+}) {
   const lines = useMemo(() => {
     const pieces: number[] = [];
     for (const polyline of polylines) dashes(polyline, [], pieces);
-    const made = new LineSegments2(new LineSegmentsGeometry().setPositions(pieces), new LineMaterial({ color, linewidth: width_m, worldUnits: true, toneMapped: false, transparent: opacity < 1, opacity }));
+    const made = new LineSegments2(
+      new LineSegmentsGeometry().setPositions(pieces),
+      new LineMaterial({
+        color,
+        linewidth: width_m,
+        worldUnits: true,
+        toneMapped: false,
+        transparent: opacity < 1,
+        opacity,
+      }),
+    );
     made.renderOrder = 5;
     made.raycast = () => undefined;
     return made;
   }, [polylines, color, width_m, opacity]);
-  useEffect(() => () => { lines.geometry.dispose(); lines.material.dispose(); }, [lines]);
+  useEffect(
+    () => () => {
+      lines.geometry.dispose();
+      lines.material.dispose();
+    },
+    [lines],
+  );
   return <primitive object={lines} />;
 }

@@ -1,6 +1,14 @@
 import { useThree } from "@react-three/fiber";
 import { type RefObject, useEffect, useMemo } from "react";
-import { type BufferGeometry, EdgesGeometry, type Group, LineBasicMaterial, LineSegments, Mesh, type Object3D } from "three";
+import {
+  type BufferGeometry,
+  EdgesGeometry,
+  type Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  type Object3D,
+} from "three";
 import { selectionStore, type Thing } from "../../stores/selection.ts";
 import type { SceneTheme } from "../theme.ts";
 
@@ -9,16 +17,20 @@ const edges = new WeakMap<BufferGeometry, EdgesGeometry>();
 /** Draws the edges of what is selected, and fainter of what is under the pointer, in the accent colour. */
 export function Outline({ world, theme }: { readonly world: RefObject<Group | null>; readonly theme: SceneTheme }) {
   const invalidate = useThree(state => state.invalidate);
-  const materials = useMemo(() => ({
-    selected: new LineBasicMaterial({ color: theme.accent, toneMapped: false }),
-    hovered: new LineBasicMaterial({ color: theme.accent, toneMapped: false, transparent: true, opacity: 0.45 }),
-  }), [theme]);
+  const materials = useMemo(
+    () => ({
+      selected: new LineBasicMaterial({ color: theme.accent, toneMapped: false }),
+      hovered: new LineBasicMaterial({ color: theme.accent, toneMapped: false, transparent: true, opacity: 0.45 }),
+    }),
+    [theme],
+  );
   useEffect(() => {
     let drawn: LineSegments[] = [];
     const apply = (): void => {
       for (const lines of drawn) lines.removeFromParent();
       drawn = [];
-      const { selected, hovered } = selectionStore.getState(), root = world.current;
+      const { selected, hovered } = selectionStore.getState();
+      const root = world.current;
       if (!root) return;
       for (const holder of root.children) {
         const thing: Thing | undefined = holder.userData.thing;
@@ -29,7 +41,10 @@ export function Outline({ world, theme }: { readonly world: RefObject<Group | nu
     };
     apply();
     const stop = selectionStore.subscribe(apply);
-    return () => { stop(); for (const lines of drawn) lines.removeFromParent(); };
+    return () => {
+      stop();
+      for (const lines of drawn) lines.removeFromParent();
+    };
   }, [world, materials, invalidate]);
   return null;
 }
@@ -38,11 +53,17 @@ export function Outline({ world, theme }: { readonly world: RefObject<Group | nu
 function same(thing: Thing | undefined, wanted: Thing | null): boolean {
   if (!thing || !wanted) return false;
   switch (wanted.kind) {
-    case "robot": return thing.kind === "link";
-    case "link": return thing.kind === "link" && thing.link === wanted.link;
-    case "tool": return thing.kind === "tool";
-    case "object": return thing.kind === "object" && thing.id === wanted.id;
-    case "frame": case "step": return false;
+    case "robot":
+      return thing.kind === "link";
+    case "link":
+      return thing.kind === "link" && thing.link === wanted.link;
+    case "tool":
+      return thing.kind === "tool";
+    case "object":
+      return thing.kind === "object" && thing.id === wanted.id;
+    case "frame":
+    case "step":
+      return false;
   }
 }
 
@@ -52,7 +73,7 @@ function outlineOf(holder: Object3D, material: LineBasicMaterial): LineSegments[
     if (!(object instanceof Mesh) || object.userData.unpainted === true) return;
     const geometry: BufferGeometry = object.geometry;
     let lines = edges.get(geometry);
-    if (!lines) edges.set(geometry, lines = new EdgesGeometry(geometry, 32));
+    if (!lines) edges.set(geometry, (lines = new EdgesGeometry(geometry, 32)));
     made.push(new LineSegments(lines, material));
     made.at(-1)!.raycast = () => undefined;
     made.at(-1)!.userData.unpickable = true;

@@ -20,47 +20,88 @@ import { thingWords } from "./thing-words.ts";
 
 const CLICK_PX = 5;
 const EDGE_TOLERANCE_PX = 9;
-const SNAP_M = 0.005, SNAP_RAD = (5 * Math.PI) / 180;
+const SNAP_M = 0.005;
+const SNAP_RAD = (5 * Math.PI) / 180;
 
 /** Says what is under the pointer, selects it, drags the handle, chooses edges. One look per frame at most. */
-export function Pointer({ interaction, label, world, handle, document, meter }: {
-  readonly interaction: Interaction; readonly label: PointerLabel; readonly world: RefObject<Group | null>; readonly handle: { current: readonly Mesh[] };
-  readonly document: CellDocument; readonly meter: FrameMeter;
+export function Pointer({
+  interaction,
+  label,
+  world,
+  handle,
+  document,
+  meter,
+}: {
+  readonly interaction: Interaction;
+  readonly label: PointerLabel;
+  readonly world: RefObject<Group | null>;
+  readonly handle: { current: readonly Mesh[] };
+  readonly document: CellDocument;
+  readonly meter: FrameMeter;
 }) {
-  const gl = useThree(state => state.gl), camera = useThree(state => state.camera), controls = useThree(state => state.controls), invalidate = useThree(state => state.invalidate);
-  const work = useMemo(() => ({
-    caster: new Raycaster(), ray: { origin: [0, 0, 0], direction: [0, 0, 1] } as { origin: Vector3; direction: Vector3 }, view: new V(),
-    grip: null as Grip | null, end: (): void => undefined, downX: 0, downY: 0, down: false, touches: 0, pose: identity<"world", "tcp">(),
-  }), []);
+  const gl = useThree(state => state.gl);
+  const camera = useThree(state => state.camera);
+  const controls = useThree(state => state.controls);
+  const invalidate = useThree(state => state.invalidate);
+  const work = useMemo(
+    () => ({
+      caster: new Raycaster(),
+      ray: { origin: [0, 0, 0], direction: [0, 0, 1] } as { origin: Vector3; direction: Vector3 },
+      view: new V(),
+      grip: null as Grip | null,
+      end: (): void => undefined,
+      downX: 0,
+      downY: 0,
+      down: false,
+      touches: 0,
+      pose: identity<"world", "tcp">(),
+    }),
+    [],
+  );
 
   useEffect(() => {
     const canvas = gl.domElement;
     const place = (event: PointerEvent): void => {
       const box = canvas.getBoundingClientRect();
-      interaction.px = event.clientX - box.left; interaction.py = event.clientY - box.top;
+      interaction.px = event.clientX - box.left;
+      interaction.py = event.clientY - box.top;
       interaction.ndc.set((interaction.px / box.width) * 2 - 1, 1 - (interaction.py / box.height) * 2);
-      interaction.inside = true; interaction.shift = event.shiftKey; interaction.dirty = true;
+      interaction.inside = true;
+      interaction.shift = event.shiftKey;
+      interaction.dirty = true;
     };
-    const timed = (react: (event: PointerEvent) => void) => (event: PointerEvent): void => {
-      const start = performance.now();
-      react(event);
-      meter.addScript(performance.now() - start);
-      invalidate();
+    const timed =
+      (react: (event: PointerEvent) => void) =>
+      (event: PointerEvent): void => {
+        const start = performance.now();
+        react(event);
+        meter.addScript(performance.now() - start);
+        invalidate();
+      };
+    const enable = (on: boolean): void => {
+      if (controls && "enabled" in controls) controls.enabled = on;
     };
-    const enable = (on: boolean): void => { if (controls && "enabled" in controls) controls.enabled = on; };
     const onDown = timed(event => {
       place(event);
       if (event.pointerType === "touch") work.touches++;
-      work.down = true; work.downX = event.clientX; work.downY = event.clientY;
-      if (event.button !== 0 || work.touches > 1) { drop(); return; }
+      work.down = true;
+      work.downX = event.clientX;
+      work.downY = event.clientY;
+      if (event.button !== 0 || work.touches > 1) {
+        drop();
+        return;
+      }
       look();
       const part = interaction.hoveredPart;
       if (!part) return;
       enable(false); // before the camera's own listener hears of it
       const { worldFromTcp } = theLive();
       work.grip = {
-        part, worldFromTcp: copyPose(worldFromTcp), axes: [...(handleAxes(worldFromTcp) ?? [0, 0, 0, 1])],
-        ray: { origin: [...work.ray.origin], direction: [...work.ray.direction] }, view: toWorld(camera.getWorldDirection(work.view), [0, 0, 0]),
+        part,
+        worldFromTcp: copyPose(worldFromTcp),
+        axes: [...(handleAxes(worldFromTcp) ?? [0, 0, 0, 1])],
+        ray: { origin: [...work.ray.origin], direction: [...work.ray.direction] },
+        view: toWorld(camera.getWorldDirection(work.view), [0, 0, 0]),
       };
       interaction.draggedPart = part;
       work.end = beginDrag(drop);
@@ -68,40 +109,65 @@ export function Pointer({ interaction, label, world, handle, document, meter }: 
     });
     const onMove = timed(event => {
       place(event);
-      interaction.turning = work.down && !work.grip && event.buttons !== 0 && Math.hypot(event.clientX - work.downX, event.clientY - work.downY) > CLICK_PX;
+      interaction.turning =
+        work.down &&
+        !work.grip &&
+        event.buttons !== 0 &&
+        Math.hypot(event.clientX - work.downX, event.clientY - work.downY) > CLICK_PX;
     });
     const drop = (): void => {
       if (!work.grip) return;
       work.grip = null;
-      interaction.draggedPart = null; interaction.wanting = false; interaction.dirty = true;
+      interaction.draggedPart = null;
+      interaction.wanting = false;
+      interaction.dirty = true;
       enable(true);
       work.end();
       sayAtPointer(label, "", "plain", 0, 0);
     };
     const onUp = timed(event => {
       if (event.pointerType === "touch") work.touches = Math.max(0, work.touches - 1);
-      const held = work.grip !== null, click = work.down && event.button === 0 && Math.hypot(event.clientX - work.downX, event.clientY - work.downY) <= CLICK_PX;
+      const held = work.grip !== null;
+      const click =
+        work.down &&
+        event.button === 0 &&
+        Math.hypot(event.clientX - work.downX, event.clientY - work.downY) <= CLICK_PX;
       drop();
-      work.down = false; interaction.turning = false;
-      if (click && !held) { place(event); look(); choose(); }
+      work.down = false;
+      interaction.turning = false;
+      if (click && !held) {
+        place(event);
+        look();
+        choose();
+      }
       if (event.pointerType === "touch") leave();
     });
     const leave = (): void => {
-      interaction.inside = false; interaction.hoveredPart = null;
+      interaction.inside = false;
+      interaction.hoveredPart = null;
       if (selectionStore.getState().hovered) hover(null);
       if (traceStore.getState().hovered) traceStore.setState({ hovered: null });
       sayAtPointer(label, "", "plain", 0, 0);
       canvas.style.cursor = "";
       invalidate();
     };
-    const onCancel = (event: PointerEvent): void => { if (event.pointerType === "touch") work.touches = 0; work.down = false; drop(); leave(); };
-    const onLeave = (): void => { if (!work.grip) leave(); };
+    const onCancel = (event: PointerEvent): void => {
+      if (event.pointerType === "touch") work.touches = 0;
+      work.down = false;
+      drop();
+      leave();
+    };
+    const onLeave = (): void => {
+      if (!work.grip) leave();
+    };
     canvas.addEventListener("pointerdown", onDown, { capture: true });
     canvas.addEventListener("pointermove", onMove);
     canvas.addEventListener("pointerup", onUp);
     canvas.addEventListener("pointercancel", onCancel);
     canvas.addEventListener("pointerleave", onLeave);
-    const onBlur = (): void => { drop(); };
+    const onBlur = (): void => {
+      drop();
+    };
     window.addEventListener("blur", onBlur);
     return () => {
       canvas.removeEventListener("pointerdown", onDown, { capture: true });
@@ -130,7 +196,8 @@ export function Pointer({ interaction, label, world, handle, document, meter }: 
     const ray = aim();
     const part = partUnder(work.caster, handle.current);
     interaction.hoveredPart = part;
-    const found = part !== null ? null : nearestThing(work.caster, root), thing: Thing | null = found?.holder.userData.thing ?? null;
+    const found = part !== null ? null : nearestThing(work.caster, root);
+    const thing: Thing | null = found?.holder.userData.thing ?? null;
     if (traceStore.getState().active) lookForEdge(ray, found?.hit.distance ?? Infinity, part !== null);
     const { hovered } = selectionStore.getState();
     if (JSON.stringify(hovered) !== JSON.stringify(thing)) hover(thing);
@@ -141,14 +208,24 @@ export function Pointer({ interaction, label, world, handle, document, meter }: 
   };
 
   const lookForEdge = (ray: Ray, depth_m: number, hidden: boolean): void => {
-    const { hovered } = traceStore.getState(), picked = hidden ? null : edgeAt(ray, depth_m);
-    if (!picked) { if (hovered) traceStore.setState({ hovered: null }); return; }
-    const edges = chosenEdges(picked.object, picked.pick, interaction.shift || traceStore.getState().wholeLoop), polyline = edges.flatMap(edge => edge.polyline);
-    if (hovered?.object !== picked.object.id || JSON.stringify(hovered.polyline) !== JSON.stringify(polyline)) traceStore.setState({ hovered: { object: picked.object.id, polyline } });
+    const { hovered } = traceStore.getState();
+    const picked = hidden ? null : edgeAt(ray, depth_m);
+    if (!picked) {
+      if (hovered) traceStore.setState({ hovered: null });
+      return;
+    }
+    const edges = chosenEdges(picked.object, picked.pick, interaction.shift || traceStore.getState().wholeLoop);
+    const polyline = edges.flatMap(edge => edge.polyline);
+    if (hovered?.object !== picked.object.id || JSON.stringify(hovered.polyline) !== JSON.stringify(polyline))
+      traceStore.setState({ hovered: { object: picked.object.id, polyline } });
   };
   const edgeAt = (ray: Ray, depth_m: number) => {
-    const fov = camera instanceof PerspectiveCamera ? (camera.fov * Math.PI) / 180 : 0.6, tolerance_rad = (EDGE_TOLERANCE_PX * fov) / gl.domElement.clientHeight;
-    let best: { readonly object: CellDocument["objects"][number]; readonly pick: NonNullable<ReturnType<typeof edgeUnder>> } | null = null;
+    const fov = camera instanceof PerspectiveCamera ? (camera.fov * Math.PI) / 180 : 0.6;
+    const tolerance_rad = (EDGE_TOLERANCE_PX * fov) / gl.domElement.clientHeight;
+    let best: {
+      readonly object: CellDocument["objects"][number];
+      readonly pick: NonNullable<ReturnType<typeof edgeUnder>>;
+    } | null = null;
     for (const object of document.objects) {
       if (object.role === "wall") continue;
       const pick = edgeUnder(object, ray, depth_m, tolerance_rad);
@@ -160,10 +237,16 @@ export function Pointer({ interaction, label, world, handle, document, meter }: 
   /** A click: takes the edge while edges are being chosen, selects the thing otherwise. */
   const choose = (): void => {
     const trace = traceStore.getState();
-    if (!trace.active) { select(selectionStore.getState().hovered); return; }
-    const hit = world.current ? nearestThing(work.caster, world.current) : null, picked = edgeAt(aim(), hit?.hit.distance ?? Infinity);
+    if (!trace.active) {
+      select(selectionStore.getState().hovered);
+      return;
+    }
+    const hit = world.current ? nearestThing(work.caster, world.current) : null;
+    const picked = edgeAt(aim(), hit?.hit.distance ?? Infinity);
     if (!picked) return;
-    const edges = chosenEdges(picked.object, picked.pick, interaction.shift || trace.wholeLoop), same = (a: { object: string; edge: number }) => (b: { object: string; edge: number }) => a.object === b.object && a.edge === b.edge;
+    const edges = chosenEdges(picked.object, picked.pick, interaction.shift || trace.wholeLoop);
+    const same = (a: { object: string; edge: number }) => (b: { object: string; edge: number }) =>
+      a.object === b.object && a.edge === b.edge;
     const all = edges.every(edge => trace.chosen.some(same(edge)));
     const kept = trace.chosen.filter(edge => !edges.some(same(edge)));
     traceStore.setState({ chosen: all ? kept : [...kept, ...edges] });
@@ -171,7 +254,10 @@ export function Pointer({ interaction, label, world, handle, document, meter }: 
 
   useFrame(() => {
     if (gl.xr.isPresenting) return;
-    if (work.grip) { drag(work.grip); return; }
+    if (work.grip) {
+      drag(work.grip);
+      return;
+    }
     if (interaction.dirty && interaction.inside && !interaction.turning) look();
   }, -20);
 
@@ -181,17 +267,28 @@ export function Pointer({ interaction, label, world, handle, document, meter }: 
     interaction.wanting = outcome.kind === "blocked";
     if (outcome.kind === "on-the-way") invalidate();
     gl.domElement.style.cursor = "grabbing";
-    sayAtPointer(label, outcome.kind === "blocked" ? outcome.sentence : moveWords(grip, theLive().worldFromTcp), outcome.kind === "blocked" ? "blocked" : "plain", interaction.px, interaction.py);
+    sayAtPointer(
+      label,
+      outcome.kind === "blocked" ? outcome.sentence : moveWords(grip, theLive().worldFromTcp),
+      outcome.kind === "blocked" ? "blocked" : "plain",
+      interaction.px,
+      interaction.py,
+    );
   };
   return null;
 }
 
 /** Where parts of the handle cover one another, what is smaller wins: the ball, then arrows, squares, rings. */
 function partUnder(caster: Raycaster, targets: readonly Mesh[]): HandlePart | null {
-  let best: HandlePart | null = null, rank = Infinity;
+  let best: HandlePart | null = null;
+  let rank = Infinity;
   for (const target of targets) {
-    const part: HandlePart = target.userData.part, ranked = part === "free" ? 0 : part.length === 1 ? 1 : part.startsWith("r") ? 3 : 2;
-    if (ranked < rank && caster.intersectObject(target, false).length > 0) { best = part; rank = ranked; }
+    const part: HandlePart = target.userData.part;
+    const ranked = part === "free" ? 0 : part.length === 1 ? 1 : part.startsWith("r") ? 3 : 2;
+    if (ranked < rank && caster.intersectObject(target, false).length > 0) {
+      best = part;
+      rank = ranked;
+    }
   }
   return best;
 }
@@ -200,11 +297,15 @@ function partUnder(caster: Raycaster, targets: readonly Mesh[]): HandlePart | nu
 function moveWords(grip: Grip, now: Pose<"world", "tcp">): string {
   const delta = [0, 1, 2].map(i => (now.position[i]! - grip.worldFromTcp.position[i]!) * 1000);
   if (!grip.part.startsWith("r")) {
-    const local = rotate([-grip.axes[0], -grip.axes[1], -grip.axes[2], grip.axes[3]], [delta[0]!, delta[1]!, delta[2]!]);
+    const local = rotate(
+      [-grip.axes[0], -grip.axes[1], -grip.axes[2], grip.axes[3]],
+      [delta[0]!, delta[1]!, delta[2]!],
+    );
     const axes = grip.part === "free" ? "xyz" : grip.part;
     return [...axes].map(axis => `Δ${axis.toUpperCase()} ${signed(local["xyz".indexOf(axis)]!)} mm`).join("  ");
   }
-  const turn = compose(now, inverse(grip.worldFromTcp)).quaternion, axis = rotate(grip.axes, [grip.part === "rx" ? 1 : 0, grip.part === "ry" ? 1 : 0, grip.part === "rz" ? 1 : 0]);
+  const turn = compose(now, inverse(grip.worldFromTcp)).quaternion;
+  const axis = rotate(grip.axes, [grip.part === "rx" ? 1 : 0, grip.part === "ry" ? 1 : 0, grip.part === "rz" ? 1 : 0]);
   const angle = 2 * Math.atan2(turn[0] * axis[0] + turn[1] * axis[1] + turn[2] * axis[2], turn[3]);
   return `ΔR${grip.part[1]!.toUpperCase()} ${signed((Math.atan2(Math.sin(angle), Math.cos(angle)) * 180) / Math.PI)}°`;
 }

@@ -6,7 +6,8 @@ import { WORDS } from "../words.ts";
 
 /** What a person calls the thing under the pointer, and whether it touches something. */
 export function thingWords(thing: Thing, document: CellDocument): string {
-  const name = nameOf(thing, document), solid = thing.kind === "link" ? `link ${thing.link}` : thing.kind === "tool" ? document.tool : name;
+  const name = nameOf(thing, document);
+  const solid = thing.kind === "link" ? `link ${thing.link}` : thing.kind === "tool" ? document.tool : name;
   const touching = touchingNow().has(solid) || (thing.kind === "tool" && touchingNow().has("tool"));
   return touching ? `${name} · ${WORDS.touching}` : name;
 }
@@ -15,16 +16,22 @@ export function thingWords(thing: Thing, document: CellDocument): string {
 export function solidWords(solid: string, document: CellDocument): string {
   const link = /^link (\d+)$/.exec(solid)?.[1];
   if (link !== undefined) return WORDS.links[Number(link)] ?? solid;
-  return solid === "tool" ? document.tool : document.objects.find(object => object.id === solid)?.name ?? solid;
+  return solid === "tool" ? document.tool : (document.objects.find(object => object.id === solid)?.name ?? solid);
 }
 
 function nameOf(thing: Thing, document: CellDocument): string {
   switch (thing.kind) {
-    case "robot": return robotById(document.robot.id)?.name ?? document.robot.id;
-    case "link": return WORDS.link(thing.link, WORDS.links[thing.link], robotById(document.robot.id)?.name ?? document.robot.id);
-    case "tool": return WORDS.tool(document.tool);
-    case "object": return document.objects.find(object => object.id === thing.id)?.name ?? thing.id;
-    case "frame": return thing.name;
-    case "step": return thing.id;
+    case "robot":
+      return robotById(document.robot.id)?.name ?? document.robot.id;
+    case "link":
+      return WORDS.link(thing.link, WORDS.links[thing.link], robotById(document.robot.id)?.name ?? document.robot.id);
+    case "tool":
+      return WORDS.tool(document.tool);
+    case "object":
+      return document.objects.find(object => object.id === thing.id)?.name ?? thing.id;
+    case "frame":
+      return thing.name;
+    case "step":
+      return thing.id;
   }
 }

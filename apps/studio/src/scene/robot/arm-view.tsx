@@ -9,7 +9,10 @@ import { linkDrawings } from "./link-geometry.ts";
 import { ghostMaterials, partMaterials } from "./materials.ts";
 
 /** Where the angles come from: written in place, `revision` counts the changes. */
-export interface ArmState { readonly q_rad: ArrayLike<number>; readonly revision: number }
+export interface ArmState {
+  readonly q_rad: ArrayLike<number>;
+  readonly revision: number;
+}
 interface Props {
   readonly robot: Robot;
   readonly worldFromBase: Pose<"world", "base">;
@@ -26,19 +29,37 @@ const noPick = (): void => undefined;
 /** An arm as its joint angles say, link by link. Draws, decides nothing. */
 export function ArmView({ robot, worldFromBase, live: now, prefix = "", ghost }: Props) {
   const drawings = useMemo(() => linkDrawings(robot), [robot]);
-  const materials = useMemo(() => ghost === undefined ? partMaterials(robot.paint) : ghostMaterials(ghost), [robot.paint, ghost]);
+  const materials = useMemo(
+    () => (ghost === undefined ? partMaterials(robot.paint) : ghostMaterials(ghost)),
+    [robot.paint, ghost],
+  );
   const links = useRef<(Group | null)[]>([]);
   const seen = useRef(-1);
-  const scratch = useMemo(() => ({
-    arm: armScratch(), world: identity<"world", "link">(),
-    baseFromLink: Array.from({ length: robot.arm.joints.length + 1 }, () => identity<"base", "link">()),
-  }), [robot]);
+  const scratch = useMemo(
+    () => ({
+      arm: armScratch(),
+      world: identity<"world", "link">(),
+      baseFromLink: Array.from({ length: robot.arm.joints.length + 1 }, () => identity<"base", "link">()),
+    }),
+    [robot],
+  );
 
-  useEffect(() => { seen.current = -1; }, [robot, worldFromBase]);
-  useEffect(() => () => {
-    for (const drawing of drawings) for (const piece of drawing.pieces) piece.geometry.dispose();
-  }, [drawings]);
-  useEffect(() => prefix !== "" ? undefined : paintTouching(name => links.current[drawings.findIndex(drawing => drawing.name === name)] ?? null), [drawings, prefix]);
+  useEffect(() => {
+    seen.current = -1;
+  }, [robot, worldFromBase]);
+  useEffect(
+    () => () => {
+      for (const drawing of drawings) for (const piece of drawing.pieces) piece.geometry.dispose();
+    },
+    [drawings],
+  );
+  useEffect(
+    () =>
+      prefix !== ""
+        ? undefined
+        : paintTouching(name => links.current[drawings.findIndex(drawing => drawing.name === name)] ?? null),
+    [drawings, prefix],
+  );
 
   useFrame(() => {
     const live = now();
@@ -55,9 +76,25 @@ export function ArmView({ robot, worldFromBase, live: now, prefix = "", ghost }:
   }, -10);
 
   return drawings.map(drawing => (
-    <group key={drawing.name} name={prefix + drawing.name} matrixAutoUpdate={false} userData={prefix === "" ? { thing: { kind: "link", link: drawing.link } } : { station: true }}
-      ref={group => { links.current[drawing.link] = group; }}>
-      {drawing.pieces.map(piece => <mesh key={piece.material} geometry={piece.geometry} material={materials[piece.material]} castShadow={ghost === undefined} receiveShadow={ghost === undefined} raycast={ghost === undefined ? raycastByTree : noPick} />)}
+    <group
+      key={drawing.name}
+      name={prefix + drawing.name}
+      matrixAutoUpdate={false}
+      userData={prefix === "" ? { thing: { kind: "link", link: drawing.link } } : { station: true }}
+      ref={group => {
+        links.current[drawing.link] = group;
+      }}
+    >
+      {drawing.pieces.map(piece => (
+        <mesh
+          key={piece.material}
+          geometry={piece.geometry}
+          material={materials[piece.material]}
+          castShadow={ghost === undefined}
+          receiveShadow={ghost === undefined}
+          raycast={ghost === undefined ? raycastByTree : noPick}
+        />
+      ))}
     </group>
   ));
 }

@@ -6,6 +6,16 @@ import { ArmView } from "./arm-view.tsx";
 
 /** The robot of a recording where it stood then, when it is another than that of the cell. */
 export function PastView() {
-  const stand = useStore(historyStore, state => state.past), shown = useStore(viewStore, state => state.mode === "history"), past = pastRobot();
-  return shown && stand && past ? <ArmView key={past.robot.id} robot={past.robot} worldFromBase={stand} live={() => pastRobot() ?? past} prefix="past/" /> : null;
+  const stand = useStore(historyStore, state => state.past);
+  const shown = useStore(viewStore, state => state.mode === "history");
+  const past = pastRobot();
+  return shown && stand && past ? (
+    <ArmView
+      key={past.robot.id}
+      robot={past.robot}
+      worldFromBase={stand}
+      live={() => pastRobot() ?? past}
+      prefix="past/"
+    />
+  ) : null;
 }

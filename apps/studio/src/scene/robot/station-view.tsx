@@ -10,13 +10,18 @@ import { viewStore } from "../../stores/view.ts";
 import { ArmView } from "./arm-view.tsx";
 
 /** Of the ghost that runs ahead: its way is free, or something is met on it. */
-const FREE = "#3fb8b3", BLOCKED = "#ff6157";
+const FREE = "#3fb8b3";
+const BLOCKED = "#ff6157";
 
 /** The robots of the other controllers, each where it stands and as its last sample says. */
 export function StationViews() {
-  const stations = useStore(stationStore, state => state.stations), past = useStore(historyStore, state => state.past), lookingBack = useStore(viewStore, state => state.mode === "history");
+  const stations = useStore(stationStore, state => state.stations);
+  const past = useStore(historyStore, state => state.past);
+  const lookingBack = useStore(viewStore, state => state.mode === "history");
   // All of them are to be seen, also the one that has just come.
-  useEffect(() => { runCommand("view.fit"); }, [stations.length]);
+  useEffect(() => {
+    runCommand("view.fit");
+  }, [stations.length]);
   return stations.map(({ id, stand, ghost }) => {
     // Where the past of a robot is looked at, its presence would stand in the same place.
     if (lookingBack && past && samePlace(past, stand)) return null;
@@ -25,10 +30,19 @@ export function StationViews() {
     return (
       <Fragment key={id}>
         <ArmView robot={live.robot} worldFromBase={stand} live={() => shownInstead(id) ?? live} prefix={`${id}/`} />
-        {ghost !== "none" && <ArmView robot={live.robot} worldFromBase={stand} live={() => live.ahead} prefix={`${id}/ahead/`} ghost={ghost === "blocked" ? BLOCKED : FREE} />}
+        {ghost !== "none" && (
+          <ArmView
+            robot={live.robot}
+            worldFromBase={stand}
+            live={() => live.ahead}
+            prefix={`${id}/ahead/`}
+            ghost={ghost === "blocked" ? BLOCKED : FREE}
+          />
+        )}
       </Fragment>
     );
   });
 }
 
-const samePlace = (a: Pose<"world", "base">, b: Pose<"world", "base">): boolean => a.position.every((value, i) => Math.abs(value - b.position[i]!) < 1e-6);
+const samePlace = (a: Pose<"world", "base">, b: Pose<"world", "base">): boolean =>
+  a.position.every((value, i) => Math.abs(value - b.position[i]!) < 1e-6);

@@ -10,7 +10,9 @@ async function answer(): Promise<{ ready: boolean; reason: string }> {
   if (!window.isSecureContext) return { ready: false, reason: WORDS.noHeadsetSecure };
   if (!navigator.xr) return { ready: false, reason: WORDS.noHeadset };
   try {
-    return await navigator.xr.isSessionSupported("immersive-vr") ? { ready: true, reason: "" } : { ready: false, reason: WORDS.noHeadsetDevice };
+    return (await navigator.xr.isSessionSupported("immersive-vr"))
+      ? { ready: true, reason: "" }
+      : { ready: false, reason: WORDS.noHeadsetDevice };
   } catch (trouble) {
     return { ready: false, reason: trouble instanceof Error ? trouble.message : WORDS.noHeadsetDevice };
   }

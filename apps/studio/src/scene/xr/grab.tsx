@@ -6,24 +6,41 @@ import type { Interaction } from "../interaction.ts";
 import { Grabber, type KeyAim } from "./grabber.ts";
 
 /** The hands of a headset, once a frame: the only part of the window's heartbeat that goes on while a headset is worn. */
-export function Grab({ interaction, keys, origin, world }: {
-  readonly interaction: Interaction; readonly keys: KeyAim; readonly origin: RefObject<Group | null>; readonly world: RefObject<Group | null>;
+export function Grab({
+  interaction,
+  keys,
+  origin,
+  world,
+}: {
+  readonly interaction: Interaction;
+  readonly keys: KeyAim;
+  readonly origin: RefObject<Group | null>;
+  readonly world: RefObject<Group | null>;
 }) {
-  const work = useMemo(() => ({ grabber: null as Grabber | null, sceneFromRoom: new Matrix4(), worldFromScene: new Matrix4() }), []);
+  const work = useMemo(
+    () => ({ grabber: null as Grabber | null, sceneFromRoom: new Matrix4(), worldFromScene: new Matrix4() }),
+    [],
+  );
   useEffect(() => {
-    const grabber = work.grabber = new Grabber(interaction, keys);
-    return () => { grabber.close(); work.grabber = null; };
+    const grabber = (work.grabber = new Grabber(interaction, keys));
+    return () => {
+      grabber.close();
+      work.grabber = null;
+    };
   }, [work, interaction, keys]);
   // Rays of the headset's pointers need not look through every mesh of the cell: nothing in it listens to them.
   useEffect(() => {
     const group = world.current;
     if (!group) return;
     group.intersectChildren = false;
-    return () => { group.intersectChildren = true; };
+    return () => {
+      group.intersectChildren = true;
+    };
   }, [world]);
 
   useFrame(({ gl }, _dt, frame: XRFrame | undefined) => {
-    const space = gl.xr.getReferenceSpace(), session = gl.xr.getSession();
+    const space = gl.xr.getReferenceSpace();
+    const session = gl.xr.getSession();
     if (!frame || !space || !session || !origin.current || !world.current) return;
     tick(performance.now());
     work.sceneFromRoom.copy(origin.current.matrixWorld);

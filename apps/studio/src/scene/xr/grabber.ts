@@ -14,10 +14,24 @@ const LONGEST_JUMP_M = 0.5;
 
 /** Which panels are being pointed at: then the trigger belongs to them, not to the tool behind. */
 export type KeyAim = Set<string>;
-export function aimAt(keys: KeyAim, panel: string, aimed: boolean): void { if (aimed) keys.add(panel); else keys.delete(panel); }
+export function aimAt(keys: KeyAim, panel: string, aimed: boolean): void {
+  if (aimed) keys.add(panel);
+  else keys.delete(panel);
+}
 
-interface Hand { readonly state: HandState; readonly last: Pose<"world", "hand">["position"]; seen: boolean; squeezed: boolean; pointed: boolean }
-interface Taken { readonly source: XRInputSource; readonly ray: boolean; readonly handFromTcp: Pose<"hand", "tcp">; readonly end: () => void }
+interface Hand {
+  readonly state: HandState;
+  readonly last: Pose<"world", "hand">["position"];
+  seen: boolean;
+  squeezed: boolean;
+  pointed: boolean;
+}
+interface Taken {
+  readonly source: XRInputSource;
+  readonly ray: boolean;
+  readonly handFromTcp: Pose<"hand", "tcp">;
+  readonly end: () => void;
+}
 
 /**
  * Takes the tool by squeezing, pinching or pointing, and carries it as if it were fixed in the hand. Every press takes it
@@ -35,7 +49,9 @@ export class Grabber {
   constructor(interaction: Interaction, keys: KeyAim) {
     this.#interaction = interaction;
     this.#keys = keys;
-    this.#stop = onTouching(names => { if (names.size > 0 && this.#taken) pulse(this.#taken.source, 1, 90); });
+    this.#stop = onTouching(names => {
+      if (names.size > 0 && this.#taken) pulse(this.#taken.source, 1, 90);
+    });
   }
 
   close(): void {
@@ -48,7 +64,11 @@ export class Grabber {
   read(session: XRSession, frame: XRFrame, space: XRReferenceSpace, room: Room): void {
     for (const source of session.inputSources) {
       let hand = this.#hands.get(source);
-      if (!hand) this.#hands.set(source, hand = { state: handState(), last: [0, 0, 0], seen: false, squeezed: false, pointed: false });
+      if (!hand)
+        this.#hands.set(
+          source,
+          (hand = { state: handState(), last: [0, 0, 0], seen: false, squeezed: false, pointed: false }),
+        );
       readHand(source, frame, space, room, hand.state);
       this.#follow(source, hand);
     }
@@ -73,22 +93,50 @@ export class Grabber {
   };
 
   #follow(source: XRInputSource, hand: Hand): void {
-    const { state } = hand, tip = theLive().worldFromTcp.position, { position } = state.worldFromHand;
+    const { state } = hand;
+    const tip = theLive().worldFromTcp.position;
+    const { position } = state.worldFromHand;
     if (!this.#taken && state.tracked && !playStore.getState().playing) {
-      if (state.squeezing && !hand.squeezed && distance(position, tip) < GRAB_NEAR_M) this.#take(source, false, state.worldFromHand);
-      else if (state.pointing && !hand.pointed && this.#keys.size === 0 && rayMisses(state.worldFromRay, tip) < RAY_NEAR_M) this.#take(source, true, state.worldFromRay);
+      if (state.squeezing && !hand.squeezed && distance(position, tip) < GRAB_NEAR_M)
+        this.#take(source, false, state.worldFromHand);
+      else if (
+        state.pointing &&
+        !hand.pointed &&
+        this.#keys.size === 0 &&
+        rayMisses(state.worldFromRay, tip) < RAY_NEAR_M
+      )
+        this.#take(source, true, state.worldFromRay);
     }
     const jump_m = hand.seen && state.tracked ? distance(position, hand.last) : 0;
-    if (state.tracked) { hand.seen = true; for (let k = 0; k < 3; k++) hand.last[k] = position[k]!; }
-    hand.squeezed = state.squeezing; hand.pointed = state.pointing;
+    if (state.tracked) {
+      hand.seen = true;
+      for (let k = 0; k < 3; k++) hand.last[k] = position[k]!;
+    }
+    hand.squeezed = state.squeezing;
+    hand.pointed = state.pointing;
     if (this.#taken?.source !== source) return;
-    if (!(this.#taken.ray ? state.pointing : state.squeezing)) { this.#drop(); return; }
+    if (!(this.#taken.ray ? state.pointing : state.squeezing)) {
+      this.#drop();
+      return;
+    }
     if (!state.tracked) return;
-    if (jump_m > LONGEST_JUMP_M) { this.#drop(); pulse(source, 0.7, 45); refuseDrag(WORDS.handJumped(jump_m)); return; }
-    carried(this.#taken.ray ? state.worldFromRay : state.worldFromHand, this.#taken.handFromTcp, this.#interaction.wanted);
+    if (jump_m > LONGEST_JUMP_M) {
+      this.#drop();
+      pulse(source, 0.7, 45);
+      refuseDrag(WORDS.handJumped(jump_m));
+      return;
+    }
+    carried(
+      this.#taken.ray ? state.worldFromRay : state.worldFromHand,
+      this.#taken.handFromTcp,
+      this.#interaction.wanted,
+    );
     const outcome = dragTcp(this.#interaction.wanted);
     this.#interaction.wanting = outcome.kind === "blocked";
     const now_ms = performance.now();
-    if (outcome.kind === "blocked" && now_ms - this.#buzzed_ms > BUZZ_EVERY_MS) { this.#buzzed_ms = now_ms; pulse(source, 0.7, 45); }
+    if (outcome.kind === "blocked" && now_ms - this.#buzzed_ms > BUZZ_EVERY_MS) {
+      this.#buzzed_ms = now_ms;
+      pulse(source, 0.7, 45);
+    }
   }
 }

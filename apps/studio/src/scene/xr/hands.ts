@@ -9,7 +9,11 @@ const PINCH_OPEN_M = 0.04;
 export const GRAB_NEAR_M = 0.2;
 export const RAY_NEAR_M = 0.11;
 
-const place = new Matrix4(), thumb = new Vector3(), index = new Vector3(), turn = new Quaternion(), one = new Vector3(1, 1, 1);
+const place = new Matrix4();
+const thumb = new Vector3();
+const index = new Vector3();
+const turn = new Quaternion();
+const one = new Vector3(1, 1, 1);
 
 /** What one hand does in this frame. Written in place. */
 export interface HandState {
@@ -22,11 +26,18 @@ export interface HandState {
   pointing: boolean;
 }
 export const handState = (): HandState => ({
-  worldFromHand: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] }, worldFromRay: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] }, tracked: false, squeezing: false, pointing: false,
+  worldFromHand: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] },
+  worldFromRay: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] },
+  tracked: false,
+  squeezing: false,
+  pointing: false,
 });
 
 /** How the room that the headset counts in lies in the scene, and the scene in the z-up world. */
-export interface Room { readonly sceneFromRoom: Matrix4; readonly worldFromScene: Matrix4 }
+export interface Room {
+  readonly sceneFromRoom: Matrix4;
+  readonly worldFromScene: Matrix4;
+}
 
 function intoWorld(transform: XRRigidTransform, room: Room, out: Pose<"world", "hand">): void {
   place.fromArray(transform.matrix).premultiply(room.sceneFromRoom).premultiply(room.worldFromScene);
@@ -34,10 +45,19 @@ function intoWorld(transform: XRRigidTransform, room: Room, out: Pose<"world", "
 }
 
 /** Reads one input source. A hand that is not tracked keeps its last place and holds what it holds. */
-export function readHand(source: XRInputSource, frame: XRFrame, space: XRReferenceSpace, room: Room, out: HandState): void {
+export function readHand(
+  source: XRInputSource,
+  frame: XRFrame,
+  space: XRReferenceSpace,
+  room: Room,
+  out: HandState,
+): void {
   const ray = frame.getPose(source.targetRaySpace, space);
   if (ray) intoWorld(ray.transform, room, out.worldFromRay);
-  if (source.hand) { readFingers(source.hand, frame, space, room, out); return; }
+  if (source.hand) {
+    readFingers(source.hand, frame, space, room, out);
+    return;
+  }
   const grip = source.gripSpace ? frame.getPose(source.gripSpace, space) : undefined;
   out.tracked = grip !== undefined;
   if (grip) intoWorld(grip.transform, room, out.worldFromHand);
@@ -48,15 +68,23 @@ export function readHand(source: XRInputSource, frame: XRFrame, space: XRReferen
 
 /** Between thumb and index, so that closing them moves nothing; turned as the wrist is. */
 function readFingers(hand: XRHand, frame: XRFrame, space: XRReferenceSpace, room: Room, out: HandState): void {
-  const thumbTip = joint(hand, "thumb-tip", frame, space), indexTip = joint(hand, "index-finger-tip", frame, space), wrist = joint(hand, "wrist", frame, space);
+  const thumbTip = joint(hand, "thumb-tip", frame, space);
+  const indexTip = joint(hand, "index-finger-tip", frame, space);
+  const wrist = joint(hand, "wrist", frame, space);
   out.tracked = thumbTip !== undefined && indexTip !== undefined && wrist !== undefined;
   out.pointing = false;
   if (!thumbTip || !indexTip || !wrist) return;
-  const a = thumbTip.transform.position, b = indexTip.transform.position, o = wrist.transform.orientation;
-  thumb.set(a.x, a.y, a.z); index.set(b.x, b.y, b.z);
+  const a = thumbTip.transform.position;
+  const b = indexTip.transform.position;
+  const o = wrist.transform.orientation;
+  thumb.set(a.x, a.y, a.z);
+  index.set(b.x, b.y, b.z);
   const gap = thumb.distanceTo(index);
   out.squeezing = out.squeezing ? gap < PINCH_OPEN_M : gap < PINCH_CLOSED_M;
-  place.compose(thumb.add(index).multiplyScalar(0.5), turn.set(o.x, o.y, o.z, o.w), one).premultiply(room.sceneFromRoom).premultiply(room.worldFromScene);
+  place
+    .compose(thumb.add(index).multiplyScalar(0.5), turn.set(o.x, o.y, o.z, o.w), one)
+    .premultiply(room.sceneFromRoom)
+    .premultiply(room.worldFromScene);
   matrixPose(place, out.worldFromHand);
 }
 function joint(hand: XRHand, name: XRHandJoint, frame: XRFrame, space: XRReferenceSpace): XRJointPose | undefined {
@@ -66,11 +94,19 @@ function joint(hand: XRHand, name: XRHandJoint, frame: XRFrame, space: XRReferen
 
 /** How far the ray of a hand passes by a point [m]; infinite behind it. */
 export function rayMisses(worldFromRay: Pose<"world", "hand">, point: readonly [number, number, number]): number {
-  const [x, y, z, w] = worldFromRay.quaternion, [ox, oy, oz] = worldFromRay.position;
+  const [x, y, z, w] = worldFromRay.quaternion;
+  const [ox, oy, oz] = worldFromRay.position;
   // The ray looks along −z of its own frame.
-  const dx = -2 * (x * z + w * y), dy = -2 * (y * z - w * x), dz = -(1 - 2 * (x * x + y * y));
-  const px = point[0] - ox, py = point[1] - oy, pz = point[2] - oz, along = px * dx + py * dy + pz * dz;
+  const dx = -2 * (x * z + w * y);
+  const dy = -2 * (y * z - w * x);
+  const dz = -(1 - 2 * (x * x + y * y));
+  const px = point[0] - ox;
+  const py = point[1] - oy;
+  const pz = point[2] - oz;
+  const along = px * dx + py * dy + pz * dz;
   if (along <= 0) return Infinity;
-  const x_m = px - along * dx, y_m = py - along * dy, z_m = pz - along * dz;
+  const x_m = px - along * dx;
+  const y_m = py - along * dy;
+  const z_m = pz - along * dz;
   return Math.sqrt(x_m * x_m + y_m * y_m + z_m * z_m);
 }

@@ -22,36 +22,62 @@ const UNHURRIED = { clickThresholdMs: Infinity };
 
 /** Controller models come with the studio: a headset on the local network may have no other. */
 const store = createXRStore({
-  emulate: false, offerSession: false, enterGrantedSession: false, foveation: 0.3,
+  emulate: false,
+  offerSession: false,
+  enterGrantedSession: false,
+  foveation: 0.3,
   baseAssetPath: new URL("profiles/", window.location.href).href,
-  controller: { grabPointer: false, teleportPointer: false, rayPointer: UNHURRIED }, hand: { grabPointer: false, teleportPointer: false, rayPointer: UNHURRIED, touchPointer: UNHURRIED },
+  controller: { grabPointer: false, teleportPointer: false, rayPointer: UNHURRIED },
+  hand: { grabPointer: false, teleportPointer: false, rayPointer: UNHURRIED, touchPointer: UNHURRIED },
 });
 
 /** The cell at full size with a person in front of it. Mounted when a headset is first asked for. */
-export function Headset({ wish, document, interaction, world }: {
+export function Headset({
+  wish,
+  document,
+  interaction,
+  world,
+}: {
   /** Each new number enters the headset. */
-  readonly wish: number; readonly document: CellDocument; readonly interaction: Interaction; readonly world: RefObject<Group | null>;
+  readonly wish: number;
+  readonly document: CellDocument;
+  readonly interaction: Interaction;
+  readonly world: RefObject<Group | null>;
 }) {
-  const origin = useRef<Group>(null), place = useMemo(() => standingPlace(document), [document]);
+  const origin = useRef<Group>(null);
+  const place = useMemo(() => standingPlace(document), [document]);
   const keys = useMemo<KeyAim>(() => new Set(), []);
   useEffect(() => {
     if (wish === 0 || store.getState().session) return;
-    store.enterVR().catch((trouble: unknown) => { notify("warn", trouble instanceof Error ? trouble.message : String(trouble)); });
+    store.enterVR().catch((trouble: unknown) => {
+      notify("warn", trouble instanceof Error ? trouble.message : String(trouble));
+    });
   }, [wish]);
   useEffect(() => {
-    leaveHeadsetBy(() => { void store.getState().session?.end(); });
+    leaveHeadsetBy(() => {
+      void store.getState().session?.end();
+    });
     const stop = store.subscribe((state, before) => {
       if (state.session !== before.session) viewStore.setState({ inHeadset: state.session !== undefined });
     });
-    return () => { stop(); leaveHeadsetBy(null); };
+    return () => {
+      stop();
+      leaveHeadsetBy(null);
+    };
   }, []);
   return (
     <XR store={store}>
       <XROrigin name="standing-place" ref={origin} position={[place.x, 0, -place.y]} rotation-y={place.turn_rad}>
-        <Suspense fallback={null}><Menu keys={keys} /></Suspense>
-        <Suspense fallback={null}><Room keys={keys} /></Suspense>
+        <Suspense fallback={null}>
+          <Menu keys={keys} />
+        </Suspense>
+        <Suspense fallback={null}>
+          <Room keys={keys} />
+        </Suspense>
       </XROrigin>
-      <Suspense fallback={null}><Why /></Suspense>
+      <Suspense fallback={null}>
+        <Why />
+      </Suspense>
       <Grab interaction={interaction} keys={keys} origin={origin} world={world} />
     </XR>
   );
@@ -64,7 +90,9 @@ function Why() {
 
 /** Panels that stand about the person: pictures of cameras, and the time line of what was recorded. */
 function Room({ keys }: { readonly keys: KeyAim }) {
-  const inside = useXR(state => state.session !== undefined), { cameras, history } = useStore(roomStore), panels = useStore(videoStore, state => state.panels);
+  const inside = useXR(state => state.session !== undefined);
+  const { cameras, history } = useStore(roomStore);
+  const panels = useStore(videoStore, state => state.panels);
   if (!inside) return null;
   return (
     <>
@@ -77,9 +105,30 @@ function Room({ keys }: { readonly keys: KeyAim }) {
 
 /** The panel rides on the left hand: above a controller, or on the inside of a bare wrist. Who has no left hand finds it standing beside. */
 function Menu({ keys }: { readonly keys: KeyAim }) {
-  const controller = useXRInputSourceState("controller", "left"), hand = useXRInputSourceState("hand", "left"), inside = useXR(state => state.session !== undefined);
-  const grip = controller?.inputSource.gripSpace, wrist = hand?.inputSource.hand.get("wrist");
-  if (grip) return <XRSpace key="controller" space={grip}><group name="wrist-panel" position={[0.02, 0.13, -0.08]} rotation={[-0.75, 0.15, 0]}><WristPanel keys={keys} wearer="left" /></group></XRSpace>;
-  if (wrist) return <XRSpace key="hand" space={wrist}><group name="wrist-panel" position={[0.03, 0.1, -0.06]} rotation={[-0.75, 0.15, 0]}><WristPanel keys={keys} wearer="left" /></group></XRSpace>;
-  return inside ? <group name="wrist-panel" position={[-0.5, 1.15, -0.6]} rotation={[-0.35, 0.7, 0]} scale={1.6}><WristPanel keys={keys} wearer="none" /></group> : null;
+  const controller = useXRInputSourceState("controller", "left");
+  const hand = useXRInputSourceState("hand", "left");
+  const inside = useXR(state => state.session !== undefined);
+  const grip = controller?.inputSource.gripSpace;
+  const wrist = hand?.inputSource.hand.get("wrist");
+  if (grip)
+    return (
+      <XRSpace key="controller" space={grip}>
+        <group name="wrist-panel" position={[0.02, 0.13, -0.08]} rotation={[-0.75, 0.15, 0]}>
+          <WristPanel keys={keys} wearer="left" />
+        </group>
+      </XRSpace>
+    );
+  if (wrist)
+    return (
+      <XRSpace key="hand" space={wrist}>
+        <group name="wrist-panel" position={[0.03, 0.1, -0.06]} rotation={[-0.75, 0.15, 0]}>
+          <WristPanel keys={keys} wearer="left" />
+        </group>
+      </XRSpace>
+    );
+  return inside ? (
+    <group name="wrist-panel" position={[-0.5, 1.15, -0.6]} rotation={[-0.35, 0.7, 0]} scale={1.6}>
+      <WristPanel keys={keys} wearer="none" />
+    </group>
+  ) : null;
 }

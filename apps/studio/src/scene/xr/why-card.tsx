@@ -13,16 +13,22 @@ import { WORDS } from "../words.ts";
 
 /** Capitals are 23 mm high at this distance and nearer, and as large to the eye farther away. */
 const READ_FROM_M = 1.2;
-const METRES_PER_PIXEL = 0.001, WORDS_PX = 32;
+const METRES_PER_PIXEL = 0.001;
+const WORDS_PX = 32;
 /** Clear of the tool and the wrist that carries it. */
-const ABOVE_M = 0.2, TOWARDS_M = 0.22;
-const tip = new Vector3(), eye = new Vector3();
+const ABOVE_M = 0.2;
+const TOWARDS_M = 0.22;
+const tip = new Vector3();
+const eye = new Vector3();
 
 /** Why the tool does not go on, said at the tool and turned to whoever looks. */
 export function WhyCard() {
-  const blocked = useStore(jogStore, state => state.blocked?.sentence), contact = useStore(watchStore, state => state.contacts[0]);
+  const blocked = useStore(jogStore, state => state.blocked?.sentence);
+  const contact = useStore(watchStore, state => state.contacts[0]);
   const document = useStore(cellStore, state => state.document);
-  const sentence = blocked ?? (contact && document ? WORDS.touch(solidWords(contact[0], document), solidWords(contact[1], document)) : undefined);
+  const sentence =
+    blocked ??
+    (contact && document ? WORDS.touch(solidWords(contact[0], document), solidWords(contact[1], document)) : undefined);
   const card = useRef<Group>(null);
   useFrame(({ camera }) => {
     const at = card.current;
@@ -38,8 +44,23 @@ export function WhyCard() {
   }, -8);
   return (
     <group ref={card} visible={sentence !== undefined} name="why-card">
-      <Container id="why-card" positionType="absolute" anchorX="center" anchorY="bottom" pixelSize={METRES_PER_PIXEL} width={460} padding={20} borderRadius={18} borderWidth={3} borderColor="#ff6157" backgroundColor="#1d1414" pointerEvents="none">
-        <Text id="why" fontSize={WORDS_PX} color="#ffd9d6">{sentence ?? ""}</Text>
+      <Container
+        id="why-card"
+        positionType="absolute"
+        anchorX="center"
+        anchorY="bottom"
+        pixelSize={METRES_PER_PIXEL}
+        width={460}
+        padding={20}
+        borderRadius={18}
+        borderWidth={3}
+        borderColor="#ff6157"
+        backgroundColor="#1d1414"
+        pointerEvents="none"
+      >
+        <Text id="why" fontSize={WORDS_PX} color="#ffd9d6">
+          {sentence ?? ""}
+        </Text>
       </Container>
     </group>
   );

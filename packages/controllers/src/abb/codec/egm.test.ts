@@ -7,13 +7,23 @@ const bytes = (text: string): Uint8Array => Uint8Array.from(text.trim().split(/\
 const ROBOT = bytes(`0A 08 08 07 10 A0 9C 01 18 02
   12 38 0A 36 09 00 00 00 00 00 80 46 40 09 00 00 00 00 00 80 56 C0 09 00 00 00 00 00 00 00 00 09 00 00 00 00 00 00 00 00 09 00 00 00 00 00 00 00 00 09 00 00 00 00 00 00 F0 3F
   22 02 08 01 2A 02 08 03 30 01 42 02 08 02`);
-const SENSOR = bytes(`0A 06 08 05 10 64 18 03 12 14 0A 12 09 00 00 00 00 00 80 46 40 09 00 00 00 00 00 80 56 C0 1A 0B 0A 09 09 00 00 00 00 00 00 F0 3F`);
+const SENSOR = bytes(
+  `0A 06 08 05 10 64 18 03 12 14 0A 12 09 00 00 00 00 00 80 46 40 09 00 00 00 00 00 80 56 C0 1A 0B 0A 09 09 00 00 00 00 00 00 F0 3F`,
+);
 
 describe("EGM against bytes written out by hand", () => {
   test("a robot's message", () => {
     const out = noEgmRobot();
     expect(readEgmRobot(ROBOT, out)).toBeNull();
-    expect(out).toMatchObject({ sequence: 7, time_ms: 20_000, axes: 6, motors: 1, state: 3, rapid: 2, converged: true });
+    expect(out).toMatchObject({
+      sequence: 7,
+      time_ms: 20_000,
+      axes: 6,
+      motors: 1,
+      state: 3,
+      rapid: 2,
+      converged: true,
+    });
     expect([...out.joints_deg.subarray(0, 6)]).toEqual([45, -90, 0, 0, 0, 1]);
   });
   test("a sensor's message, with speeds; doubles may be packed", () => {
@@ -26,25 +36,53 @@ describe("EGM against bytes written out by hand", () => {
     expect([out.axes, out.hasSpeeds, ...out.joints_deg.subarray(0, 2)]).toEqual([2, false, 45, -90]);
   });
   test("what is written is read, external axes behind the robot's own", () => {
-    const robot = { ...noEgmRobot(), sequence: 300, time_ms: 123_456, axes: 7, joints_deg: Float64Array.of(1, 2, 3, 4, 5, 6, 7, 0, 0, 0, 0, 0), motors: 2, state: 2, rapid: 1 }, out = noEgmRobot();
+    const robot = {
+      ...noEgmRobot(),
+      sequence: 300,
+      time_ms: 123_456,
+      axes: 7,
+      joints_deg: Float64Array.of(1, 2, 3, 4, 5, 6, 7, 0, 0, 0, 0, 0),
+      motors: 2,
+      state: 2,
+      rapid: 1,
+    };
+    const out = noEgmRobot();
     expect(readEgmRobot(egmRobotWriter()(robot), out)).toBeNull();
     expect(out).toEqual(robot);
-    const sensor = { ...noEgmSensor(), sequence: 9, time_ms: 4, axes: 6, joints_deg: Float64Array.of(1, 2, 3, 4, 5, 6, 0, 0, 0, 0, 0, 0), hasSpeeds: true }, back = noEgmSensor();
+    const sensor = {
+      ...noEgmSensor(),
+      sequence: 9,
+      time_ms: 4,
+      axes: 6,
+      joints_deg: Float64Array.of(1, 2, 3, 4, 5, 6, 0, 0, 0, 0, 0, 0),
+      hasSpeeds: true,
+    };
+    const back = noEgmSensor();
     expect(readEgmSensor(egmSensorWriter()(sensor), back)).toBeNull();
     expect(back).toEqual(sensor);
   });
   test("what is something else, or damaged, is one sentence; any bytes are read or named", () => {
-    const robot = noEgmRobot(), sensor = noEgmSensor();
+    const robot = noEgmRobot();
+    const sensor = noEgmSensor();
     expect(readEgmRobot(SENSOR, robot)).toBe("The message of EGM is not one of a robot.");
     expect(readEgmSensor(ROBOT, sensor)).toBe("The message of EGM is not one of a sensor.");
     expect(readEgmRobot(ROBOT.subarray(0, 10), robot)).toBe("The message of EGM has no joint angles.");
     const nan = ROBOT.slice();
-    nan.set([0xF8, 0x7F], 21);
+    nan.set([0xf8, 0x7f], 21);
     expect(readEgmRobot(nan, robot)).toBe("Axis 1 of the message of EGM is no number.");
-    const near = fc.tuple(fc.constantFrom(ROBOT, SENSOR), fc.array(fc.tuple(fc.nat(70), fc.nat(255)), { maxLength: 4 }), fc.nat(80))
-      .map(([base, changes, length]) => { const copy = base.slice(0, length); for (const [at, to] of changes) if (at < copy.length) copy[at] = to; return copy; });
-    fc.assert(fc.property(fc.oneof(fc.uint8Array({ maxLength: 300 }), near), data => {
-      for (const said of [readEgmRobot(data, robot), readEgmSensor(data, sensor)]) if (said !== null) expect(said).toMatch(/^[A-Z].*\.$/);
-    }), { numRuns: 20_000, seed: 1 });
+    const near = fc
+      .tuple(fc.constantFrom(ROBOT, SENSOR), fc.array(fc.tuple(fc.nat(70), fc.nat(255)), { maxLength: 4 }), fc.nat(80))
+      .map(([base, changes, length]) => {
+        const copy = base.slice(0, length);
+        for (const [at, to] of changes) if (at < copy.length) copy[at] = to;
+        return copy;
+      });
+    fc.assert(
+      fc.property(fc.oneof(fc.uint8Array({ maxLength: 300 }), near), data => {
+        for (const said of [readEgmRobot(data, robot), readEgmSensor(data, sensor)])
+          if (said !== null) expect(said).toMatch(/^[A-Z].*\.$/);
+      }),
+      { numRuns: 20_000, seed: 1 },
+    );
   });
 });

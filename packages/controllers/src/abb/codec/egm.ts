@@ -8,7 +8,8 @@ export const EGM_CYCLE_S = 0.004;
 export const COMM_TIMEOUT_S = 1;
 const TYPE = { command: 1, robot: 2, sensor: 3 } as const;
 /** Robot axes and external ones: the seventh axis of an arm is an external one. */
-const MOST_AXES = 6, MOST_EXTERNAL = 6;
+const MOST_AXES = 6;
+const MOST_EXTERNAL = 6;
 
 export const MOTORS = { undefined: 0, on: 1, off: 2 } as const;
 export const EGM_STATE = { undefined: 0, error: 1, stopped: 2, running: 3 } as const;
@@ -26,7 +27,16 @@ export interface EgmRobot {
   rapid: number;
   converged: boolean;
 }
-export const noEgmRobot = (): EgmRobot => ({ sequence: 0, time_ms: 0, axes: 0, joints_deg: new Float64Array(MOST_AXES + MOST_EXTERNAL), motors: 0, state: 0, rapid: 0, converged: false });
+export const noEgmRobot = (): EgmRobot => ({
+  sequence: 0,
+  time_ms: 0,
+  axes: 0,
+  joints_deg: new Float64Array(MOST_AXES + MOST_EXTERNAL),
+  motors: 0,
+  state: 0,
+  rapid: 0,
+  converged: false,
+});
 
 /** What it is told: where to be, and how fast it goes there [deg, deg/s]. */
 export interface EgmSensor {
@@ -37,13 +47,22 @@ export interface EgmSensor {
   readonly speeds_deg_s: Float64Array;
   hasSpeeds: boolean;
 }
-export const noEgmSensor = (): EgmSensor => ({ sequence: 0, time_ms: 0, axes: 0, joints_deg: new Float64Array(MOST_AXES + MOST_EXTERNAL), speeds_deg_s: new Float64Array(MOST_AXES + MOST_EXTERNAL), hasSpeeds: false });
+export const noEgmSensor = (): EgmSensor => ({
+  sequence: 0,
+  time_ms: 0,
+  axes: 0,
+  joints_deg: new Float64Array(MOST_AXES + MOST_EXTERNAL),
+  speeds_deg_s: new Float64Array(MOST_AXES + MOST_EXTERNAL),
+  hasSpeeds: false,
+});
 
 /** Reads repeated doubles, one by one or packed, from the place of `first`; returns how many there are then. */
 function readDoubles(bytes: Uint8Array, from: number, to: number, out: Float64Array, first: number): number {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   let count = first;
-  const take = (value: number): void => { if (count < out.length) out[count++] = value; };
+  const take = (value: number): void => {
+    if (count < out.length) out[count++] = value;
+  };
   const isWhole = readFields(bytes, from, to, (field, kind, value, begin, end) => {
     if (field !== 1) return;
     if (kind === DOUBLE) take(value);
@@ -53,24 +72,36 @@ function readDoubles(bytes: Uint8Array, from: number, to: number, out: Float64Ar
 }
 
 /** Joints, then external joints, of a position; -1 when the bytes are damaged. */
-function readJoints(bytes: Uint8Array, from: number, to: number, robotField: number, externalField: number, out: Float64Array): number {
+function readJoints(
+  bytes: Uint8Array,
+  from: number,
+  to: number,
+  robotField: number,
+  externalField: number,
+  out: Float64Array,
+): number {
   let count = 0;
   // The robot's own come first on the wire too: fields are written in order.
   const isWhole = readFields(bytes, from, to, (field, kind, _value, begin, end) => {
-    if (kind === BYTES && count >= 0 && (field === robotField || field === externalField)) count = readDoubles(bytes, begin, end, out, count);
+    if (kind === BYTES && count >= 0 && (field === robotField || field === externalField))
+      count = readDoubles(bytes, begin, end, out, count);
   });
   return isWhole ? count : -1;
 }
 
 function readEnum(bytes: Uint8Array, from: number, to: number): number {
   let value = 0;
-  readFields(bytes, from, to, (field, kind, number) => { if (field === 1 && kind === VARINT) value = number; });
+  readFields(bytes, from, to, (field, kind, number) => {
+    if (field === 1 && kind === VARINT) value = number;
+  });
   return value;
 }
 
 /** Reads what a controller sent into `out`; one sentence when it is nothing of the kind, and `out` may then be half filled. */
 export function readEgmRobot(bytes: Uint8Array, out: EgmRobot): string | null {
-  let hasHeader = false, isRobot = false, axes = -1;
+  let hasHeader = false;
+  let isRobot = false;
+  let axes = -1;
   out.motors = out.state = out.rapid = 0;
   out.converged = false;
   const isWhole = readFields(bytes, 0, bytes.length, (field, kind, value, begin, end) => {
@@ -84,24 +115,37 @@ export function readEgmRobot(bytes: Uint8Array, out: EgmRobot): string | null {
           if (inner === 3) isRobot = number === TYPE.robot;
         });
         break;
-      case 2: axes = readJoints(bytes, begin, end, 1, 3, out.joints_deg); break;
-      case 4: out.motors = readEnum(bytes, begin, end); break;
-      case 5: out.state = readEnum(bytes, begin, end); break;
-      case 8: out.rapid = readEnum(bytes, begin, end); break;
-      default: break;
+      case 2:
+        axes = readJoints(bytes, begin, end, 1, 3, out.joints_deg);
+        break;
+      case 4:
+        out.motors = readEnum(bytes, begin, end);
+        break;
+      case 5:
+        out.state = readEnum(bytes, begin, end);
+        break;
+      case 8:
+        out.rapid = readEnum(bytes, begin, end);
+        break;
+      default:
+        break;
     }
   });
   if (!isWhole || !hasHeader) return "The datagram is no message of EGM.";
   if (!isRobot) return "The message of EGM is not one of a robot.";
   if (axes < 1) return "The message of EGM has no joint angles.";
-  for (let i = 0; i < axes; i++) if (!Number.isFinite(out.joints_deg[i]!)) return `Axis ${i + 1} of the message of EGM is no number.`;
+  for (let i = 0; i < axes; i++)
+    if (!Number.isFinite(out.joints_deg[i]!)) return `Axis ${i + 1} of the message of EGM is no number.`;
   out.axes = axes;
   return null;
 }
 
 /** Reads what a controller is told; one sentence when it is nothing of the kind. */
 export function readEgmSensor(bytes: Uint8Array, out: EgmSensor): string | null {
-  let hasHeader = false, isSensor = false, axes = -1, speeds = 0;
+  let hasHeader = false;
+  let isSensor = false;
+  let axes = -1;
+  let speeds = 0;
   out.speeds_deg_s.fill(0);
   const isWhole = readFields(bytes, 0, bytes.length, (field, kind, _value, begin, end) => {
     if (kind !== BYTES) return;
@@ -118,7 +162,9 @@ export function readEgmSensor(bytes: Uint8Array, out: EgmSensor): string | null 
   if (!isWhole || !hasHeader) return "The datagram is no message of EGM.";
   if (!isSensor) return "The message of EGM is not one of a sensor.";
   if (axes < 1) return "The message of EGM has no joint angles.";
-  for (let i = 0; i < axes; i++) if (!Number.isFinite(out.joints_deg[i]!) || !Number.isFinite(out.speeds_deg_s[i]!)) return `Axis ${i + 1} of the message of EGM is no number.`;
+  for (let i = 0; i < axes; i++)
+    if (!Number.isFinite(out.joints_deg[i]!) || !Number.isFinite(out.speeds_deg_s[i]!))
+      return `Axis ${i + 1} of the message of EGM is no number.`;
   out.axes = axes;
   out.hasSpeeds = speeds > 0;
   return null;
@@ -126,24 +172,42 @@ export function readEgmSensor(bytes: Uint8Array, out: EgmSensor): string | null 
 
 /** Writers keep their bytes: what `write` returns is lent until the next call. */
 const header = (out: FieldWriter, sequence: number, time_ms: number, type: number): void => {
-  out.inside(1, () => { out.varint(1, sequence); out.varint(2, time_ms); out.varint(3, type); });
+  out.inside(1, () => {
+    out.varint(1, sequence);
+    out.varint(2, time_ms);
+    out.varint(3, type);
+  });
 };
 const doubles = (out: FieldWriter, field: number, values: Float64Array, from: number, to: number): void => {
-  if (to > from) out.inside(field, () => { for (let i = from; i < to; i++) out.double(1, values[i]!); });
+  if (to > from)
+    out.inside(field, () => {
+      for (let i = from; i < to; i++) out.double(1, values[i]!);
+    });
 };
 
 export function egmRobotWriter(): (message: EgmRobot) => Uint8Array {
   const out = new FieldWriter(1024);
   return ({ sequence, time_ms, axes, joints_deg, motors, state, rapid, converged }) => {
-    const position = (field: number): void => { out.inside(field, () => { doubles(out, 1, joints_deg, 0, Math.min(axes, MOST_AXES)); doubles(out, 3, joints_deg, MOST_AXES, axes); }); };
+    const position = (field: number): void => {
+      out.inside(field, () => {
+        doubles(out, 1, joints_deg, 0, Math.min(axes, MOST_AXES));
+        doubles(out, 3, joints_deg, MOST_AXES, axes);
+      });
+    };
     out.begin();
     header(out, sequence, time_ms, TYPE.robot);
     position(2);
     position(3);
-    out.inside(4, () => { out.varint(1, motors); });
-    out.inside(5, () => { out.varint(1, state); });
+    out.inside(4, () => {
+      out.varint(1, motors);
+    });
+    out.inside(5, () => {
+      out.varint(1, state);
+    });
     out.varint(6, converged ? 1 : 0);
-    out.inside(8, () => { out.varint(1, rapid); });
+    out.inside(8, () => {
+      out.varint(1, rapid);
+    });
     return out.lent;
   };
 }
@@ -153,8 +217,14 @@ export function egmSensorWriter(): (message: EgmSensor) => Uint8Array {
   return ({ sequence, time_ms, axes, joints_deg, speeds_deg_s }) => {
     out.begin();
     header(out, sequence, time_ms, TYPE.sensor);
-    for (const [field, values] of [[2, joints_deg], [3, speeds_deg_s]] as const) {
-      out.inside(field, () => { doubles(out, 1, values, 0, Math.min(axes, MOST_AXES)); doubles(out, 3, values, MOST_AXES, axes); });
+    for (const [field, values] of [
+      [2, joints_deg],
+      [3, speeds_deg_s],
+    ] as const) {
+      out.inside(field, () => {
+        doubles(out, 1, values, 0, Math.min(axes, MOST_AXES));
+        doubles(out, 3, values, MOST_AXES, axes);
+      });
     }
     return out.lent;
   };

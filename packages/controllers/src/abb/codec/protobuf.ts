@@ -1,5 +1,8 @@
 /** The few rules of protobuf's wire format that EGM needs. Numbers are little-endian; a field is its number, its kind and its value. */
-export const VARINT = 0, DOUBLE = 1, BYTES = 2, FLOAT = 5;
+export const VARINT = 0;
+export const DOUBLE = 1;
+export const BYTES = 2;
+export const FLOAT = 5;
 
 /** A value met while reading: of a varint its number, of a double its number, of bytes where they are. */
 export type Visit = (field: number, kind: number, value: number, from: number, to: number) => void;
@@ -21,7 +24,8 @@ export function readFields(bytes: Uint8Array, from: number, to: number, visit: V
   while (at < to) {
     const key = varint();
     if (!(key >= 8)) return false;
-    const field = Math.floor(key / 8), kind = key % 8;
+    const field = Math.floor(key / 8);
+    const kind = key % 8;
     switch (kind) {
       case VARINT: {
         const value = varint();
@@ -46,7 +50,8 @@ export function readFields(bytes: Uint8Array, from: number, to: number, visit: V
         at += size;
         break;
       }
-      default: return false;
+      default:
+        return false;
     }
   }
   return true;
@@ -62,8 +67,12 @@ export class FieldWriter {
     this.bytes = new Uint8Array(most);
     this.view = new DataView(this.bytes.buffer);
   }
-  begin(): void { this.at = 0; }
-  get lent(): Uint8Array { return this.bytes.subarray(0, this.at); }
+  begin(): void {
+    this.at = 0;
+  }
+  get lent(): Uint8Array {
+    return this.bytes.subarray(0, this.at);
+  }
 
   varint(field: number, value: number): void {
     this.bytes[this.at++] = field * 8 + VARINT;
@@ -87,7 +96,10 @@ export class FieldWriter {
   }
   private number(value: number): void {
     let left = value;
-    while (left >= 128) { this.bytes[this.at++] = (left % 128) | 128; left = Math.floor(left / 128); }
+    while (left >= 128) {
+      this.bytes[this.at++] = (left % 128) | 128;
+      left = Math.floor(left / 128);
+    }
     this.bytes[this.at++] = left;
   }
 }

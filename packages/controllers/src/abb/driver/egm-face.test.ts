@@ -1,10 +1,24 @@
 import { flangePose } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { AROUND, beside, endsWhereCommanded, errorEndsTheMotion, followsThePendant, guidedBench, HOST, irb120, keepsToTheLine, NOTHING, stopsWhenCutOff, turned } from "../testing/guided.ts";
+import {
+  AROUND,
+  beside,
+  endsWhereCommanded,
+  errorEndsTheMotion,
+  followsThePendant,
+  guidedBench,
+  HOST,
+  irb120,
+  keepsToTheLine,
+  NOTHING,
+  stopsWhenCutOff,
+  turned,
+} from "../testing/guided.ts";
 import type { VirtualAbbOptions } from "../virtual/index.ts";
 import { abbEgmFace, type AbbEgmFaceOptions } from "./index.ts";
 
-const bench = (virtualOptions: Partial<VirtualAbbOptions> = {}, faceOptions: Partial<AbbEgmFaceOptions> = {}) => guidedBench(options => abbEgmFace({ ...options, ...faceOptions }), virtualOptions);
+const bench = (virtualOptions: Partial<VirtualAbbOptions> = {}, faceOptions: Partial<AbbEgmFaceOptions> = {}) =>
+  guidedBench(options => abbEgmFace({ ...options, ...faceOptions }), virtualOptions);
 
 describe("the driver of ABB's externally guided motion alone", () => {
   test("T-19 connected by the first message of the controller; nobody, or a robot with other axes, is one sentence", async () => {
@@ -15,9 +29,21 @@ describe("the driver of ABB's externally guided motion alone", () => {
     expect(real.isConnected).toBe(false);
     const away = await bench({ sensor: { host: HOST, port: 9 } });
     await away.scheduler.elapse(4);
-    expect(await away.connecting).toMatchObject({ kind: "refused", why: { code: "link.no-answer", sentence: "No controller at 127.0.0.1 sends EGM messages to port 6510 of this machine." } });
-    const other = await bench({}, { robot: { ...irb120, arm: { ...irb120.arm, joints: irb120.arm.joints.slice(0, 5) } } });
-    expect(await other.connecting).toMatchObject({ kind: "refused", why: { code: "link.other-robot", sentence: `${irb120.name} has 5 axes; the robot whose controller sends has 6.` } });
+    expect(await away.connecting).toMatchObject({
+      kind: "refused",
+      why: {
+        code: "link.no-answer",
+        sentence: "No controller at 127.0.0.1 sends EGM messages to port 6510 of this machine.",
+      },
+    });
+    const other = await bench(
+      {},
+      { robot: { ...irb120, arm: { ...irb120.arm, joints: irb120.arm.joints.slice(0, 5) } } },
+    );
+    expect(await other.connecting).toMatchObject({
+      kind: "refused",
+      why: { code: "link.other-robot", sentence: `${irb120.name} has 5 axes; the robot whose controller sends has 6.` },
+    });
   });
 
   test("T-23 joints end within 0.001° of what was commanded; 250 states a second, none missing", async () => {
@@ -25,17 +51,42 @@ describe("the driver of ABB's externally guided motion alone", () => {
   });
 
   test("lines and arcs are followed, soft accelerations kept, and the speed changes on the way", async () => {
-    const guided = await bench(), { real, carryOut } = guided, at = flangePose(irb120.arm, real.jointAngles()), place = beside(at);
+    const guided = await bench();
+    const { real, carryOut } = guided;
+    const at = flangePose(irb120.arm, real.jointAngles());
+    const place = beside(at);
     await keepsToTheLine(guided, { acceleration: { ratio: 0.5 } });
     real.setSpeed(100);
-    expect(await carryOut(real.run([{ id: "c", type: "move", path: "circ", via: place(0.05, -0.02), target: place(0, 0), speed: { mps: 0.1 }, blend_m: 0 }], NOTHING))).toEqual({ kind: "done" });
+    expect(
+      await carryOut(
+        real.run(
+          [
+            {
+              id: "c",
+              type: "move",
+              path: "circ",
+              via: place(0.05, -0.02),
+              target: place(0, 0),
+              speed: { mps: 0.1 },
+              blend_m: 0,
+            },
+          ],
+          NOTHING,
+        ),
+      ),
+    ).toEqual({ kind: "done" });
     expect(flangePose(irb120.arm, real.jointAngles()).position[1]).toBeCloseTo(at.position[1], 4);
-    expect(await real.run([{ id: "s", type: "set", signal: "lamp", to: true }], NOTHING)).toMatchObject({ kind: "refused", why: { code: "abb.no-signals" } });
+    expect(await real.run([{ id: "s", type: "set", signal: "lamp", to: true }], NOTHING)).toMatchObject({
+      kind: "refused",
+      why: { code: "abb.no-signals" },
+    });
   });
 
   test("T-20 an error on the controller ends the motion and is told; nothing old is followed when EGM is started again", async () => {
     const guided = await bench();
-    await errorEndsTheMotion(guided, () => { guided.virtual.pendant.setMode("automatic"); });
+    await errorEndsTheMotion(guided, () => {
+      guided.virtual.pendant.setMode("automatic");
+    });
   });
 
   test("T-24, T-25 the twin follows; T-26 in manual the pendant's jogs are mirrored and commands refused", async () => {
@@ -52,7 +103,9 @@ describe("the driver of ABB's externally guided motion alone", () => {
     const rest = virtual.neutral.jointAngles();
     virtual.pendant.setGuardOpen(false);
     await scheduler.elapse(1);
-    virtual.neutral.jointAngles().forEach((q, i) => { expect(q).toBeCloseTo(rest[i]!, 9); });
+    virtual.neutral.jointAngles().forEach((q, i) => {
+      expect(q).toBeCloseTo(rest[i]!, 9);
+    });
   });
 
   test("T-10 an emergency stop brakes hard and falls silent; the controller ends EGM, and a person starts it there", async () => {
@@ -87,7 +140,11 @@ describe("the driver of ABB's externally guided motion alone", () => {
     for (const by of [0.3, 0]) expect(await carryOut(real.moveJoints(turned(by)))).toEqual({ kind: "done" });
     const bound = await network.bind({ host: HOST, port: 0 });
     if (bound.kind === "taken") throw new Error(bound.sentence);
-    for (let i = 0; i < 500; i++) bound.socket.send(Uint8Array.from({ length: i % 40 }, (_, k) => (k * 31 + i) & 255), virtual.address);
+    for (let i = 0; i < 500; i++)
+      bound.socket.send(
+        Uint8Array.from({ length: i % 40 }, (_, k) => (k * 31 + i) & 255),
+        virtual.address,
+      );
     await scheduler.elapse(0.1);
     expect(log.length).toBeGreaterThan(0);
     expect(new Set(log).size).toBe(log.length);

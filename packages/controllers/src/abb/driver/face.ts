@@ -28,18 +28,37 @@ export interface AbbFaceOptions extends GuideOptions {
 }
 type Lent = { -readonly [K in keyof Omit<JointSample, "step">]: JointSample[K] };
 
-const STALE_S = 0.08, PANEL_STALE_S = 0.5, FILL_S = 0.02, PERIOD_S = 0.02, WATCH_S = 0.01;
+const STALE_S = 0.08;
+const PANEL_STALE_S = 0.5;
+const FILL_S = 0.02;
+const PERIOD_S = 0.02;
+const WATCH_S = 0.01;
 /** A controller that guides says so within this time of being opened; one that does not is opened all the same [s]. */
 const GUIDES_S = 0.3;
 /** The robot has come to rest within this time, or is not heard any more [s]. */
 const BRAKES_S = 2;
 /** An axis that moved by less between two answers stands [rad]. */
 const STANDS_RAD = 2e-6;
-const PANEL = { ctrlstate: "/rw/panel/ctrlstate", opmode: "/rw/panel/opmode", ctrlexecstate: "/rw/rapid/execution", speedratio: "/rw/panel/speedratio" } as const;
+const PANEL = {
+  ctrlstate: "/rw/panel/ctrlstate",
+  opmode: "/rw/panel/opmode",
+  ctrlexecstate: "/rw/rapid/execution",
+  speedratio: "/rw/panel/speedratio",
+} as const;
 type Resource = keyof typeof PANEL | "lines";
 /** What matters for safety is asked for most often. */
-const TURNS: readonly Resource[] = ["ctrlstate", "ctrlexecstate", "ctrlstate", "opmode", "lines", "ctrlstate", "ctrlexecstate", "speedratio"];
-const SIGNALS = "/rw/iosystem/signals", JOINTS = "/rw/motionsystem/mechunits/ROB_1/jointtarget";
+const TURNS: readonly Resource[] = [
+  "ctrlstate",
+  "ctrlexecstate",
+  "ctrlstate",
+  "opmode",
+  "lines",
+  "ctrlstate",
+  "ctrlexecstate",
+  "speedratio",
+];
+const SIGNALS = "/rw/iosystem/signals";
+const JOINTS = "/rw/motionsystem/mechunits/ROB_1/jointtarget";
 
 /**
  * An ABB controller over both of its interfaces: motions are guided by EGM, everything else (motors, mode, programs, signals,
@@ -47,14 +66,46 @@ const SIGNALS = "/rw/iosystem/signals", JOINTS = "/rw/motionsystem/mechunits/ROB
  * motion the robot is stopped over the other one, and both are opened anew.
  */
 export function abbFace(options: AbbFaceOptions): Face {
-  const { robot, scheduler, network, host } = options, n = robot.arm.joints.length, port = options.ports?.rws ?? RWS_PORT, stale_s = options.stale_s ?? STALE_S, gripper = options.gripperSignal ?? "doGripper";
-  const guide = createGuide(options), { message } = guide, clock = new SampleClock(() => scheduler.now_s()), before_rad = new Float64Array(n), left = new Set<string>();
+  const { robot, scheduler, network, host } = options;
+  const n = robot.arm.joints.length;
+  const port = options.ports?.rws ?? RWS_PORT;
+  const stale_s = options.stale_s ?? STALE_S;
+  const gripper = options.gripperSignal ?? "doGripper";
+  const guide = createGuide(options);
+  const { message } = guide;
+  const clock = new SampleClock(() => scheduler.now_s());
+  const before_rad = new Float64Array(n);
+  const left = new Set<string>();
   // One session for as long as this driver lives: a controller has seventy, and what it holds is given back in it.
   const session = new RwsSession(options.login ?? RWS_LOGIN);
-  let panel = new PanelState(n), events: FaceEvents | null = null, life = 0, polling = false, turn = 0, hasLines = true, axes = 0;
-  let poll: RwsClient | null = null, act: RwsClient | null = null, brake: RwsClient | null = null, timers: readonly (() => void)[] = [];
-  let broken: { readonly why: Refusal; readonly since_s: number } | null = null, severed = false, rising = false, text: TextRun | null = null, complaint = "";
-  const sample: Lent = { sequence: 0, time_s: 0, q_rad: new Float64Array(n), moving: false, mode: "manual", safety: "normal", override: 1, gripperClosed: false, message: "", signals: panel.lines };
+  let panel = new PanelState(n);
+  let events: FaceEvents | null = null;
+  let life = 0;
+  let polling = false;
+  let turn = 0;
+  let hasLines = true;
+  let axes = 0;
+  let poll: RwsClient | null = null;
+  let act: RwsClient | null = null;
+  let brake: RwsClient | null = null;
+  let timers: readonly (() => void)[] = [];
+  let broken: { readonly why: Refusal; readonly since_s: number } | null = null;
+  let severed = false;
+  let rising = false;
+  let text: TextRun | null = null;
+  let complaint = "";
+  const sample: Lent = {
+    sequence: 0,
+    time_s: 0,
+    q_rad: new Float64Array(n),
+    moving: false,
+    mode: "manual",
+    safety: "normal",
+    override: 1,
+    gripperClosed: false,
+    message: "",
+    signals: panel.lines,
+  };
 
   const guides = (): boolean => scheduler.now_s() - guide.heard_s <= stale_s;
   /** Sooner than EGM counts as silent its place is taken by answers, so that nobody misses a state. */
@@ -63,15 +114,33 @@ export function abbFace(options: AbbFaceOptions): Face {
   function safetyOf(): SafetyState {
     if (severed || rising) return "emergency-stop";
     if (panel.safety !== "normal" || panel.mode === "manual" || !guides()) return panel.safety;
-    return message.motors === MOTORS.off ? "emergency-stop" : message.state === EGM_STATE.error ? "protective-stop" : "normal";
+    return message.motors === MOTORS.off
+      ? "emergency-stop"
+      : message.state === EGM_STATE.error
+        ? "protective-stop"
+        : "normal";
   }
   function tell(q_rad: Float64Array, moving: boolean): void {
-    const isByEgm = guides(), because = say.notGuidedBecause(message);
+    const isByEgm = guides();
+    const because = say.notGuidedBecause(message);
     sample.q_rad.set(q_rad);
-    sample.sequence = clock.sequence; sample.time_s = clock.time_s; sample.moving = moving;
-    sample.mode = panel.mode; sample.safety = safetyOf(); sample.override = isByEgm && !text ? guide.override : panel.speedRatio / 100;
+    sample.sequence = clock.sequence;
+    sample.time_s = clock.time_s;
+    sample.moving = moving;
+    sample.mode = panel.mode;
+    sample.safety = safetyOf();
+    sample.override = isByEgm && !text ? guide.override : panel.speedRatio / 100;
     sample.gripperClosed = panel.lines.get(gripper) === true;
-    sample.message = panel.words !== "" ? panel.words : complaint !== "" ? complaint : panel.mode === "manual" || text ? "" : isByEgm ? because : "EGM is silent: no program there waits for targets.";
+    sample.message =
+      panel.words !== ""
+        ? panel.words
+        : complaint !== ""
+          ? complaint
+          : panel.mode === "manual" || text
+            ? ""
+            : isByEgm
+              ? because
+              : "EGM is silent: no program there waits for targets.";
     events?.sample(sample);
   }
 
@@ -79,16 +148,21 @@ export function abbFace(options: AbbFaceOptions): Face {
   function breakBy(why: Refusal): void {
     if (broken || !events) return;
     broken = { why, since_s: scheduler.now_s() };
-    if (guide.isGoing) guide.stop(false, why); else lose();
+    if (guide.isGoing) guide.stop(false, why);
+    else lose();
   }
   function lose(): void {
-    const told = events, { why } = broken!;
+    const told = events;
+    const { why } = broken!;
     close(why);
     told?.lost(why.sentence);
   }
   function watch(): void {
     const now_s = scheduler.now_s();
-    if (broken) { if (!guide.isGoing || !guides() || now_s - broken.since_s > BRAKES_S) lose(); return; }
+    if (broken) {
+      if (!guide.isGoing || !guides() || now_s - broken.since_s > BRAKES_S) lose();
+      return;
+    }
     if (!guide.isGoing || guides()) return;
     broken = { why: say.guidingLost(robot, now_s - guide.heard_s), since_s: now_s };
     lose();
@@ -112,15 +186,26 @@ export function abbFace(options: AbbFaceOptions): Face {
       const reply = await client.get(resource === "lines" ? SIGNALS : PANEL[resource]);
       if (mine !== life) return;
       const flaw = take(resource, reply);
-      if (flaw !== null) { breakBy(say.servicesLost(robot, flaw)); return; }
+      if (flaw !== null) {
+        breakBy(say.servicesLost(robot, flaw));
+        return;
+      }
     }
     if (isFresh()) return;
     const reply = await client.get(JOINTS);
     if (mine !== life || isFresh()) return;
     before_rad.set(panel.q_rad);
-    if (reply.kind !== "answer" || panel.takeJoints(reply.states) !== n) { breakBy(say.servicesLost(robot, reply.kind === "answer" ? "it does not say where the robot is." : reply.sentence)); return; }
+    if (reply.kind !== "answer" || panel.takeJoints(reply.states) !== n) {
+      breakBy(
+        say.servicesLost(robot, reply.kind === "answer" ? "it does not say where the robot is." : reply.sentence),
+      );
+      return;
+    }
     clock.ours();
-    tell(panel.q_rad, panel.q_rad.some((q, i) => Math.abs(q - before_rad[i]!) > STANDS_RAD));
+    tell(
+      panel.q_rad,
+      panel.q_rad.some((q, i) => Math.abs(q - before_rad[i]!) > STANDS_RAD),
+    );
   }
   /** Why the answer is none, or null. */
   function take(resource: Resource, reply: RwsReply): string | null {
@@ -133,21 +218,44 @@ export function abbFace(options: AbbFaceOptions): Face {
   async function open(heard: FaceEvents): Promise<Opened> {
     close();
     const mine = life;
-    const fail = (why: Refusal, again: boolean): Opened => { if (mine === life) close(); return { kind: "failed", why, again }; };
-    const client = (): RwsClient => new RwsClient({ network, scheduler, session, to: { host, port }, lost(sentence) { breakBy(say.servicesLost(robot, sentence)); }, roundTrip(seconds) { events?.roundTrip(seconds); } });
-    const own = poll = client(), type = await own.get("/rw/system/robottype");
+    const fail = (why: Refusal, again: boolean): Opened => {
+      if (mine === life) close();
+      return { kind: "failed", why, again };
+    };
+    const client = (): RwsClient =>
+      new RwsClient({
+        network,
+        scheduler,
+        session,
+        to: { host, port },
+        lost(sentence) {
+          breakBy(say.servicesLost(robot, sentence));
+        },
+        roundTrip(seconds) {
+          events?.roundTrip(seconds);
+        },
+      });
+    const own = (poll = client());
+    const type = await own.get("/rw/system/robottype");
     if (mine !== life) return fail(say.linkClosed(robot), true);
-    if (type.kind !== "answer" && (type.kind === "lost" || type.status !== 404)) return fail(say.noServices(host, port, type.sentence), type.kind === "lost" || type.status === 503);
+    if (type.kind !== "answer" && (type.kind === "lost" || type.status !== 404))
+      return fail(say.noServices(host, port, type.sentence), type.kind === "lost" || type.status === 503);
     const model = type.kind === "answer" ? type.states[0]?.fields["robot-type"] : undefined;
-    if (model !== undefined && !isAbbModel(options.model ?? robot.name, model)) return fail(say.otherRobot(robot, model), false);
-    const now = panel = new PanelState(n);
+    if (model !== undefined && !isAbbModel(options.model ?? robot.name, model))
+      return fail(say.otherRobot(robot, model), false);
+    const now = (panel = new PanelState(n));
     sample.signals = now.lines;
     for (const resource of ["ctrlstate", "opmode", "ctrlexecstate", "speedratio"] as const) {
       const flaw = take(resource, await own.get(PANEL[resource]));
       if (flaw !== null) return fail(say.noServices(host, port, flaw), true);
     }
-    const joints = await own.get(JOINTS), count = joints.kind === "answer" ? now.takeJoints(joints.states) : null;
-    if (count === null) return fail(say.noServices(host, port, joints.kind === "answer" ? "it does not say where the robot is." : joints.sentence), true);
+    const joints = await own.get(JOINTS);
+    const count = joints.kind === "answer" ? now.takeJoints(joints.states) : null;
+    if (count === null)
+      return fail(
+        say.noServices(host, port, joints.kind === "answer" ? "it does not say where the robot is." : joints.sentence),
+        true,
+      );
     if (count !== n) return fail(say.otherAxes(robot, count), false);
     // Each of the other lines is there before it is needed.
     act = client();
@@ -157,16 +265,26 @@ export function abbFace(options: AbbFaceOptions): Face {
     hasLines = take("lines", lines) === null;
     if (mine !== life) return fail(say.linkClosed(robot), true);
     axes = n;
-    const watched = options.isWatched?.() ?? false, deaf = watched ? null : await guide.open({
-      state(_, got) {
-        axes = got;
-        if (got !== n) { breakBy(say.otherAxes(robot, got)); return; }
-        clock.theirs(message.sequence, message.time_ms);
-        tell(guide.q_rad, guide.isMoving);
-      },
-    });
+    const watched = options.isWatched?.() ?? false;
+    const deaf = watched
+      ? null
+      : await guide.open({
+          state(_, got) {
+            axes = got;
+            if (got !== n) {
+              breakBy(say.otherAxes(robot, got));
+              return;
+            }
+            clock.theirs(message.sequence, message.time_ms);
+            tell(guide.q_rad, guide.isMoving);
+          },
+        });
     if (deaf) return fail(deaf, true);
-    for (const from_s = scheduler.now_s(); !watched && !guides() && axes === n && mine === life && scheduler.now_s() - from_s < GUIDES_S;) await pause(WATCH_S);
+    for (
+      const from_s = scheduler.now_s();
+      !watched && !guides() && axes === n && mine === life && scheduler.now_s() - from_s < GUIDES_S;
+    )
+      await pause(WATCH_S);
     if (mine !== life) return fail(say.linkClosed(robot), true);
     if (axes !== n) return fail(say.otherAxes(robot, axes), false);
     severed = false;
@@ -177,45 +295,82 @@ export function abbFace(options: AbbFaceOptions): Face {
       scheduler.every(options.period_s ?? PERIOD_S, () => {
         if (polling) return;
         polling = true;
-        void round(own, mine).then(() => { if (mine === life) polling = false; });
+        void round(own, mine).then(() => {
+          if (mine === life) polling = false;
+        });
       }),
     ];
     return { kind: "open" };
   }
-  const pause = (seconds: number): Promise<void> => new Promise(resolve => { const stop = scheduler.every(seconds, () => { stop(); resolve(); }); });
+  const pause = (seconds: number): Promise<void> =>
+    new Promise(resolve => {
+      const stop = scheduler.every(seconds, () => {
+        stop();
+        resolve();
+      });
+    });
 
   /** Orders that nobody waits for: what the controller says against them is told with the states. */
   function order(answered: Promise<RwsReply>, what: string): void {
-    void answered.then(reply => { complaint = reply.kind === "refused" ? say.refusedThere(what, reply.sentence).sentence : ""; });
+    void answered.then(reply => {
+      complaint = reply.kind === "refused" ? say.refusedThere(what, reply.sentence).sentence : "";
+    });
   }
   function setSignal(signal: string, value: boolean | number): Refusal | null {
     const place = panel.places.get(signal);
     if (!act) return say.linkClosed(robot);
     if (place === undefined) return say.noSuchLine(signal);
-    order(act.post(`${SIGNALS}${pathText(place.split("/"))}?action=set`, { lvalue: String(Number(value)) }), `Writing "${signal}"`);
+    order(
+      act.post(`${SIGNALS}${pathText(place.split("/"))}?action=set`, { lvalue: String(Number(value)) }),
+      `Writing "${signal}"`,
+    );
     return null;
   }
   async function handText(files: readonly EmittedFile[]): Promise<HandedText> {
-    const mine = life, client = act;
+    const mine = life;
+    const client = act;
     if (!client) return { kind: "refused", why: say.linkClosed(robot) };
     setSpeedRatio(client, guide.override);
-    const run = text = handRapid(files, client, panel, scheduler, robot, left, () => sample.moving, async well => {
-      if (text === run) text = null;
-      if (!well || mine !== life || severed || panel.ctrl !== "motoron") return;
-      // It moves nothing by itself.
-      await startProgram(client, "forever");
-      for (const from_s = scheduler.now_s(); !isGuided() && mine === life && scheduler.now_s() - from_s < GUIDES_S;) await pause(WATCH_S);
-    }), handed = await run.handed;
+    const run = (text = handRapid(
+      files,
+      client,
+      panel,
+      scheduler,
+      robot,
+      left,
+      () => sample.moving,
+      async well => {
+        if (text === run) text = null;
+        if (!well || mine !== life || severed || panel.ctrl !== "motoron") return;
+        // It moves nothing by itself.
+        await startProgram(client, "forever");
+        for (const from_s = scheduler.now_s(); !isGuided() && mine === life && scheduler.now_s() - from_s < GUIDES_S; )
+          await pause(WATCH_S);
+      },
+    ));
+    const handed = await run.handed;
     if (handed.kind === "refused" && text === run) text = null;
     return handed;
   }
-  const setSpeedRatio = (client: RwsClient, ratio: number): void => { order(client.post(`${PANEL.speedratio}?action=setspeedratio`, { "speed-ratio": String(Math.round(100 * ratio)) }), "Setting the speed"); };
+  const setSpeedRatio = (client: RwsClient, ratio: number): void => {
+    order(
+      client.post(`${PANEL.speedratio}?action=setspeedratio`, { "speed-ratio": String(Math.round(100 * ratio)) }),
+      "Setting the speed",
+    );
+  };
 
   return {
-    brand: "ABB", robot, watchdog: { kind: "robot", within_s: COMM_TIMEOUT_S },
+    brand: "ABB",
+    robot,
+    watchdog: { kind: "robot", within_s: COMM_TIMEOUT_S },
     // A robot that nobody moves from here may be heard of seldom; one that carries out our text may not (row X-41).
-    get stale_s() { return events && !guides() && !text ? Math.max(stale_s, PANEL_STALE_S) : stale_s; },
-    open, close() { close(); },
+    get stale_s() {
+      return events && !guides() && !text ? Math.max(stale_s, PANEL_STALE_S) : stale_s;
+    },
+    open,
+    close() {
+      close();
+    },
     move(motion) {
       if (!events) return Promise.resolve(refused(say.linkClosed(robot)));
       return guides() ? guide.move(motion) : Promise.resolve(refused(say.notGuided(robot, "EGM is silent.")));
@@ -235,10 +390,20 @@ export function abbFace(options: AbbFaceOptions): Face {
       if (!act) return refused(say.linkClosed(robot));
       complaint = "";
       guide.rearm();
-      const mine = life, up = panel.safety === "normal" && isGuided();
+      const mine = life;
+      const up = panel.safety === "normal" && isGuided();
       if (up && !severed) return DONE;
       rising = severed || safetyOf() === "emergency-stop";
-      const outcome = await bringUp({ client: act, panel, scheduler, robot, ctrlstate: PANEL.ctrlstate, execution: PANEL.ctrlexecstate, left, isGuided });
+      const outcome = await bringUp({
+        client: act,
+        panel,
+        scheduler,
+        robot,
+        ctrlstate: PANEL.ctrlstate,
+        execution: PANEL.ctrlexecstate,
+        left,
+        isGuided,
+      });
       if (mine === life) {
         rising = false;
         if (outcome.kind === "done") severed = false;

@@ -1,4 +1,14 @@
-import { degrees, radians, Stepper, type CommandOutcome, type Pose, type Refusal, type Robot, type Scheduler, type Step } from "@twincell/core";
+import {
+  degrees,
+  radians,
+  Stepper,
+  type CommandOutcome,
+  type Pose,
+  type Refusal,
+  type Robot,
+  type Scheduler,
+  type Step,
+} from "@twincell/core";
 import type { FaceMotion } from "../../real/index.ts";
 import type { Address, DatagramSocket, Network } from "../../transport/index.ts";
 import { EGM_PORT, egmSensorWriter, noEgmRobot, noEgmSensor, readEgmRobot, type EgmRobot } from "../codec/index.ts";
@@ -45,30 +55,59 @@ export interface Guide {
 }
 
 /** A robot this near to the end of its path is there [rad]; the last of the way is first-order. */
-const THERE_RAD = 0.0005 * Math.PI / 180;
+const THERE_RAD = (0.0005 * Math.PI) / 180;
 /** A gap between two messages counts as at most so long: after a longer one the path goes on from where it was [s]. */
 const MOST_GAP_S = 0.05;
 /** Without a motion of ours a robot that is faster than this is not moved by us [rad/s]. */
 const DRIVEN_RAD_S = 0.01;
-const STILL_RAD_S = 1e-4, MOTION = "motion";
+const STILL_RAD_S = 1e-4;
+const MOTION = "motion";
 
-interface Going { readonly stepper: Stepper; readonly resolve: (outcome: CommandOutcome) => void; isSent: boolean; stopping: Refusal | null }
+interface Going {
+  readonly stepper: Stepper;
+  readonly resolve: (outcome: CommandOutcome) => void;
+  isSent: boolean;
+  stopping: Refusal | null;
+}
 
 /** Externally Guided Motion: the path is made here and told cycle by cycle, in answer to each state that the controller sends. */
 export function createGuide(options: GuideOptions): Guide {
-  const { robot, scheduler, network, host } = options, n = robot.arm.joints.length, port = options.ports?.egm ?? EGM_PORT, maxSpeed = options.maxSpeed ?? 1;
-  const message = noEgmRobot(), answer = noEgmSensor(), write = egmSensorWriter(), q_rad = Float64Array.from(robot.home_rad), target_rad = q_rad.slice(), next_rad = q_rad.slice();
-  let socket: DatagramSocket | null = null, events: GuideEvents | null = null, going: Going | null = null, override = 1, severed = false, told = 0, heard_s = -Infinity, fresh = true, moving = false;
+  const { robot, scheduler, network, host } = options;
+  const n = robot.arm.joints.length;
+  const port = options.ports?.egm ?? EGM_PORT;
+  const maxSpeed = options.maxSpeed ?? 1;
+  const message = noEgmRobot();
+  const answer = noEgmSensor();
+  const write = egmSensorWriter();
+  const q_rad = Float64Array.from(robot.home_rad);
+  const target_rad = q_rad.slice();
+  const next_rad = q_rad.slice();
+  let socket: DatagramSocket | null = null;
+  let events: GuideEvents | null = null;
+  let going: Going | null = null;
+  let override = 1;
+  let severed = false;
+  let told = 0;
+  let heard_s = -Infinity;
+  let fresh = true;
+  let moving = false;
   answer.axes = n;
 
-  const end = (outcome: CommandOutcome): void => { const ended = going; going = null; ended?.resolve(outcome); };
+  const end = (outcome: CommandOutcome): void => {
+    const ended = going;
+    going = null;
+    ended?.resolve(outcome);
+  };
 
   /** The next piece of the path, as long as the controller's own clock says. */
   function advance(dt_s: number): void {
     next_rad.set(target_rad);
     if (going && !going.isSent) {
       const state = going.stepper.advance(dt_s, override * maxSpeed, next_rad);
-      if (state.kind === "fault" && state.fault) { end({ kind: "stopped", why: state.fault }); return; }
+      if (state.kind === "fault" && state.fault) {
+        end({ kind: "stopped", why: state.fault });
+        return;
+      }
       if (state.kind !== "running") going.isSent = true;
     }
     for (let i = 0; i < n; i++) {
@@ -79,7 +118,8 @@ export function createGuide(options: GuideOptions): Guide {
   }
 
   function take(from: Address, dt_s: number): void {
-    let fastest = 0, gap_rad = 0;
+    let fastest = 0;
+    let gap_rad = 0;
     for (let i = 0; i < n; i++) {
       const before_rad = q_rad[i]!;
       q_rad[i] = radians(message.joints_deg[i]!);
@@ -88,7 +128,10 @@ export function createGuide(options: GuideOptions): Guide {
       gap_rad = Math.max(gap_rad, Math.abs(target_rad[i]! - q_rad[i]!));
     }
     // Somebody else moves it, or it still brakes from what moved it before.
-    if (!going && !fresh && fastest > DRIVEN_RAD_S) { target_rad.set(q_rad); gap_rad = 0; }
+    if (!going && !fresh && fastest > DRIVEN_RAD_S) {
+      target_rad.set(q_rad);
+      gap_rad = 0;
+    }
     fresh = false;
     const because = notGuidedBecause(message);
     if (because !== "") {
@@ -98,7 +141,8 @@ export function createGuide(options: GuideOptions): Guide {
       if (going) going.stopping ??= notGuided(robot, because);
       if (fastest <= STILL_RAD_S) end({ kind: "stopped", why: going?.stopping ?? notGuided(robot, because) });
     }
-    if (because === "" && going?.isSent && gap_rad <= THERE_RAD) end(going.stopping ? { kind: "stopped", why: going.stopping } : { kind: "done" });
+    if (because === "" && going?.isSent && gap_rad <= THERE_RAD)
+      end(going.stopping ? { kind: "stopped", why: going.stopping } : { kind: "done" });
     moving = fastest > STILL_RAD_S || (going !== null && !going.isSent && override > 0 && gap_rad > THERE_RAD);
     events?.state(message, message.axes);
     // Silence ends EGM on the controller: the last word of an emergency stop, once the robot stands.
@@ -123,11 +167,21 @@ export function createGuide(options: GuideOptions): Guide {
   }
 
   const guide: Guide = {
-    port, q_rad, message,
-    get heard_s() { return heard_s; },
-    get isGoing() { return going !== null; },
-    get isMoving() { return moving; },
-    get override() { return override; },
+    port,
+    q_rad,
+    message,
+    get heard_s() {
+      return heard_s;
+    },
+    get isGoing() {
+      return going !== null;
+    },
+    get isMoving() {
+      return moving;
+    },
+    get override() {
+      return override;
+    },
     async open(to) {
       guide.close();
       const bound = await network.bind({ host: options.local ?? (host.startsWith("127.") ? host : "0.0.0.0"), port });
@@ -147,11 +201,17 @@ export function createGuide(options: GuideOptions): Guide {
       end({ kind: "stopped", why });
     },
     move(motion) {
-      const because = notGuidedBecause(message), why = !socket ? linkClosed(robot) : because !== "" ? notGuided(robot, because) : null;
+      const because = notGuidedBecause(message);
+      const why = !socket ? linkClosed(robot) : because !== "" ? notGuided(robot, because) : null;
       if (why) return Promise.resolve({ kind: "refused", why });
       return new Promise(resolve => {
         end({ kind: "stopped", why: wasStopped(robot) });
-        going = { stepper: new Stepper(robot, { tools: {}, frames: {} }, [stepOf(motion)], target_rad), resolve, isSent: false, stopping: null };
+        going = {
+          stepper: new Stepper(robot, { tools: {}, frames: {} }, [stepOf(motion)], target_rad),
+          resolve,
+          isSent: false,
+          stopping: null,
+        };
       });
     },
     stop(emergency, why = wasStopped(robot)) {
@@ -160,8 +220,12 @@ export function createGuide(options: GuideOptions): Guide {
       going.stopping ??= why;
       going.stepper.stop(true);
     },
-    setOverride(ratio) { override = ratio; },
-    rearm() { severed = false; },
+    setOverride(ratio) {
+      override = ratio;
+    },
+    rearm() {
+      severed = false;
+    },
   };
   return guide;
 }
@@ -169,10 +233,23 @@ export function createGuide(options: GuideOptions): Guide {
 /** A motion as a step: the base is the world here, and the flange its tool. */
 function stepOf(motion: FaceMotion): Step {
   const base = { id: MOTION, type: "move", blend_m: 0, acceleration: { ratio: motion.acceleration } } as const;
-  const at = (baseFromFlange: Pose<"base", "flange">) => ({ pose: baseFromFlange as Pose as Pose<"frame", "tcp">, frame: "world", tool: "flange" });
+  const at = (baseFromFlange: Pose<"base", "flange">) => ({
+    pose: baseFromFlange as Pose as Pose<"frame", "tcp">,
+    frame: "world",
+    tool: "flange",
+  });
   switch (motion.path) {
-    case "joints": return { ...base, path: "ptp", target: { q: [...motion.q_rad] }, speed: { ratio: motion.ratio } };
-    case "line": return { ...base, path: "lin", target: at(motion.baseFromFlange), speed: { mps: motion.speed_mps } };
-    case "arc": return { ...base, path: "circ", target: at(motion.baseFromFlange), via: at(motion.baseFromVia), speed: { mps: motion.speed_mps } };
+    case "joints":
+      return { ...base, path: "ptp", target: { q: [...motion.q_rad] }, speed: { ratio: motion.ratio } };
+    case "line":
+      return { ...base, path: "lin", target: at(motion.baseFromFlange), speed: { mps: motion.speed_mps } };
+    case "arc":
+      return {
+        ...base,
+        path: "circ",
+        target: at(motion.baseFromFlange),
+        via: at(motion.baseFromVia),
+        speed: { mps: motion.speed_mps },
+      };
   }
 }

@@ -18,19 +18,32 @@ export class PanelState {
     this.joints_deg = new Float64Array(joints);
   }
 
-  get mode(): OperatingMode { return this.opmode === "AUTO" ? "automatic" : "manual"; }
-  get isRunning(): boolean { return this.execution === "running"; }
+  get mode(): OperatingMode {
+    return this.opmode === "AUTO" ? "automatic" : "manual";
+  }
+  get isRunning(): boolean {
+    return this.execution === "running";
+  }
   get safety(): SafetyState {
     switch (this.ctrl) {
-      case "motoron": return "normal";
-      case "guardstop": return "guard-stop";
-      case "sysfail": return "protective-stop";
+      case "motoron":
+        return "normal";
+      case "guardstop":
+        return "guard-stop";
+      case "sysfail":
+        return "protective-stop";
       // By hand the enabling device has the motors.
-      case "motoroff": return this.mode === "manual" ? "normal" : "emergency-stop";
-      default: return "emergency-stop";
+      case "motoroff":
+        return this.mode === "manual" ? "normal" : "emergency-stop";
+      default:
+        return "emergency-stop";
     }
   }
-  get words(): string { return this.ctrl === "motoroff" && this.mode === "manual" ? "" : WORDS[this.ctrl] ?? `The controller is in the state "${this.ctrl}".`; }
+  get words(): string {
+    return this.ctrl === "motoroff" && this.mode === "manual"
+      ? ""
+      : (WORDS[this.ctrl] ?? `The controller is in the state "${this.ctrl}".`);
+  }
 
   /** Whether what came could be read. */
   takePanel(name: "ctrlstate" | "opmode" | "speedratio" | "ctrlexecstate", [state]: readonly RwsState[]): boolean {
@@ -51,7 +64,8 @@ export class PanelState {
   }
   takeLines(states: readonly RwsState[]): void {
     for (const { title, fields } of states) {
-      const name = fields["name"] ?? title.split("/").at(-1)!, value = Number(fields["lvalue"]);
+      const name = fields["name"] ?? title.split("/").at(-1)!;
+      const value = Number(fields["lvalue"]);
       if (name === "" || !Number.isFinite(value) || (this.lines.size >= MOST_LINES && !this.lines.has(name))) continue;
       this.places.set(name, title === "" ? name : title);
       this.lines.set(name, /^D/i.test(fields["type"] ?? "") ? value !== 0 : value);
@@ -60,6 +74,11 @@ export class PanelState {
 }
 const MOST_LINES = 4_000;
 const WORDS: Readonly<Record<string, string>> = {
-  motoron: "", motoroff: "Its motors are off.", guardstop: "Its guard is open.", emergencystop: "Its emergency stop is pressed.", emergencystopreset: "Its emergency stop was turned out again; the motors are off.",
-  sysfail: "The controller has failed: look at its log.", init: "The controller is starting.",
+  motoron: "",
+  motoroff: "Its motors are off.",
+  guardstop: "Its guard is open.",
+  emergencystop: "Its emergency stop is pressed.",
+  emergencystopreset: "Its emergency stop was turned out again; the motors are off.",
+  sysfail: "The controller has failed: look at its log.",
+  init: "The controller is starting.",
 };

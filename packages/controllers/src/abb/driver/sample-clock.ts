@@ -10,7 +10,9 @@ export class SampleClock {
   private last_ms = NaN;
   private isTheirs = false;
 
-  constructor(now_s: () => number) { this.now_s = now_s; }
+  constructor(now_s: () => number) {
+    this.now_s = now_s;
+  }
 
   /** One of EGM. A controller that booted, or that was silent, goes on where the others ended; what was overtaken on its way still counts as older. */
   theirs(sequence: number, time_ms: number): void {
@@ -34,4 +36,5 @@ export class SampleClock {
     this.lastTime_s = time_s;
   }
 }
-const BOOTED_MS = 1000, LEAST_S = 1e-4;
+const BOOTED_MS = 1000;
+const LEAST_S = 1e-4;

@@ -7,32 +7,54 @@ import { noModule, refusedThere, wasStopped } from "./words.ts";
 import { DONE, stopped } from "../../outcomes.ts";
 
 /** A text from its being handed over to its end. A stop counts from the beginning, and ends it also before it was started. */
-export interface TextRun { readonly handed: Promise<HandedText>; stop(): void }
+export interface TextRun {
+  readonly handed: Promise<HandedText>;
+  stop(): void;
+}
 
-const FOLDER = "$HOME", LOOK_S = 0.05, STOPS_S = 5, MODULE = /^\s*MODULE\s+([A-Za-z][A-Za-z0-9_]*)/im;
-const execution = (action: string): string => `/rw/rapid/execution?action=${action}`, tasks = (action: string): string => `/rw/rapid/tasks/${TASK}?action=${action}`;
-const START = { regain: "continue", execmode: "continue", condition: "none", stopatbp: "disabled", alltaskbytsp: "true" } as const;
-export const startProgram = (client: RwsClient, cycle: "once" | "forever"): Promise<RwsReply> => client.post(execution("start"), { ...START, cycle });
+const FOLDER = "$HOME";
+const LOOK_S = 0.05;
+const STOPS_S = 5;
+const MODULE = /^\s*MODULE\s+([A-Za-z][A-Za-z0-9_]*)/im;
+const execution = (action: string): string => `/rw/rapid/execution?action=${action}`;
+const tasks = (action: string): string => `/rw/rapid/tasks/${TASK}?action=${action}`;
+const START = {
+  regain: "continue",
+  execmode: "continue",
+  condition: "none",
+  stopatbp: "disabled",
+  alltaskbytsp: "true",
+} as const;
+export const startProgram = (client: RwsClient, cycle: "once" | "forever"): Promise<RwsReply> =>
+  client.post(execution("start"), { ...START, cycle });
 /** @param quick  as fast as the motors can, also where a motion of the program is under way. */
-export const stopProgram = (client: RwsClient, quick = false): Promise<RwsReply> => client.post(execution("stop"), { stopmode: quick ? "qstop" : "stop" });
+export const stopProgram = (client: RwsClient, quick = false): Promise<RwsReply> =>
+  client.post(execution("stop"), { stopmode: quick ? "qstop" : "stop" });
 export const pointToMain = (client: RwsClient): Promise<RwsReply> => client.post(execution("resetpp"));
 
-const wrong = (what: string, reply: RwsReply): Refusal | null => reply.kind === "answer" ? null : refusedThere(what, reply.sentence);
+const wrong = (what: string, reply: RwsReply): Refusal | null =>
+  reply.kind === "answer" ? null : refusedThere(what, reply.sentence);
 
 /**
  * The program that waits for targets has its place again; whether it is started is for who calls. Why not, or null: another
  * program is never taken for it.
  */
 export async function putBack(client: RwsClient, left: Set<string>): Promise<Refusal | null> {
-  const modules = await client.get(`/rw/rapid/modules?task=${TASK}`), names = modules.kind === "answer" ? modules.states.map(({ fields, title }) => fields["name"] ?? title) : null;
+  const modules = await client.get(`/rw/rapid/modules?task=${TASK}`);
+  const names = modules.kind === "answer" ? modules.states.map(({ fields, title }) => fields["name"] ?? title) : null;
   if (!names) return wrong("Reading which modules are loaded", modules);
   for (const module of [...left]) {
-    const gone = names.includes(module) ? await client.post(tasks("unloadmod"), { module }) : null, why = gone && wrong(`Unloading ${module}`, gone);
+    const gone = names.includes(module) ? await client.post(tasks("unloadmod"), { module }) : null;
+    const why = gone && wrong(`Unloading ${module}`, gone);
     if (why) return why;
     left.delete(module);
   }
-  const why = names.includes(EGM_MODULE) ? null : wrong(`Loading ${EGM_FILE}`, await client.post(tasks("loadmod"), { modulepath: `${FOLDER}/${EGM_FILE}`, replace: "true" }))
-    ?? wrong("Setting the program pointer to PROC main", await pointToMain(client));
+  const why = names.includes(EGM_MODULE)
+    ? null
+    : (wrong(
+        `Loading ${EGM_FILE}`,
+        await client.post(tasks("loadmod"), { modulepath: `${FOLDER}/${EGM_FILE}`, replace: "true" }),
+      ) ?? wrong("Setting the program pointer to PROC main", await pointToMain(client)));
   await client.post("/rw/mastership/rapid?action=release");
   return why;
 }
@@ -45,10 +67,27 @@ export async function putBack(client: RwsClient, left: Set<string>): Promise<Ref
  * @param isMoving  by the last state: what comes next begins when the robot has come to rest.
  * @param over  called when it has its place again; `well` unless the controller itself stopped the text, which a person looks at first.
  */
-export function handRapid(files: readonly EmittedFile[], client: RwsClient, state: PanelState, scheduler: Scheduler, robot: Robot, left: Set<string>, isMoving: () => boolean, over: (well: boolean) => Promise<void>): TextRun {
+export function handRapid(
+  files: readonly EmittedFile[],
+  client: RwsClient,
+  state: PanelState,
+  scheduler: Scheduler,
+  robot: Robot,
+  left: Set<string>,
+  isMoving: () => boolean,
+  over: (well: boolean) => Promise<void>,
+): TextRun {
   let wanted = true;
-  const modules = files.filter(({ name }) => /\.(mod|sys)$/i.test(name)).map(file => ({ ...file, module: MODULE.exec(file.text)?.[1] ?? "" }));
-  const pause = (): Promise<void> => new Promise(resolve => { const stop = scheduler.every(LOOK_S, () => { stop(); resolve(); }); });
+  const modules = files
+    .filter(({ name }) => /\.(mod|sys)$/i.test(name))
+    .map(file => ({ ...file, module: MODULE.exec(file.text)?.[1] ?? "" }));
+  const pause = (): Promise<void> =>
+    new Promise(resolve => {
+      const stop = scheduler.every(LOOK_S, () => {
+        stop();
+        resolve();
+      });
+    });
   /** The state of the execution, asked for now. */
   const isRunning = async (): Promise<boolean | null> => {
     const reply = await client.get("/rw/rapid/execution");
@@ -65,14 +104,20 @@ export function handRapid(files: readonly EmittedFile[], client: RwsClient, stat
 
   async function load(): Promise<Refusal | null> {
     for (const { name, text } of modules) {
-      const why = wrong(`Writing ${name}`, await client.put(pathText(["fileservice", FOLDER, name]), latin1Bytes(text)));
+      const why = wrong(
+        `Writing ${name}`,
+        await client.put(pathText(["fileservice", FOLDER, name]), latin1Bytes(text)),
+      );
       if (why) return why;
     }
     for (const { module } of modules) if (module !== "") left.add(module);
     // Where it is not loaded there is nothing in the way.
     await client.post(tasks("unloadmod"), { module: EGM_MODULE });
     for (const { name } of modules) {
-      const why = wrong(`Loading ${name}`, await client.post(tasks("loadmod"), { modulepath: `${FOLDER}/${name}`, replace: "true" }));
+      const why = wrong(
+        `Loading ${name}`,
+        await client.post(tasks("loadmod"), { modulepath: `${FOLDER}/${name}`, replace: "true" }),
+      );
       if (why) return why;
     }
     return wrong("Setting the program pointer to PROC main", await pointToMain(client));
@@ -88,12 +133,20 @@ export function handRapid(files: readonly EmittedFile[], client: RwsClient, stat
       if (running === null) return stopped(refusedThere("The program", "the controller does not say whether it runs."));
       if (!running) break;
     }
-    const task = await client.get("/rw/rapid/tasks"), own = task.kind === "answer" ? task.states.find(({ fields, title }) => (fields["name"] ?? title) === TASK) : undefined;
+    const task = await client.get("/rw/rapid/tasks");
+    const own =
+      task.kind === "answer" ? task.states.find(({ fields, title }) => (fields["name"] ?? title) === TASK) : undefined;
     // At its beginning again: it ended by itself.
     if (wanted && own?.fields["excstate"]?.startsWith("read")) return DONE;
     if (!wanted) return stopped(wasStopped(robot));
-    const log = await client.get("/rw/elog/0?lang=en"), last = log.kind === "answer" ? log.states[0]?.fields : undefined;
-    return stopped(refusedThere("The program stopped", last ? `${last["title"] ?? ""}: ${last["desc"] ?? ""}` : "the controller does not say why."));
+    const log = await client.get("/rw/elog/0?lang=en");
+    const last = log.kind === "answer" ? log.states[0]?.fields : undefined;
+    return stopped(
+      refusedThere(
+        "The program stopped",
+        last ? `${last["title"] ?? ""}: ${last["desc"] ?? ""}` : "the controller does not say why.",
+      ),
+    );
   }
 
   async function giveBack(well: boolean): Promise<void> {
@@ -106,11 +159,18 @@ export function handRapid(files: readonly EmittedFile[], client: RwsClient, stat
     if (modules.length === 0) return { kind: "refused", why: noModule() };
     const mine = wrong("Mastership of RAPID", await client.post("/rw/mastership/rapid?action=request"));
     if (mine) return { kind: "refused", why: mine };
-    const why = wrong("Stopping the program that runs", await stopProgram(client)) ?? (await stands() ? await load() : refusedThere("Stopping the program that runs", "it goes on running."));
-    if (why) { await giveBack(true); return { kind: "refused", why }; }
+    const why =
+      wrong("Stopping the program that runs", await stopProgram(client)) ??
+      ((await stands()) ? await load() : refusedThere("Stopping the program that runs", "it goes on running."));
+    if (why) {
+      await giveBack(true);
+      return { kind: "refused", why };
+    }
     return {
       kind: "handed",
-      drop() { void giveBack(true); },
+      drop() {
+        void giveBack(true);
+      },
       async start() {
         const outcome = await carriedOut();
         await giveBack(outcome.kind === "done" || !wanted);

@@ -6,20 +6,45 @@ import { memoryNetwork } from "../../transport/index.ts";
 import { createTwin } from "../../twin/index.ts";
 import { createVirtualAbb, type VirtualAbbOptions } from "../virtual/index.ts";
 
-export const HOST = "127.0.0.1", irb120 = robotById("abb_irb120")!, NOTHING = { tools: {}, frames: {} };
-const ACCURACY_RAD = 0.001 * Math.PI / 180;
+export const HOST = "127.0.0.1";
+export const irb120 = robotById("abb_irb120")!;
+export const NOTHING = { tools: {}, frames: {} };
+const ACCURACY_RAD = (0.001 * Math.PI) / 180;
 /** Far enough for full speed. */
 export const AROUND = irb120.home_rad.with(0, 2.4);
 export const turned = (by_rad: number): number[] => Array.from(irb120.home_rad, q => q + by_rad);
 
 /** A virtual controller and a driver of it that is being connected. */
 export async function guidedBench(faceOf: (options: FaceOptions) => Face, virtualOptions: Partial<VirtualAbbOptions>) {
-  const scheduler = manualScheduler(), network = memoryNetwork(scheduler), log: string[] = [], heard: JointSample[] = [], links: string[] = [];
-  const started = await createVirtualAbb({ robot: irb120, scheduler, network, host: HOST, log: line => { log.push(line); }, ...virtualOptions });
+  const scheduler = manualScheduler();
+  const network = memoryNetwork(scheduler);
+  const log: string[] = [];
+  const heard: JointSample[] = [];
+  const links: string[] = [];
+  const started = await createVirtualAbb({
+    robot: irb120,
+    scheduler,
+    network,
+    host: HOST,
+    log: line => {
+      log.push(line);
+    },
+    ...virtualOptions,
+  });
   if (started.kind === "taken") throw new Error(started.sentence);
-  const { controller: virtual } = started, real = createRealController({ face: faceOf({ robot: irb120, scheduler, network, host: HOST }), scheduler });
-  real.onSample(sample => { heard.push({ ...sample, q_rad: sample.q_rad.slice(), ...(sample.signals ? { signals: new Map(sample.signals) } : {}) }); if (heard.length > 2000) heard.shift(); });
-  real.onLink(({ state, sentence }) => { links.push(sentence === "" ? state : `${state}: ${sentence}`); });
+  const { controller: virtual } = started;
+  const real = createRealController({ face: faceOf({ robot: irb120, scheduler, network, host: HOST }), scheduler });
+  real.onSample(sample => {
+    heard.push({
+      ...sample,
+      q_rad: sample.q_rad.slice(),
+      ...(sample.signals ? { signals: new Map(sample.signals) } : {}),
+    });
+    if (heard.length > 2000) heard.shift();
+  });
+  real.onLink(({ state, sentence }) => {
+    links.push(sentence === "" ? state : `${state}: ${sentence}`);
+  });
   const connecting = real.connect();
   await scheduler.elapse(0.1);
   return { scheduler, network, virtual, real, connecting, heard, log, links, carryOut: endedOn(scheduler, 0.05, 40) };
@@ -32,20 +57,31 @@ export type GuidedBench = Awaited<ReturnType<typeof guidedBench>>;
 export async function endsWhereCommanded({ real, carryOut, scheduler }: GuidedBench): Promise<void> {
   for (const by of [0.3, -0.2, 0.05]) {
     expect(await carryOut(real.moveJoints(turned(by)))).toEqual({ kind: "done" });
-    turned(by).forEach((q, i) => { expect(Math.abs(real.jointAngle(i + 1) - q)).toBeLessThanOrEqual(ACCURACY_RAD); });
+    turned(by).forEach((q, i) => {
+      expect(Math.abs(real.jointAngle(i + 1) - q)).toBeLessThanOrEqual(ACCURACY_RAD);
+    });
   }
   await scheduler.elapse(2);
   expect(real.link).toMatchObject({ rate_Hz: 250, missing: 0 });
 }
 
 /** Row T-20. @param again  what starts EGM again. */
-export async function errorEndsTheMotion({ real, virtual, carryOut, scheduler, heard }: GuidedBench, again: () => void): Promise<void> {
+export async function errorEndsTheMotion(
+  { real, virtual, carryOut, scheduler, heard }: GuidedBench,
+  again: () => void,
+): Promise<void> {
   const moving = real.moveJoints(AROUND);
   await scheduler.elapse(0.3);
   virtual.pendant.protectiveStop("joint 2 met something");
-  expect(await carryOut(moving)).toMatchObject({ kind: "stopped", why: { sentence: `${irb120.name} does not take targets. EGM ended with an error on the controller.` } });
+  expect(await carryOut(moving)).toMatchObject({
+    kind: "stopped",
+    why: { sentence: `${irb120.name} does not take targets. EGM ended with an error on the controller.` },
+  });
   await scheduler.elapse(1);
-  expect(heard.at(-1)).toMatchObject({ safety: "protective-stop", message: "EGM ended with an error on the controller." });
+  expect(heard.at(-1)).toMatchObject({
+    safety: "protective-stop",
+    message: "EGM ended with an error on the controller.",
+  });
   const rest = virtual.neutral.jointAngles();
   again();
   await scheduler.elapse(1);
@@ -54,7 +90,11 @@ export async function errorEndsTheMotion({ real, virtual, carryOut, scheduler, h
 }
 
 /** Rows T-24, T-25 and T-26. @param told_s  so soon the driver knows the mode; @param within_rad  how near the last state is to where the pendant's jog ended. */
-export async function followsThePendant({ real, virtual, carryOut, scheduler, heard }: GuidedBench, told_s: number, within_rad: number): Promise<void> {
+export async function followsThePendant(
+  { real, virtual, carryOut, scheduler, heard }: GuidedBench,
+  told_s: number,
+  within_rad: number,
+): Promise<void> {
   const twin = createTwin({ real, scheduler });
   await carryOut(twin.moveJoints(turned(0.2)));
   await scheduler.elapse(0.1);
@@ -71,13 +111,33 @@ export async function followsThePendant({ real, virtual, carryOut, scheduler, he
 
 /** A place of the flange beside where it is. */
 export function beside(at = flangePose(irb120.arm, irb120.home_rad)): (dy_m: number, dz_m: number) => Target {
-  return (dy, dz) => ({ pose: { position: [at.position[0], at.position[1] + dy, at.position[2] + dz], quaternion: at.quaternion }, frame: "world", tool: "flange" });
+  return (dy, dz) => ({
+    pose: { position: [at.position[0], at.position[1] + dy, at.position[2] + dz], quaternion: at.quaternion },
+    frame: "world",
+    tool: "flange",
+  });
 }
 /** A slanting line at another speed from half a second on, without leaving it. */
-export async function keepsToTheLine({ real, carryOut, scheduler, heard }: GuidedBench, more: Partial<MoveStep> = {}): Promise<void> {
+export async function keepsToTheLine(
+  { real, carryOut, scheduler, heard }: GuidedBench,
+  more: Partial<MoveStep> = {},
+): Promise<void> {
   const at = flangePose(irb120.arm, real.jointAngles());
   heard.length = 0;
-  const running = real.run([{ id: "l", type: "move", path: "lin", target: beside(at)(0.1, -0.1), speed: { mps: 0.1 }, blend_m: 0, ...more } as MoveStep], NOTHING);
+  const running = real.run(
+    [
+      {
+        id: "l",
+        type: "move",
+        path: "lin",
+        target: beside(at)(0.1, -0.1),
+        speed: { mps: 0.1 },
+        blend_m: 0,
+        ...more,
+      } as MoveStep,
+    ],
+    NOTHING,
+  );
   await scheduler.elapse(0.5);
   real.setSpeed(30);
   expect(await carryOut(running)).toEqual({ kind: "done" });
@@ -92,7 +152,8 @@ export async function stopsWhenCutOff({ real, network, virtual, scheduler }: Gui
   const moving = real.moveJoints(AROUND);
   await scheduler.elapse(0.3);
   network.weather.frozen = true;
-  const from_s = scheduler.now_s(), clock_ms = performance.now();
+  const from_s = scheduler.now_s();
+  const clock_ms = performance.now();
   real.stop();
   real.jointAngles();
   expect(performance.now() - clock_ms).toBeLessThan(20);

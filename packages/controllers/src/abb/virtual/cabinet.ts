@@ -1,6 +1,13 @@
 import { EVENT, type CtrlState, type OpMode } from "../codec/index.ts";
 
-export interface LoggedEvent { readonly number: number; readonly code: number; /** 1 information, 2 warning, 3 error. */ readonly kind: 1 | 2 | 3; readonly at_s: number; readonly title: string; readonly text: string }
+export interface LoggedEvent {
+  readonly number: number;
+  readonly code: number /** 1 information, 2 warning, 3 error. */;
+  readonly kind: 1 | 2 | 3;
+  readonly at_s: number;
+  readonly title: string;
+  readonly text: string;
+}
 export type Key = Extract<OpMode, "AUTO" | "MANR" | "MANF">;
 
 const MOST_EVENTS = 200;
@@ -19,17 +26,25 @@ export class Cabinet {
   private count = 0;
   readonly events: LoggedEvent[] = [];
   /** Told when it changes. */
-  speedChanged: (percent: number) => void = () => { /* Nobody asked yet. */ };
+  speedChanged: (percent: number) => void = () => {
+    /* Nobody asked yet. */
+  };
 
   constructor(now_s: () => number, stopped: (because: string) => void) {
     this.now_s = now_s;
     this.stopped = stopped;
   }
 
-  get key(): Key { return this.isKey; }
+  get key(): Key {
+    return this.isKey;
+  }
   /** By hand the enabling device has them on. */
-  get motorsOn(): boolean { return this.on || (this.isKey !== "AUTO" && !this.pressed); }
-  get speedRatio(): number { return this.percent; }
+  get motorsOn(): boolean {
+    return this.on || (this.isKey !== "AUTO" && !this.pressed);
+  }
+  get speedRatio(): number {
+    return this.percent;
+  }
   get state(): CtrlState {
     if (this.pressed) return "emergencystop";
     if (this.isOpen && this.isKey === "AUTO") return "guardstop";
@@ -61,7 +76,10 @@ export class Cabinet {
   emergencyStop(pressed: boolean): void {
     if (pressed === this.pressed) return;
     this.pressed = pressed;
-    if (!pressed) { this.released = true; return; }
+    if (!pressed) {
+      this.released = true;
+      return;
+    }
     this.log(EVENT.emergencyStop, 3, "Emergency stop state", "The emergency stop was pressed.");
     this.motorsOff("The emergency stop was pressed.");
   }
@@ -75,7 +93,12 @@ export class Cabinet {
   setKey(key: Key): void {
     if (key === this.isKey) return;
     this.isKey = key;
-    this.log(key === "AUTO" ? EVENT.automatic : EVENT.manual, 1, key === "AUTO" ? "Automatic mode confirmed" : "Manual mode selected", `The key was turned to ${key}.`);
+    this.log(
+      key === "AUTO" ? EVENT.automatic : EVENT.manual,
+      1,
+      key === "AUTO" ? "Automatic mode confirmed" : "Manual mode selected",
+      `The key was turned to ${key}.`,
+    );
     this.motorsOff(key === "AUTO" ? "The key was turned to automatic." : "The key was turned to manual.");
   }
   setSpeedRatio(percent: number): boolean {

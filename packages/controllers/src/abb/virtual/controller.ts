@@ -1,4 +1,11 @@
-import { brakingTime_s, type CommandOutcome, type Interpreted, type OperatingMode, type Robot, type Scheduler } from "@twincell/core";
+import {
+  brakingTime_s,
+  type CommandOutcome,
+  type Interpreted,
+  type OperatingMode,
+  type Robot,
+  type Scheduler,
+} from "@twincell/core";
 import { latin1Bytes } from "../../http/index.ts";
 import type { Address, Network } from "../../transport/index.ts";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
@@ -72,37 +79,82 @@ export interface VirtualAbb {
   reboot(off_s: number): void;
   close(): void;
 }
-export type AbbStart = { readonly kind: "started"; readonly controller: VirtualAbb } | { readonly kind: "taken"; readonly sentence: string };
+export type AbbStart =
+  | { readonly kind: "started"; readonly controller: VirtualAbb }
+  | { readonly kind: "taken"; readonly sentence: string };
 
-const LONGEST_CYCLE_S = 0.04, GAIN_PER_S = 20;
+const LONGEST_CYCLE_S = 0.04;
+const GAIN_PER_S = 20;
 
 /** A controller of numbers: it is guided from outside over EGM, and served over Robot Web Services where it has them. */
 export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbStart> {
-  const { robot, scheduler, network, host } = options, cycle_s = options.cycle_s ?? EGM_CYCLE_S, log = options.log ?? (() => { /* Nobody asked for it. */ });
+  const { robot, scheduler, network, host } = options;
+  const cycle_s = options.cycle_s ?? EGM_CYCLE_S;
+  const log =
+    options.log ??
+    (() => {
+      /* Nobody asked for it. */
+    });
   const bound = await network.bind({ host, port: 0 });
   if (bound.kind === "taken") return bound;
-  const { socket } = bound, { start_rad, initialize } = options;
-  const neutral = createVirtualController({ robot, scheduler, cycle_s, mode: "remote", maxSpeed: options.maxSpeed ?? 1, ...(start_rad ? { start_rad } : {}), ...(initialize ? { initialize } : {}) });
-  let isOff = false, byOthers = false, powered_s = scheduler.now_s(), cycled_s = powered_s, stopWaiting: () => void = () => { /* Nothing is waited for yet. */ };
+  const { socket } = bound;
+  const { start_rad, initialize } = options;
+  const neutral = createVirtualController({
+    robot,
+    scheduler,
+    cycle_s,
+    mode: "remote",
+    maxSpeed: options.maxSpeed ?? 1,
+    ...(start_rad ? { start_rad } : {}),
+    ...(initialize ? { initialize } : {}),
+  });
+  let isOff = false;
+  let byOthers = false;
+  let powered_s = scheduler.now_s();
+  let cycled_s = powered_s;
+  let stopWaiting: () => void = () => {
+    /* Nothing is waited for yet. */
+  };
   const now_s = (): number => scheduler.now_s() - powered_s;
 
   const cabinet = new Cabinet(now_s, because => {
     egm.end("stopped", because);
     programs.interrupted(because);
   });
-  const egm = new EgmMotion({
-    robot, socket, to: options.sensor ?? { host, port: EGM_PORT }, maxSpeed: options.maxSpeed ?? 1, gain_per_s: Math.min(1 / LONGEST_CYCLE_S, options.gain_per_s ?? GAIN_PER_S), commTimeout_s: options.commTimeout_s, log,
-    failed(because) {
-      cabinet.log(EVENT.egm, 3, "EGM error", because);
-      programs.interrupted(because);
+  const egm = new EgmMotion(
+    {
+      robot,
+      socket,
+      to: options.sensor ?? { host, port: EGM_PORT },
+      maxSpeed: options.maxSpeed ?? 1,
+      gain_per_s: Math.min(1 / LONGEST_CYCLE_S, options.gain_per_s ?? GAIN_PER_S),
+      commTimeout_s: options.commTimeout_s,
+      log,
+      failed(because) {
+        cabinet.log(EVENT.egm, 3, "EGM error", because);
+        programs.interrupted(because);
+      },
     },
-  }, neutral.jointAngles());
-  const programs = new Programs(neutral, cabinet, {
-    start(commTimeout_s) { egm.start(commTimeout_s); },
-    stop() { egm.end("stopped", "The program was stopped."); },
-  }, options.interpret ?? (() => ({ kind: "not-understood", faults: [] })));
-  const files = new Files(), lines = new Lines(neutral);
-  neutral.onSample(({ gripperClosed, signals }) => { lines.take(gripperClosed, signals); });
+    neutral.jointAngles(),
+  );
+  const programs = new Programs(
+    neutral,
+    cabinet,
+    {
+      start(commTimeout_s) {
+        egm.start(commTimeout_s);
+      },
+      stop() {
+        egm.end("stopped", "The program was stopped.");
+      },
+    },
+    options.interpret ?? (() => ({ kind: "not-understood", faults: [] })),
+  );
+  const files = new Files();
+  const lines = new Lines(neutral);
+  neutral.onSample(({ gripperClosed, signals }) => {
+    lines.take(gripperClosed, signals);
+  });
   files.write(["$HOME", EGM_FILE], latin1Bytes(EGM_TEXT));
   programs.load(EGM_TEXT, true);
 
@@ -117,14 +169,24 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
 
   const stopCycle = scheduler.every(cycle_s, () => {
     // A clock that ticks late is made good in one longer cycle, up to a bound that keeps the lag stable.
-    const at_s = scheduler.now_s(), dt_s = Math.min(LONGEST_CYCLE_S, at_s - cycled_s);
+    const at_s = scheduler.now_s();
+    const dt_s = Math.min(LONGEST_CYCLE_S, at_s - cycled_s);
     cycled_s = at_s;
-    if (isOff) { egm.standsAt(q_rad => { neutral.jointAngles(q_rad); }); return; }
+    if (isOff) {
+      egm.standsAt(q_rad => {
+        neutral.jointAngles(q_rad);
+      });
+      return;
+    }
     egm.motorsOn = cabinet.motorsOn;
-    const others = programs.hasArm || neutral.isMoving(), hadIt = byOthers;
+    const others = programs.hasArm || neutral.isMoving();
+    const hadIt = byOthers;
     byOthers = others;
     // Where they left it is known a cycle later.
-    if (others || hadIt) egm.standsAt(q_rad => { neutral.jointAngles(q_rad); });
+    if (others || hadIt)
+      egm.standsAt(q_rad => {
+        neutral.jointAngles(q_rad);
+      });
     else {
       egm.cycle(dt_s);
       neutral.jumpTo(egm.q_rad);
@@ -136,7 +198,19 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
   let server: RwsServer | null = null;
   if (options.rws !== undefined) {
     server = await serveRws({
-      network, host, port: options.rws, scheduler, log, robot, model: options.model ?? robot.name.replace(/^ABB /, ""), q_rad: () => neutral.jointAngles(), cabinet, programs, files, lines, isOff: () => isOff,
+      network,
+      host,
+      port: options.rws,
+      scheduler,
+      log,
+      robot,
+      model: options.model ?? robot.name.replace(/^ABB /, ""),
+      q_rad: () => neutral.jointAngles(),
+      cabinet,
+      programs,
+      files,
+      lines,
+      isOff: () => isOff,
     });
     if (server.listening.kind === "taken") {
       stopCycle();
@@ -147,9 +221,27 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
   }
 
   const controller: VirtualAbb = {
-    robot, neutral, programs, cabinet, files, lines, address: socket.address, rws: server?.listening.kind === "listening" ? server.listening.address : null, brakingTime_s: Math.max(brakingTime_s(robot) + 2 * cycle_s, neutral.brakingTime_s),
-    get frozen() { return egm.frozen; }, set frozen(is) { egm.frozen = is; },
-    get message() { return egm.message; }, get hasFailed() { return egm.hasFailed; },
+    robot,
+    neutral,
+    programs,
+    cabinet,
+    files,
+    lines,
+    address: socket.address,
+    rws: server?.listening.kind === "listening" ? server.listening.address : null,
+    brakingTime_s: Math.max(brakingTime_s(robot) + 2 * cycle_s, neutral.brakingTime_s),
+    get frozen() {
+      return egm.frozen;
+    },
+    set frozen(is) {
+      egm.frozen = is;
+    },
+    get message() {
+      return egm.message;
+    },
+    get hasFailed() {
+      return egm.hasFailed;
+    },
     pendant: {
       setMode(to) {
         neutral.atTheRobot.setMode(to);
@@ -157,27 +249,47 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
         if (to !== "manual") start();
       },
       jog: target => neutral.atTheRobot.jog(target),
-      emergencyStop(is) { cabinet.emergencyStop(is); },
-      setGuardOpen(open) { cabinet.setGuardOpen(open); },
+      emergencyStop(is) {
+        cabinet.emergencyStop(is);
+      },
+      setGuardOpen(open) {
+        cabinet.setGuardOpen(open);
+      },
       protectiveStop(because) {
         egm.end("error", because);
         cabinet.log(EVENT.failed, 3, "Motion supervision", because);
         programs.interrupted(because);
       },
-      setInput(signal, value) { lines.setInput(signal, value); },
-      grantRemote(granted) { server?.grantRemote(granted); },
+      setInput(signal, value) {
+        lines.setInput(signal, value);
+      },
+      grantRemote(granted) {
+        server?.grantRemote(granted);
+      },
     },
-    setRefusing(refusing) { server?.setRefusing(refusing); },
+    setRefusing(refusing) {
+      server?.setRefusing(refusing);
+    },
     reboot(off_s) {
       cabinet.boot();
       egm.boot();
       server?.boot();
       isOff = true;
       stopWaiting();
-      const stop = scheduler.every(off_s, () => { stop(); isOff = false; powered_s = scheduler.now_s(); });
+      const stop = scheduler.every(off_s, () => {
+        stop();
+        isOff = false;
+        powered_s = scheduler.now_s();
+      });
       stopWaiting = stop;
     },
-    close() { stopWaiting(); stopCycle(); server?.close(); socket.close(); neutral.close(); },
+    close() {
+      stopWaiting();
+      stopCycle();
+      server?.close();
+      socket.close();
+      neutral.close();
+    },
   };
   return { kind: "started", controller };
 }

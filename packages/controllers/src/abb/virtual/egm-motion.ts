@@ -1,6 +1,15 @@
 import { degrees, radians, type Robot } from "@twincell/core";
 import type { Address, DatagramSocket } from "../../transport/index.ts";
-import { COMM_TIMEOUT_S, EGM_STATE, MOTORS, RAPID, egmRobotWriter, noEgmRobot, noEgmSensor, readEgmSensor } from "../codec/index.ts";
+import {
+  COMM_TIMEOUT_S,
+  EGM_STATE,
+  MOTORS,
+  RAPID,
+  egmRobotWriter,
+  noEgmRobot,
+  noEgmSensor,
+  readEgmSensor,
+} from "../codec/index.ts";
 
 export interface EgmMotionOptions {
   readonly robot: Robot;
@@ -13,7 +22,8 @@ export interface EgmMotionOptions {
   /** EGM ended by itself, with an error. */
   readonly failed: (because: string) => void;
 }
-const MOST_LOGGED = 100, CONVERGED_DEG = 0.01;
+const MOST_LOGGED = 100;
+const CONVERGED_DEG = 0.01;
 /** Beyond its limit a target is a fault; rounding is none [rad]. */
 const SLACK_RAD = 1e-7;
 
@@ -46,11 +56,17 @@ export class EgmMotion {
     this.wanted_rad_s = new Float64Array(n);
     this.timeout_s = options.commTimeout_s ?? COMM_TIMEOUT_S;
     this.out.axes = n;
-    options.socket.onDatagram((lent, from) => { if (!this.frozen) this.hear(lent, from); });
+    options.socket.onDatagram((lent, from) => {
+      if (!this.frozen) this.hear(lent, from);
+    });
   }
 
-  get isRunning(): boolean { return this.state === EGM_STATE.running; }
-  get hasFailed(): boolean { return this.state === EGM_STATE.error; }
+  get isRunning(): boolean {
+    return this.state === EGM_STATE.running;
+  }
+  get hasFailed(): boolean {
+    return this.state === EGM_STATE.error;
+  }
   /** The robot stays where it is until the first target comes. */
   start(commTimeout_s?: number): void {
     this.state = EGM_STATE.running;
@@ -75,20 +91,30 @@ export class EgmMotion {
     this.target_rad.set(this.q_rad);
     this.wanted_rad_s.fill(0);
   }
-  boot(): void { this.v_rad_s.fill(0); this.sequence = 0; }
+  boot(): void {
+    this.v_rad_s.fill(0);
+    this.sequence = 0;
+  }
 
   /** One cycle of motion towards the target, or of braking. */
   cycle(dt_s: number): void {
-    const { options: { robot, maxSpeed, gain_per_s }, q_rad, v_rad_s } = this, { joints } = robot.arm;
+    const {
+      options: { robot, maxSpeed, gain_per_s },
+      q_rad,
+      v_rad_s,
+    } = this;
+    const { joints } = robot.arm;
     this.silent_s += dt_s;
     if (this.isRunning && this.silent_s > this.timeout_s) this.fail(`No target came for ${this.timeout_s} s.`);
     for (let i = 0; i < q_rad.length; i++) {
-      const { limits } = joints[i]!, most = limits.speed_rad_s * maxSpeed;
+      const { limits } = joints[i]!;
+      const most = limits.speed_rad_s * maxSpeed;
       if (this.isRunning) {
         const to_rad_s = this.wanted_rad_s[i]! + gain_per_s * (this.target_rad[i]! - q_rad[i]!);
         v_rad_s[i] = Math.min(most, Math.max(-most, to_rad_s));
       } else {
-        const less = limits.acceleration_rad_s2 * dt_s, v = v_rad_s[i]!;
+        const less = limits.acceleration_rad_s2 * dt_s;
+        const v = v_rad_s[i]!;
         v_rad_s[i] = Math.abs(v) <= less ? 0 : v - Math.sign(v) * less;
       }
       const q = q_rad[i]! + v_rad_s[i]! * dt_s;
@@ -105,7 +131,10 @@ export class EgmMotion {
     }
     out.sequence = this.sequence++;
     out.time_ms = time_ms;
-    out.motors = this.motorsOn ? MOTORS.on : MOTORS.off; out.state = this.state; out.rapid = this.isRunning ? RAPID.running : RAPID.stopped; out.converged = converged;
+    out.motors = this.motorsOn ? MOTORS.on : MOTORS.off;
+    out.state = this.state;
+    out.rapid = this.isRunning ? RAPID.running : RAPID.stopped;
+    out.converged = converged;
     this.options.socket.send(this.write(out), this.options.to);
   }
 
@@ -114,17 +143,31 @@ export class EgmMotion {
     this.options.failed(because);
   }
   private hear(lent: Uint8Array, from: Address): void {
-    const { heard, options: { robot, log } } = this, { joints } = robot.arm, n = joints.length;
-    const flaw = readEgmSensor(lent, heard) ?? (heard.axes === n ? null : `The target has ${heard.axes} axes; ${robot.name} has ${n}.`);
+    const {
+      heard,
+      options: { robot, log },
+    } = this;
+    const { joints } = robot.arm;
+    const n = joints.length;
+    const flaw =
+      readEgmSensor(lent, heard) ??
+      (heard.axes === n ? null : `The target has ${heard.axes} axes; ${robot.name} has ${n}.`);
     if (flaw !== null) {
       const line = `${from.host}:${from.port}: ${flaw}`;
-      if (this.logged.size < MOST_LOGGED && !this.logged.has(line)) { this.logged.add(line); log(line); }
+      if (this.logged.size < MOST_LOGGED && !this.logged.has(line)) {
+        this.logged.add(line);
+        log(line);
+      }
       return;
     }
     if (!this.isRunning) return;
     for (let i = 0; i < n; i++) {
-      const { lower_rad, upper_rad } = joints[i]!.limits, q = radians(heard.joints_deg[i]!);
-      if (q < lower_rad - SLACK_RAD || q > upper_rad + SLACK_RAD) { this.fail(`Joint ${i + 1} was told to go to ${heard.joints_deg[i]!.toFixed(1)}°, beyond its limit.`); return; }
+      const { lower_rad, upper_rad } = joints[i]!.limits;
+      const q = radians(heard.joints_deg[i]!);
+      if (q < lower_rad - SLACK_RAD || q > upper_rad + SLACK_RAD) {
+        this.fail(`Joint ${i + 1} was told to go to ${heard.joints_deg[i]!.toFixed(1)}°, beyond its limit.`);
+        return;
+      }
     }
     this.silent_s = 0;
     for (let i = 0; i < n; i++) {

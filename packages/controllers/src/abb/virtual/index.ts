@@ -1,1 +1,7 @@
-export { createVirtualAbb, type AbbPendant, type AbbStart, type VirtualAbb, type VirtualAbbOptions } from "./controller.ts";
+export {
+  createVirtualAbb,
+  type AbbPendant,
+  type AbbStart,
+  type VirtualAbb,
+  type VirtualAbbOptions,
+} from "./controller.ts";

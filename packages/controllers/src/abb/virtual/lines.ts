@@ -1,10 +1,16 @@
 import type { VirtualController } from "../../virtual/index.ts";
 
 export type LineKind = "DI" | "DO" | "AI" | "AO";
-export interface Line { readonly name: string; readonly kind: LineKind; readonly value: boolean | number }
+export interface Line {
+  readonly name: string;
+  readonly kind: LineKind;
+  readonly value: boolean | number;
+}
 
 /** The output that closes the gripper, as programs have it. */
-const GRIPPER = "doGripper", EACH = 8, MOST_LINES = 500;
+const GRIPPER = "doGripper";
+const EACH = 8;
+const MOST_LINES = 500;
 
 /** The lines of a controller by the names of its configuration; small and capital letters are the same. A text brings its own with it. */
 export class Lines {
@@ -20,13 +26,24 @@ export class Lines {
     this.add("AO1", "AO");
     this.add(GRIPPER, "DO");
   }
-  private add(name: string, kind: LineKind): void { if (this.known.size < MOST_LINES) this.known.set(name.toUpperCase(), { name, kind }); }
+  private add(name: string, kind: LineKind): void {
+    if (this.known.size < MOST_LINES) this.known.set(name.toUpperCase(), { name, kind });
+  }
 
-  get all(): Line[] { return [...this.known.values()].map(line => this.valued(line)); }
-  find(name: string): Line | undefined { const line = this.known.get(name.toUpperCase()); return line && this.valued(line); }
+  get all(): Line[] {
+    return [...this.known.values()].map(line => this.valued(line));
+  }
+  find(name: string): Line | undefined {
+    const line = this.known.get(name.toUpperCase());
+    return line && this.valued(line);
+  }
   private valued({ name, kind }: { readonly name: string; readonly kind: LineKind }): Line {
     const value = this.arm.signals.read(name);
-    return { name, kind, value: kind.startsWith("D") ? value === true || (typeof value === "number" && value !== 0) : Number(value) };
+    return {
+      name,
+      kind,
+      value: kind.startsWith("D") ? value === true || (typeof value === "number" && value !== 0) : Number(value),
+    };
   }
   /** Why not, or null. */
   write(name: string, value: number): string | null {
@@ -44,9 +61,13 @@ export class Lines {
   }
   /** What the arm says of itself in each of its samples: lines that a text spoke of are there from then on. */
   take(gripperClosed: boolean, signals: ReadonlyMap<string, boolean | number> | undefined): void {
-    if (gripperClosed !== this.closed) { this.closed = gripperClosed; this.arm.signals.write(GRIPPER, gripperClosed); }
+    if (gripperClosed !== this.closed) {
+      this.closed = gripperClosed;
+      this.arm.signals.write(GRIPPER, gripperClosed);
+    }
     if (!signals || signals.size === this.seen) return;
     this.seen = signals.size;
-    for (const [name, value] of signals) if (!this.known.has(name.toUpperCase())) this.add(name, typeof value === "boolean" ? "DO" : "AO");
+    for (const [name, value] of signals)
+      if (!this.known.has(name.toUpperCase())) this.add(name, typeof value === "boolean" ? "DO" : "AO");
   }
 }

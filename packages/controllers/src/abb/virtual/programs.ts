@@ -8,9 +8,14 @@ import type { Cabinet } from "./cabinet.ts";
 export type Execution = "read" | "star" | "stop";
 export type Cycle = "once" | "forever";
 /** Who carries out a module that is guided from outside. */
-export interface Guided { start(commTimeout_s?: number): void; stop(): void }
+export interface Guided {
+  start(commTimeout_s?: number): void;
+  stop(): void;
+}
 
-const MOST_MODULES = 100, NAME = /^\s*MODULE\s+([A-Za-z][A-Za-z0-9_]{0,31})\b/im, MAIN = /^\s*PROC\s+main\s*\(/im;
+const MOST_MODULES = 100;
+const NAME = /^\s*MODULE\s+([A-Za-z][A-Za-z0-9_]{0,31})\b/im;
+const MAIN = /^\s*PROC\s+main\s*\(/im;
 
 /** The modules of the one task, its program pointer, and the text that is being executed. Why something cannot be is a sentence; null when it was done. */
 export class Programs {
@@ -31,19 +36,38 @@ export class Programs {
     this.cabinet = cabinet;
     this.guided = guided;
     this.interpret = interpret;
-    cabinet.speedChanged = () => { this.pace(); };
+    cabinet.speedChanged = () => {
+      this.pace();
+    };
   }
 
-  get execution(): Execution { return this.state; }
-  get isRunning(): boolean { return this.state === "star"; }
+  get execution(): Execution {
+    return this.state;
+  }
+  get isRunning(): boolean {
+    return this.state === "star";
+  }
   /** Whether a text has the arm, also while it is stopped on its way. */
-  get hasArm(): boolean { return this.isOnArm; }
-  get names(): string[] { return [...this.modules.values()].map(({ name }) => name); }
+  get hasArm(): boolean {
+    return this.isOnArm;
+  }
+  get names(): string[] {
+    return [...this.modules.values()].map(({ name }) => name);
+  }
   /** Whether the module with PROC main is one that is guided. */
-  get isGuided(): boolean { const main = this.main; return main !== undefined && isGuided(main.text); }
-  text(name: string): string | undefined { return this.modules.get(name.toUpperCase())?.text; }
-  get texts(): IterableIterator<{ readonly name: string; readonly text: string }> { return this.modules.values(); }
-  private get main(): { readonly name: string; readonly text: string } | undefined { return [...this.modules.values()].find(({ text }) => MAIN.test(text)); }
+  get isGuided(): boolean {
+    const main = this.main;
+    return main !== undefined && isGuided(main.text);
+  }
+  text(name: string): string | undefined {
+    return this.modules.get(name.toUpperCase())?.text;
+  }
+  get texts(): IterableIterator<{ readonly name: string; readonly text: string }> {
+    return this.modules.values();
+  }
+  private get main(): { readonly name: string; readonly text: string } | undefined {
+    return [...this.modules.values()].find(({ text }) => MAIN.test(text));
+  }
 
   load(text: string, replace: boolean): string | null {
     const name = NAME.exec(text)?.[1];
@@ -52,7 +76,8 @@ export class Programs {
     if (this.modules.has(name.toUpperCase()) && !replace) return `The module ${name} is loaded already.`;
     if (this.modules.size >= MOST_MODULES) return "The memory of the task is full.";
     const { main } = this;
-    if (main && main.name.toUpperCase() !== name.toUpperCase() && MAIN.test(text)) return `The module ${main.name} has a PROC main already.`;
+    if (main && main.name.toUpperCase() !== name.toUpperCase() && MAIN.test(text))
+      return `The module ${main.name} has a PROC main already.`;
     this.modules.set(name.toUpperCase(), { name, text });
     this.lose();
     return null;
@@ -64,7 +89,9 @@ export class Programs {
     return null;
   }
   /** A datum of a module has another value; a text that is being executed keeps its own. */
-  change(name: string, text: string): void { this.modules.set(name.toUpperCase(), { name: this.modules.get(name.toUpperCase())?.name ?? name, text }); }
+  change(name: string, text: string): void {
+    this.modules.set(name.toUpperCase(), { name: this.modules.get(name.toUpperCase())?.name ?? name, text });
+  }
 
   /** The program pointer to PROC main. */
   reset(): string | null {
@@ -74,9 +101,12 @@ export class Programs {
     this.lose();
     this.ready = null;
     if (!isGuided(main.text)) {
-      const read = this.interpret([main, ...[...this.modules.values()].filter(module => module !== main)].map(({ text }) => text).join("\n"));
+      const read = this.interpret(
+        [main, ...[...this.modules.values()].filter(module => module !== main)].map(({ text }) => text).join("\n"),
+      );
       if (read.kind === "not-understood") {
-        const [fault] = read.faults, sentence = `${main.name}, line ${fault?.line ?? 1}: ${fault?.sentence ?? "not understood"}`;
+        const [fault] = read.faults;
+        const sentence = `${main.name}, line ${fault?.line ?? 1}: ${fault?.sentence ?? "not understood"}`;
         this.cabinet.log(EVENT.failed, 3, "Program error", sentence);
         return sentence;
       }
@@ -117,13 +147,17 @@ export class Programs {
   }
 
   private begin(): void {
-    const mine = ++this.run, { ready } = this;
+    const mine = ++this.run;
+    const { ready } = this;
     if (!ready) return;
     this.isOnArm = true;
     void this.arm.run(textSteps(() => ready.run(this.arm.signals)).steps, ready.context).then(outcome => {
       if (mine !== this.run) return;
       this.isOnArm = false;
-      if (outcome.kind === "done" && this.cycle === "forever" && this.isRunning) { this.begin(); return; }
+      if (outcome.kind === "done" && this.cycle === "forever" && this.isRunning) {
+        this.begin();
+        return;
+      }
       this.state = outcome.kind === "done" ? "read" : "stop";
       this.isPointed = outcome.kind === "done";
       if (outcome.kind === "done") this.cabinet.log(EVENT.ready, 1, "Program stopped", "The task is ready.");
@@ -138,5 +172,7 @@ export class Programs {
     if (this.state === "star") this.state = "stop";
     this.pace();
   }
-  private pace(): void { this.arm.setSpeed(this.isOnArm && !this.isRunning ? 0 : this.cabinet.speedRatio); }
+  private pace(): void {
+    this.arm.setSpeed(this.isOnArm && !this.isRunning ? 0 : this.cabinet.speedRatio);
+  }
 }

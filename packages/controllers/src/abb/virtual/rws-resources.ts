@@ -11,97 +11,194 @@ import { dataOf, withValue } from "./symbols.ts";
 
 /** What the resources tell of. */
 export interface ResourceOptions {
-  readonly robot: Robot; readonly model: string; readonly q_rad: () => ArrayLike<number>;
-  readonly cabinet: Cabinet; readonly programs: Programs; readonly files: Files; readonly lines: Lines;
+  readonly robot: Robot;
+  readonly model: string;
+  readonly q_rad: () => ArrayLike<number>;
+  readonly cabinet: Cabinet;
+  readonly programs: Programs;
+  readonly files: Files;
+  readonly lines: Lines;
 }
 /** What is said to a request: states, a file, a refusal in words, or nothing more than a status. */
-export interface Answer { readonly status: number; readonly states?: readonly RwsState[]; readonly file?: Uint8Array; readonly refusal?: string; readonly code?: number }
+export interface Answer {
+  readonly status: number;
+  readonly states?: readonly RwsState[];
+  readonly file?: Uint8Array;
+  readonly refusal?: string;
+  readonly code?: number;
+}
 type Form = ReadonlyMap<string, string>;
 
 const DONE: Answer = { status: 204 };
-const no = (status: number, refusal: string, code?: number): Answer => ({ status, refusal, ...(code === undefined ? {} : { code }) });
+const no = (status: number, refusal: string, code?: number): Answer => ({
+  status,
+  refusal,
+  ...(code === undefined ? {} : { code }),
+});
 const states = (...of: RwsState[]): Answer => ({ status: 200, states: of });
-const state = (type: string, title: string, fields: Readonly<Record<string, string | number>>): RwsState => ({ type, title, fields: Object.fromEntries(Object.entries(fields).map(([name, value]) => [name, String(value)])) });
+const state = (type: string, title: string, fields: Readonly<Record<string, string | number>>): RwsState => ({
+  type,
+  title,
+  fields: Object.fromEntries(Object.entries(fields).map(([name, value]) => [name, String(value)])),
+});
 /** Null is well. */
-const orRefused = (why: string | null): Answer => why === null ? DONE : no(403, why);
+const orRefused = (why: string | null): Answer => (why === null ? DONE : no(403, why));
 
 /** The resources of a controller: `answer(session, request)`. What needs a person's or another client's leave is refused without it. */
-export function createResources(options: ResourceOptions, sessions: Sessions): (session: Session, request: HttpRequest) => Answer {
+export function createResources(
+  options: ResourceOptions,
+  sessions: Sessions,
+): (session: Session, request: HttpRequest) => Answer {
   const { cabinet, programs, files, lines, robot } = options;
 
   /** Why this client may not write; null when it may. */
   function unwritable(session: Session, domain?: Domain): Answer | null {
-    if (cabinet.key !== "AUTO" && sessions.remoteOf(session) !== "GRANTED") return no(403, "In manual mode writing needs the leave of the person at the pendant (users/rmmp).");
-    return domain && sessions.isHeldByOther(domain, session) ? no(403, `Another client holds the mastership of ${domain}.`) : null;
+    if (cabinet.key !== "AUTO" && sessions.remoteOf(session) !== "GRANTED")
+      return no(403, "In manual mode writing needs the leave of the person at the pendant (users/rmmp).");
+    return domain && sessions.isHeldByOther(domain, session)
+      ? no(403, `Another client holds the mastership of ${domain}.`)
+      : null;
   }
 
   function panel(session: Session, name: string, action: string, form: Form | null): Answer {
     if (!form) {
       switch (name) {
-        case "ctrlstate": return states(state("pnl-ctrlstate", "ctrlstate", { ctrlstate: cabinet.state }));
-        case "opmode": return states(state("pnl-opmode", "opmode", { opmode: cabinet.key }));
-        case "speedratio": return states(state("pnl-speedratio", "speedratio", { speedratio: cabinet.speedRatio }));
-        default: return no(404, `The panel has no ${name}.`);
+        case "ctrlstate":
+          return states(state("pnl-ctrlstate", "ctrlstate", { ctrlstate: cabinet.state }));
+        case "opmode":
+          return states(state("pnl-opmode", "opmode", { opmode: cabinet.key }));
+        case "speedratio":
+          return states(state("pnl-speedratio", "speedratio", { speedratio: cabinet.speedRatio }));
+        default:
+          return no(404, `The panel has no ${name}.`);
       }
     }
     if (action === "setctrlstate" && name === "ctrlstate") {
       const to = form.get("ctrl-state");
       // Anyone may stop.
-      if (to === "motoroff") { cabinet.motorsOff("The motors were switched off from outside."); return DONE; }
+      if (to === "motoroff") {
+        cabinet.motorsOff("The motors were switched off from outside.");
+        return DONE;
+      }
       if (to !== "motoron") return no(400, "ctrl-state is motoron or motoroff.");
       return unwritable(session) ?? orRefused(cabinet.switchOn());
     }
     if (action === "setspeedratio" && name === "speedratio") {
-      const text = form.get("speed-ratio") ?? "", percent = Number(text);
-      return unwritable(session) ?? (text.trim() !== "" && cabinet.setSpeedRatio(percent) ? DONE : no(400, "speed-ratio is a number from 0 to 100."));
+      const text = form.get("speed-ratio") ?? "";
+      const percent = Number(text);
+      return (
+        unwritable(session) ??
+        (text.trim() !== "" && cabinet.setSpeedRatio(percent)
+          ? DONE
+          : no(400, "speed-ratio is a number from 0 to 100."))
+      );
     }
     return no(405, `There is no action ${action} of ${name}.`);
   }
 
   function execution(session: Session, action: string, form: Form | null): Answer {
-    if (!form) return states(state("rap-execution", "execution", { ctrlexecstate: programs.isRunning ? "running" : "stopped", cycle: programs.cycle }));
-    if (action === "stop") { if (form.get("stopmode") === "qstop") programs.interrupted("The program was stopped quickly from outside."); else programs.stop(); return DONE; }
+    if (!form)
+      return states(
+        state("rap-execution", "execution", {
+          ctrlexecstate: programs.isRunning ? "running" : "stopped",
+          cycle: programs.cycle,
+        }),
+      );
+    if (action === "stop") {
+      if (form.get("stopmode") === "qstop") programs.interrupted("The program was stopped quickly from outside.");
+      else programs.stop();
+      return DONE;
+    }
     const why = unwritable(session, "rapid");
     if (why) return why;
     if (action === "resetpp") return orRefused(programs.reset());
     const cycle = form.get("cycle");
-    return action === "start" ? orRefused(programs.start(cycle === "once" || cycle === "forever" ? cycle : null)) : no(405, `There is no action ${action} of the execution.`);
+    return action === "start"
+      ? orRefused(programs.start(cycle === "once" || cycle === "forever" ? cycle : null))
+      : no(405, `There is no action ${action} of the execution.`);
   }
 
   function rapid(session: Session, path: readonly string[], action: string, form: Form | null): Answer {
     switch (path[0]) {
-      case "execution": return execution(session, action, form);
-      case "tasks": return path.length === 1 ? task() : path[1]?.toUpperCase() === TASK ? task(session, action, form) : no(404, `There is no task ${path[1]}.`);
-      case "modules": return states(...programs.names.map(name => state("rap-module-info-li", name, { name, type: "ProgMod" })));
-      case "symbols": return form && action === "search-symbols" ? symbols(form) : no(405, "Symbols are searched by the action search-symbols.");
-      case "symbol": return path[1] === "data" && path[2]?.toUpperCase() === "RAPID" ? datum(session, path.slice(3), form) : no(404, "There is no such symbol.");
-      default: return no(404, `RAPID has no ${path[0] ?? "such resource"}.`);
+      case "execution":
+        return execution(session, action, form);
+      case "tasks":
+        return path.length === 1
+          ? task()
+          : path[1]?.toUpperCase() === TASK
+            ? task(session, action, form)
+            : no(404, `There is no task ${path[1]}.`);
+      case "modules":
+        return states(...programs.names.map(name => state("rap-module-info-li", name, { name, type: "ProgMod" })));
+      case "symbols":
+        return form && action === "search-symbols"
+          ? symbols(form)
+          : no(405, "Symbols are searched by the action search-symbols.");
+      case "symbol":
+        return path[1] === "data" && path[2]?.toUpperCase() === "RAPID"
+          ? datum(session, path.slice(3), form)
+          : no(404, "There is no such symbol.");
+      default:
+        return no(404, `RAPID has no ${path[0] ?? "such resource"}.`);
     }
   }
   function task(session?: Session, action = "", form: Form | null = null): Answer {
-    if (!session || !form) return states(state(session ? "rap-task" : "rap-task-li", TASK, { name: TASK, type: "norm", taskstate: "link", excstate: programs.execution, active: "On", motiontask: "TRUE" }));
+    if (!session || !form)
+      return states(
+        state(session ? "rap-task" : "rap-task-li", TASK, {
+          name: TASK,
+          type: "norm",
+          taskstate: "link",
+          excstate: programs.execution,
+          active: "On",
+          motiontask: "TRUE",
+        }),
+      );
     if (action === "activate") return DONE;
     if (action === "deactivate") return no(403, "The only task is not switched off.");
     const why = unwritable(session, "rapid");
     if (why) return why;
     if (action === "unloadmod") return orRefused(programs.unload(form.get("module") ?? ""));
     if (action !== "loadmod") return no(405, `There is no action ${action} of a task.`);
-    const place = Files.place((form.get("modulepath") ?? "").split("/").filter(part => part !== "")), bytes = place && files.read(place);
-    return bytes ? orRefused(programs.load(latin1Text(bytes), form.get("replace") === "true")) : no(404, `There is no file ${form.get("modulepath") ?? ""}.`);
+    const place = Files.place((form.get("modulepath") ?? "").split("/").filter(part => part !== ""));
+    const bytes = place && files.read(place);
+    return bytes
+      ? orRefused(programs.load(latin1Text(bytes), form.get("replace") === "true"))
+      : no(404, `There is no file ${form.get("modulepath") ?? ""}.`);
   }
   function symbols(form: Form): Answer {
     const kind = form.get("symtyp") ?? "per";
-    return states(...[...programs.texts].flatMap(({ name, text }) => dataOf(text).filter(each => kind === "any" || each.kind === kind)
-      .map(each => state("rap-symproppers-li", `RAPID/${TASK}/${name}/${each.name}`, { symburl: `RAPID/${TASK}/${name}/${each.name}`, name: each.name, symtyp: each.kind, dattyp: each.type }))));
+    return states(
+      ...[...programs.texts].flatMap(({ name, text }) =>
+        dataOf(text)
+          .filter(each => kind === "any" || each.kind === kind)
+          .map(each =>
+            state("rap-symproppers-li", `RAPID/${TASK}/${name}/${each.name}`, {
+              symburl: `RAPID/${TASK}/${name}/${each.name}`,
+              name: each.name,
+              symtyp: each.kind,
+              dattyp: each.type,
+            }),
+          ),
+      ),
+    );
   }
   /** `task/module/name`, or `task/name` where the name is that of one module only. */
   function datum(session: Session, path: readonly string[], form: Form | null): Answer {
-    const [, ...below] = path, name = below.at(-1) ?? "", found = [...programs.texts].filter(module => below.length < 2 || module.name.toUpperCase() === below[0]!.toUpperCase())
-      .flatMap(module => dataOf(module.text).filter(each => each.name.toUpperCase() === name.toUpperCase()).map(each => ({ module, each })))[0];
+    const [, ...below] = path;
+    const name = below.at(-1) ?? "";
+    const found = [...programs.texts]
+      .filter(module => below.length < 2 || module.name.toUpperCase() === below[0]!.toUpperCase())
+      .flatMap(module =>
+        dataOf(module.text)
+          .filter(each => each.name.toUpperCase() === name.toUpperCase())
+          .map(each => ({ module, each })),
+      )[0];
     if (path[0]?.toUpperCase() !== TASK || !found) return no(404, `There is no datum ${path.join("/")}.`);
     const { module, each } = found;
     if (!form) return states(state("rap-data", `RAPID/${TASK}/${module.name}/${each.name}`, { value: each.value }));
-    const why = unwritable(session, "rapid"), value = form.get("value") ?? "";
+    const why = unwritable(session, "rapid");
+    const value = form.get("value") ?? "";
     if (why) return why;
     if (each.kind === "con") return no(403, `${each.name} is a constant.`);
     const text = withValue(module.text, each, value);
@@ -112,79 +209,168 @@ export function createResources(options: ResourceOptions, sessions: Sessions): (
 
   function motion(path: readonly string[]): Answer {
     if (path[0] !== "mechunits" || path[1]?.toUpperCase() !== UNIT) return no(404, "There is no such mechanical unit.");
-    const q_rad = options.q_rad(), external = (i: number): number => 6 + i < q_rad.length ? degrees(q_rad[6 + i]!) : NO_AXIS;
+    const q_rad = options.q_rad();
+    const external = (i: number): number => (6 + i < q_rad.length ? degrees(q_rad[6 + i]!) : NO_AXIS);
     if (path[2] === "jointtarget") {
-      return states(state("ms-jointtarget", UNIT, {
-        ...Object.fromEntries(ROBOT_AXES.map((name, i) => [name, i < q_rad.length ? degrees(q_rad[i]!) : NO_AXIS])), ...Object.fromEntries(EXTERNAL_AXES.map((name, i) => [name, external(i)])),
-      }));
+      return states(
+        state("ms-jointtarget", UNIT, {
+          ...Object.fromEntries(ROBOT_AXES.map((name, i) => [name, i < q_rad.length ? degrees(q_rad[i]!) : NO_AXIS])),
+          ...Object.fromEntries(EXTERNAL_AXES.map((name, i) => [name, external(i)])),
+        }),
+      );
     }
     if (path[2] !== "robtarget") return no(404, "Of a mechanical unit there are jointtarget and robtarget.");
-    const { position: [x, y, z], quaternion: [qx, qy, qz, qw] } = flangePose(robot.arm, q_rad), quarter = (i: number): number => Math.floor((q_rad[i] ?? 0) / (Math.PI / 2));
-    return states(state("ms-robtargets", UNIT, {
-      x: x * 1000, y: y * 1000, z: z * 1000, q1: qw, q2: qx, q3: qy, q4: qz, cf1: quarter(0), cf4: quarter(3), cf6: quarter(5), cfx: 0,
-      eaxa: external(0), eaxb: external(1), eaxc: external(2), eaxd: external(3), eaxe: external(4), eaxf: external(5),
-    }));
+    const {
+      position: [x, y, z],
+      quaternion: [qx, qy, qz, qw],
+    } = flangePose(robot.arm, q_rad);
+    const quarter = (i: number): number => Math.floor((q_rad[i] ?? 0) / (Math.PI / 2));
+    return states(
+      state("ms-robtargets", UNIT, {
+        x: x * 1000,
+        y: y * 1000,
+        z: z * 1000,
+        q1: qw,
+        q2: qx,
+        q3: qy,
+        q4: qz,
+        cf1: quarter(0),
+        cf4: quarter(3),
+        cf6: quarter(5),
+        cfx: 0,
+        eaxa: external(0),
+        eaxb: external(1),
+        eaxc: external(2),
+        eaxd: external(3),
+        eaxe: external(4),
+        eaxf: external(5),
+      }),
+    );
   }
 
-  const told = ({ name, kind, value }: Line): RwsState => state("ios-signal-li", name, { name, type: kind, category: "", lvalue: Number(value), lstate: "not simulated" });
+  const told = ({ name, kind, value }: Line): RwsState =>
+    state("ios-signal-li", name, { name, type: kind, category: "", lvalue: Number(value), lstate: "not simulated" });
   /** `signals`, `signals/name`, or with a network and a unit in between. */
   function signals(session: Session, path: readonly string[], form: Form | null): Answer {
     if (path[0] !== "signals") return no(404, "The I/O system has signals.");
-    const name = path.at(-1)!, line = lines.find(name);
+    const name = path.at(-1)!;
+    const line = lines.find(name);
     if (path.length === 1) return states(...lines.all.map(told));
     if (!line) return no(404, `There is no signal ${name}.`);
     if (!form) return states({ ...told(line), type: "ios-signal" });
-    const text = form.get("lvalue") ?? "", value = Number(text);
-    return unwritable(session) ?? (text.trim() === "" || !Number.isFinite(value) ? no(400, "lvalue is a number.") : orRefused(lines.write(name, value)));
+    const text = form.get("lvalue") ?? "";
+    const value = Number(text);
+    return (
+      unwritable(session) ??
+      (text.trim() === "" || !Number.isFinite(value)
+        ? no(400, "lvalue is a number.")
+        : orRefused(lines.write(name, value)))
+    );
   }
 
   function mastership(session: Session, path: readonly string[], action: string, form: Form | null): Answer {
     const asked = path.length === 0 ? DOMAINS : DOMAINS.filter(domain => domain === path[0]);
     if (asked.length === 0) return no(404, "Domains of mastership are cfg, motion and rapid.");
-    if (!form) return states(...asked.map(domain => state("msh-resource-li", domain, { mastership: sessions.masterOf(domain) ? "remote" : "nomaster" })));
-    if (action === "release") { for (const domain of asked) sessions.release(domain, session); return DONE; }
+    if (!form)
+      return states(
+        ...asked.map(domain =>
+          state("msh-resource-li", domain, { mastership: sessions.masterOf(domain) ? "remote" : "nomaster" }),
+        ),
+      );
+    if (action === "release") {
+      for (const domain of asked) sessions.release(domain, session);
+      return DONE;
+    }
     if (action !== "request") return no(405, `There is no action ${action} of mastership.`);
     if (cabinet.key !== "AUTO" && sessions.remoteOf(session) !== "GRANTED") return unwritable(session)!;
-    return asked.some(domain => sessions.isHeldByOther(domain, session)) ? no(403, "Another client holds it.", RWS_CODE.exists) : asked.every(domain => sessions.request(domain, session)) ? DONE : no(403, "Another client holds it.");
+    return asked.some(domain => sessions.isHeldByOther(domain, session))
+      ? no(403, "Another client holds it.", RWS_CODE.exists)
+      : asked.every(domain => sessions.request(domain, session))
+        ? DONE
+        : no(403, "Another client holds it.");
   }
 
   function users(session: Session, path: readonly string[], form: Form | null): Answer {
     if (path[0] !== "rmmp") return no(404, "Of users there is rmmp.");
-    if (form) { sessions.askRemote(session); return { status: 202 }; }
+    if (form) {
+      sessions.askRemote(session);
+      return { status: 202 };
+    }
     const status = cabinet.key === "AUTO" ? "GRANTED" : sessions.remoteOf(session);
-    return states(state(path[1] === "poll" ? "user-rmmp-poll" : "user-rmmp", "rmmp", { status, privilege: status === "GRANTED" ? "modify" : "none" }));
+    return states(
+      state(path[1] === "poll" ? "user-rmmp-poll" : "user-rmmp", "rmmp", {
+        status,
+        privilege: status === "GRANTED" ? "modify" : "none",
+      }),
+    );
   }
 
   function file(method: string, path: readonly string[], body: Uint8Array): Answer {
-    if (path.length === 0) return method === "GET" ? states(...FOLDERS.map(name => state("fs-dir", name, {}))) : no(405, "Files are in folders.");
+    if (path.length === 0)
+      return method === "GET"
+        ? states(...FOLDERS.map(name => state("fs-dir", name, {})))
+        : no(405, "Files are in folders.");
     const place = Files.place(path);
     if (!place) return no(404, `There is no place ${path.join("/")}.`);
-    if (method === "PUT") { const isNew = place.length > 1 ? files.write(place, body) : null; return isNew === null ? no(403, "The disk is full, or this is a folder.") : { status: isNew ? 201 : 200 }; }
+    if (method === "PUT") {
+      const isNew = place.length > 1 ? files.write(place, body) : null;
+      return isNew === null ? no(403, "The disk is full, or this is a folder.") : { status: isNew ? 201 : 200 };
+    }
     if (method === "DELETE") return files.remove(place) ? DONE : no(404, `There is no file ${path.join("/")}.`);
-    const bytes = files.read(place), list = bytes ? null : files.list(place);
+    const bytes = files.read(place);
+    const list = bytes ? null : files.list(place);
     if (bytes) return { status: 200, file: bytes };
-    return list ? states(...[...list].map(([name, size]) => state(size < 0 ? "fs-dir" : "fs-file", name, size < 0 ? {} : { "fs-size": size }))) : no(404, `There is no file ${path.join("/")}.`);
+    return list
+      ? states(
+          ...[...list].map(([name, size]) =>
+            state(size < 0 ? "fs-dir" : "fs-file", name, size < 0 ? {} : { "fs-size": size }),
+          ),
+        )
+      : no(404, `There is no file ${path.join("/")}.`);
   }
 
   return (session, { method, target, body }) => {
-    const read = readTarget(target), form = method === "POST" ? readForm(latin1Text(body)) : null;
+    const read = readTarget(target);
+    const form = method === "POST" ? readForm(latin1Text(body)) : null;
     if (!read || (method === "POST" && !form)) return no(400, "An escape in the request is broken.");
-    const [first = "", second = "", ...rest] = read.path, action = read.query.get("action") ?? "";
-    if (first === "fileservice") return ["GET", "PUT", "DELETE"].includes(method) ? file(method, read.path.slice(1), body) : no(405, "Files are read, put and deleted.");
+    const [first = "", second = "", ...rest] = read.path;
+    const action = read.query.get("action") ?? "";
+    if (first === "fileservice")
+      return ["GET", "PUT", "DELETE"].includes(method)
+        ? file(method, read.path.slice(1), body)
+        : no(405, "Files are read, put and deleted.");
     if (method !== "GET" && method !== "POST") return no(405, `${method} is not for this resource.`);
-    if (first === "logout") { sessions.end(session); return { status: 200, states: [] }; }
+    if (first === "logout") {
+      sessions.end(session);
+      return { status: 200, states: [] };
+    }
     if (first === "users") return users(session, read.path.slice(1), form);
-    if (first === "ctrl") return second.startsWith("$") ? states(state("ctrl-env", second, { _value: second })) : states(state("ctrl", "ctrl", { "ctrl-name": "VIRTUAL", "ctrl-type": "Virtual Controller" }));
+    if (first === "ctrl")
+      return second.startsWith("$")
+        ? states(state("ctrl-env", second, { _value: second }))
+        : states(state("ctrl", "ctrl", { "ctrl-name": "VIRTUAL", "ctrl-type": "Virtual Controller" }));
     if (first !== "rw") return no(404, `There is no resource ${first}.`);
     switch (second) {
-      case "panel": return panel(session, rest[0] ?? "", action, form);
-      case "rapid": return rapid(session, rest, action, form);
-      case "motionsystem": return motion(rest);
-      case "iosystem": return signals(session, rest, form);
-      case "mastership": return mastership(session, rest, action, form);
-      case "system": return rest[0] === "robottype" ? states(state("sys-robottype", "1", { "robot-type": options.model })) : states(state("sys-system", "system", { name: "VIRTUAL", rwversion: "6.15.0000" }));
-      case "elog": return rest[0] === "0" ? states(...eventStates(cabinet.events)) : states(state("elog-domain-li", "0", { "domain-name": "Common", numevts: cabinet.events.length }));
-      default: return no(404, `There is no resource rw/${second}.`);
+      case "panel":
+        return panel(session, rest[0] ?? "", action, form);
+      case "rapid":
+        return rapid(session, rest, action, form);
+      case "motionsystem":
+        return motion(rest);
+      case "iosystem":
+        return signals(session, rest, form);
+      case "mastership":
+        return mastership(session, rest, action, form);
+      case "system":
+        return rest[0] === "robottype"
+          ? states(state("sys-robottype", "1", { "robot-type": options.model }))
+          : states(state("sys-system", "system", { name: "VIRTUAL", rwversion: "6.15.0000" }));
+      case "elog":
+        return rest[0] === "0"
+          ? states(...eventStates(cabinet.events))
+          : states(state("elog-domain-li", "0", { "domain-name": "Common", numevts: cabinet.events.length }));
+      default:
+        return no(404, `There is no resource rw/${second}.`);
     }
   };
 }

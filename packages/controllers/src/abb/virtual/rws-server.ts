@@ -1,43 +1,95 @@
 import type { Scheduler } from "@twincell/core";
-import { challengeText, fieldOf, hasWord, isAuthorized, md5Hex, RequestReader, responseBytes, type Challenge, type Fields, type HttpRequest } from "../../http/index.ts";
+import {
+  challengeText,
+  fieldOf,
+  hasWord,
+  isAuthorized,
+  md5Hex,
+  RequestReader,
+  responseBytes,
+  type Challenge,
+  type Fields,
+  type HttpRequest,
+} from "../../http/index.ts";
 import type { ByteStream, Listening, Network } from "../../transport/index.ts";
 import { RWS_CODE, RWS_LOGIN, RWS_REALM, SESSION_COOKIES, errorJson, statesHtml, statesJson } from "../codec/index.ts";
 import { createResources, type Answer, type ResourceOptions } from "./rws-resources.ts";
 import { Sessions } from "./sessions.ts";
 
 export interface RwsServerOptions extends ResourceOptions {
-  readonly network: Network; readonly host: string; readonly port: number; readonly scheduler: Scheduler; readonly log: (sentence: string) => void;
+  readonly network: Network;
+  readonly host: string;
+  readonly port: number;
+  readonly scheduler: Scheduler;
+  readonly log: (sentence: string) => void;
   readonly isOff: () => boolean;
 }
-export interface RwsServer { readonly listening: Listening; grantRemote(granted: boolean): void; /** Off and on again: everybody has to log in anew. */ boot(): void; close(): void;
+export interface RwsServer {
+  readonly listening: Listening;
+  grantRemote(granted: boolean): void /** Off and on again: everybody has to log in anew. */;
+  boot(): void;
+  close(): void;
   /** Those that are connected are cut and nobody is let in, while it is true. */
   setRefusing(refusing: boolean): void;
 }
 
-const MOST_CLIENTS = 100, MOST_WAITING = 8_000_000, MOST_LOGGED = 100;
+const MOST_CLIENTS = 100;
+const MOST_WAITING = 8_000_000;
+const MOST_LOGGED = 100;
 /** A connection carries so many requests; the client opens another one then. */
 const MOST_REQUESTS = 400;
-const REASONS: Readonly<Record<number, string>> = { 200: "OK", 201: "Created", 202: "Accepted", 204: "No Content", 400: "Bad Request", 401: "Unauthorized", 403: "Forbidden", 404: "Not Found", 405: "Method Not Allowed", 503: "Service Unavailable" };
+const REASONS: Readonly<Record<number, string>> = {
+  200: "OK",
+  201: "Created",
+  202: "Accepted",
+  204: "No Content",
+  400: "Bad Request",
+  401: "Unauthorized",
+  403: "Forbidden",
+  404: "Not Found",
+  405: "Method Not Allowed",
+  503: "Service Unavailable",
+};
 
 /** Robot Web Services of a virtual controller. Whoever sends what is no request is logged once and cut off. */
 export async function serveRws(options: RwsServerOptions): Promise<RwsServer> {
-  const { scheduler, host, isOff } = options, open = new Set<ByteStream>(), logged = new Set<string>(), sessions = new Sessions(() => scheduler.now_s()), resources = createResources(options, sessions);
-  const challenge: Challenge = { realm: RWS_REALM, nonce: md5Hex(`${host}:${options.port}:${scheduler.now_s()}`), opaque: "8798", counted: true };
+  const { scheduler, host, isOff } = options;
+  const open = new Set<ByteStream>();
+  const logged = new Set<string>();
+  const sessions = new Sessions(() => scheduler.now_s());
+  const resources = createResources(options, sessions);
+  const challenge: Challenge = {
+    realm: RWS_REALM,
+    nonce: md5Hex(`${host}:${options.port}:${scheduler.now_s()}`),
+    opaque: "8798",
+    counted: true,
+  };
   let refusing = false;
 
   function accept(stream: ByteStream): void {
-    if (open.size >= MOST_CLIENTS || refusing || isOff()) { stream.close(); return; }
+    if (open.size >= MOST_CLIENTS || refusing || isOff()) {
+      stream.close();
+      return;
+    }
     open.add(stream);
     const reader = new RequestReader();
     let asked = 0;
-    const end = (): void => { open.delete(stream); stream.close(); };
-    stream.onEnd(() => { open.delete(stream); });
+    const end = (): void => {
+      open.delete(stream);
+      stream.close();
+    };
+    stream.onEnd(() => {
+      open.delete(stream);
+    });
     stream.onBytes(lent => {
       if (!open.has(stream)) return;
       const why = reader.push(lent, request => {
         const last = ++asked >= MOST_REQUESTS || hasWord(fieldOf(request, "connection"), "close");
         answer(stream, request, last);
-        if (stream.waiting > MOST_WAITING) { note(stream, "Answers are not read."); end(); }
+        if (stream.waiting > MOST_WAITING) {
+          note(stream, "Answers are not read.");
+          end();
+        }
         if (last) end();
         return open.has(stream);
       });
@@ -49,38 +101,89 @@ export async function serveRws(options: RwsServerOptions): Promise<RwsServer> {
   }
   function note(stream: ByteStream, sentence: string): void {
     const line = `${stream.peer.host}: ${sentence} The connection is reset.`;
-    if (logged.size < MOST_LOGGED && !logged.has(line)) { logged.add(line); options.log(line); }
+    if (logged.size < MOST_LOGGED && !logged.has(line)) {
+      logged.add(line);
+      options.log(line);
+    }
   }
 
   function answer(stream: ByteStream, request: HttpRequest, last: boolean): void {
     const send = (status: number, fields: Fields, body?: Uint8Array): void => {
-      stream.send(responseBytes({ status, reason: REASONS[status] ?? "", fields: [["server", "Twincell virtual controller"], ...fields, ...(last ? [["connection", "close"]] as const : [])], ...(body ? { body } : {}) }));
+      stream.send(
+        responseBytes({
+          status,
+          reason: REASONS[status] ?? "",
+          fields: [
+            ["server", "Twincell virtual controller"],
+            ...fields,
+            ...(last ? ([["connection", "close"]] as const) : []),
+          ],
+          ...(body ? { body } : {}),
+        }),
+      );
     };
     let session = sessions.find(fieldOf(request, "cookie"));
     const fields: (readonly [string, string])[] = [];
     if (!session) {
-      if (!isAuthorized(fieldOf(request, "authorization"), RWS_LOGIN, challenge, request.method, request.target)) { send(401, [["www-authenticate", challengeText(challenge)]]); return; }
+      if (!isAuthorized(fieldOf(request, "authorization"), RWS_LOGIN, challenge, request.method, request.target)) {
+        send(401, [["www-authenticate", challengeText(challenge)]]);
+        return;
+      }
       session = sessions.begin();
-      if (!session) { send(503, []); return; }
+      if (!session) {
+        send(503, []);
+        return;
+      }
       for (const name of SESSION_COOKIES) fields.push(["set-cookie", `${name}=${session.id}; path=/; httponly`]);
     }
     const { status, body, type } = written(resources(session, request), request.target);
-    send(status, [...fields, ...(status === 204 ? [] : [["content-type", type]] as const)], body);
+    send(status, [...fields, ...(status === 204 ? [] : ([["content-type", type]] as const))], body);
   }
-  function written(given: Answer, target: string): { readonly status: number; readonly body?: Uint8Array; readonly type: string } {
+  function written(
+    given: Answer,
+    target: string,
+  ): { readonly status: number; readonly body?: Uint8Array; readonly type: string } {
     const isJson = /[?&]json=1(?:&|$)/.test(target);
     if (given.file) return { status: given.status, body: given.file, type: "application/octet-stream" };
-    if (given.refusal !== undefined) return { status: given.status, body: errorJson(given.code ?? RWS_CODE.refused, given.refusal), type: "application/json" };
+    if (given.refusal !== undefined)
+      return {
+        status: given.status,
+        body: errorJson(given.code ?? RWS_CODE.refused, given.refusal),
+        type: "application/json",
+      };
     if (!given.states) return { status: given.status, type: "application/xhtml+xml;v=1.0" };
-    return isJson ? { status: given.status, body: statesJson(given.states, `http://${host}${target.split("?")[0]!}`), type: "application/json" } : { status: given.status, body: statesHtml(given.states), type: "application/xhtml+xml;v=1.0" };
+    return isJson
+      ? {
+          status: given.status,
+          body: statesJson(given.states, `http://${host}${target.split("?")[0]!}`),
+          type: "application/json",
+        }
+      : { status: given.status, body: statesHtml(given.states), type: "application/xhtml+xml;v=1.0" };
   }
 
-  const listening = await options.network.listen({ host, port: options.port }, accept), cut = (): void => { for (const stream of [...open]) { open.delete(stream); stream.close(); } };
+  const listening = await options.network.listen({ host, port: options.port }, accept);
+  const cut = (): void => {
+    for (const stream of [...open]) {
+      open.delete(stream);
+      stream.close();
+    }
+  };
   return {
     listening,
-    boot() { cut(); sessions.clear(); },
-    setRefusing(is) { refusing = is; if (is) cut(); },
-    grantRemote(granted) { sessions.answerRemote(granted); },
-    close() { if (listening.kind === "listening") listening.close(); cut(); },
+    boot() {
+      cut();
+      sessions.clear();
+    },
+    setRefusing(is) {
+      refusing = is;
+      if (is) cut();
+    },
+    grantRemote(granted) {
+      sessions.answerRemote(granted);
+    },
+    close() {
+      if (listening.kind === "listening") listening.close();
+      cut();
+    },
   };
 }

@@ -1,14 +1,31 @@
-export interface Datum { readonly kind: "con" | "var" | "per"; readonly type: string; readonly name: string; readonly value: string; /** Where the value stands in the text; both the same where it has none. */ readonly from: number; readonly to: number }
+export interface Datum {
+  readonly kind: "con" | "var" | "per";
+  readonly type: string;
+  readonly name: string;
+  readonly value: string /** Where the value stands in the text; both the same where it has none. */;
+  readonly from: number;
+  readonly to: number;
+}
 
 const KIND = { CONST: "con", VAR: "var", PERS: "per" } as const;
-const DECLARED = /^[ \t]*(?:(?:LOCAL|TASK)[ \t]+)?(CONST|VAR|PERS)[ \t]+([A-Za-z][A-Za-z0-9_]{0,31})[ \t]+([A-Za-z][A-Za-z0-9_]{0,31})(?:[ \t]*\{[0-9, ]{1,20}\})?[ \t]*(?::=[ \t]*([^;\r\n]{0,4000}))?;/gim;
+const DECLARED =
+  /^[ \t]*(?:(?:LOCAL|TASK)[ \t]+)?(CONST|VAR|PERS)[ \t]+([A-Za-z][A-Za-z0-9_]{0,31})[ \t]+([A-Za-z][A-Za-z0-9_]{0,31})(?:[ \t]*\{[0-9, ]{1,20}\})?[ \t]*(?::=[ \t]*([^;\r\n]{0,4000}))?;/gim;
 
 /** The data that a module declares, in front of its routines. */
 export function dataOf(text: string): Datum[] {
-  const end = text.search(/^[ \t]*(?:LOCAL[ \t]+)?(?:PROC|FUNC|TRAP)\b/im), head = end < 0 ? text : text.slice(0, end);
+  const end = text.search(/^[ \t]*(?:LOCAL[ \t]+)?(?:PROC|FUNC|TRAP)\b/im);
+  const head = end < 0 ? text : text.slice(0, end);
   return [...head.matchAll(DECLARED)].map(match => {
-    const [whole, kind, type, name, value] = match, to = match.index + whole.length - 1;
-    return { kind: KIND[kind!.toUpperCase() as keyof typeof KIND], type: type!, name: name!, value: (value ?? "").trim(), from: value === undefined ? to : to - value.length, to };
+    const [whole, kind, type, name, value] = match;
+    const to = match.index + whole.length - 1;
+    return {
+      kind: KIND[kind!.toUpperCase() as keyof typeof KIND],
+      type: type!,
+      name: name!,
+      value: (value ?? "").trim(),
+      from: value === undefined ? to : to - value.length,
+      to,
+    };
   });
 }
 

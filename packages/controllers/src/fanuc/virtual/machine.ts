@@ -24,10 +24,18 @@ export class FanucMachine {
     this.arm = arm;
     this.changed = changed;
   }
-  get key(): FanucKey { return this.isKey; }
-  get ready(): boolean { return this.on && this.faults.length === 0; }
-  get override(): number { return this.percent; }
-  get isHeld(): boolean { return this.held; }
+  get key(): FanucKey {
+    return this.isKey;
+  }
+  get ready(): boolean {
+    return this.on && this.faults.length === 0;
+  }
+  get override(): number {
+    return this.percent;
+  }
+  get isHeld(): boolean {
+    return this.held;
+  }
 
   setOverride(percent: number): boolean {
     if (!Number.isInteger(percent) || percent < 1 || percent > 100) return false;
@@ -35,8 +43,13 @@ export class FanucMachine {
     this.pace();
     return true;
   }
-  hold(on: boolean): void { this.held = on; this.pace(); }
-  private pace(): void { this.arm.setSpeed(this.held ? 0 : this.percent); }
+  hold(on: boolean): void {
+    this.held = on;
+    this.pace();
+  }
+  private pace(): void {
+    this.arm.setSpeed(this.held ? 0 : this.percent);
+  }
 
   /** The servos go off; the fault stays until it is reset. */
   fault(text: string): void {

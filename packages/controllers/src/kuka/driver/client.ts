@@ -5,7 +5,11 @@ import { readC3Reply, type C3Reply } from "../codec-c3-replies.ts";
 import { writeC3Request, type C3Request } from "../codec-c3-requests.ts";
 
 type Question = Exclude<C3Request, { readonly kind: "malformed" }>;
-interface Asked { readonly type: number; readonly since_s: number; readonly answer: (reply: C3Reply | null) => void }
+interface Asked {
+  readonly type: number;
+  readonly since_s: number;
+  readonly answer: (reply: C3Reply | null) => void;
+}
 
 /** A question without an answer for this long ends the connection [s]. */
 const PATIENCE_S = 2;
@@ -25,35 +29,54 @@ export class C3Client {
   private tag = 0;
   private isOpen = true;
 
-  constructor(stream: ByteStream, scheduler: Scheduler, ended: (sentence: string) => void, roundTrip: (seconds: number) => void) {
+  constructor(
+    stream: ByteStream,
+    scheduler: Scheduler,
+    ended: (sentence: string) => void,
+    roundTrip: (seconds: number) => void,
+  ) {
     this.stream = stream;
     this.scheduler = scheduler;
     this.ended = ended;
     this.roundTrip = roundTrip;
     const reader = new C3Reader();
-    stream.onEnd(({ sentence }) => { this.lose(sentence); });
+    stream.onEnd(({ sentence }) => {
+      this.lose(sentence);
+    });
     stream.onBytes(lent => {
-      const why = reader.push(lent, (tag, type, payload) => { this.take(tag, type, payload); return this.isOpen; });
+      const why = reader.push(lent, (tag, type, payload) => {
+        this.take(tag, type, payload);
+        return this.isOpen;
+      });
       if (why) this.lose(why);
     });
     this.stopLooking = scheduler.every(LOOK_S, () => {
       const oldest = this.asked.values().next();
-      if (!oldest.done && scheduler.now_s() - oldest.value.since_s > PATIENCE_S) this.lose(`A question was not answered within ${PATIENCE_S} s.`);
+      if (!oldest.done && scheduler.now_s() - oldest.value.since_s > PATIENCE_S)
+        this.lose(`A question was not answered within ${PATIENCE_S} s.`);
     });
   }
 
-  get isClosed(): boolean { return !this.isOpen; }
+  get isClosed(): boolean {
+    return !this.isOpen;
+  }
   /** Whether what is sent now waits behind what was sent before. */
-  get isCrowded(): boolean { return this.stream.waiting > MOST_WAITING; }
+  get isCrowded(): boolean {
+    return this.stream.waiting > MOST_WAITING;
+  }
 
   /** Sends at once. The data of a file in the answer is copied. */
   ask(question: Question): Promise<C3Reply | null> {
     return new Promise(resolve => {
       let tag = this.tag;
-      do tag = (tag + 1) & 0xffff; while (this.asked.has(tag));
+      do tag = (tag + 1) & 0xffff;
+      while (this.asked.has(tag));
       this.tag = tag;
       const bytes = this.isOpen ? writeC3Request(this.writer, tag, question) : null;
-      if (!bytes) { resolve(null); return; }
+      if (!bytes) {
+        resolve(null);
+        return;
+      }
       this.asked.set(tag, { type: bytes[4]!, since_s: this.scheduler.now_s(), answer: resolve });
       this.stream.send(bytes);
     });
@@ -61,7 +84,9 @@ export class C3Client {
   /** Whether every variable took its value. */
   async write(pairs: readonly (readonly [string, string])[]): Promise<boolean> {
     const reply = await this.ask({ kind: "write-many", pairs: pairs.map(([name, value]) => ({ name, value })) });
-    return reply?.kind === "values" && reply.items.length === pairs.length && reply.items.every(({ error }) => error === 1);
+    return (
+      reply?.kind === "values" && reply.items.length === pairs.length && reply.items.every(({ error }) => error === 1)
+    );
   }
   /** Whether it was done. */
   async order(question: Question): Promise<boolean> {
@@ -85,10 +110,17 @@ export class C3Client {
   }
   private take(tag: number, type: number, payload: Uint8Array): void {
     const asked = this.asked.get(tag);
-    if (asked?.type !== type) { this.lose("An answer came to no question."); return; }
+    if (asked?.type !== type) {
+      this.lose("An answer came to no question.");
+      return;
+    }
     this.asked.delete(tag);
     const reply = readC3Reply(type, payload);
-    if (reply.kind === "malformed") { asked.answer(null); this.lose("An answer was not well formed."); return; }
+    if (reply.kind === "malformed") {
+      asked.answer(null);
+      this.lose("An answer was not well formed.");
+      return;
+    }
     this.roundTrip(this.scheduler.now_s() - asked.since_s);
     asked.answer(reply.kind === "file" ? { ...reply, data: reply.data.slice() } : reply);
   }

@@ -4,18 +4,23 @@ import { createTwin } from "../../twin/index.ts";
 import { ended, HOST, interpretMoves, KR6, kukaBench } from "../testing/bench.ts";
 import { createVirtualKuka } from "../index.ts";
 
-const ACCURACY_RAD = 0.001 * Math.PI / 180;
-const shifted = (by_rad: number): number[] => Array.from(KR6.home_rad, (q, i) => i === 4 ? q - by_rad : q + by_rad);
+const ACCURACY_RAD = (0.001 * Math.PI) / 180;
+const shifted = (by_rad: number): number[] => Array.from(KR6.home_rad, (q, i) => (i === 4 ? q - by_rad : q + by_rad));
 const far = shifted(0.6);
 const NOTHING = { tools: {}, frames: {} };
-const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number => Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
-const codeOf = (outcome: CommandOutcome): string => outcome.kind === "done" ? "done" : outcome.why.code;
+const farthest = (a: ArrayLike<number>, b: ArrayLike<number>): number =>
+  Math.max(...Array.from(a, (q, i) => Math.abs(q - b[i]!)));
+const codeOf = (outcome: CommandOutcome): string => (outcome.kind === "done" ? "done" : outcome.why.code);
 
 describe("connection", () => {
   test("T-19 KUKA: connected only while it is; a cut line is lost, found again, and nothing moves by itself", async () => {
-    const bench = await kukaBench(), { scheduler, network, real } = bench, states: string[] = [];
+    const bench = await kukaBench();
+    const { scheduler, network, real } = bench;
+    const states: string[] = [];
     expect(real.isConnected).toBe(true);
-    real.onLink((report: LinkReport) => { states.push(report.state); });
+    real.onLink((report: LinkReport) => {
+      states.push(report.state);
+    });
     const moving = real.moveJoints(far);
     await scheduler.elapse(0.2);
     network.cut();
@@ -38,7 +43,9 @@ describe("connection", () => {
     network.weather.frozen = true;
     const from_s = scheduler.now_s();
     let ended_s = NaN;
-    void moving.then(() => { ended_s = scheduler.now_s(); });
+    void moving.then(() => {
+      ended_s = scheduler.now_s();
+    });
     await scheduler.elapse(0.15);
     expect(ended_s - from_s).toBeLessThanOrEqual(0.13);
     await scheduler.elapse(0.5);
@@ -54,10 +61,14 @@ describe("connection", () => {
   test("a robot of another model, of another number of joints, of unknown axes is refused with both names", async () => {
     const other = await kukaBench({ virtual: { model: "#KR10R1100SIXX C4 FLR" } });
     expect(other.real.isConnected).toBe(false);
-    expect(other.real.link.sentence).toBe("KUKA KR 6 R900 sixx was expected; the controller says it moves a #KR10R1100SIXX C4 FLR.");
+    expect(other.real.link.sentence).toBe(
+      "KUKA KR 6 R900 sixx was expected; the controller says it moves a #KR10R1100SIXX C4 FLR.",
+    );
     const seven = await kukaBench({ face: { robot: robotById("kuka_lbr_iiwa_14_r820")! } });
     expect(seven.real.link.sentence).toContain("has 7 joints; the controller of a KUKA counts 6 axes");
-    const strange = await kukaBench({ face: { robot: robotById("staubli_rx90l")!, model: "#KR6R900SIXX C2 FLR ZH100" } });
+    const strange = await kukaBench({
+      face: { robot: robotById("staubli_rx90l")!, model: "#KR6R900SIXX C2 FLR ZH100" },
+    });
     expect(strange.real.link.sentence).toContain("counts the axes of");
   });
 
@@ -73,7 +84,8 @@ describe("connection", () => {
   });
 
   test("after a reboot the clock begins again: the link comes back, motion waits for a person", async () => {
-    const bench = await kukaBench(), { scheduler, kuka, real } = bench;
+    const bench = await kukaBench();
+    const { scheduler, kuka, real } = bench;
     const moving = real.moveJoints(far);
     await scheduler.elapse(0.2);
     kuka.reboot();
@@ -91,12 +103,16 @@ describe("connection", () => {
     bench.kuka.pendant.setDrives(true);
     await bench.scheduler.elapse(0.1);
     expect(bench.real.isConnected).toBe(true);
-    expect(await bench.real.moveToZero()).toMatchObject({ kind: "refused", why: { code: "kuka.loop-rests", sentence: "The program TWINCELL is not selected." } });
+    expect(await bench.real.moveToZero()).toMatchObject({
+      kind: "refused",
+      why: { code: "kuka.loop-rests", sentence: "The program TWINCELL is not selected." },
+    });
   });
 
   test("faults of the line, each for itself: no crash, no motion of its own, and it works again afterwards", async () => {
     for (const fault of [{ refusing: true }, { silent: true }, { garbage: 1 }, { dropAfter: 3 }, { delay_s: 0.3 }]) {
-      const bench = await kukaBench(), { scheduler, network, kuka, real } = bench;
+      const bench = await kukaBench();
+      const { scheduler, network, kuka, real } = bench;
       const moving = real.moveJoints(far);
       await scheduler.elapse(0.15);
       Object.assign(kuka.faults, fault);
@@ -112,7 +128,8 @@ describe("connection", () => {
   });
 
   test("answers byte by byte and a slow, jittery line change nothing but the time", async () => {
-    const bench = await kukaBench(), { network, kuka, real } = bench;
+    const bench = await kukaBench();
+    const { network, kuka, real } = bench;
     kuka.faults.split = true;
     Object.assign(network.weather, { delay_s: 0.01, jitter_s: 0.01 });
     expect(await ended(bench, real.moveJoints(far))).toEqual({ kind: "done" });
@@ -123,7 +140,8 @@ describe("connection", () => {
 
 describe("motion", () => {
   test("T-23 KUKA: commanded, measured and mirrored angles agree to 0.001°, with seven digits on the wire", async () => {
-    const bench = await kukaBench(), twin = createTwin({ real: bench.real, scheduler: bench.scheduler });
+    const bench = await kukaBench();
+    const twin = createTwin({ real: bench.real, scheduler: bench.scheduler });
     for (const by of [0.4, -0.3, 0.123456789]) {
       expect(await ended(bench, twin.moveJoints(shifted(by)))).toEqual({ kind: "done" });
       expect(farthest(bench.real.jointAngles(), shifted(by))).toBeLessThanOrEqual(ACCURACY_RAD);
@@ -134,9 +152,11 @@ describe("motion", () => {
   });
 
   test("T-24 T-25 KUKA: the robot is commanded first, the mirror follows at the next sample", async () => {
-    const bench = await kukaBench(), twin = createTwin({ real: bench.real, scheduler: bench.scheduler });
+    const bench = await kukaBench();
+    const twin = createTwin({ real: bench.real, scheduler: bench.scheduler });
     await ended(bench, twin.moveJoints(far));
-    const command = twin.log.find(({ what }) => what === "command")!, pose = twin.log.find(({ what }) => what === "pose")!;
+    const command = twin.log.find(({ what }) => what === "command")!;
+    const pose = twin.log.find(({ what }) => what === "pose")!;
     expect(command.at_s).toBeLessThan(pose.at_s);
     expect(pose.at_s - command.at_s).toBeLessThan(0.05);
   });
@@ -145,48 +165,86 @@ describe("motion", () => {
     const lasting = async (maxSpeed: number): Promise<number> => {
       const bench = await kukaBench({ virtual: { maxSpeed } });
       let cycles = 0;
-      bench.kuka.arm.onSample(({ moving }) => { if (moving) cycles++; });
+      bench.kuka.arm.onSample(({ moving }) => {
+        if (moving) cycles++;
+      });
       await ended(bench, bench.real.moveJoints(far));
       return 0.004 * cycles;
     };
-    expect(Math.abs(await lasting(0.25) - 4 * await lasting(1))).toBeLessThan(0.0125);
+    expect(Math.abs((await lasting(0.25)) - 4 * (await lasting(1)))).toBeLessThan(0.0125);
   });
 
   test("lines and arcs go where they should, at their speed; a spline is refused by name", async () => {
-    const bench = await kukaBench(), { real, scheduler, kuka } = bench, from = flangePose(KR6.arm, KR6.home_rad), [x, y, z] = from.position;
-    const at = (dy: number, dz: number): Target => ({ pose: { position: [x, y + dy, z + dz], quaternion: from.quaternion }, frame: "world", tool: "flange" });
+    const bench = await kukaBench();
+    const { real, scheduler, kuka } = bench;
+    const from = flangePose(KR6.arm, KR6.home_rad);
+    const [x, y, z] = from.position;
+    const at = (dy: number, dz: number): Target => ({
+      pose: { position: [x, y + dy, z + dz], quaternion: from.quaternion },
+      frame: "world",
+      tool: "flange",
+    });
     const begun_s = scheduler.now_s();
     const line: Step = { id: "line", type: "move", path: "lin", target: at(0.2, 0), speed: { mps: 0.1 }, blend_m: 0 };
     expect(await ended(bench, real.run([line], NOTHING))).toEqual({ kind: "done" });
     expect(scheduler.now_s() - begun_s).toBeGreaterThan(2);
     expect(scheduler.now_s() - begun_s).toBeLessThan(2.5);
     let highest = -Infinity;
-    kuka.arm.onSample(({ q_rad }) => { highest = Math.max(highest, flangePose(KR6.arm, q_rad).position[2]); });
-    const arc: Step = { id: "arc", type: "move", path: "circ", via: at(0.1, 0.1), target: at(0, 0), speed: { mps: 0.2 }, blend_m: 0 };
+    kuka.arm.onSample(({ q_rad }) => {
+      highest = Math.max(highest, flangePose(KR6.arm, q_rad).position[2]);
+    });
+    const arc: Step = {
+      id: "arc",
+      type: "move",
+      path: "circ",
+      via: at(0.1, 0.1),
+      target: at(0, 0),
+      speed: { mps: 0.2 },
+      blend_m: 0,
+    };
     expect(await ended(bench, real.run([arc], NOTHING))).toEqual({ kind: "done" });
     expect(highest - z).toBeCloseTo(0.1, 4);
     const is = flangePose(KR6.arm, real.jointAngles()).position;
     expect(Math.hypot(is[0] - x, is[1] - y, is[2] - z)).toBeLessThan(1e-6);
-    expect(await real.run([{ ...line, path: "spline" }], NOTHING)).toMatchObject({ kind: "refused", why: { code: "controller.motion" } });
+    expect(await real.run([{ ...line, path: "spline" }], NOTHING)).toMatchObject({
+      kind: "refused",
+      why: { code: "controller.motion" },
+    });
   });
 
   test("outputs, inputs and the gripper by their numbers; what is no output is refused by name", async () => {
-    const bench = await kukaBench({ face: { signals: ["$IN[3]", "$OUT[1]"], gripperOutput: 9 } }), { real, kuka, scheduler } = bench;
-    const steps: Step[] = [{ id: "a", type: "set", signal: "$OUT[1]", to: true }, { id: "b", type: "gripper", closed: true }, { id: "c", type: "wait-for", when: { signal: "$IN[3]", is: true } }];
+    const bench = await kukaBench({ face: { signals: ["$IN[3]", "$OUT[1]"], gripperOutput: 9 } });
+    const { real, kuka, scheduler } = bench;
+    const steps: Step[] = [
+      { id: "a", type: "set", signal: "$OUT[1]", to: true },
+      { id: "b", type: "gripper", closed: true },
+      { id: "c", type: "wait-for", when: { signal: "$IN[3]", is: true } },
+    ];
     const run = real.run(steps, NOTHING);
     await scheduler.elapse(1);
-    expect([kuka.variables.read("$OUT[1]"), kuka.variables.read("$OUT[9]"), real.signals!.read("$OUT[1]")]).toEqual(["TRUE", "TRUE", true]);
+    expect([kuka.variables.read("$OUT[1]"), kuka.variables.read("$OUT[9]"), real.signals!.read("$OUT[1]")]).toEqual([
+      "TRUE",
+      "TRUE",
+      true,
+    ]);
     kuka.pendant.setInput(3, true);
     expect(await ended(bench, run)).toEqual({ kind: "done" });
-    expect(await real.run([{ id: "d", type: "set", signal: "lamp", to: true }], NOTHING)).toMatchObject({ kind: "refused", why: { code: "kuka.line" } });
+    expect(await real.run([{ id: "d", type: "set", signal: "lamp", to: true }], NOTHING)).toMatchObject({
+      kind: "refused",
+      why: { code: "kuka.line" },
+    });
   });
 });
 
 describe("stops and whoever stands at the robot", () => {
   test("T-20 T-27 KUKA: the proximity input stops robot and twin at equal angles, and says why; a reset is a person's", async () => {
-    const bench = await kukaBench(), { scheduler, kuka } = bench, twin = createTwin({ real: bench.real, scheduler });
+    const bench = await kukaBench();
+    const { scheduler, kuka } = bench;
+    const twin = createTwin({ real: bench.real, scheduler });
     let heard = "";
-    twin.onSample(({ safety, message }) => { heard = `${safety}: ${message}`; });
+    twin.onSample(({ safety, message }) => {
+      heard = `${safety}: ${message}`;
+    });
     const moving = twin.moveJoints(far);
     await scheduler.elapse(0.3);
     kuka.pendant.setGuardOpen(true);
@@ -206,7 +264,9 @@ describe("stops and whoever stands at the robot", () => {
   });
 
   test("T-26 KUKA: on the pendant in T1 the twin follows and commands from here are refused", async () => {
-    const bench = await kukaBench(), { scheduler, kuka, real } = bench, twin = createTwin({ real, scheduler });
+    const bench = await kukaBench();
+    const { scheduler, kuka, real } = bench;
+    const twin = createTwin({ real, scheduler });
     kuka.pendant.setMode("T1");
     await scheduler.elapse(0.1);
     kuka.pendant.setEnabling(true);
@@ -226,7 +286,9 @@ describe("stops and whoever stands at the robot", () => {
   });
 
   test("the key turned in the middle of a motion ends it; started again at the pendant, the rest of it is not driven", async () => {
-    const bench = await kukaBench(), { scheduler, kuka, real } = bench, moving = real.moveJoints(far);
+    const bench = await kukaBench();
+    const { scheduler, kuka, real } = bench;
+    const moving = real.moveJoints(far);
     await scheduler.elapse(0.2);
     kuka.pendant.setMode("AUT");
     expect((await ended(bench, moving)).kind).toBe("stopped");
@@ -240,7 +302,9 @@ describe("stops and whoever stands at the robot", () => {
   });
 
   test("the stop key at the pendant ends the motion here, and the start key does not take it up", async () => {
-    const bench = await kukaBench(), { scheduler, kuka, real } = bench, moving = real.moveJoints(far);
+    const bench = await kukaBench();
+    const { scheduler, kuka, real } = bench;
+    const moving = real.moveJoints(far);
     await scheduler.elapse(0.2);
     kuka.pendant.stop();
     expect((await ended(bench, moving)).kind).toBe("stopped");
@@ -253,7 +317,8 @@ describe("stops and whoever stands at the robot", () => {
   });
 
   test("a stop between a command and its start reaches the robot before it does", async () => {
-    const bench = await kukaBench(), { scheduler, network, kuka, real } = bench;
+    const bench = await kukaBench();
+    const { scheduler, network, kuka, real } = bench;
     network.weather.delay_s = 0.02;
     const moving = real.moveJoints(far);
     await scheduler.elapse(0.01);
@@ -265,12 +330,18 @@ describe("stops and whoever stands at the robot", () => {
 
   test("an emergency stop from here locks the program for everybody and takes the drives off; without a wire to them they stay on, as the protocol has none", async () => {
     for (const wiring of [{ drivesOn: 997, drivesOff: 998 }, null]) {
-      const bench = await kukaBench({ virtual: { wiring } }), { scheduler, kuka, real } = bench, moving = real.moveJoints(far);
+      const bench = await kukaBench({ virtual: { wiring } });
+      const { scheduler, kuka, real } = bench;
+      const moving = real.moveJoints(far);
       await scheduler.elapse(0.2);
       real.stop(true);
       expect((await ended(bench, moving)).kind).toBe("stopped");
       await scheduler.elapse(0.5);
-      expect([kuka.variables.read("TWC_LOCK"), kuka.drivesOn, kuka.arm.isMoving()]).toEqual(["TRUE", wiring === null, false]);
+      expect([kuka.variables.read("TWC_LOCK"), kuka.drivesOn, kuka.arm.isMoving()]).toEqual([
+        "TRUE",
+        wiring === null,
+        false,
+      ]);
       expect(codeOf(await real.moveToZero())).toBe("safety.emergency-stop");
       real.reset();
       await scheduler.elapse(0.3);
@@ -279,7 +350,8 @@ describe("stops and whoever stands at the robot", () => {
   });
 
   test("T-46 T-47 KUKA: while the controller does not answer for two seconds nothing here waits, and the stop still goes out", async () => {
-    const bench = await kukaBench(), { scheduler, kuka, real } = bench;
+    const bench = await kukaBench();
+    const { scheduler, kuka, real } = bench;
     const moving = real.moveJoints(far);
     await scheduler.elapse(0.2);
     kuka.faults.delay_s = 2;
@@ -298,7 +370,8 @@ describe("programs of the controller's own language", () => {
 
   test("a text is written, selected, started and watched to its end; afterwards our program has its place again", async () => {
     for (const mode of ["EX", "AUT"] as const) {
-      const bench = await kukaBench({ virtual: { mode } }), { kuka, real, scheduler } = bench;
+      const bench = await kukaBench({ virtual: { mode } });
+      const { kuka, real, scheduler } = bench;
       expect(await ended(bench, real.runText!([MOVES]))).toEqual({ kind: "done" });
       expect(kuka.arm.jointAngle(1)).toBeCloseTo(Math.PI / 3, 9);
       await scheduler.elapse(0.1);
@@ -309,8 +382,11 @@ describe("programs of the controller's own language", () => {
     }
   });
   test("an error in the text is refused, a stop ends it, a module without .src is none", async () => {
-    const bench = await kukaBench(), { kuka, real, scheduler } = bench;
-    expect(codeOf(await ended(bench, real.runText!([file("JOB.src", "DEF JOB( )", "HOP", "END")])))).toBe("kuka.program");
+    const bench = await kukaBench();
+    const { kuka, real, scheduler } = bench;
+    expect(codeOf(await ended(bench, real.runText!([file("JOB.src", "DEF JOB( )", "HOP", "END")])))).toBe(
+      "kuka.program",
+    );
     expect(codeOf(await ended(bench, real.runText!([file("JOB.dat", "")])))).toBe("kuka.file");
     await scheduler.elapse(0.1);
     const running = real.runText!([MOVES]);
@@ -322,7 +398,9 @@ describe("programs of the controller's own language", () => {
     expect(await ended(bench, real.moveJoints(far))).toEqual({ kind: "done" });
   });
   test("T-47 KUKA: a text that a lost line left behind makes room at a person's reset, and nothing goes on watching it", async () => {
-    const bench = await kukaBench(), { kuka, real, scheduler, network } = bench, running = real.runText!([MOVES]);
+    const bench = await kukaBench();
+    const { kuka, real, scheduler, network } = bench;
+    const running = real.runText!([MOVES]);
     await scheduler.elapse(0.5);
     network.weather.frozen = true;
     await scheduler.elapse(0.2);
@@ -339,8 +417,18 @@ describe("programs of the controller's own language", () => {
 });
 
 test("T-21 a driver is a face handed in: two robots of one network, each its own", async () => {
-  const one = await kukaBench(), two = await createVirtualKuka({ robot: KR6, scheduler: one.scheduler, network: one.network, host: "127.0.0.4", interpret: interpretMoves });
-  expect([one.kuka.listening, two.listening]).toMatchObject([{ kind: "listening", address: { host: HOST, port: 7000 } }, { kind: "listening", address: { host: "127.0.0.4", port: 7000 } }]);
+  const one = await kukaBench();
+  const two = await createVirtualKuka({
+    robot: KR6,
+    scheduler: one.scheduler,
+    network: one.network,
+    host: "127.0.0.4",
+    interpret: interpretMoves,
+  });
+  expect([one.kuka.listening, two.listening]).toMatchObject([
+    { kind: "listening", address: { host: HOST, port: 7000 } },
+    { kind: "listening", address: { host: "127.0.0.4", port: 7000 } },
+  ]);
   await ended(one, one.real.moveJoints(far));
   expect(two.arm.jointAngle(1)).toBe(KR6.home_rad[0]);
 });

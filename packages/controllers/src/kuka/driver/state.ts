@@ -6,11 +6,24 @@ import { TWC } from "../loop.ts";
 
 /** Read in every poll, one after the other in this order: whether a motion ended before where the robot stands. The lines in and out that somebody wants to see follow. */
 export const POLLED: readonly string[] = [
-  TWC.done, TWC.command, "$MODE_OP", "$PRO_STATE1", "$PRO_NAME1[]", "$OV_PRO", "$PERI_RDY", "$STOPMESS", "$ALARM_STOP", "$USER_SAF",
-  "$ROB_TIMER", "$AXIS_ACT", TWC.result, TWC.lock,
+  TWC.done,
+  TWC.command,
+  "$MODE_OP",
+  "$PRO_STATE1",
+  "$PRO_NAME1[]",
+  "$OV_PRO",
+  "$PERI_RDY",
+  "$STOPMESS",
+  "$ALARM_STOP",
+  "$USER_SAF",
+  "$ROB_TIMER",
+  "$AXIS_ACT",
+  TWC.result,
+  TWC.lock,
 ];
 /** The timer of the controller counts to 2³¹ − 1 ms and begins again. */
-const TIMER_TURN_MS = 0x80000000, NEAR_TURN_MS = 60_000;
+const TIMER_TURN_MS = 0x80000000;
+const NEAR_TURN_MS = 60_000;
 /** An axis that moved by less between two polls stands: above the rounding of printed numbers. */
 const STANDS_DEG = 2e-4;
 
@@ -43,18 +56,28 @@ export class KukaState {
     this.lines = lines;
     this.gripper = gripper;
     this.sample = {
-      sequence: 0, time_s: 0, q_rad: new Float64Array(AXES), moving: false, mode: "automatic", safety: "normal", override: 1, gripperClosed: false, message: "",
+      sequence: 0,
+      time_s: 0,
+      q_rad: new Float64Array(AXES),
+      moving: false,
+      mode: "automatic",
+      safety: "normal",
+      override: 1,
+      gripperClosed: false,
+      message: "",
       signals: this.values,
     };
   }
-  get loopRuns(): boolean { return this.program === this.own && this.programState === "P_ACTIVE"; }
+  get loopRuns(): boolean {
+    return this.program === this.own && this.programState === "P_ACTIVE";
+  }
 
   /**
    * @param now_s  the time here, for a controller that has no timer.
    * @returns whether it is a new state: a controller whose clock stands still says nothing new. Null when an axis or a state cannot be read.
    */
   take(items: readonly C3Item[], now_s: number): boolean | null {
-    const text = (i: number): string => items[i]?.error === 1 ? items[i].value : "";
+    const text = (i: number): string => (items[i]?.error === 1 ? items[i].value : "");
     this.before_deg.set(this.a_deg);
     if (!partsIn(text(11), AXIS_NAMES, this.a_deg)) return null;
     const timer_ms = numberIn(text(10));
@@ -72,7 +95,8 @@ export class KukaState {
     this.done = numberIn(text(0));
     this.result = numberIn(text(12));
     this.lines.forEach((line, i) => {
-      const said = text(POLLED.length + i), bool = boolIn(said);
+      const said = text(POLLED.length + i);
+      const bool = boolIn(said);
       if (said !== "") this.values.set(line, bool ?? numberIn(said));
     });
     sample.sequence++;
@@ -80,10 +104,17 @@ export class KukaState {
     jointsOf(this.a_deg, this.axes, sample.q_rad);
     sample.mode = MODES[this.mode] ?? "manual";
     sample.override = numberIn(text(5)) / 100;
-    sample.safety = safetyOf(boolIn(text(8)) === false, boolIn(text(13)) === true, boolIn(text(9)) === false && sample.mode !== "manual", boolIn(text(7)) === true);
+    sample.safety = safetyOf(
+      boolIn(text(8)) === false,
+      boolIn(text(13)) === true,
+      boolIn(text(9)) === false && sample.mode !== "manual",
+      boolIn(text(7)) === true,
+    );
     sample.moving = (this.command !== this.done && this.loopRuns && sample.override > 0) || this.moved();
     sample.gripperClosed = this.values.get(this.gripper) === true;
-    sample.message = WORDS[sample.safety] || (boolIn(text(13)) === true ? "" : this.ready || sample.mode === "manual" ? "" : "The drives are off.");
+    sample.message =
+      WORDS[sample.safety] ||
+      (boolIn(text(13)) === true ? "" : this.ready || sample.mode === "manual" ? "" : "The drives are off.");
     return true;
   }
   private moved(): boolean {
@@ -93,7 +124,10 @@ export class KukaState {
 }
 const MODES: Readonly<Record<string, OperatingMode>> = { T1: "manual", T2: "manual", AUT: "automatic", EX: "remote" };
 const WORDS: Readonly<Record<SafetyState, string>> = {
-  normal: "", "emergency-stop": "The emergency stop is on.", "guard-stop": "The operator safety is open.", "protective-stop": "The robot stopped; a message on its pendant waits to be confirmed.",
+  normal: "",
+  "emergency-stop": "The emergency stop is on.",
+  "guard-stop": "The operator safety is open.",
+  "protective-stop": "The robot stopped; a message on its pendant waits to be confirmed.",
 };
 
 function safetyOf(alarm: boolean, locked: boolean, open: boolean, stopMessage: boolean): SafetyState {

@@ -9,42 +9,84 @@ import type { Programs } from "./programs.ts";
 import type { Variables } from "./variables.ts";
 
 /** Clients at once, bytes of a file, and bytes that wait for a client that does not read. */
-const MOST_CLIENTS = 16, MOST_FILE = 4_000_000, MOST_WAITING = 1_000_000, CHUNK = 32_768;
+const MOST_CLIENTS = 16;
+const MOST_FILE = 4_000_000;
+const MOST_WAITING = 1_000_000;
+const CHUNK = 32_768;
 export const C3_TYPES: readonly number[] = Object.values(C3_TYPE).sort((a, b) => a - b);
 /** Version 1.5, of the open kind. */
 const VERSION = [1, 5, 0] as const;
 
 export interface C3ServerOptions {
-  readonly network: Network; readonly host: string; readonly port: number; readonly scheduler: Scheduler; readonly faults: KukaFaults;
-  readonly variables: Variables; readonly machine: Machine; readonly programs: Programs; readonly hostName: string; readonly log: (sentence: string) => void;
+  readonly network: Network;
+  readonly host: string;
+  readonly port: number;
+  readonly scheduler: Scheduler;
+  readonly faults: KukaFaults;
+  readonly variables: Variables;
+  readonly machine: Machine;
+  readonly programs: Programs;
+  readonly hostName: string;
+  readonly log: (sentence: string) => void;
 }
-export interface C3Server { readonly listening: Listening; cut(): void; close(): void }
+export interface C3Server {
+  readonly listening: Listening;
+  cut(): void;
+  close(): void;
+}
 type Answer = Exclude<C3Reply, { readonly kind: "malformed" }>;
 
 const plain = (error: number): Answer => ({ kind: "plain", error });
-const code = (done: boolean): number => done ? C3_ERROR.success : C3_ERROR.general;
+const code = (done: boolean): number => (done ? C3_ERROR.success : C3_ERROR.general);
 
 /** The proxy in front of a virtual controller. Whoever sends what is no message is logged once and cut off. */
 export async function serveC3(options: C3ServerOptions): Promise<C3Server> {
-  const { faults, scheduler, log } = options, open = new Set<ByteStream>();
+  const { faults, scheduler, log } = options;
+  const open = new Set<ByteStream>();
   let seed = 1;
 
   function accept(stream: ByteStream): void {
-    if (faults.refusing || open.size >= MOST_CLIENTS) { stream.close(); return; }
+    if (faults.refusing || open.size >= MOST_CLIENTS) {
+      stream.close();
+      return;
+    }
     open.add(stream);
-    const reader = new C3Reader(), writer = new C3Writer(), line = faultyLine(faults, scheduler, seed++), client = session(options);
-    const end = (): void => { open.delete(stream); stream.close(); };
-    const reset = (sentence: string): void => { log(`${stream.peer.host}:${stream.peer.port}: ${sentence} The connection is reset.`); end(); };
-    const out = (bytes: Uint8Array): void => { stream.send(bytes); };
-    stream.onEnd(() => { open.delete(stream); });
+    const reader = new C3Reader();
+    const writer = new C3Writer();
+    const line = faultyLine(faults, scheduler, seed++);
+    const client = session(options);
+    const end = (): void => {
+      open.delete(stream);
+      stream.close();
+    };
+    const reset = (sentence: string): void => {
+      log(`${stream.peer.host}:${stream.peer.port}: ${sentence} The connection is reset.`);
+      end();
+    };
+    const out = (bytes: Uint8Array): void => {
+      stream.send(bytes);
+    };
+    stream.onEnd(() => {
+      open.delete(stream);
+    });
     stream.onBytes(lent => {
       if (!open.has(stream)) return;
       const why = reader.push(lent, (tag, type, payload) => {
         const reply = isC3Type(type) ? client(readC3Request(type, payload)) : plain(C3_ERROR.notImplemented);
         line.send(writeC3Reply(writer, tag, type, reply), out);
-        if (!isC3Type(type)) { reset(`Message type ${type} is none of the protocol.`); return false; }
-        if (stream.waiting > MOST_WAITING) { reset("Answers are not read."); return false; }
-        if (--faults.dropAfter <= 0) { faults.dropAfter = Infinity; end(); return false; }
+        if (!isC3Type(type)) {
+          reset(`Message type ${type} is none of the protocol.`);
+          return false;
+        }
+        if (stream.waiting > MOST_WAITING) {
+          reset("Answers are not read.");
+          return false;
+        }
+        if (--faults.dropAfter <= 0) {
+          faults.dropAfter = Infinity;
+          end();
+          return false;
+        }
         return true;
       });
       if (why) reset(why);
@@ -52,17 +94,37 @@ export async function serveC3(options: C3ServerOptions): Promise<C3Server> {
   }
 
   const listening = await options.network.listen({ host: options.host, port: options.port }, accept);
-  const cut = (): void => { for (const stream of [...open]) { open.delete(stream); stream.close(); } };
-  return { listening, cut, close() { if (listening.kind === "listening") listening.close(); cut(); } };
+  const cut = (): void => {
+    for (const stream of [...open]) {
+      open.delete(stream);
+      stream.close();
+    }
+  };
+  return {
+    listening,
+    cut,
+    close() {
+      if (listening.kind === "listening") listening.close();
+      cut();
+    },
+  };
 }
 
 /** Answers the questions of one client, who has his own file buffers. */
 function session({ variables, machine, programs, hostName }: C3ServerOptions): (request: C3Request) => Answer {
-  let put: Uint8Array | null = null, got: Uint8Array | null = null;
-  const file = (step: number, error: number, size = 0, offset = 0, data = NOTHING): Answer => ({ kind: "file", step, offset, size, data, error });
+  let put: Uint8Array | null = null;
+  let got: Uint8Array | null = null;
+  const file = (step: number, error: number, size = 0, offset = 0, data = NOTHING): Answer => ({
+    kind: "file",
+    step,
+    offset,
+    size,
+    data,
+    error,
+  });
   const write = (name: string, value: string): { error: number; value: string } => {
     const done = variables.write(name, value);
-    return { error: code(done), value: done ? variables.read(name) ?? value : "" };
+    return { error: code(done), value: done ? (variables.read(name) ?? value) : "" };
   };
   const read = (name: string): { error: number; value: string } => {
     const value = variables.read(name);
@@ -71,28 +133,57 @@ function session({ variables, machine, programs, hostName }: C3ServerOptions): (
 
   return request => {
     switch (request.kind) {
-      case "read": { const { error, value } = read(request.name); return { kind: "value", value, error }; }
-      case "write": { const { error, value } = write(request.name, request.value); return { kind: "value", value, error }; }
-      case "read-many": return { kind: "values", items: request.names.map(read), error: C3_ERROR.success };
-      case "write-many": return { kind: "values", items: request.pairs.map(({ name, value }) => write(name, value)), error: C3_ERROR.success };
-      case "control": return { kind: "control", command: request.command, error: code(control(request.command, request.interpreter)) };
+      case "read": {
+        const { error, value } = read(request.name);
+        return { kind: "value", value, error };
+      }
+      case "write": {
+        const { error, value } = write(request.name, request.value);
+        return { kind: "value", value, error };
+      }
+      case "read-many":
+        return { kind: "values", items: request.names.map(read), error: C3_ERROR.success };
+      case "write-many":
+        return {
+          kind: "values",
+          items: request.pairs.map(({ name, value }) => write(name, value)),
+          error: C3_ERROR.success,
+        };
+      case "control":
+        return {
+          kind: "control",
+          command: request.command,
+          error: code(control(request.command, request.interpreter)),
+        };
       case "select": {
         if (request.force && programs.state === "ACTIVE") programs.cancel();
         const selected = programs.select(request.name) === null;
-        return { kind: "control", command: request.run ? C3_COMMAND.run : C3_COMMAND.select, error: code(selected && (!request.run || start())) };
+        return {
+          kind: "control",
+          command: request.run ? C3_COMMAND.run : C3_COMMAND.select,
+          error: code(selected && (!request.run || start())),
+        };
       }
-      case "confirm-all": machine.confirm(); return plain(C3_ERROR.success);
-      case "info": return { kind: "info", version: VERSION, host: hostName, error: C3_ERROR.success };
-      case "features": return { kind: "features", types: C3_TYPES, error: C3_ERROR.success };
-      case "file-create": return plain(code(programs.write(request.name, "") === null));
-      case "file-delete": return plain(code(programs.delete(request.name)));
+      case "confirm-all":
+        machine.confirm();
+        return plain(C3_ERROR.success);
+      case "info":
+        return { kind: "info", version: VERSION, host: hostName, error: C3_ERROR.success };
+      case "features":
+        return { kind: "features", types: C3_TYPES, error: C3_ERROR.success };
+      case "file-create":
+        return plain(code(programs.write(request.name, "") === null));
+      case "file-delete":
+        return plain(code(programs.delete(request.name)));
       case "put-begin":
         if (request.size > MOST_FILE) return file(FILE_STEP.begin, C3_ERROR.memory);
         put = new Uint8Array(request.size);
         return file(FILE_STEP.begin, C3_ERROR.success, put.length);
-      case "put-size": return file(FILE_STEP.size, C3_ERROR.success, put?.length ?? 0);
+      case "put-size":
+        return file(FILE_STEP.size, C3_ERROR.success, put?.length ?? 0);
       case "put-data":
-        if (!put || request.offset + request.data.length > put.length) return file(FILE_STEP.data, C3_ERROR.argument, 0, request.offset);
+        if (!put || request.offset + request.data.length > put.length)
+          return file(FILE_STEP.data, C3_ERROR.argument, 0, request.offset);
         put.set(request.data, request.offset);
         return file(FILE_STEP.data, C3_ERROR.success, request.data.length, request.offset);
       case "put-end": {
@@ -105,24 +196,34 @@ function session({ variables, machine, programs, hostName }: C3ServerOptions): (
         got = text === undefined ? null : Uint8Array.from(text, sign => sign.charCodeAt(0) & 255);
         return file(FILE_STEP.begin, code(got !== null), got?.length ?? 0);
       }
-      case "get-size": return file(FILE_STEP.size, C3_ERROR.success, got?.length ?? 0);
+      case "get-size":
+        return file(FILE_STEP.size, C3_ERROR.success, got?.length ?? 0);
       case "get-data": {
         const data = got?.subarray(request.offset, request.offset + Math.min(request.most, CHUNK)) ?? NOTHING;
         return file(FILE_STEP.data, code(got !== null), data.length, request.offset, data);
       }
-      case "get-end": got = null; return file(FILE_STEP.end, C3_ERROR.success);
-      case "unknown": return plain(C3_ERROR.notImplemented);
-      case "malformed": return plain(C3_ERROR.protocol);
+      case "get-end":
+        got = null;
+        return file(FILE_STEP.end, C3_ERROR.success);
+      case "unknown":
+        return plain(C3_ERROR.notImplemented);
+      case "malformed":
+        return plain(C3_ERROR.protocol);
     }
   };
 
   /** From outside a program starts in AUT and EXT only: in T1 and T2 a hand is on the start key. */
-  function start(): boolean { return !machine.isManual && programs.start() === null; }
+  function start(): boolean {
+    return !machine.isManual && programs.start() === null;
+  }
   function control(command: number, interpreter: number): boolean {
     // There is no submit interpreter.
     if (interpreter !== 1) return false;
     if (command === C3_COMMAND.start) return start();
-    if (command === C3_COMMAND.stop) { programs.hold(); return true; }
+    if (command === C3_COMMAND.stop) {
+      programs.hold();
+      return true;
+    }
     return command === C3_COMMAND.reset ? programs.reset() === null : programs.cancel() === null;
   }
 }

@@ -6,13 +6,26 @@ import { LOOP_FILES, LOOP_GLOBALS } from "../loop.ts";
 import { HOST, interpretMoves, KR6 } from "../testing/bench.ts";
 
 async function bench(options: Partial<VirtualKukaOptions> = {}) {
-  const scheduler = manualScheduler(), network = memoryNetwork(scheduler), log: string[] = [];
-  const kuka = await createVirtualKuka({ robot: KR6, scheduler, network, host: HOST, interpret: interpretMoves, log: sentence => { log.push(sentence); }, ...options });
+  const scheduler = manualScheduler();
+  const network = memoryNetwork(scheduler);
+  const log: string[] = [];
+  const kuka = await createVirtualKuka({
+    robot: KR6,
+    scheduler,
+    network,
+    host: HOST,
+    interpret: interpretMoves,
+    log: sentence => {
+      log.push(sentence);
+    },
+    ...options,
+  });
   await scheduler.elapse(0.01);
   const read = (name: string): string => kuka.variables.read(name) ?? "?";
   /** Greatest speed of the flange [m/s] while it goes on. */
   const fastest = async (seconds: number): Promise<number> => {
-    let most = 0, last = flangePose(KR6.arm, kuka.arm.jointAngles()).position;
+    let most = 0;
+    let last = flangePose(KR6.arm, kuka.arm.jointAngles()).position;
     const stop = kuka.arm.onSample(({ q_rad }) => {
       const at = flangePose(KR6.arm, q_rad).position;
       most = Math.max(most, Math.hypot(at[0] - last[0], at[1] - last[1], at[2] - last[2]) / 0.004);
@@ -24,17 +37,24 @@ async function bench(options: Partial<VirtualKukaOptions> = {}) {
   };
   return { scheduler, network, kuka, log, read, fastest };
 }
-const HOME = "PTP 0 -90 90 0 90 0", AWAY = "PTP 60 -60 60 30 60 90", PROGRAM = ["DEF A( )", AWAY, HOME, AWAY, "END", ""].join("\r\n");
+const HOME = "PTP 0 -90 90 0 90 0";
+const AWAY = "PTP 60 -60 60 30 60 90";
+const PROGRAM = ["DEF A( )", AWAY, HOME, AWAY, "END", ""].join("\r\n");
 
 /** A client of bytes: what comes back, as numbers. */
 async function bytesClient(scheduler: ReturnType<typeof manualScheduler>, network: ReturnType<typeof memoryNetwork>) {
-  const got: number[] = [], streams: ByteStream[] = [];
+  const got: number[] = [];
+  const streams: ByteStream[] = [];
   let over = 0;
   void network.connect({ host: HOST, port: 7000 }).then(answer => {
     if (answer.kind !== "connected") return;
     streams.push(answer.stream);
-    answer.stream.onBytes(lent => { got.push(...lent); });
-    answer.stream.onEnd(() => { over++; });
+    answer.stream.onBytes(lent => {
+      got.push(...lent);
+    });
+    answer.stream.onEnd(() => {
+      over++;
+    });
   });
   await scheduler.elapse(0.01);
   const ask = async (...bytes: number[]): Promise<number[]> => {
@@ -49,18 +69,55 @@ const ascii = (text: string): number[] => [...text].map(sign => sign.charCodeAt(
 
 describe("variables on the wire, byte for byte", () => {
   test("a read of the old kind, one of many, a write, and what is not there", async () => {
-    const { scheduler, network } = await bench(), { ask } = await bytesClient(scheduler, network);
+    const { scheduler, network } = await bench();
+    const { ask } = await bytesClient(scheduler, network);
     expect(await ask(0, 9, 0, 7, 0, 0, 4, ...ascii("PING"))).toEqual([0, 9, 0, 10, 0, 0, 4, ...ascii("PONG"), 0, 1, 1]);
-    expect(await ask(1, 2, 0, 11, 0, 0, 8, ...ascii("$MODE_OP"))).toEqual([1, 2, 0, 9, 0, 0, 3, ...ascii("#EX"), 0, 1, 1]);
-    expect(await ask(0, 1, 0, 13, 1, 0, 7, ...ascii("$OV_PRO"), 0, 1, ...ascii("5"))).toEqual([0, 1, 0, 7, 1, 0, 1, ...ascii("5"), 0, 1, 1]);
+    expect(await ask(1, 2, 0, 11, 0, 0, 8, ...ascii("$MODE_OP"))).toEqual([
+      1,
+      2,
+      0,
+      9,
+      0,
+      0,
+      3,
+      ...ascii("#EX"),
+      0,
+      1,
+      1,
+    ]);
+    expect(await ask(0, 1, 0, 13, 1, 0, 7, ...ascii("$OV_PRO"), 0, 1, ...ascii("5"))).toEqual([
+      0,
+      1,
+      0,
+      7,
+      1,
+      0,
+      1,
+      ...ascii("5"),
+      0,
+      1,
+      1,
+    ]);
     expect(await ask(0, 1, 0, 9, 0, 0, 6, ...ascii("$NOPE!"))).toEqual([0, 1, 0, 6, 0, 0, 0, 0, 0, 0]);
     // Two of many: 12.0 characters of UTF-16, and one that is unknown with its own error code.
-    expect(await ask(0, 3, 0, 16, 6, 2, 0, 4, 80, 0, 73, 0, 78, 0, 71, 0, 0, 1, 81, 0)).toEqual([0, 3, 0, 19, 6, 2, 1, 0, 4, 80, 0, 79, 0, 78, 0, 71, 0, 0, 0, 0, 0, 1, 1]);
+    expect(await ask(0, 3, 0, 16, 6, 2, 0, 4, 80, 0, 73, 0, 78, 0, 71, 0, 0, 1, 81, 0)).toEqual([
+      0, 3, 0, 19, 6, 2, 1, 0, 4, 80, 0, 79, 0, 78, 0, 71, 0, 0, 0, 0, 0, 1, 1,
+    ]);
   });
 
   test("states are read only; the mode is the key's alone", async () => {
     const { kuka, read } = await bench();
-    for (const name of ["$MODE_OP", "$AXIS_ACT", "$POS_ACT", "$PRO_STATE1", "$PERI_RDY", "$IN[1]", "$MODEL_NAME[]", "NOBODY"]) expect(kuka.variables.write(name, read(name))).toBe(false);
+    for (const name of [
+      "$MODE_OP",
+      "$AXIS_ACT",
+      "$POS_ACT",
+      "$PRO_STATE1",
+      "$PERI_RDY",
+      "$IN[1]",
+      "$MODEL_NAME[]",
+      "NOBODY",
+    ])
+      expect(kuka.variables.write(name, read(name))).toBe(false);
     expect(kuka.variables.write("$OV_PRO", "101")).toBe(false);
     expect(kuka.variables.write("$out[7]", "TRUE")).toBe(true);
     expect([read("$OUT[7]"), read("$IN[7]"), read("$OUT[0]"), read("$OUT[4097]")]).toEqual(["TRUE", "FALSE", "?", "?"]);
@@ -68,14 +125,18 @@ describe("variables on the wire, byte for byte", () => {
     expect(read("$IN[7]")).toBe("TRUE");
     expect(kuka.variables.write("$ANOUT[1]", "0.5")).toBe(true);
     expect([read("$ANOUT[1]"), kuka.variables.write("$ANOUT[1]", "1.5")]).toEqual(["0.5", false]);
-    expect(read("$AXIS_ACT")).toBe("{E6AXIS: A1 0.0, A2 -90.0, A3 90.0, A4 0.0, A5 90.0, A6 0.0, E1 0.0, E2 0.0, E3 0.0, E4 0.0, E5 0.0, E6 0.0}");
+    expect(read("$AXIS_ACT")).toBe(
+      "{E6AXIS: A1 0.0, A2 -90.0, A3 90.0, A4 0.0, A5 90.0, A6 0.0, E1 0.0, E2 0.0, E3 0.0, E4 0.0, E5 0.0, E6 0.0}",
+    );
     // Upper arm upright, forearm level, wrist bent down: X = 25 + 420 mm, Z = 400 + 455 + 35 − 80 mm; A2 is the only negative axis.
     expect(read("$POS_ACT")).toMatch(/^\{E6POS: X 445\.0, Y .*, Z 810\.0, A .*, B .*, C .*, S 2, T 2, E1 0\.0/);
     expect(read("TWC_AXIS").length).toBeLessThan(256 - 10);
   });
 
   test("what is no message is logged once and cut off; what is cannot be done is answered 7, what is malformed 9", async () => {
-    const { scheduler, network, log } = await bench(), one = await bytesClient(scheduler, network), two = await bytesClient(scheduler, network);
+    const { scheduler, network, log } = await bench();
+    const one = await bytesClient(scheduler, network);
+    const two = await bytesClient(scheduler, network);
     expect(await one.ask(0, 1, 0, 1, 12)).toEqual([0, 1, 0, 4, 12, 0, 7, 0]);
     expect(await one.ask(0, 2, 0, 2, 0, 0)).toEqual([0, 2, 0, 4, 0, 0, 9, 0]);
     expect(one.ended()).toBe(0);
@@ -91,10 +152,17 @@ describe("variables on the wire, byte for byte", () => {
   });
 
   test("any bytes on the port: no crash, at most one line of log for a connection (300 connections)", async () => {
-    const { scheduler, network, log, read } = await bench(), random = seededRandom(11);
+    const { scheduler, network, log, read } = await bench();
+    const random = seededRandom(11);
     for (let i = 0; i < 300; i++) {
-      const client = await bytesClient(scheduler, network), before = log.length;
-      for (let k = 0; k < 5; k++) await client.ask(...Array.from({ length: 1 + Math.floor(random() * 40) }, () => Math.floor(random() * (random() < 0.5 ? 8 : 256))));
+      const client = await bytesClient(scheduler, network);
+      const before = log.length;
+      for (let k = 0; k < 5; k++)
+        await client.ask(
+          ...Array.from({ length: 1 + Math.floor(random() * 40) }, () =>
+            Math.floor(random() * (random() < 0.5 ? 8 : 256)),
+          ),
+        );
       expect(log.length - before).toBeLessThanOrEqual(1);
       network.cut();
       await scheduler.elapse(0.01);
@@ -103,11 +171,15 @@ describe("variables on the wire, byte for byte", () => {
   });
 
   test("it is found by name: WHEREAREYOU?", async () => {
-    const { scheduler, network } = await bench({ serial: "4711" }), answers: string[] = [];
+    const { scheduler, network } = await bench({ serial: "4711" });
+    const answers: string[] = [];
     const asker = await network.bind({ host: HOST, port: 0 });
     if (asker.kind === "taken") throw new Error(asker.sentence);
-    asker.socket.onDatagram(lent => { answers.push(String.fromCharCode(...lent)); });
-    for (const text of ["WHEREAREYOU?", "WHEREAREYOU", "x".repeat(2000)]) asker.socket.send(Uint8Array.from(ascii(text)), { host: HOST, port: 7000 });
+    asker.socket.onDatagram(lent => {
+      answers.push(String.fromCharCode(...lent));
+    });
+    for (const text of ["WHEREAREYOU?", "WHEREAREYOU", "x".repeat(2000)])
+      asker.socket.send(Uint8Array.from(ascii(text)), { host: HOST, port: 7000 });
     await scheduler.elapse(0.01);
     expect(answers).toEqual(["KUKA|#KR6R900SIXX C2 FLR ZH100|4711"]);
   });
@@ -138,7 +210,13 @@ describe("mode, drives, stops, messages", () => {
     await scheduler.elapse(0.25);
     expect([kuka.arm.isMoving(), read("$PRO_STATE1")]).toEqual([true, "#P_ACTIVE"]);
     kuka.pendant.setEmergencyStop(true);
-    expect([kuka.drivesOn, read("$ALARM_STOP"), read("$PERI_RDY"), read("$STOPMESS"), read("$PRO_STATE1")]).toEqual([true, "FALSE", "FALSE", "TRUE", "#P_STOP"]);
+    expect([kuka.drivesOn, read("$ALARM_STOP"), read("$PERI_RDY"), read("$STOPMESS"), read("$PRO_STATE1")]).toEqual([
+      true,
+      "FALSE",
+      "FALSE",
+      "TRUE",
+      "#P_STOP",
+    ]);
     await scheduler.elapse(1);
     expect([kuka.drivesOn, kuka.arm.isMoving()]).toEqual([false, false]);
     kuka.pendant.confirm();
@@ -162,12 +240,24 @@ describe("mode, drives, stops, messages", () => {
   test("T-27 STOP 2: the gate brakes and leaves the drives on; closing it starts nothing", async () => {
     const { scheduler, kuka, read } = await bench();
     startLoop(kuka);
-    for (const [name, value] of [["TWC_AXIS", "{A1 60}"], ["TWC_KIND", "1"], ["TWC_RATIO", "100"], ["TWC_CMD", "1"]] as const) kuka.variables.write(name, value);
+    for (const [name, value] of [
+      ["TWC_AXIS", "{A1 60}"],
+      ["TWC_KIND", "1"],
+      ["TWC_RATIO", "100"],
+      ["TWC_CMD", "1"],
+    ] as const)
+      kuka.variables.write(name, value);
     await scheduler.elapse(0.25);
     kuka.pendant.setGuardOpen(true);
     await scheduler.elapse(0.5);
     const rest = kuka.arm.jointAngles();
-    expect([kuka.drivesOn, kuka.arm.isMoving(), read("$USER_SAF"), read("$PERI_RDY"), read("$PRO_STATE1")]).toEqual([true, false, "FALSE", "TRUE", "#P_STOP"]);
+    expect([kuka.drivesOn, kuka.arm.isMoving(), read("$USER_SAF"), read("$PERI_RDY"), read("$PRO_STATE1")]).toEqual([
+      true,
+      false,
+      "FALSE",
+      "TRUE",
+      "#P_STOP",
+    ]);
     kuka.pendant.setGuardOpen(false);
     await scheduler.elapse(1);
     expect([read("$USER_SAF"), read("$STOPMESS"), read("$PRO_STATE1")]).toEqual(["TRUE", "TRUE", "#P_STOP"]);
@@ -199,7 +289,7 @@ describe("programs", () => {
       expect(kuka.pendant.write("KRC:\\R1\\PROGRAM\\A.src", PROGRAM)).toBeNull();
       kuka.pendant.setDrives(true);
       expect(kuka.pendant.select("a")).toBeNull();
-      expect([read("$PRO_NAME1[]"), read("$PRO_STATE1")]).toEqual(["\"A\"", "#P_RESET"]);
+      expect([read("$PRO_NAME1[]"), read("$PRO_STATE1")]).toEqual(['"A"', "#P_RESET"]);
       expect(kuka.pendant.start()).toBeNull();
       expect(await fastest(2)).toBeLessThanOrEqual(0.25 * 1.001);
       await scheduler.elapse(8);
@@ -252,21 +342,30 @@ describe("programs", () => {
   });
 
   test("our own program: 24 characters at most a name, every global declared, blocks closed", () => {
-    const [src, dat] = LOOP_FILES, lines = src.text.split("\r\n").map(line => line.trim());
+    const [src, dat] = LOOP_FILES;
+    const lines = src.text.split("\r\n").map(line => line.trim());
     const count = (word: RegExp): number => lines.filter(line => word.test(line)).length;
     expect(count(/^DEF /)).toBe(count(/^END$/));
-    expect([count(/^LOOP$/), count(/^FOR /), count(/^SWITCH /)]).toEqual([count(/^ENDLOOP$/), count(/^ENDFOR$/), count(/^ENDSWITCH$/)]);
+    expect([count(/^LOOP$/), count(/^FOR /), count(/^SWITCH /)]).toEqual([
+      count(/^ENDLOOP$/),
+      count(/^ENDFOR$/),
+      count(/^ENDSWITCH$/),
+    ]);
     expect(count(/^IF /)).toBe(count(/^ENDIF$/));
-    for (const name of new Set(src.text.match(/\bTWC_[A-Z]+\b/g))) expect(dat.text.includes(` ${name}=`) || src.text.includes(`DEF ${name}(`), name).toBe(true);
+    for (const name of new Set(src.text.match(/\bTWC_[A-Z]+\b/g)))
+      expect(dat.text.includes(` ${name}=`) || src.text.includes(`DEF ${name}(`), name).toBe(true);
     for (const [name] of LOOP_GLOBALS) expect(name.length).toBeLessThanOrEqual(24);
   });
 });
 
 describe("the program TWINCELL", () => {
   async function loop() {
-    const made = await bench(), { kuka } = made;
+    const made = await bench();
+    const { kuka } = made;
     startLoop(kuka);
-    const write = (values: Readonly<Record<string, string>>): void => { for (const [name, value] of Object.entries(values)) expect(kuka.variables.write(name, value), name).toBe(true); };
+    const write = (values: Readonly<Record<string, string>>): void => {
+      for (const [name, value] of Object.entries(values)) expect(kuka.variables.write(name, value), name).toBe(true);
+    };
     const said = (): string[] => ["TWC_DONE", "TWC_RESULT", "TWC_STOP"].map(made.read);
     return { ...made, write, said };
   }
@@ -289,7 +388,10 @@ describe("the program TWINCELL", () => {
     expect(kuka.arm.isMoving()).toBe(false);
     expect(said()).toEqual(["5", "4", "FALSE"]);
     write({ ...FAR, TWC_RATIO: "10", TWC_CMD: "6" });
-    for (let i = 0; i < 10; i++) { await scheduler.elapse(0.2); kuka.variables.write("$TIMER[10]", "-500"); }
+    for (let i = 0; i < 10; i++) {
+      await scheduler.elapse(0.2);
+      kuka.variables.write("$TIMER[10]", "-500");
+    }
     expect(kuka.arm.isMoving()).toBe(true);
   });
 
@@ -325,7 +427,15 @@ describe("the program TWINCELL", () => {
 
   test("values that are none of the variable's kind are not taken", async () => {
     const { kuka } = await loop();
-    for (const [name, value] of [["TWC_CMD", "1.5"], ["TWC_CMD", "TRUE"], ["TWC_STOP", "1"], ["TWC_AXIS", "{X 1}"], ["TWC_AXIS", "{E6POS: A1 1}"], ["TWC_SPEED", "#A"], ["TWC_CMD", "3000000000"]] as const) {
+    for (const [name, value] of [
+      ["TWC_CMD", "1.5"],
+      ["TWC_CMD", "TRUE"],
+      ["TWC_STOP", "1"],
+      ["TWC_AXIS", "{X 1}"],
+      ["TWC_AXIS", "{E6POS: A1 1}"],
+      ["TWC_SPEED", "#A"],
+      ["TWC_CMD", "3000000000"],
+    ] as const) {
       expect(kuka.variables.write(name, value), `${name}=${value}`).toBe(false);
     }
   });

@@ -81,7 +81,10 @@ export interface VirtualKuka {
   readonly variables: Variables;
   readonly listening: Listening;
   readonly mode: KukaMode;
-  readonly machine: Pick<Machine, "mode" | "isManual" | "emergency" | "safetyClosed" | "stopMessage" | "messages" | "ready" | "override">;
+  readonly machine: Pick<
+    Machine,
+    "mode" | "isManual" | "emergency" | "safetyClosed" | "stopMessage" | "messages" | "ready" | "override"
+  >;
   readonly program: { readonly state: ProgramState; readonly name: string };
   readonly messages: readonly Message[];
   readonly drivesOn: boolean;
@@ -97,30 +100,61 @@ export interface VirtualKuka {
  * 6999 and 7000. Refuses an arm whose axes are not known (RangeError).
  */
 export async function createVirtualKuka(options: VirtualKukaOptions): Promise<VirtualKuka> {
-  const { robot, scheduler, network, host } = options, axes = options.axes ?? kukaAxes(robot);
+  const { robot, scheduler, network, host } = options;
+  const axes = options.axes ?? kukaAxes(robot);
   if (!axes) throw new RangeError(`How a KUKA controller counts the axes of ${robot.name} is not known.`);
-  const log = options.log ?? ((): void => { /* Nobody asked for it. */ });
+  const log =
+    options.log ??
+    ((): void => {
+      /* Nobody asked for it. */
+    });
   const arm = createVirtualController({
-    robot, scheduler, cycle_s: options.cycle_s ?? 0.004, name: `Virtual ${robot.name}`,
-    ...(options.start_rad ? { start_rad: options.start_rad } : {}), ...(options.maxSpeed === undefined ? {} : { maxSpeed: options.maxSpeed }),
+    robot,
+    scheduler,
+    cycle_s: options.cycle_s ?? 0.004,
+    name: `Virtual ${robot.name}`,
+    ...(options.start_rad ? { start_rad: options.start_rad } : {}),
+    ...(options.maxSpeed === undefined ? {} : { maxSpeed: options.maxSpeed }),
   });
-  const faults = noFaults(), now: Now = { q_rad: arm.jointAngles(), time_s: 0 };
-  let booted_s = 0, last_s = 0;
-  const timers = new Timers(() => 1000 * now.time_s), globals = new Globals([...LOOP_GLOBALS, ...options.globals ?? []], options.digits);
-  const machine = new Machine(arm, options.mode ?? "EX", () => { programs.interrupted(); });
-  const slow = (step: MoveStep): MoveStep => machine.mode === "T1" ? slowed(robot, step, arm.jointAngles(), T1_MPS) : step;
+  const faults = noFaults();
+  const now: Now = { q_rad: arm.jointAngles(), time_s: 0 };
+  let booted_s = 0;
+  let last_s = 0;
+  const timers = new Timers(() => 1000 * now.time_s);
+  const globals = new Globals([...LOOP_GLOBALS, ...(options.globals ?? [])], options.digits);
+  const machine = new Machine(arm, options.mode ?? "EX", () => {
+    programs.interrupted();
+  });
+  const slow = (step: MoveStep): MoveStep =>
+    machine.mode === "T1" ? slowed(robot, step, arm.jointAngles(), T1_MPS) : step;
   const builtins = new Map<string, Builtin>([[LOOP_NAME, new LoopRun(globals, timers, arm, machine, axes, slow)]]);
-  const rsi = options.rsi ? new RsiRun({ robot, axes, arm, machine, scheduler, network, host, faults, globals, log }, options.rsi) : null;
+  const rsi = options.rsi
+    ? new RsiRun({ robot, axes, arm, machine, scheduler, network, host, faults, globals, log }, options.rsi)
+    : null;
   if (rsi) {
     builtins.set(RSI_NAME, rsi);
     const why = await rsi.open();
     if (why) log(why);
   }
   const programs = new Programs(arm, machine, builtins, robot, options.interpret);
-  const identity = { model: options.model ?? kukaModel(robot), serial: options.serial ?? "800001", name: options.name ?? "VIRTUAL" };
+  const identity = {
+    model: options.model ?? kukaModel(robot),
+    serial: options.serial ?? "800001",
+    name: options.name ?? "VIRTUAL",
+  };
   const proxy = new Map([
-    ["PING", "PONG"], ["@PROXY_TYPE", "C3 BRIDGE INTERFACE"], ["@PROXY_VERSION", "1.5.0"], ["@PROXY_HOSTNAME", identity.name], ["@PROXY_ADDRESS", host], ["@PROXY_ENABLED", "TRUE"],
-    ["@PROXY_FEATURES", Array.from({ length: C3_TYPES.at(-1)! + 1 }, (_, i) => C3_TYPES.includes(C3_TYPES.at(-1)! - i) ? "1" : "0").join("")],
+    ["PING", "PONG"],
+    ["@PROXY_TYPE", "C3 BRIDGE INTERFACE"],
+    ["@PROXY_VERSION", "1.5.0"],
+    ["@PROXY_HOSTNAME", identity.name],
+    ["@PROXY_ADDRESS", host],
+    ["@PROXY_ENABLED", "TRUE"],
+    [
+      "@PROXY_FEATURES",
+      Array.from({ length: C3_TYPES.at(-1)! + 1 }, (_, i) =>
+        C3_TYPES.includes(C3_TYPES.at(-1)! - i) ? "1" : "0",
+      ).join(""),
+    ],
   ]);
   const wiring = options.wiring === undefined ? EXAMPLE_WIRING : options.wiring;
   const wire = (): void => {
@@ -134,43 +168,131 @@ export async function createVirtualKuka(options: VirtualKukaOptions): Promise<Vi
     if (n === wiring?.drivesOff) machine.setDrives(false);
     if (n === wiring?.drivesOn && machine.mode === "EX") machine.setDrives(true);
   };
-  const variables = kukaVariables({ robot, axes, identity, machine, programs, globals, timers, arm, now, proxy, onOutput, ...(options.digits === undefined ? {} : { digits: options.digits }) });
+  const variables = kukaVariables({
+    robot,
+    axes,
+    identity,
+    machine,
+    programs,
+    globals,
+    timers,
+    arm,
+    now,
+    proxy,
+    onOutput,
+    ...(options.digits === undefined ? {} : { digits: options.digits }),
+  });
 
   arm.onSample(sample => {
     last_s = sample.time_s;
-    if (!faults.frozen) { now.q_rad.set(sample.q_rad); now.time_s = sample.time_s - booted_s; }
+    if (!faults.frozen) {
+      now.q_rad.set(sample.q_rad);
+      now.time_s = sample.time_s - booted_s;
+    }
     machine.cycle();
     programs.cycle(sample.step);
   });
 
-  const server: C3Server = await serveC3({ network, host, port: options.port ?? C3_PORT, scheduler, faults, variables, machine, programs, hostName: identity.name, log });
+  const server: C3Server = await serveC3({
+    network,
+    host,
+    port: options.port ?? C3_PORT,
+    scheduler,
+    faults,
+    variables,
+    machine,
+    programs,
+    hostName: identity.name,
+    log,
+  });
   const sockets: DatagramSocket[] = [];
   if (server.listening.kind === "listening") {
     const { port } = server.listening.address;
     proxy.set("@PROXY_PORT", String(port));
-    await answerDiscovery(network, host, port, () => hereIAmText(identity), socket => { sockets.push(socket); });
+    await answerDiscovery(
+      network,
+      host,
+      port,
+      () => hereIAmText(identity),
+      socket => {
+        sockets.push(socket);
+      },
+    );
   }
 
   return {
-    robot, arm, faults, variables, listening: server.listening,
-    get mode() { return machine.mode; },
-    program: programs, machine,
-    get messages() { return machine.messages; },
-    get drivesOn() { return machine.drivesOn; },
-    get rsiDelay() { return rsi ? rsi.delay : null; },
+    robot,
+    arm,
+    faults,
+    variables,
+    listening: server.listening,
+    get mode() {
+      return machine.mode;
+    },
+    program: programs,
+    machine,
+    get messages() {
+      return machine.messages;
+    },
+    get drivesOn() {
+      return machine.drivesOn;
+    },
+    get rsiDelay() {
+      return rsi ? rsi.delay : null;
+    },
     pendant: {
-      setMode(mode) { machine.setMode(mode); }, setEnabling(pressed) { machine.setEnabling(pressed); }, setDrives: on => machine.setDrives(on),
-      select: name => programs.select(name), start: () => programs.start(), stop() { programs.hold(); }, reset: () => programs.reset(), cancel: () => programs.cancel(),
-      confirm() { machine.confirm(); }, setOverride: percent => machine.setOverride(percent),
+      setMode(mode) {
+        machine.setMode(mode);
+      },
+      setEnabling(pressed) {
+        machine.setEnabling(pressed);
+      },
+      setDrives: on => machine.setDrives(on),
+      select: name => programs.select(name),
+      start: () => programs.start(),
+      stop() {
+        programs.hold();
+      },
+      reset: () => programs.reset(),
+      cancel: () => programs.cancel(),
+      confirm() {
+        machine.confirm();
+      },
+      setOverride: percent => machine.setOverride(percent),
       async jog(q_rad, ratio = 1) {
         const why = machine.isManual ? machine.hindrance : `The mode is ${machine.mode}; axes are jogged in T1 and T2.`;
-        if (why) return { kind: "refused", why: { code: "controller.not-manual", sentence: why, hint: "Turn the key to T1 and press the enabling switch." } };
-        const step: MoveStep = { id: "jog", type: "move", path: "ptp", target: { q: Array.from(q_rad) }, speed: { ratio }, blend_m: 0 };
+        if (why)
+          return {
+            kind: "refused",
+            why: {
+              code: "controller.not-manual",
+              sentence: why,
+              hint: "Turn the key to T1 and press the enabling switch.",
+            },
+          };
+        const step: MoveStep = {
+          id: "jog",
+          type: "move",
+          path: "ptp",
+          target: { q: Array.from(q_rad) },
+          speed: { ratio },
+          blend_m: 0,
+        };
         return arm.run([slow(step)], { tools: {}, frames: {} });
       },
-      setEmergencyStop(pressed) { machine.setEmergency(pressed); }, setGuardOpen(open) { machine.setSafety(!open); },
-      fail(because) { machine.stop(2, because); },
-      setInput(n, value) { arm.signals.write(`$IN[${n}]`, value); }, write: (name, text) => programs.write(name, text),
+      setEmergencyStop(pressed) {
+        machine.setEmergency(pressed);
+      },
+      setGuardOpen(open) {
+        machine.setSafety(!open);
+      },
+      fail(because) {
+        machine.stop(2, because);
+      },
+      setInput(n, value) {
+        arm.signals.write(`$IN[${n}]`, value);
+      },
+      write: (name, text) => programs.write(name, text),
     },
     reboot() {
       server.cut();
@@ -200,14 +322,26 @@ export function startLoop(kuka: VirtualKuka, name: typeof LOOP_NAME | typeof RSI
 }
 
 /** On the port of the variables and on the old one; a port that is taken is left to who has it. */
-async function answerDiscovery(network: Network, host: string, port: number, text: () => string, opened: (socket: DatagramSocket) => void): Promise<void> {
-  for (const [at, answer] of [[port, 0], [OLD_DISCOVERY_PORT, OLD_ANSWER_PORT]] as const) {
+async function answerDiscovery(
+  network: Network,
+  host: string,
+  port: number,
+  text: () => string,
+  opened: (socket: DatagramSocket) => void,
+): Promise<void> {
+  for (const [at, answer] of [
+    [port, 0],
+    [OLD_DISCOVERY_PORT, OLD_ANSWER_PORT],
+  ] as const) {
     const bound = await network.bind({ host, port: at });
     if (bound.kind === "taken") continue;
     opened(bound.socket);
     bound.socket.onDatagram((lent, from) => {
       if (lent.length !== WHERE_ARE_YOU.length || String.fromCharCode(...lent) !== WHERE_ARE_YOU) return;
-      bound.socket.send(Uint8Array.from(text(), sign => sign.charCodeAt(0) & 255), { host: from.host, port: answer === 0 ? from.port : answer });
+      bound.socket.send(
+        Uint8Array.from(text(), sign => sign.charCodeAt(0) & 255),
+        { host: from.host, port: answer === 0 ? from.port : answer },
+      );
     });
   }
 }

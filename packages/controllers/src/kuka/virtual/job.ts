@@ -30,7 +30,12 @@ export class Job {
     this.context = interpreted.context;
     this.robot = robot;
     this.where = where;
-    this.text = interpreted.run({ read: name => signals.read(this.wire(name)), write: (name, value) => { signals.write(this.wire(name), value); } });
+    this.text = interpreted.run({
+      read: name => signals.read(this.wire(name)),
+      write: (name, value) => {
+        signals.write(this.wire(name), value);
+      },
+    });
   }
 
   /** The steps up to and with the first motion. */

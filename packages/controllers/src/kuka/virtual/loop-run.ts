@@ -29,7 +29,14 @@ export class LoopRun implements Builtin {
   private running = 0;
   private braking = 0;
 
-  constructor(globals: Globals, timers: Timers, arm: VirtualController, machine: Machine, axes: KukaAxes, slow: (step: MoveStep) => MoveStep) {
+  constructor(
+    globals: Globals,
+    timers: Timers,
+    arm: VirtualController,
+    machine: Machine,
+    axes: KukaAxes,
+    slow: (step: MoveStep) => MoveStep,
+  ) {
     this.globals = globals;
     this.timers = timers;
     this.arm = arm;
@@ -70,8 +77,10 @@ export class LoopRun implements Builtin {
       return;
     }
     const command = globals.number(TWC.command);
-    if (globals.bool(TWC.stop)) { this.now = command; this.end(TWC_RESULT.stopped); }
-    else if (command !== globals.number(TWC.done)) this.take(command);
+    if (globals.bool(TWC.stop)) {
+      this.now = command;
+      this.end(TWC_RESULT.stopped);
+    } else if (command !== globals.number(TWC.done)) this.take(command);
   }
 
   private take(command: number): void {
@@ -79,7 +88,10 @@ export class LoopRun implements Builtin {
     this.now = command;
     globals.set(TWC.result, TWC_RESULT.running);
     const step = globals.bool(TWC.lock) ? null : this.step();
-    if (!step) { this.end(TWC_RESULT.refused); return; }
+    if (!step) {
+      this.end(TWC_RESULT.refused);
+      return;
+    }
     timers.write(WATCH_TIMER, -globals.number(TWC.watch));
     timers.stop(WATCH_TIMER, false);
     this.motion = this.slow(step);
@@ -87,17 +99,28 @@ export class LoopRun implements Builtin {
   }
 
   private step(): MoveStep | null {
-    const { globals } = this, base = { id: `${TWC.command} ${this.now}`, type: "move", blend_m: 0 } as const;
-    const percent = (name: string): number => Math.min(100, Math.max(1, globals.number(name))) / 100, acceleration = { ratio: percent(TWC.acceleration) };
+    const { globals } = this;
+    const base = { id: `${TWC.command} ${this.now}`, type: "move", blend_m: 0 } as const;
+    const percent = (name: string): number => Math.min(100, Math.max(1, globals.number(name))) / 100;
+    const acceleration = { ratio: percent(TWC.acceleration) };
     if (globals.number(TWC.kind) === TWC_KIND.joints) {
       const a_deg = new Float64Array(AXES);
       if (!partsIn(globals.text(TWC.axis)!, AXIS_NAMES, a_deg)) return null;
-      return { ...base, path: "ptp", acceleration, target: { q: [...jointsOf(a_deg, this.axes, new Float64Array(AXES))] }, speed: { ratio: percent(TWC.ratio) } };
+      return {
+        ...base,
+        path: "ptp",
+        acceleration,
+        target: { q: [...jointsOf(a_deg, this.axes, new Float64Array(AXES))] },
+        speed: { ratio: percent(TWC.ratio) },
+      };
     }
-    const mps = globals.number(TWC.speed), to = poseIn(globals.text(TWC.position)!), via = poseIn(globals.text(TWC.via)!);
+    const mps = globals.number(TWC.speed);
+    const to = poseIn(globals.text(TWC.position)!);
+    const via = poseIn(globals.text(TWC.via)!);
     if (!to || !(mps > LEAST_MPS)) return null;
     // The base is the world here, and the flange its tool.
-    const place = (at: Pose) => ({ pose: at as Pose<"frame", "tcp">, frame: "world", tool: "flange" }), path = { ...base, acceleration, target: place(to), speed: { mps } };
+    const place = (at: Pose) => ({ pose: at as Pose<"frame", "tcp">, frame: "world", tool: "flange" });
+    const path = { ...base, acceleration, target: place(to), speed: { mps } };
     if (globals.number(TWC.kind) === TWC_KIND.line) return { ...path, path: "lin" };
     return globals.number(TWC.kind) === TWC_KIND.arc && via ? { ...path, path: "circ", via: place(via) } : null;
   }
@@ -109,7 +132,8 @@ export class LoopRun implements Builtin {
       if (this.braking !== 0) this.end(this.braking);
       else if (outcome.kind === "done") this.end(TWC_RESULT.done);
       // A target that cannot be reached stops the program with a message, as the controller does; what the machine stopped waits.
-      else if (outcome.kind === "refused" || !BY_MACHINE.includes(outcome.why.code)) this.machine.stop(2, outcome.why.sentence);
+      else if (outcome.kind === "refused" || !BY_MACHINE.includes(outcome.why.code))
+        this.machine.stop(2, outcome.why.sentence);
     });
   }
   private brake(result: number): void {

@@ -2,7 +2,10 @@ import type { VirtualController } from "../../virtual/index.ts";
 
 /** The mode key: slow and fast by hand with the enabling switch, automatic by the pendant, automatic by a remote control. */
 export type KukaMode = "T1" | "T2" | "AUT" | "EX";
-export interface Message { readonly text: string; /** The robot stopped for it; it stays until its cause is gone and a person has confirmed it. */ readonly stops: boolean }
+export interface Message {
+  readonly text: string /** The robot stopped for it; it stays until its cause is gone and a person has confirmed it. */;
+  readonly stops: boolean;
+}
 /** In T1 no point of the flange moves faster than this. */
 export const T1_MPS = 0.25;
 const MOST_MESSAGES = 100;
@@ -33,18 +36,34 @@ export class Machine {
     this.changed = changed;
   }
 
-  get mode(): KukaMode { return this.key; }
-  get isManual(): boolean { return this.key === "T1" || this.key === "T2"; }
-  get drivesOn(): boolean { return this.drives; }
+  get mode(): KukaMode {
+    return this.key;
+  }
+  get isManual(): boolean {
+    return this.key === "T1" || this.key === "T2";
+  }
+  get drivesOn(): boolean {
+    return this.drives;
+  }
   /** $PERI_RDY: drives under power and nothing that keeps them from it. */
-  get ready(): boolean { return this.drives && !this.offAtRest && !this.emergency; }
+  get ready(): boolean {
+    return this.drives && !this.offAtRest && !this.emergency;
+  }
   /** $STOPMESS */
-  get stopMessage(): boolean { return this.messages.some(({ stops }) => stops); }
+  get stopMessage(): boolean {
+    return this.messages.some(({ stops }) => stops);
+  }
   /** $USER_SAF: in T1 and T2 the enabling switch stands for it. */
-  get userSafe(): boolean { return this.isManual ? this.enabling : this.safetyClosed; }
-  get override(): number { return this.percent; }
+  get userSafe(): boolean {
+    return this.isManual ? this.enabling : this.safetyClosed;
+  }
+  get override(): number {
+    return this.percent;
+  }
   /** Whether the program is held on its path. */
-  get isHeld(): boolean { return this.held; }
+  get isHeld(): boolean {
+    return this.held;
+  }
 
   /** Why nothing may move, or null. */
   get hindrance(): string | null {
@@ -68,9 +87,17 @@ export class Machine {
     return true;
   }
   /** A reduced speed that comes on top of the override: the run to the path. */
-  setShare(share: number): void { this.share = share; this.pace(); }
-  hold(on: boolean): void { this.held = on; this.pace(); }
-  private pace(): void { this.arm.setSpeed(this.held ? 0 : this.percent * this.share); }
+  setShare(share: number): void {
+    this.share = share;
+    this.pace();
+  }
+  hold(on: boolean): void {
+    this.held = on;
+    this.pace();
+  }
+  private pace(): void {
+    this.arm.setSpeed(this.held ? 0 : this.percent * this.share);
+  }
 
   /** STOP 0, 1 or 2. `text` becomes a message to be confirmed unless it is "". */
   stop(kind: 0 | 1 | 2, text: string): void {
@@ -106,7 +133,10 @@ export class Machine {
   }
   /** Why not, or null. */
   setDrives(on: boolean): string | null {
-    if (!on) { if (this.drives) this.stop(1, ""); return null; }
+    if (!on) {
+      if (this.drives) this.stop(1, "");
+      return null;
+    }
     if (this.emergency) return "The emergency stop is pressed.";
     if (this.isManual && !this.enabling) return "The enabling switch is not pressed.";
     if (this.arm.isMoving()) return "The robot has not come to rest.";
@@ -116,12 +146,18 @@ export class Machine {
   }
   /** Takes away every message whose cause is gone. */
   confirm(): void {
-    const left = this.messages.filter(({ text }) => (text === "Emergency stop" && this.emergency) || (text === "Operator safety open" && !this.safetyClosed));
+    const left = this.messages.filter(
+      ({ text }) =>
+        (text === "Emergency stop" && this.emergency) || (text === "Operator safety open" && !this.safetyClosed),
+    );
     this.messages.splice(0, this.messages.length, ...left);
   }
 
   /** Once a cycle. */
   cycle(): void {
-    if (this.offAtRest && !this.arm.isMoving()) { this.offAtRest = false; this.drives = false; }
+    if (this.offAtRest && !this.arm.isMoving()) {
+      this.offAtRest = false;
+      this.drives = false;
+    }
   }
 }

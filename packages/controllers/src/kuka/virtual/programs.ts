@@ -13,7 +13,12 @@ export type ProgramState = "FREE" | "RESET" | "ACTIVE" | "STOP" | "END";
 const MOST_CHARACTERS = 16_000_000;
 
 /** `KRC:\R1\PROGRAM\A.SRC`, `/R1/a` and `A` are the same module. */
-export const moduleOf = (path: string): string => (path.split(/[\\/]/).at(-1) ?? "").replace(/\.(SRC|DAT|SUB)$/i, "").replace(/\(.*$/, "").trim().toUpperCase();
+export const moduleOf = (path: string): string =>
+  (path.split(/[\\/]/).at(-1) ?? "")
+    .replace(/\.(SRC|DAT|SUB)$/i, "")
+    .replace(/\(.*$/, "")
+    .trim()
+    .toUpperCase();
 
 /**
  * The programs on the controller and the one that is selected: selected, run to its path, executed, stopped, taken up again.
@@ -35,7 +40,13 @@ export class Programs {
   private run = 0;
   private step = "";
 
-  constructor(arm: VirtualController, machine: Machine, builtins: ReadonlyMap<string, Builtin>, robot: Robot, interpret: (text: string) => Interpreted) {
+  constructor(
+    arm: VirtualController,
+    machine: Machine,
+    builtins: ReadonlyMap<string, Builtin>,
+    robot: Robot,
+    interpret: (text: string) => Interpreted,
+  ) {
     this.arm = arm;
     this.machine = machine;
     this.builtins = builtins;
@@ -44,8 +55,12 @@ export class Programs {
     for (const { name, text } of LOOP_FILES) this.write(name, text);
   }
 
-  get state(): ProgramState { return this.isState; }
-  get name(): string { return this.isName; }
+  get state(): ProgramState {
+    return this.isState;
+  }
+  get name(): string {
+    return this.isName;
+  }
 
   write(path: string, text: string): string | null {
     const key = path.split(/[\\/]/).at(-1)!.toUpperCase();
@@ -56,7 +71,9 @@ export class Programs {
     this.files.set(key, text);
     return null;
   }
-  read(path: string): string | undefined { return this.files.get(path.split(/[\\/]/).at(-1)!.toUpperCase()); }
+  read(path: string): string | undefined {
+    return this.files.get(path.split(/[\\/]/).at(-1)!.toUpperCase());
+  }
   delete(path: string): boolean {
     const module = moduleOf(path);
     if (module === this.isName) return false;
@@ -64,7 +81,9 @@ export class Programs {
   }
 
   select(path: string): string | null {
-    const name = moduleOf(path), src = this.files.get(`${name}.SRC`), builtin = this.builtins.get(name) ?? null;
+    const name = moduleOf(path);
+    const src = this.files.get(`${name}.SRC`);
+    const builtin = this.builtins.get(name) ?? null;
     if (this.isState === "ACTIVE") return "A program is running.";
     if (src === undefined && !builtin) return `There is no program ${name}.`;
     if (!builtin) {
@@ -111,20 +130,34 @@ export class Programs {
   start(): string | null {
     const why = this.machine.hindrance;
     if (why) return why;
-    if (this.isState === "FREE" || this.isState === "END") return this.isName === "" ? "No program is selected." : "The program has ended; reset it first.";
+    if (this.isState === "FREE" || this.isState === "END")
+      return this.isName === "" ? "No program is selected." : "The program has ended; reset it first.";
     if (this.isState === "ACTIVE") return null;
-    if (this.machine.isHeld) { this.machine.hold(false); this.isState = "ACTIVE"; return null; }
+    if (this.machine.isHeld) {
+      this.machine.hold(false);
+      this.isState = "ACTIVE";
+      return null;
+    }
     this.isState = "ACTIVE";
     if (this.builtin) {
       if (this.begun) this.builtin.goOn();
-      else { this.begun = true; this.builtin.begin(); }
+      else {
+        this.begun = true;
+        this.builtin.begin();
+      }
       // Its first motion is none: it is on its path at once.
       if (!this.onPath) this.reachedPath();
       return null;
     }
     const job = this.job!;
-    if (!this.onPath) this.carryOut(job.toThePath(true), () => { this.reachedPath(); });
-    else this.carryOut(job.rest(this.machine.mode === "T1"), () => { this.isState = "END"; });
+    if (!this.onPath)
+      this.carryOut(job.toThePath(true), () => {
+        this.reachedPath();
+      });
+    else
+      this.carryOut(job.rest(this.machine.mode === "T1"), () => {
+        this.isState = "END";
+      });
     return null;
   }
   /** The stop key: the robot stops on its path and goes on from there. */
@@ -148,11 +181,15 @@ export class Programs {
   }
 
   private carryOut(steps: Iterator<Step, void>, then: () => void): void {
-    const mine = ++this.run, { job } = this;
+    const mine = ++this.run;
+    const { job } = this;
     this.step = "";
     void this.arm.run({ [Symbol.iterator]: () => steps }, job!.context).then((outcome: CommandOutcome) => {
       if (mine !== this.run) return;
-      if (outcome.kind === "done") { then(); return; }
+      if (outcome.kind === "done") {
+        then();
+        return;
+      }
       job!.takeUp(this.step);
       if (!BY_MACHINE.includes(outcome.why.code)) this.machine.stop(2, outcome.why.sentence);
       this.isState = "STOP";

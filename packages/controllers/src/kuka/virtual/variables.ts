@@ -7,60 +7,100 @@ import type { Machine } from "./machine.ts";
 import type { Programs } from "./programs.ts";
 
 /** What the controller says of itself. */
-export interface KukaIdentity { readonly model: string; readonly serial: string; readonly name: string }
+export interface KukaIdentity {
+  readonly model: string;
+  readonly serial: string;
+  readonly name: string;
+}
 /** What the arm said in its last cycle. */
-export interface Now { readonly q_rad: Float64Array; time_s: number }
+export interface Now {
+  readonly q_rad: Float64Array;
+  time_s: number;
+}
 export interface VariableSources {
-  readonly robot: Robot; readonly axes: KukaAxes; readonly identity: KukaIdentity; readonly machine: Machine; readonly programs: Programs;
-  readonly globals: Globals; readonly timers: Timers; readonly arm: VirtualController; readonly now: Now; readonly digits?: number;
+  readonly robot: Robot;
+  readonly axes: KukaAxes;
+  readonly identity: KukaIdentity;
+  readonly machine: Machine;
+  readonly programs: Programs;
+  readonly globals: Globals;
+  readonly timers: Timers;
+  readonly arm: VirtualController;
+  readonly now: Now;
+  readonly digits?: number;
   /** Names of the proxy itself, `@PROXY_PORT`. */
   readonly proxy: ReadonlyMap<string, string>;
   /** An output was written from outside. */
   readonly onOutput: (n: number, value: boolean) => void;
 }
-export interface Variables { read(name: string): string | undefined; write(name: string, value: string): boolean }
+export interface Variables {
+  read(name: string): string | undefined;
+  write(name: string, value: string): boolean;
+}
 
-const DIGITAL = 4096, ANALOGUE = 32;
+const DIGITAL = 4096;
+const ANALOGUE = 32;
 const INDEXED = /^(\$[A-Z_]+)\[([0-9]{1,5})\]$/;
 
 /** The variables of the controller by name, in any case, as texts. What is not known or may not be written is not done. */
 export function kukaVariables(from: VariableSources): Variables {
-  const { robot, axes, machine, programs, globals, timers, arm, now, identity } = from, digits = from.digits ?? REAL_DIGITS;
-  const a_deg = new Float64Array(AXES), speed = tcpSpeed(robot, now);
+  const { robot, axes, machine, programs, globals, timers, arm, now, identity } = from;
+  const digits = from.digits ?? REAL_DIGITS;
+  const a_deg = new Float64Array(AXES);
+  const speed = tcpSpeed(robot, now);
   const axis = (): string => e6axis(axesOf(now.q_rad, axes, a_deg), digits);
   const system = new Map<string, () => string>([
-    ["$AXIS_ACT", axis], ["$AXIS_ACT_MEAS", axis],
+    ["$AXIS_ACT", axis],
+    ["$AXIS_ACT_MEAS", axis],
     ["$POS_ACT", () => flangeText(robot, now.q_rad, axesOf(now.q_rad, axes, a_deg), digits)],
     ["$VEL_ACT", () => krlReal(speed(), digits)],
     // Counts to 2³¹ − 1 and begins again.
     ["$ROB_TIMER", () => String(Math.round(1000 * now.time_s) % 0x80000000)],
     ["$MODE_OP", () => `#${machine.mode}`],
-    ["$PRO_STATE1", () => `#P_${programs.state}`], ["$PRO_NAME1[]", () => krlText(programs.name)], ["$PRO_ACT", () => krlBool(programs.state === "ACTIVE")],
+    ["$PRO_STATE1", () => `#P_${programs.state}`],
+    ["$PRO_NAME1[]", () => krlText(programs.name)],
+    ["$PRO_ACT", () => krlBool(programs.state === "ACTIVE")],
     ["$OV_PRO", () => String(machine.override)],
-    ["$PERI_RDY", () => krlBool(machine.ready)], ["$STOPMESS", () => krlBool(machine.stopMessage)],
-    ["$ALARM_STOP", () => krlBool(!machine.emergency)], ["$USER_SAF", () => krlBool(machine.userSafe)],
-    ["$MODEL_NAME[]", () => krlText(identity.model)], ["$KR_SERIALNO", () => identity.serial], ["$ROBNAME[]", () => krlText(identity.name)],
+    ["$PERI_RDY", () => krlBool(machine.ready)],
+    ["$STOPMESS", () => krlBool(machine.stopMessage)],
+    ["$ALARM_STOP", () => krlBool(!machine.emergency)],
+    ["$USER_SAF", () => krlBool(machine.userSafe)],
+    ["$MODEL_NAME[]", () => krlText(identity.model)],
+    ["$KR_SERIALNO", () => identity.serial],
+    ["$ROBNAME[]", () => krlText(identity.name)],
   ]);
   const wire = (name: string, n: number): boolean => n >= 1 && n <= (name.includes("AN") ? ANALOGUE : DIGITAL);
 
   return {
     read(given) {
-      const name = given.trim().toUpperCase(), known = system.get(name) ?? null;
+      const name = given.trim().toUpperCase();
+      const known = system.get(name) ?? null;
       if (known) return known();
       const indexed = INDEXED.exec(name);
       if (!indexed) return globals.text(name) ?? from.proxy.get(name);
       const n = Number(indexed[2]);
       switch (indexed[1]) {
-        case "$IN": case "$OUT": return wire(indexed[1], n) ? krlBool(arm.signals.read(`${indexed[1]}[${n}]`) === true) : undefined;
-        case "$ANIN": case "$ANOUT": return wire(indexed[1], n) ? krlReal(Number(arm.signals.read(`${indexed[1]}[${n}]`)), digits) : undefined;
-        case "$TIMER": return timers.has(n) ? String(Math.round(timers.read(n))) : undefined;
-        case "$TIMER_FLAG": return timers.has(n) ? krlBool(timers.read(n) > 0) : undefined;
-        case "$TIMER_STOP": return timers.has(n) ? krlBool(timers.stopped(n)) : undefined;
-        default: return undefined;
+        case "$IN":
+        case "$OUT":
+          return wire(indexed[1], n) ? krlBool(arm.signals.read(`${indexed[1]}[${n}]`) === true) : undefined;
+        case "$ANIN":
+        case "$ANOUT":
+          return wire(indexed[1], n) ? krlReal(Number(arm.signals.read(`${indexed[1]}[${n}]`)), digits) : undefined;
+        case "$TIMER":
+          return timers.has(n) ? String(Math.round(timers.read(n))) : undefined;
+        case "$TIMER_FLAG":
+          return timers.has(n) ? krlBool(timers.read(n) > 0) : undefined;
+        case "$TIMER_STOP":
+          return timers.has(n) ? krlBool(timers.stopped(n)) : undefined;
+        default:
+          return undefined;
       }
     },
     write(given, text) {
-      const name = given.trim().toUpperCase(), indexed = INDEXED.exec(name), number = numberIn(text), bool = boolIn(text);
+      const name = given.trim().toUpperCase();
+      const indexed = INDEXED.exec(name);
+      const number = numberIn(text);
+      const bool = boolIn(text);
       if (name === "$OV_PRO") return Number.isInteger(number) && machine.setOverride(number);
       if (!indexed) return globals.write(name, text);
       const n = Number(indexed[2]);
@@ -82,7 +122,8 @@ export function kukaVariables(from: VariableSources): Variables {
           if (!timers.has(n) || bool === undefined) return false;
           timers.stop(n, bool);
           return true;
-        default: return false;
+        default:
+          return false;
       }
     },
   };
@@ -90,7 +131,9 @@ export function kukaVariables(from: VariableSources): Variables {
 
 /** Speed of the flange [m/s] between the last two cycles in which it was asked for. */
 function tcpSpeed(robot: Robot, now: Now): () => number {
-  let last: Vector3 = flangePose(robot.arm, now.q_rad).position, at_s = now.time_s, speed_mps = 0;
+  let last: Vector3 = flangePose(robot.arm, now.q_rad).position;
+  let at_s = now.time_s;
+  let speed_mps = 0;
   return () => {
     if (now.time_s <= at_s) return speed_mps;
     const { position } = flangePose(robot.arm, now.q_rad);

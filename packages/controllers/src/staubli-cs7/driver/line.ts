@@ -2,7 +2,11 @@ import type { Scheduler } from "@twincell/core";
 import type { ByteStream } from "../../transport/index.ts";
 import { commandBytes, MonitorReader } from "../codec.ts";
 
-interface Asked { readonly command: string; readonly since_s: number; readonly answer: (lines: readonly string[] | null) => void }
+interface Asked {
+  readonly command: string;
+  readonly since_s: number;
+  readonly answer: (lines: readonly string[] | null) => void;
+}
 export interface Line {
   /** The lines that were said to a command, its echo first; null when the line is gone. Commands may be typed ahead. */
   ask(command: string): Promise<readonly string[] | null>;
@@ -22,7 +26,8 @@ export interface LineListener {
  * accord, with a prompt behind it, may stand in between.
  */
 export function openLine(stream: ByteStream, scheduler: Scheduler, listener: LineListener): Line {
-  const asked: Asked[] = [], reader = new MonitorReader();
+  const asked: Asked[] = [];
+  const reader = new MonitorReader();
   let isOpen = true;
   const same = (line: string, command: string): boolean => line.trim().toUpperCase() === command.trim().toUpperCase();
 
@@ -32,26 +37,44 @@ export function openLine(stream: ByteStream, scheduler: Scheduler, listener: Lin
     stream.close();
     for (const { answer } of asked.splice(0)) answer(null);
   }
-  stream.onEnd(({ sentence }) => { if (isOpen) { close(); listener.lost(sentence); } });
+  stream.onEnd(({ sentence }) => {
+    if (isOpen) {
+      close();
+      listener.lost(sentence);
+    }
+  });
   stream.onBytes(lent => {
     if (!isOpen) return;
     const why = reader.push(lent, lines => {
-      const first = asked[0], at = first ? lines.findIndex(line => same(line, first.command)) : -1;
-      if (!first || at < 0) { if (lines.some(line => line.trim() !== "")) listener.aside(lines); return; }
+      const first = asked[0];
+      const at = first ? lines.findIndex(line => same(line, first.command)) : -1;
+      if (!first || at < 0) {
+        if (lines.some(line => line.trim() !== "")) listener.aside(lines);
+        return;
+      }
       if (at > 0) listener.aside(lines.slice(0, at));
       asked.shift();
       listener.roundTrip(scheduler.now_s() - first.since_s);
       first.answer(lines.slice(at));
     });
-    if (why && isOpen) { close(); listener.lost(why); }
+    if (why && isOpen) {
+      close();
+      listener.lost(why);
+    }
   });
   return {
     close,
-    get waited_s() { return asked[0] ? scheduler.now_s() - asked[0].since_s : 0; },
-    ask: command => new Promise(answer => {
-      if (!isOpen) { answer(null); return; }
-      asked.push({ command, since_s: scheduler.now_s(), answer });
-      stream.send(commandBytes(command));
-    }),
+    get waited_s() {
+      return asked[0] ? scheduler.now_s() - asked[0].since_s : 0;
+    },
+    ask: command =>
+      new Promise(answer => {
+        if (!isOpen) {
+          answer(null);
+          return;
+        }
+        asked.push({ command, since_s: scheduler.now_s(), answer });
+        stream.send(commandBytes(command));
+      }),
   };
 }

@@ -41,35 +41,87 @@ export interface Cs7Pendant {
   type(command: string): string;
 }
 export interface VirtualCs7 {
-  readonly robot: Robot; readonly arm: VirtualController; readonly pendant: Cs7Pendant; readonly faults: LineFaults; readonly ports: { readonly line: number };
-  readonly machine: Machine; readonly isPowered: boolean; readonly calibrated: boolean;
+  readonly robot: Robot;
+  readonly arm: VirtualController;
+  readonly pendant: Cs7Pendant;
+  readonly faults: LineFaults;
+  readonly ports: { readonly line: number };
+  readonly machine: Machine;
+  readonly isPowered: boolean;
+  readonly calibrated: boolean;
   /** A program has the robot. */
   readonly isRunning: boolean;
   reboot(): void;
   close(): void;
 }
-export type Cs7Started = { readonly kind: "started"; readonly virtual: VirtualCs7 } | { readonly kind: "taken"; readonly sentence: string };
+export type Cs7Started =
+  | { readonly kind: "started"; readonly virtual: VirtualCs7 }
+  | { readonly kind: "taken"; readonly sentence: string };
 
-const MANUAL_MPS = 0.25, PRESSES_S = 0.5, BOOT_S = 2, DIGITS = 3, MOST_WAITING = 65_536, MOST_AHEAD = 64;
+const MANUAL_MPS = 0.25;
+const PRESSES_S = 0.5;
+const BOOT_S = 2;
+const DIGITS = 3;
+const MOST_WAITING = 65_536;
+const MOST_AHEAD = 64;
 const URGENT = /^\s*(PANIC|ABORT|DO\s+BRAKE)\b/i;
 
 /** A CS7 of numbers behind the raw line of its monitor: one terminal, echo, prompt, programs in a task beside it. */
 export async function createVirtualCs7(options: VirtualCs7Options): Promise<Cs7Started> {
-  const { robot, scheduler, network, host, interpret } = options, joints = options.joints ?? vPlusJoints(robot), log = options.log ?? ((): void => { /* Nobody asked for it. */ });
-  if (!joints || robot.arm.joints.length !== JOINTS) return { kind: "taken", sentence: `How V+ counts the joints of ${robot.name} is not known.` };
-  const arm = createVirtualController({ robot, scheduler, name: `Virtual ${robot.name}`, ...(options.start_rad ? { start_rad: options.start_rad } : {}), ...(options.maxSpeed === undefined ? {} : { maxSpeed: options.maxSpeed }) });
-  const machine = new Machine(arm), faults = noLineFaults(), now_rad = arm.jointAngles(), queue: string[] = [];
-  let terminal: ByteStream | null = null, line = faultyLine(faults, scheduler, 1), seed = 1, typed = "", asks: Said["asks"], blocked = false, booting = false, blinkedFor_s = NaN;
+  const { robot, scheduler, network, host, interpret } = options;
+  const joints = options.joints ?? vPlusJoints(robot);
+  const log =
+    options.log ??
+    ((): void => {
+      /* Nobody asked for it. */
+    });
+  if (!joints || robot.arm.joints.length !== JOINTS)
+    return { kind: "taken", sentence: `How V+ counts the joints of ${robot.name} is not known.` };
+  const arm = createVirtualController({
+    robot,
+    scheduler,
+    name: `Virtual ${robot.name}`,
+    ...(options.start_rad ? { start_rad: options.start_rad } : {}),
+    ...(options.maxSpeed === undefined ? {} : { maxSpeed: options.maxSpeed }),
+  });
+  const machine = new Machine(arm);
+  const faults = noLineFaults();
+  const now_rad = arm.jointAngles();
+  const queue: string[] = [];
+  let terminal: ByteStream | null = null;
+  let line = faultyLine(faults, scheduler, 1);
+  let seed = 1;
+  let typed = "";
+  let asks: Said["asks"];
+  let blocked = false;
+  let booting = false;
+  let blinkedFor_s = NaN;
 
   function out(text: string): void {
     const to = terminal;
     if (!to || text === "" || to.waiting > MOST_WAITING) return;
-    line.send(textBytes(text), bytes => { to.send(bytes); });
-    if (--faults.dropAfter <= 0) { faults.dropAfter = Infinity; cut(); }
+    line.send(textBytes(text), bytes => {
+      to.send(bytes);
+    });
+    if (--faults.dropAfter <= 0) {
+      faults.dropAfter = Infinity;
+      cut();
+    }
   }
   /** What comes without being asked for: the prompt follows it. */
-  const programs = new Programs(arm, machine, robot, joints, interpret, text => { out(`\r\n${text}\r\n${blocked ? "" : "."}`); });
-  const monitor = createMonitor({ robot, arm, machine, programs, joints, interpret, now_rad, digits: options.digits ?? DIGITS });
+  const programs = new Programs(arm, machine, robot, joints, interpret, text => {
+    out(`\r\n${text}\r\n${blocked ? "" : "."}`);
+  });
+  const monitor = createMonitor({
+    robot,
+    arm,
+    machine,
+    programs,
+    joints,
+    interpret,
+    now_rad,
+    digits: options.digits ?? DIGITS,
+  });
 
   function answer(spoken: Said): void {
     ({ asks } = spoken);
@@ -79,7 +131,8 @@ export async function createVirtualCs7(options: VirtualCs7Options): Promise<Cs7S
   /** One line at a time, with its echo. While a motion of DO is under way what is typed waits, except what stops it. */
   function work(): void {
     while (terminal) {
-      const at = blocked ? queue.findIndex(each => URGENT.test(each)) : 0, command = queue[at];
+      const at = blocked ? queue.findIndex(each => URGENT.test(each)) : 0;
+      const command = queue[at];
       if (command === undefined) return;
       queue.splice(at, 1);
       out(`${command}\r\n`);
@@ -102,24 +155,46 @@ export async function createVirtualCs7(options: VirtualCs7Options): Promise<Cs7S
   }
   function take(bytes: Uint8Array, from: ByteStream): void {
     for (const byte of bytes) {
-      const why = !isText(byte) ? `A byte ${byte} came, which is none of a terminal's.` : typed.length > LONGEST ? "A line without end came." : queue.length > MOST_AHEAD ? "Lines came faster than they are carried out." : null;
-      if (why) { log(`${from.peer.host}:${from.peer.port}: ${why} The connection is reset.`); cut(); return; }
+      const why = !isText(byte)
+        ? `A byte ${byte} came, which is none of a terminal's.`
+        : typed.length > LONGEST
+          ? "A line without end came."
+          : queue.length > MOST_AHEAD
+            ? "Lines came faster than they are carried out."
+            : null;
+      if (why) {
+        log(`${from.peer.host}:${from.peer.port}: ${why} The connection is reset.`);
+        cut();
+        return;
+      }
       if (byte === 8) typed = typed.slice(0, -1);
-      else if (byte === 13) { queue.push(typed); typed = ""; }
-      else if (byte !== 10) typed += String.fromCharCode(byte);
+      else if (byte === 13) {
+        queue.push(typed);
+        typed = "";
+      } else if (byte !== 10) typed += String.fromCharCode(byte);
     }
     work();
   }
   const listening = await network.listen({ host, port: options.port ?? LINE_PORT }, stream => {
-    if (faults.refusing || booting) { stream.close(); return; }
+    if (faults.refusing || booting) {
+      stream.close();
+      return;
+    }
     // There is one terminal: who comes takes the place of one that may be gone without a word.
     cut();
     terminal = stream;
     line = faultyLine(faults, scheduler, ++seed);
-    stream.onEnd(() => { if (terminal === stream) cut(); });
-    stream.onBytes(lent => { if (terminal === stream) take(lent, stream); });
+    stream.onEnd(() => {
+      if (terminal === stream) cut();
+    });
+    stream.onBytes(lent => {
+      if (terminal === stream) take(lent, stream);
+    });
   });
-  if (listening.kind === "taken") { arm.close(); return listening; }
+  if (listening.kind === "taken") {
+    arm.close();
+    return listening;
+  }
 
   arm.onSample(sample => {
     if (!faults.frozen) now_rad.set(sample.q_rad);
@@ -140,16 +215,63 @@ export async function createVirtualCs7(options: VirtualCs7Options): Promise<Cs7S
   return {
     kind: "started",
     virtual: {
-      robot, arm, faults, machine, get isRunning() { return programs.isRunning; }, ports: { line: listening.address.port },
-      get isPowered() { return machine.isPowered; }, get calibrated() { return machine.calibrated; },
+      robot,
+      arm,
+      faults,
+      machine,
+      get isRunning() {
+        return programs.isRunning;
+      },
+      ports: { line: listening.address.port },
+      get isPowered() {
+        return machine.isPowered;
+      },
+      get calibrated() {
+        return machine.calibrated;
+      },
       pendant: {
-        setManual(on) { if (on) programs.abort(); machine.setManual(on); }, pressHighPower() { machine.press(); }, setEmergencyStop(pressed) { machine.setEmergency(pressed); },
-        setGuardOpen(open) { machine.setGuard(open); }, fail() { machine.off(); }, setInput(signal, value) { arm.signals.write(signal, value); },
+        setManual(on) {
+          if (on) programs.abort();
+          machine.setManual(on);
+        },
+        pressHighPower() {
+          machine.press();
+        },
+        setEmergencyStop(pressed) {
+          machine.setEmergency(pressed);
+        },
+        setGuardOpen(open) {
+          machine.setGuard(open);
+        },
+        fail() {
+          machine.off();
+        },
+        setInput(signal, value) {
+          arm.signals.write(signal, value);
+        },
         write: (name, text) => programs.write(name, text),
-        type(command) { const spoken = monitor(command); return spoken.asks ? spoken.asks("Y").text : spoken.text; },
+        type(command) {
+          const spoken = monitor(command);
+          return spoken.asks ? spoken.asks("Y").text : spoken.text;
+        },
         async jog(q_rad, ratio = 1) {
-          if (!machine.manual || !machine.isPowered) return { kind: "refused", why: { code: "controller.not-manual", sentence: machine.manual ? "High power is off." : "The pendant is in COMP mode.", hint: "Press MAN at the pendant and switch high power on." } };
-          const step: MoveStep = { id: "jog", type: "move", path: "ptp", target: { q: Array.from(q_rad) }, speed: { ratio }, blend_m: 0 };
+          if (!machine.manual || !machine.isPowered)
+            return {
+              kind: "refused",
+              why: {
+                code: "controller.not-manual",
+                sentence: machine.manual ? "High power is off." : "The pendant is in COMP mode.",
+                hint: "Press MAN at the pendant and switch high power on.",
+              },
+            };
+          const step: MoveStep = {
+            id: "jog",
+            type: "move",
+            path: "ptp",
+            target: { q: Array.from(q_rad) },
+            speed: { ratio },
+            blend_m: 0,
+          };
           return arm.run([slowed(robot, step, arm.jointAngles(), MANUAL_MPS)], { tools: {}, frames: {} });
         },
       },
@@ -159,9 +281,16 @@ export async function createVirtualCs7(options: VirtualCs7Options): Promise<Cs7S
         machine.off();
         machine.calibrated = false;
         booting = true;
-        const stop = scheduler.every(BOOT_S, () => { stop(); booting = false; });
+        const stop = scheduler.every(BOOT_S, () => {
+          stop();
+          booting = false;
+        });
       },
-      close() { listening.close(); cut(); arm.close(); },
+      close() {
+        listening.close();
+        cut();
+        arm.close();
+      },
     },
   };
 }

@@ -13,13 +13,25 @@ export class Machine {
   blinking = false;
   calibrated = true;
 
-  constructor(arm: VirtualController) { this.arm = arm; }
+  constructor(arm: VirtualController) {
+    this.arm = arm;
+  }
 
-  get isPowered(): boolean { return this.power; }
-  get manual(): boolean { return this.isManual; }
-  get speed(): number { return this.percent; }
-  get isPressed(): boolean { return this.emergency; }
-  get isGuardOpen(): boolean { return this.guardOpen && !this.isManual; }
+  get isPowered(): boolean {
+    return this.power;
+  }
+  get manual(): boolean {
+    return this.isManual;
+  }
+  get speed(): number {
+    return this.percent;
+  }
+  get isPressed(): boolean {
+    return this.emergency;
+  }
+  get isGuardOpen(): boolean {
+    return this.guardOpen && !this.isManual;
+  }
   get state(): number {
     if (!this.power) return STATE.powerOff;
     if (!this.calibrated) return STATE.notCalibrated;
@@ -42,8 +54,14 @@ export class Machine {
     this.isManual = on;
     this.arm.stop();
   }
-  setEmergency(pressed: boolean): void { this.emergency = pressed; if (pressed) this.off(); }
-  setGuard(open: boolean): void { this.guardOpen = open; if (open && !this.isManual) this.off(); }
+  setEmergency(pressed: boolean): void {
+    this.emergency = pressed;
+    if (pressed) this.off();
+  }
+  setGuard(open: boolean): void {
+    this.guardOpen = open;
+    if (open && !this.isManual) this.off();
+  }
   /** ENABLE POWER; what stands in the way, or null. */
   ask(): string | null {
     if (this.power) return null;

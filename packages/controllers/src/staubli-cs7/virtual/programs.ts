@@ -5,7 +5,9 @@ import { JOINTS, jointsOf, type VPlusJoints } from "../joints.ts";
 import { PROGRAM, TWC } from "../codec.ts";
 import type { Machine } from "./machine.ts";
 
-const MOST_TEXT = 4_000_000, MOST_NAMES = 2_000, MILLI = 1000;
+const MOST_TEXT = 4_000_000;
+const MOST_NAMES = 2_000;
+const MILLI = 1000;
 
 /** Variables of the monitor, files of the disk, programs in memory, and the one task that has the robot. A refusal is what the monitor says. */
 export class Programs {
@@ -28,23 +30,44 @@ export class Programs {
   private held = 0;
   isRunning = false;
 
-  constructor(arm: VirtualController, machine: Machine, robot: Robot, joints: VPlusJoints, interpret: (text: string) => Interpreted, say: (text: string) => void) {
-    this.arm = arm; this.machine = machine; this.robot = robot; this.joints = joints; this.interpret = interpret; this.say = say;
+  constructor(
+    arm: VirtualController,
+    machine: Machine,
+    robot: Robot,
+    joints: VPlusJoints,
+    interpret: (text: string) => Interpreted,
+    say: (text: string) => void,
+  ) {
+    this.arm = arm;
+    this.machine = machine;
+    this.robot = robot;
+    this.joints = joints;
+    this.interpret = interpret;
+    this.say = say;
   }
-  get line(): number { return this.task?.run.line ?? 0; }
-  get names(): string[] { return [PROGRAM.toLowerCase(), ...this.memory.keys()]; }
+  get line(): number {
+    return this.task?.run.line ?? 0;
+  }
+  get names(): string[] {
+    return [PROGRAM.toLowerCase(), ...this.memory.keys()];
+  }
 
   /** Puts a file on the controller's disk. */
   write(name: string, text: string): string | null {
     this.held += text.length - (this.disk.get(name.toLowerCase())?.length ?? 0);
-    if (this.held > MOST_TEXT) { this.held -= text.length; return "*Device full*"; }
+    if (this.held > MOST_TEXT) {
+      this.held -= text.length;
+      return "*Device full*";
+    }
     this.disk.set(name.toLowerCase(), text);
     return null;
   }
   load(name: string): string | null {
-    const key = name.toLowerCase(), text = this.disk.get(key) ?? this.disk.get(`${key}.v2`);
+    const key = name.toLowerCase();
+    const text = this.disk.get(key) ?? this.disk.get(`${key}.v2`);
     if (text === undefined) return "*Nonexistent file*";
-    for (const [, program] of text.matchAll(/^\s*\.PROGRAM\s+([A-Za-z][\w.]*)/gim)) this.memory.set(program!.toLowerCase(), text);
+    for (const [, program] of text.matchAll(/^\s*\.PROGRAM\s+([A-Za-z][\w.]*)/gim))
+      this.memory.set(program!.toLowerCase(), text);
     return null;
   }
   setReal(name: string, value: number): string | null {
@@ -60,7 +83,8 @@ export class Programs {
   }
   /** One statement of each name counts: the last. */
   define(statement: string): string | null {
-    const name = statement.split("=")[0]!.trim().toUpperCase(), before = this.definitions.findIndex(each => each.split("=")[0]!.trim().toUpperCase() === name);
+    const name = statement.split("=")[0]!.trim().toUpperCase();
+    const before = this.definitions.findIndex(each => each.split("=")[0]!.trim().toUpperCase() === name);
     if (before >= 0) this.definitions.splice(before, 1);
     if (this.definitions.length >= MOST_NAMES) return "*Not enough storage area*";
     this.definitions.push(statement);
@@ -75,41 +99,91 @@ export class Programs {
     const file = this.memory.get(name.toLowerCase());
     if (file === undefined) return "*Undefined program or variable name*";
     const read = this.interpret(first(file, name));
-    if (read.kind === "not-understood") { const [fault] = read.faults; return `*${fault?.sentence ?? "Program not executable"}* line ${fault?.line ?? 1}`; }
+    if (read.kind === "not-understood") {
+      const [fault] = read.faults;
+      return `*${fault?.sentence ?? "Program not executable"}* line ${fault?.line ?? 1}`;
+    }
     this.task = { run: new TextRun(read.run(this.arm.signals)), context: read.context };
     return this.proceed();
   }
   /** PROCEED: from where it was stopped. */
   proceed(): string | null {
-    const { task } = this, why = !task ? "*No program to proceed*" : this.isRunning || this.arm.isMoving() ? "*Program task already active*" : this.machine.hindrance;
+    const { task } = this;
+    const why = !task
+      ? "*No program to proceed*"
+      : this.isRunning || this.arm.isMoving()
+        ? "*Program task already active*"
+        : this.machine.hindrance;
     if (why) return why;
-    this.carryOut(task!.run.rest(), task!.context, () => { this.task = null; });
+    this.carryOut(task!.run.rest(), task!.context, () => {
+      this.task = null;
+    });
     return null;
   }
   /** TWC.MOVE, as docs/controllers/TWINCELL.v2 has it. */
   private move(): string | null {
-    const at = (name: string): number => this.reals.get(name) ?? NaN, point = this.points.get("#TWC"), isLine = at(TWC.line) !== 0, speed = at(TWC.speed), accel = at(TWC.accel);
+    const at = (name: string): number => this.reals.get(name) ?? NaN;
+    const point = this.points.get("#TWC");
+    const isLine = at(TWC.line) !== 0;
+    const speed = at(TWC.speed);
+    const accel = at(TWC.accel);
     if (!point || !(speed > 0) || !(accel > 0)) return "*Undefined value*";
     const id = at(TWC.id);
-    this.carryOut([this.step(point, isLine, isLine ? { mps: speed / MILLI } : { ratio: Math.min(1, speed / 100) }, Math.min(1, accel / 100))], { tools: {}, frames: {} }, () => { this.reals.set(TWC.done, id); });
+    this.carryOut(
+      [
+        this.step(
+          point,
+          isLine,
+          isLine ? { mps: speed / MILLI } : { ratio: Math.min(1, speed / 100) },
+          Math.min(1, accel / 100),
+        ),
+      ],
+      { tools: {}, frames: {} },
+      () => {
+        this.reals.set(TWC.done, id);
+      },
+    );
     return null;
   }
   step(point: readonly number[], isLine: boolean, speed: MoveStep["speed"], acceleration: number): MoveStep {
     const q = [...jointsOf(point, this.joints, new Float64Array(JOINTS))].map((value, i) => {
       // A ten-thousandth of a degree beyond a limit is on it.
-      const { lower_rad, upper_rad } = this.robot.arm.joints[i]!.limits, slack = radians(1e-4);
-      return value > upper_rad && value < upper_rad + slack ? upper_rad : value < lower_rad && value > lower_rad - slack ? lower_rad : value;
+      const { lower_rad, upper_rad } = this.robot.arm.joints[i]!.limits;
+      const slack = radians(1e-4);
+      return value > upper_rad && value < upper_rad + slack
+        ? upper_rad
+        : value < lower_rad && value > lower_rad - slack
+          ? lower_rad
+          : value;
     });
-    return { id: "move", type: "move", path: isLine ? "lin" : "ptp", target: { q }, speed, acceleration: { ratio: acceleration }, blend_m: 0 };
+    return {
+      id: "move",
+      type: "move",
+      path: isLine ? "lin" : "ptp",
+      target: { q },
+      speed,
+      acceleration: { ratio: acceleration },
+      blend_m: 0,
+    };
   }
-  carryOut(steps: Iterable<Step>, context: Parameters<VirtualController["run"]>[1], done: () => void, told = true): void {
+  carryOut(
+    steps: Iterable<Step>,
+    context: Parameters<VirtualController["run"]>[1],
+    done: () => void,
+    told = true,
+  ): void {
     const mine = ++this.life;
     this.isRunning = true;
     void this.arm.run(steps, context).then((outcome: CommandOutcome) => {
       if (mine !== this.life) return;
       this.isRunning = false;
       if (outcome.kind === "done") done();
-      if (told) this.say(outcome.kind === "done" ? "Program completed" : `*${this.machine.hindrance?.replaceAll("*", "") ?? outcome.why.sentence}*`);
+      if (told)
+        this.say(
+          outcome.kind === "done"
+            ? "Program completed"
+            : `*${this.machine.hindrance?.replaceAll("*", "") ?? outcome.why.sentence}*`,
+        );
     });
   }
   /** ABORT: the program ends, and with it its motion. */
@@ -120,12 +194,21 @@ export class Programs {
     this.arm.stop();
     this.say("Program aborted");
   }
-  cycle(step: string): void { this.task?.run.reached(step); }
-  forget(): void { this.life++; this.isRunning = false; this.task = null; }
+  cycle(step: string): void {
+    this.task?.run.reached(step);
+  }
+  forget(): void {
+    this.life++;
+    this.isRunning = false;
+    this.task = null;
+  }
 }
 
 /** The file with that program in front: an interpreter executes the first one. */
 function first(file: string, name: string): string {
-  const block = new RegExp(`^[ \\t]*\\.PROGRAM\\s+${name.replaceAll(".", "\\.")}\\b[\\s\\S]*?^[ \\t]*\\.END[^\\n]*\\n?`, "im").exec(file)?.[0] ?? "";
+  const block =
+    new RegExp(`^[ \\t]*\\.PROGRAM\\s+${name.replaceAll(".", "\\.")}\\b[\\s\\S]*?^[ \\t]*\\.END[^\\n]*\\n?`, "im").exec(
+      file,
+    )?.[0] ?? "";
   return block + file.replace(block, "");
 }

@@ -1,10 +1,11 @@
 import type { OperatingMode, SafetyState } from "@twincell/core";
 import type { Status } from "../codec.ts";
 
-const MANUAL = 1, AUTOMATIC = 2;
+const MANUAL = 1;
+const AUTOMATIC = 2;
 
 /** Local and remote look the same from here; while nothing is known of the mode nobody is to move the robot. */
-export const modeOf = ({ mode }: Status): OperatingMode => mode === AUTOMATIC ? "remote" : "manual";
+export const modeOf = ({ mode }: Status): OperatingMode => (mode === AUTOMATIC ? "remote" : "manual");
 export const isByHand = ({ mode }: Status): boolean => mode === MANUAL;
 
 export function safetyOf({ emergency, powered, inError, possible }: Status, locked: boolean): SafetyState {

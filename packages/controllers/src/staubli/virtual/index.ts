@@ -1,2 +1,8 @@
-export { createVirtualStaubli, type StaubliPendant, type StaubliStarted, type VirtualStaubli, type VirtualStaubliOptions } from "./controller.ts";
+export {
+  createVirtualStaubli,
+  type StaubliPendant,
+  type StaubliStarted,
+  type VirtualStaubli,
+  type VirtualStaubliOptions,
+} from "./controller.ts";
 export type { StaubliMode } from "./machine.ts";

@@ -30,20 +30,36 @@ export class Machine {
     this.isMode = mode;
   }
 
-  get mode(): StaubliMode { return this.isMode; }
-  get workingMode(): number { return WORKING[this.isMode]; }
-  get isPowered(): boolean { return this.power; }
+  get mode(): StaubliMode {
+    return this.isMode;
+  }
+  get workingMode(): number {
+    return WORKING[this.isMode];
+  }
+  get isPowered(): boolean {
+    return this.power;
+  }
   /** `esStatus()`: the door counts in automatic modes, where the enabling switch does not stand for it. */
   get esStatus(): number {
     if (this.emergency || (this.doorOpen && this.isMode !== "manual")) return ES.stop;
     return this.acknowledged ? ES.ok : ES.waiting;
   }
   /** Whether motions of the stack are carried out. */
-  get moves(): boolean { return this.power && !this.held && (this.isMode !== "manual" || this.enabling); }
-  get isHeld(): boolean { return this.held; }
-  get monitorSpeed(): number { return this.percent; }
-  get isPressed(): boolean { return this.emergency; }
-  get isDoorOpen(): boolean { return this.doorOpen && this.isMode !== "manual"; }
+  get moves(): boolean {
+    return this.power && !this.held && (this.isMode !== "manual" || this.enabling);
+  }
+  get isHeld(): boolean {
+    return this.held;
+  }
+  get monitorSpeed(): number {
+    return this.percent;
+  }
+  get isPressed(): boolean {
+    return this.emergency;
+  }
+  get isDoorOpen(): boolean {
+    return this.doorOpen && this.isMode !== "manual";
+  }
 
   private off(): void {
     if (!this.power) return;
@@ -58,11 +74,17 @@ export class Machine {
   }
   setEmergency(pressed: boolean): void {
     this.emergency = pressed;
-    if (pressed) { this.acknowledged = false; this.off(); }
+    if (pressed) {
+      this.acknowledged = false;
+      this.off();
+    }
   }
   setDoor(open: boolean): void {
     this.doorOpen = open;
-    if (open && this.isMode !== "manual") { this.acknowledged = false; this.off(); }
+    if (open && this.isMode !== "manual") {
+      this.acknowledged = false;
+      this.off();
+    }
   }
   setEnabling(pressed: boolean): void {
     this.enabling = pressed;
@@ -81,7 +103,10 @@ export class Machine {
   }
   /** Why the arm has no power then, or null. */
   enablePower(): string | null {
-    if (this.esStatus !== ES.ok) return this.esStatus === ES.stop ? "The emergency-stop chain is open." : "The emergency-stop chain is not acknowledged.";
+    if (this.esStatus !== ES.ok)
+      return this.esStatus === ES.stop
+        ? "The emergency-stop chain is open."
+        : "The emergency-stop chain is not acknowledged.";
     if (this.isMode === "manual" && !this.enabling) return "The enabling switch is not pressed.";
     if (this.arm.isMoving()) return "The robot has not come to rest.";
     if (this.arm.reset().kind !== "done") return "The amplifiers do not come on.";
@@ -89,14 +114,21 @@ export class Machine {
     this.power = true;
     return null;
   }
-  disablePower(): void { this.off(); }
+  disablePower(): void {
+    this.off();
+  }
   /** Move/Hold: held motions stay where they are and go on. */
-  setHold(on: boolean): void { this.held = on; this.pace(); }
+  setHold(on: boolean): void {
+    this.held = on;
+    this.pace();
+  }
   setMonitorSpeed(percent: number): boolean {
     if (!(percent >= 0 && percent <= 100)) return false;
     this.percent = percent;
     this.pace();
     return true;
   }
-  private pace(): void { this.arm.setSpeed(this.held ? 0 : this.percent); }
+  private pace(): void {
+    this.arm.setSpeed(this.held ? 0 : this.percent);
+  }
 }

@@ -1,5 +1,12 @@
 import type { Scheduler } from "@twincell/core";
-import { faultyLine, type ByteStream, type FaultyLine, type LineFaults, type Listening, type Network } from "../../transport/index.ts";
+import {
+  faultyLine,
+  type ByteStream,
+  type FaultyLine,
+  type LineFaults,
+  type Listening,
+  type Network,
+} from "../../transport/index.ts";
 import { MessageReader, type Message } from "../codec.ts";
 
 /** States that a client does not fetch are not piled up for it [bytes]. */
@@ -29,7 +36,9 @@ export interface ServerSocket {
  */
 export async function serveSocket(options: SocketOptions): Promise<ServerSocket> {
   const { network, host, port, scheduler, faults, log } = options;
-  let client: ByteStream | null = null, line: FaultyLine = faultyLine(faults, scheduler, port), seed = port;
+  let client: ByteStream | null = null;
+  let line: FaultyLine = faultyLine(faults, scheduler, port);
+  let seed = port;
 
   function cut(): void {
     if (!client) return;
@@ -38,28 +47,51 @@ export async function serveSocket(options: SocketOptions): Promise<ServerSocket>
     options.onChange(false);
   }
   const listening = await network.listen({ host, port }, stream => {
-    if (faults.refusing) { stream.close(); return; }
+    if (faults.refusing) {
+      stream.close();
+      return;
+    }
     cut();
     client = stream;
     line = faultyLine(faults, scheduler, ++seed);
-    const reader = new MessageReader(), mine = (): boolean => client === stream;
-    stream.onEnd(() => { if (mine()) cut(); });
+    const reader = new MessageReader();
+    const mine = (): boolean => client === stream;
+    stream.onEnd(() => {
+      if (mine()) cut();
+    });
     options.onChange(true);
     stream.onBytes(lent => {
       if (!mine()) return;
-      const why = reader.push(lent, message => { options.onMessage(message); return mine(); });
-      if (why && mine()) { log(`${stream.peer.host}:${stream.peer.port}: ${why} The connection is reset.`); cut(); }
+      const why = reader.push(lent, message => {
+        options.onMessage(message);
+        return mine();
+      });
+      if (why && mine()) {
+        log(`${stream.peer.host}:${stream.peer.port}: ${why} The connection is reset.`);
+        cut();
+      }
     });
   });
   return {
-    listening, cut,
-    get isConnected() { return client !== null; },
+    listening,
+    cut,
+    get isConnected() {
+      return client !== null;
+    },
     send(bytes) {
       const to = client;
       if (!to || to.waiting > MOST_WAITING) return;
-      line.send(bytes, said => { to.send(said); });
-      if (--faults.dropAfter <= 0) { faults.dropAfter = Infinity; cut(); }
+      line.send(bytes, said => {
+        to.send(said);
+      });
+      if (--faults.dropAfter <= 0) {
+        faults.dropAfter = Infinity;
+        cut();
+      }
     },
-    close() { if (listening.kind === "listening") listening.close(); cut(); },
+    close() {
+      if (listening.kind === "listening") listening.close();
+      cut();
+    },
   };
 }

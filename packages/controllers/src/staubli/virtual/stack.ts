@@ -5,7 +5,8 @@ import type { VirtualController } from "../../virtual/index.ts";
 import { MANUAL_MPS, type Machine } from "./machine.ts";
 
 /** Points that wait in ros_server's buffer, and motions that wait in the arm's stack behind it. */
-export const MOST_POINTS = 10, MOST_MOTIONS = 10;
+export const MOST_POINTS = 10;
+export const MOST_MOTIONS = 10;
 
 /**
  * What makes the arm move: points of ros_server, one from its buffer into the stack of motions in each cycle, and a VAL 3
@@ -17,7 +18,11 @@ export class Stack {
   private readonly machine: Machine;
   private points: MoveStep[] = [];
   private motions: MoveStep[] = [];
-  private text: { readonly run: TextRun; readonly context: Parameters<VirtualController["run"]>[1]; readonly over: (sentence: string) => void } | null = null;
+  private text: {
+    readonly run: TextRun;
+    readonly context: Parameters<VirtualController["run"]>[1];
+    readonly over: (sentence: string) => void;
+  } | null = null;
   private busy = false;
   private life = 0;
   /** `movej` counts its motions; `progress` is the one that is carried out or the last that was. */
@@ -30,10 +35,16 @@ export class Stack {
     this.machine = machine;
   }
 
-  get waiting(): number { return this.points.length + this.motions.length; }
-  get runsText(): boolean { return this.text !== null; }
+  get waiting(): number {
+    return this.points.length + this.motions.length;
+  }
+  get runsText(): boolean {
+    return this.text !== null;
+  }
   /** Of the program of the pendant that is carried out; 0 without one. */
-  get line(): number { return this.text?.run.line ?? 0; }
+  get line(): number {
+    return this.text?.run.line ?? 0;
+  }
 
   /** False when the buffer is full or a program of the pendant has the arm. */
   push(q_rad: readonly number[], ratio: number): boolean {
@@ -64,19 +75,31 @@ export class Stack {
   cycle(step: string): void {
     this.text?.run.reached(step);
     const point = this.motions.length < MOST_MOTIONS ? this.points.shift() : undefined;
-    if (point) { this.motions.push(point); this.moveId++; }
+    if (point) {
+      this.motions.push(point);
+      this.moveId++;
+    }
     if (this.busy || !this.machine.moves) return;
-    const { text } = this, motion = this.motions[0];
-    if (text) this.carryOut(this.paced(text.run.rest()), text.context, () => { this.endText(""); });
+    const { text } = this;
+    const motion = this.motions[0];
+    if (text)
+      this.carryOut(this.paced(text.run.rest()), text.context, () => {
+        this.endText("");
+      });
     else if (motion) {
       this.progress = this.moveId - this.motions.length + 1;
-      this.carryOut([this.inMode(motion)], { tools: {}, frames: {} }, () => { this.motions.shift(); });
+      this.carryOut([this.inMode(motion)], { tools: {}, frames: {} }, () => {
+        this.motions.shift();
+      });
     }
   }
   private *paced(steps: Iterable<Step>): Generator<Step, void> {
     let from: ArrayLike<number> = this.arm.jointAngles();
     for (const step of steps) {
-      if (step.type !== "move") { yield step; continue; }
+      if (step.type !== "move") {
+        yield step;
+        continue;
+      }
       yield this.inMode(step, from);
       from = "q" in step.target ? step.target.q : this.arm.jointAngles();
     }
@@ -92,7 +115,10 @@ export class Stack {
       if (mine !== this.life) return;
       if (outcome.kind === "done") done();
       // Without power the motion waits; whatever else stands in its way ends it.
-      else if (this.machine.isPowered) { this.machine.error = outcome.why.sentence; this.reset(); }
+      else if (this.machine.isPowered) {
+        this.machine.error = outcome.why.sentence;
+        this.reset();
+      }
     });
   }
 }

@@ -27,7 +27,10 @@ export function lineReader(longest = 4096): Lines {
 /** A line as it is sent. */
 export function lineBytes(text: string): Uint8Array {
   const out = new Uint8Array(text.length + 1);
-  for (let i = 0; i < text.length; i++) { const code = text.charCodeAt(i); out[i] = code < 128 ? code : 63; }
+  for (let i = 0; i < text.length; i++) {
+    const code = text.charCodeAt(i);
+    out[i] = code < 128 ? code : 63;
+  }
   out[text.length] = 10;
   return out;
 }

@@ -13,13 +13,29 @@ export const JOINTS = 6;
 
 /** Where a controller listens. The copies tell the same and take nothing. */
 export interface UrPorts {
-  readonly dashboard: number; readonly primary: number; readonly secondary: number; readonly realTime: number; readonly rtde: number;
-  readonly primaryCopy: number; readonly secondaryCopy: number; readonly realTimeCopy: number;
+  readonly dashboard: number;
+  readonly primary: number;
+  readonly secondary: number;
+  readonly realTime: number;
+  readonly rtde: number;
+  readonly primaryCopy: number;
+  readonly secondaryCopy: number;
+  readonly realTimeCopy: number;
 }
-export const UR_PORTS: UrPorts = { dashboard: 29_999, primary: 30_001, secondary: 30_002, realTime: 30_003, rtde: 30_004, primaryCopy: 30_011, secondaryCopy: 30_012, realTimeCopy: 30_013 };
+export const UR_PORTS: UrPorts = {
+  dashboard: 29_999,
+  primary: 30_001,
+  secondary: 30_002,
+  realTime: 30_003,
+  rtde: 30_004,
+  primaryCopy: 30_011,
+  secondaryCopy: 30_012,
+  realTimeCopy: 30_013,
+};
 
 /** From a program's own words to blocks: a script that came over a stream is whole when as many blocks end as began. */
-const OPENS = /^(?:def|sec|thread|while|if)\b/, CLOSES = /^end\b/;
+const OPENS = /^(?:def|sec|thread|while|if)\b/;
+const CLOSES = /^end\b/;
 export const blockChange = (line: string): number => {
   const text = line.trim();
   return OPENS.test(text) ? 1 : CLOSES.test(text) ? -1 : 0;
@@ -35,11 +51,16 @@ export const leadingJoint = (robot: Robot): { readonly speed_rad_s: number; read
 });
 
 /** Lines of the control box by name: digital 0 … 7 standard, 8 … 15 configurable, 16 and 17 at the tool; analogue 0 and 1. */
-export interface UrLine { readonly kind: "digital-in" | "digital-out" | "analogue-in" | "analogue-out"; readonly number: number }
+export interface UrLine {
+  readonly kind: "digital-in" | "digital-out" | "analogue-in" | "analogue-out";
+  readonly number: number;
+}
 const LINE = /^(digital|analog)_(in|out)_(\d{1,2})$/;
 export function lineNumber(signal: string): UrLine | null {
-  const [, sort, side, digits] = LINE.exec(signal) ?? [], number = Number(digits);
+  const [, sort, side, digits] = LINE.exec(signal) ?? [];
+  const number = Number(digits);
   if (sort === undefined || number >= (sort === "digital" ? DIGITAL_LINES : ANALOGUE_LINES)) return null;
   return { kind: `${sort === "digital" ? "digital" : "analogue"}-${side === "in" ? "in" : "out"}`, number };
 }
-export const DIGITAL_LINES = 18, ANALOGUE_LINES = 2;
+export const DIGITAL_LINES = 18;
+export const ANALOGUE_LINES = 2;

@@ -2,7 +2,14 @@ import { SHAPES, type Field, type FieldType } from "./rtde-fields.ts";
 
 /** Kinds of frames of RTDE: each is a letter. */
 export const RTDE = {
-  protocolVersion: 86, controllerVersion: 118, text: 77, data: 85, outputs: 79, inputs: 73, start: 83, pause: 80,
+  protocolVersion: 86,
+  controllerVersion: 118,
+  text: 77,
+  data: 85,
+  outputs: 79,
+  inputs: 73,
+  start: 83,
+  pause: 80,
 } as const;
 const HEADER = 3;
 /** The size is 16 bits wide, the header included. */
@@ -28,7 +35,11 @@ export function rtdeFrames(): Frames {
         if (have === 0 && bytes.length - at >= HEADER) {
           const size = (bytes[at]! << 8) | bytes[at + 1]!;
           if (size < HEADER) return tooSmall(size);
-          if (at + size <= bytes.length) { frame(bytes[at + 2]!, bytes.subarray(at + HEADER, at + size)); at += size; continue; }
+          if (at + size <= bytes.length) {
+            frame(bytes[at + 2]!, bytes.subarray(at + HEADER, at + size));
+            at += size;
+            continue;
+          }
         }
         const wanted = have < HEADER ? HEADER : (kept[0]! << 8) | kept[1]!;
         if (wanted < HEADER) return tooSmall(wanted);
@@ -50,15 +61,26 @@ const tooSmall = (size: number): string => `A frame of RTDE has at least ${HEADE
 /** A frame with that payload. */
 export function rtdeFrame(type: number, payload: ArrayLike<number> = []): Uint8Array {
   const out = new Uint8Array(HEADER + payload.length);
-  out[0] = out.length >> 8; out[1] = out.length & 255; out[2] = type;
+  out[0] = out.length >> 8;
+  out[1] = out.length & 255;
+  out[2] = type;
   out.set(payload, HEADER);
   return out;
 }
 
-const latin = (text: string): number[] => Array.from(text, letter => { const code = letter.charCodeAt(0); return code < 128 ? code : 63; });
-export const ascii = (bytes: Uint8Array): string => { let text = ""; for (const byte of bytes) text += String.fromCharCode(byte); return text; };
+const latin = (text: string): number[] =>
+  Array.from(text, letter => {
+    const code = letter.charCodeAt(0);
+    return code < 128 ? code : 63;
+  });
+export const ascii = (bytes: Uint8Array): string => {
+  let text = "";
+  for (const byte of bytes) text += String.fromCharCode(byte);
+  return text;
+};
 
-export const askProtocol = (version: number): Uint8Array => rtdeFrame(RTDE.protocolVersion, [version >> 8, version & 255]);
+export const askProtocol = (version: number): Uint8Array =>
+  rtdeFrame(RTDE.protocolVersion, [version >> 8, version & 255]);
 export const askVersion = (): Uint8Array => rtdeFrame(RTDE.controllerVersion);
 export const start = (): Uint8Array => rtdeFrame(RTDE.start);
 export const pause = (): Uint8Array => rtdeFrame(RTDE.pause);
@@ -67,8 +89,11 @@ export const accepted = (type: number, yes: boolean): Uint8Array => rtdeFrame(ty
 /** major, minor, bugfix, build */
 export type Version = readonly [number, number, number, number];
 export function versionAnswer(version: Version): Uint8Array {
-  const payload = new Uint8Array(16), view = new DataView(payload.buffer);
-  version.forEach((part, i) => { view.setUint32(4 * i, part); });
+  const payload = new Uint8Array(16);
+  const view = new DataView(payload.buffer);
+  version.forEach((part, i) => {
+    view.setUint32(4 * i, part);
+  });
   return rtdeFrame(RTDE.controllerVersion, payload);
 }
 export function readVersion(payload: Uint8Array): Version | null {
@@ -85,37 +110,75 @@ export function askOutputs(names: readonly string[], frequency_Hz: number): Uint
 }
 export const askInputs = (names: readonly string[]): Uint8Array => rtdeFrame(RTDE.inputs, latin(names.join(",")));
 /** Names as they come: some clients end the list with a comma. */
-export const namesIn = (payload: Uint8Array): string[] => ascii(payload).split(",").map(name => name.trim()).filter(name => name !== "");
-export const outputsAsked = (payload: Uint8Array, protocol: number): { readonly frequency_Hz: number; readonly names: string[] } =>
-  protocol < 2 || payload.length < 8 ? { frequency_Hz: 0, names: namesIn(payload) } : { frequency_Hz: viewOf(payload).getFloat64(0), names: namesIn(payload.subarray(8)) };
+export const namesIn = (payload: Uint8Array): string[] =>
+  ascii(payload)
+    .split(",")
+    .map(name => name.trim())
+    .filter(name => name !== "");
+export const outputsAsked = (
+  payload: Uint8Array,
+  protocol: number,
+): { readonly frequency_Hz: number; readonly names: string[] } =>
+  protocol < 2 || payload.length < 8
+    ? { frequency_Hz: 0, names: namesIn(payload) }
+    : { frequency_Hz: viewOf(payload).getFloat64(0), names: namesIn(payload.subarray(8)) };
 
 /** What stands in the place of a type when a variable cannot be had. */
 export type NotHad = "NOT_FOUND" | "IN_USE";
 /** Protocol 1 has no id for outputs. */
-export const recipeAnswer = (kind: number, id: number | null, types: readonly (FieldType | NotHad)[]): Uint8Array => rtdeFrame(kind, [...(id === null ? [] : [id]), ...latin(types.join(","))]);
-export const recipeAnswered = (payload: Uint8Array, hasId: boolean): { readonly id: number; readonly types: string[] } =>
-  ({ id: hasId ? payload[0] ?? 0 : 0, types: namesIn(hasId ? payload.subarray(1) : payload) });
+export const recipeAnswer = (kind: number, id: number | null, types: readonly (FieldType | NotHad)[]): Uint8Array =>
+  rtdeFrame(kind, [...(id === null ? [] : [id]), ...latin(types.join(","))]);
+export const recipeAnswered = (
+  payload: Uint8Array,
+  hasId: boolean,
+): { readonly id: number; readonly types: string[] } => ({
+  id: hasId ? (payload[0] ?? 0) : 0,
+  types: namesIn(hasId ? payload.subarray(1) : payload),
+});
 
 export type TextLevel = "exception" | "error" | "warning" | "info";
 const LEVELS: readonly TextLevel[] = ["exception", "error", "warning", "info"];
-export interface RtdeText { readonly message: string; readonly source: string; readonly level: TextLevel }
+export interface RtdeText {
+  readonly message: string;
+  readonly source: string;
+  readonly level: TextLevel;
+}
 /** Protocol 2: message and source, each with its length, and a level; protocol 1: the level, then the message. */
 export function textFrame({ message, source, level }: RtdeText, protocol: number): Uint8Array {
-  const text = latin(message).slice(0, 255), from = latin(source).slice(0, 255), rank = LEVELS.indexOf(level);
+  const text = latin(message).slice(0, 255);
+  const from = latin(source).slice(0, 255);
+  const rank = LEVELS.indexOf(level);
   return rtdeFrame(RTDE.text, protocol < 2 ? [rank, ...text] : [text.length, ...text, from.length, ...from, rank]);
 }
 export function readText(payload: Uint8Array, protocol: number): RtdeText {
-  if (protocol < 2) return { message: ascii(payload.subarray(1)), source: "", level: LEVELS[payload[0] ?? 3] ?? "info" };
-  const length = payload[0] ?? 0, from = payload[1 + length] ?? 0, after = 2 + length + from;
-  return { message: ascii(payload.subarray(1, 1 + length)), source: ascii(payload.subarray(2 + length, after)), level: LEVELS[payload[after] ?? 3] ?? "info" };
+  if (protocol < 2)
+    return { message: ascii(payload.subarray(1)), source: "", level: LEVELS[payload[0] ?? 3] ?? "info" };
+  const length = payload[0] ?? 0;
+  const from = payload[1 + length] ?? 0;
+  const after = 2 + length + from;
+  return {
+    message: ascii(payload.subarray(1, 1 + length)),
+    source: ascii(payload.subarray(2 + length, after)),
+    level: LEVELS[payload[after] ?? 3] ?? "info",
+  };
 }
 
 /** Which variables a data package holds, in order. */
-export interface Recipe { readonly id: number; readonly fields: readonly Field[]; readonly bytes: number }
-export const recipeOf = (id: number, fields: readonly Field[]): Recipe => ({ id, fields, bytes: fields.reduce((sum, { type }) => sum + SHAPES[type].bytes, 0) });
+export interface Recipe {
+  readonly id: number;
+  readonly fields: readonly Field[];
+  readonly bytes: number;
+}
+export const recipeOf = (id: number, fields: readonly Field[]): Recipe => ({
+  id,
+  fields,
+  bytes: fields.reduce((sum, { type }) => sum + SHAPES[type].bytes, 0),
+});
 /** Types answered are those that were expected, or the names that are not. */
 export const unexpected = (fields: readonly Field[], types: readonly string[]): string[] =>
-  fields.length === types.length ? fields.flatMap(({ name, type }, i) => type === types[i] ? [] : [`${name} (${types[i] ?? "nothing"})`]) : [`${fields.length} variables, ${types.length} types`];
+  fields.length === types.length
+    ? fields.flatMap(({ name, type }, i) => (type === types[i] ? [] : [`${name} (${types[i] ?? "nothing"})`]))
+    : [`${fields.length} variables, ${types.length} types`];
 
 export const viewOf = (bytes: Uint8Array): DataView => new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
 
@@ -134,11 +197,26 @@ export function packData(recipe: Recipe, slots: Float64Array, out: Uint8Array, v
     for (let i = 0; i < numbers; i++) {
       const value = slots[slot + i]!;
       switch (each) {
-        case "f64": view.setFloat64(at, value); at += 8; break;
-        case "u64": view.setUint32(at, Math.floor(value / 0x1_0000_0000)); view.setUint32(at + 4, value >>> 0); at += 8; break;
-        case "i32": view.setInt32(at, value); at += 4; break;
-        case "u32": view.setUint32(at, value); at += 4; break;
-        default: view.setUint8(at, value); at += 1;
+        case "f64":
+          view.setFloat64(at, value);
+          at += 8;
+          break;
+        case "u64":
+          view.setUint32(at, Math.floor(value / 0x1_0000_0000));
+          view.setUint32(at + 4, value >>> 0);
+          at += 8;
+          break;
+        case "i32":
+          view.setInt32(at, value);
+          at += 4;
+          break;
+        case "u32":
+          view.setUint32(at, value);
+          at += 4;
+          break;
+        default:
+          view.setUint8(at, value);
+          at += 1;
       }
     }
   }
@@ -153,11 +231,25 @@ export function unpackData(recipe: Recipe, body: Uint8Array, slots: Float64Array
     const { numbers, each } = SHAPES[type];
     for (let i = 0; i < numbers; i++) {
       switch (each) {
-        case "f64": slots[slot + i] = view.getFloat64(at); at += 8; break;
-        case "u64": slots[slot + i] = view.getUint32(at) * 0x1_0000_0000 + view.getUint32(at + 4); at += 8; break;
-        case "i32": slots[slot + i] = view.getInt32(at); at += 4; break;
-        case "u32": slots[slot + i] = view.getUint32(at); at += 4; break;
-        default: slots[slot + i] = view.getUint8(at); at += 1;
+        case "f64":
+          slots[slot + i] = view.getFloat64(at);
+          at += 8;
+          break;
+        case "u64":
+          slots[slot + i] = view.getUint32(at) * 0x1_0000_0000 + view.getUint32(at + 4);
+          at += 8;
+          break;
+        case "i32":
+          slots[slot + i] = view.getInt32(at);
+          at += 4;
+          break;
+        case "u32":
+          slots[slot + i] = view.getUint32(at);
+          at += 4;
+          break;
+        default:
+          slots[slot + i] = view.getUint8(at);
+          at += 1;
       }
     }
   }

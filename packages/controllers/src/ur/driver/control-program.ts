@@ -10,7 +10,17 @@
  *   input double 36  speed [rad/s or m/s]; 37 acceleration [rad/s² or m/s²]
  */
 export const ORDERS = { joints: 1, line: 2, arc: 3, stop: 4, payload: 5 } as const;
-export const REGISTERS = { heartbeat: 24, order: 25, what: 26, target: 24, via: 30, speed: 36, acceleration: 37, ended: 24, listening: 25 } as const;
+export const REGISTERS = {
+  heartbeat: 24,
+  order: 25,
+  what: 26,
+  target: 24,
+  via: 30,
+  speed: 36,
+  acceleration: 37,
+  ended: 24,
+  listening: 25,
+} as const;
 /** Says which program it is, and which protocol of registers it speaks. */
 export const LISTENING = 20_261;
 /** Fewer heartbeats than this, and the robot stops [Hz]; and how soon that is [s]. */

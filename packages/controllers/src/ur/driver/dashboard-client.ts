@@ -13,9 +13,16 @@ export interface DashboardClient {
 }
 
 /** Questions and answers in order. The first line is the banner; it answers nothing. */
-export function dashboardClient(stream: ByteStream, scheduler: Scheduler, onRoundTrip: (seconds: number) => void, onLost: (sentence: string) => void): DashboardClient {
-  const lines = lineReader(), pending: { readonly asked_s: number; readonly answer: (text: string | null) => void }[] = [];
-  let greeted = false, over = false;
+export function dashboardClient(
+  stream: ByteStream,
+  scheduler: Scheduler,
+  onRoundTrip: (seconds: number) => void,
+  onLost: (sentence: string) => void,
+): DashboardClient {
+  const lines = lineReader();
+  const pending: { readonly asked_s: number; readonly answer: (text: string | null) => void }[] = [];
+  let greeted = false;
+  let over = false;
   const end = (sentence: string | null): void => {
     if (over) return;
     over = true;
@@ -26,12 +33,18 @@ export function dashboardClient(stream: ByteStream, scheduler: Scheduler, onRoun
   };
   const stopLooking = scheduler.every(PATIENCE_S / 4, () => {
     const first = pending[0];
-    if (first && scheduler.now_s() - first.asked_s > PATIENCE_S) end(`The dashboard did not answer for ${PATIENCE_S} s.`);
+    if (first && scheduler.now_s() - first.asked_s > PATIENCE_S)
+      end(`The dashboard did not answer for ${PATIENCE_S} s.`);
   });
-  stream.onEnd(ending => { end(ending.sentence); });
+  stream.onEnd(ending => {
+    end(ending.sentence);
+  });
   stream.onBytes(lent => {
     const why = lines.push(lent, line => {
-      if (!greeted) { greeted = true; return; }
+      if (!greeted) {
+        greeted = true;
+        return;
+      }
       const first = pending.shift();
       if (!first) return;
       onRoundTrip(scheduler.now_s() - first.asked_s);
@@ -40,10 +53,15 @@ export function dashboardClient(stream: ByteStream, scheduler: Scheduler, onRoun
     if (why !== null) end(`Dashboard: ${why}`);
   });
   return {
-    ask: command => over || pending.length >= MOST_PENDING ? Promise.resolve(null) : new Promise(resolve => {
-      pending.push({ asked_s: scheduler.now_s(), answer: resolve });
-      stream.send(lineBytes(command));
-    }),
-    close() { end(null); },
+    ask: command =>
+      over || pending.length >= MOST_PENDING
+        ? Promise.resolve(null)
+        : new Promise(resolve => {
+            pending.push({ asked_s: scheduler.now_s(), answer: resolve });
+            stream.send(lineBytes(command));
+          }),
+    close() {
+      end(null);
+    },
   };
 }

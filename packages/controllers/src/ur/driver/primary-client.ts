@@ -9,7 +9,11 @@ export interface PrimaryClient {
 }
 
 /** Messages of the controller, and the door for programs. States are read from RTDE. */
-export function primaryClient(stream: ByteStream, onMessage: (message: PrimaryMessage) => void, onLost: (sentence: string) => void): PrimaryClient {
+export function primaryClient(
+  stream: ByteStream,
+  onMessage: (message: PrimaryMessage) => void,
+  onLost: (sentence: string) => void,
+): PrimaryClient {
   const packages = primaryPackages();
   let over = false;
   const end = (sentence: string | null): void => {
@@ -18,7 +22,9 @@ export function primaryClient(stream: ByteStream, onMessage: (message: PrimaryMe
     stream.close();
     if (sentence !== null) onLost(sentence);
   };
-  stream.onEnd(ending => { end(ending.sentence); });
+  stream.onEnd(ending => {
+    end(ending.sentence);
+  });
   stream.onBytes(lent => {
     const why = packages.push(lent, (type, body) => {
       const message = type === PACKAGE.message && !over ? readMessage(body) : null;
@@ -27,7 +33,11 @@ export function primaryClient(stream: ByteStream, onMessage: (message: PrimaryMe
     if (why !== null) end(why);
   });
   return {
-    script(text) { if (!over) stream.send(lineBytes(text.replace(/\n$/, ""))); },
-    close() { end(null); },
+    script(text) {
+      if (!over) stream.send(lineBytes(text.replace(/\n$/, "")));
+    },
+    close() {
+      end(null);
+    },
   };
 }

@@ -5,14 +5,24 @@ import { asNumber, asNumbers, asTruth, binary, itemOf, withItem, type Value } fr
 
 /** So many statements of one thread take one cycle: a loop that only counts does not stop the clock. */
 const STATEMENTS_PER_CYCLE = 4000;
-const MOST_THREADS = 32, DEEPEST_CALLS = 64;
+const MOST_THREADS = 32;
+const DEEPEST_CALLS = 64;
 
 type Flow = { readonly kind: "break" | "continue" } | { readonly kind: "return"; readonly value: Value } | undefined;
 type Scope = Map<string, Value>;
-interface Thread { readonly id: number; readonly steps: Generator<void, void>; done: boolean; spent: number; depth: number }
+interface Thread {
+  readonly id: number;
+  readonly steps: Generator<void, void>;
+  done: boolean;
+  spent: number;
+  depth: number;
+}
 class Halt extends Error {}
 
-export type MachineState = { readonly kind: "running" } | { readonly kind: "done" } | { readonly kind: "fault"; readonly fault: ScriptFault };
+export type MachineState =
+  | { readonly kind: "running" }
+  | { readonly kind: "done" }
+  | { readonly kind: "fault"; readonly fault: ScriptFault };
 
 /**
  * Executes one script as its controller does: threads take turns, each runs until it waits for the next cycle. What a program
@@ -40,7 +50,9 @@ export class Machine {
     this.begin(this.main());
   }
 
-  private *main(): Generator<void, void> { yield* this.block(this.script.body, this.globals); }
+  private *main(): Generator<void, void> {
+    yield* this.block(this.script.body, this.globals);
+  }
 
   private begin(steps: Generator<void, void>): number {
     const id = this.next++;
@@ -63,7 +75,15 @@ export class Machine {
     } catch (reason) {
       if (reason instanceof Halt) this.state = { kind: "done" };
       else if (reason instanceof ScriptError) this.state = { kind: "fault", fault: reason.fault };
-      else if (reason instanceof RangeError) this.state = { kind: "fault", fault: { line: this.line, column: 1, sentence: `The program asks for more than there is: ${reason.message}.` } };
+      else if (reason instanceof RangeError)
+        this.state = {
+          kind: "fault",
+          fault: {
+            line: this.line,
+            column: 1,
+            sentence: `The program asks for more than there is: ${reason.message}.`,
+          },
+        };
       else throw reason;
     }
     // The program ends with its body; threads that are left end with it.
@@ -85,12 +105,17 @@ export class Machine {
   }
 
   /** Null when the name is nobody's. */
-  private named(name: string, scope: Scope): Value | undefined { return scope.get(name) ?? this.globals.get(name); }
+  private named(name: string, scope: Scope): Value | undefined {
+    return scope.get(name) ?? this.globals.get(name);
+  }
 
   private *block(statements: readonly Statement[], scope: Scope): Generator<void, Flow> {
     for (const statement of statements) {
       const thread = this.threads.get(this.current);
-      if (thread && ++thread.spent > STATEMENTS_PER_CYCLE) { thread.spent = 0; yield; }
+      if (thread && ++thread.spent > STATEMENTS_PER_CYCLE) {
+        thread.spent = 0;
+        yield;
+      }
       if (this.current === 1) this.line = statement.line;
       const flow = yield* this.statement(statement, scope);
       if (flow) return flow;
@@ -101,39 +126,67 @@ export class Machine {
   private *statement(statement: Statement, scope: Scope): Generator<void, Flow> {
     switch (statement.kind) {
       case "assign": {
-        const value = yield* this.evaluate(statement.value, scope), { name } = statement;
-        const into = statement.scope === "global" || (statement.scope === "nearest" && !scope.has(name) && this.globals.has(name)) ? this.globals : scope;
-        if (statement.index === undefined) { into.set(name, value); return undefined; }
-        const index = yield* this.evaluate(statement.index, scope), old = this.named(name, scope);
+        const value = yield* this.evaluate(statement.value, scope);
+        const { name } = statement;
+        const into =
+          statement.scope === "global" || (statement.scope === "nearest" && !scope.has(name) && this.globals.has(name))
+            ? this.globals
+            : scope;
+        if (statement.index === undefined) {
+          into.set(name, value);
+          return undefined;
+        }
+        const index = yield* this.evaluate(statement.index, scope);
+        const old = this.named(name, scope);
         if (old === undefined) throw new ScriptError(statement, `"${name}" has no value yet.`);
         into.set(name, withItem(old, index, value, statement));
         return undefined;
       }
-      case "do": yield* this.evaluate(statement.value, scope); return undefined;
+      case "do":
+        yield* this.evaluate(statement.value, scope);
+        return undefined;
       case "if":
-        for (const arm of statement.arms) if (asTruth(yield* this.evaluate(arm.when, scope), arm.when)) return yield* this.block(arm.body, scope);
+        for (const arm of statement.arms)
+          if (asTruth(yield* this.evaluate(arm.when, scope), arm.when)) return yield* this.block(arm.body, scope);
         return yield* this.block(statement.otherwise, scope);
       case "while":
         while (asTruth(yield* this.evaluate(statement.when, scope), statement.when)) {
-          const flow = yield* this.block(statement.body, scope), thread = this.threads.get(this.current);
+          const flow = yield* this.block(statement.body, scope);
+          const thread = this.threads.get(this.current);
           // An empty loop spends too.
-          if (thread && ++thread.spent > STATEMENTS_PER_CYCLE) { thread.spent = 0; yield; }
+          if (thread && ++thread.spent > STATEMENTS_PER_CYCLE) {
+            thread.spent = 0;
+            yield;
+          }
           if (flow?.kind === "break") break;
           if (flow?.kind === "return") return flow;
         }
         return undefined;
-      case "return": return { kind: "return", value: statement.value === undefined ? null : yield* this.evaluate(statement.value, scope) };
-      case "kill": this.kill(asNumber(yield* this.evaluate(statement.thread, scope), statement)); return undefined;
+      case "return":
+        return {
+          kind: "return",
+          value: statement.value === undefined ? null : yield* this.evaluate(statement.value, scope),
+        };
+      case "kill":
+        this.kill(asNumber(yield* this.evaluate(statement.thread, scope), statement));
+        return undefined;
       case "join": {
         const id = asNumber(yield* this.evaluate(statement.thread, scope), statement);
         while (this.threads.has(id) && id !== this.current) yield;
         return undefined;
       }
-      case "enter_critical": this.alone = this.current; return undefined;
-      case "exit_critical": this.alone = 0; return undefined;
-      case "halt": throw new Halt();
-      case "pass": return undefined;
-      default: return { kind: statement.kind };
+      case "enter_critical":
+        this.alone = this.current;
+        return undefined;
+      case "exit_critical":
+        this.alone = 0;
+        return undefined;
+      case "halt":
+        throw new Halt();
+      case "pass":
+        return undefined;
+      default:
+        return { kind: statement.kind };
     }
   }
 
@@ -141,16 +194,24 @@ export class Machine {
   private *evaluate(expression: Expression, scope: Scope): Generator<void, Value> {
     if (!expression.calls) return this.value(expression, scope);
     switch (expression.kind) {
-      case "call": return yield* this.call(expression.name, expression.args, scope, expression);
+      case "call":
+        return yield* this.call(expression.name, expression.args, scope, expression);
       case "run": {
         const routine = this.script.routines.get(expression.name);
         if (!routine?.isThread) throw new ScriptError(expression, `There is no thread "${expression.name}".`);
-        if (this.threads.size >= MOST_THREADS) throw new ScriptError(expression, `More than ${MOST_THREADS} threads are running.`);
+        if (this.threads.size >= MOST_THREADS)
+          throw new ScriptError(expression, `More than ${MOST_THREADS} threads are running.`);
         const inner = this.bind(routine, yield* this.given(expression.args, scope, expression), expression);
         return this.begin(this.body(routine, inner));
       }
-      case "item": return itemOf(yield* this.evaluate(expression.of, scope), yield* this.evaluate(expression.index, scope), expression);
-      case "unary": return signed(expression.sign, yield* this.evaluate(expression.of, scope), expression);
+      case "item":
+        return itemOf(
+          yield* this.evaluate(expression.of, scope),
+          yield* this.evaluate(expression.index, scope),
+          expression,
+        );
+      case "unary":
+        return signed(expression.sign, yield* this.evaluate(expression.of, scope), expression);
       case "binary": {
         const left = yield* this.evaluate(expression.left, scope);
         if (decided(expression.sign, left)) return left;
@@ -161,66 +222,92 @@ export class Machine {
         for (const item of expression.items) items.push(yield* this.evaluate(item, scope));
         return made(items, expression.isPose, expression);
       }
-      default: return this.value(expression, scope);
+      default:
+        return this.value(expression, scope);
     }
   }
 
   private value(expression: Expression, scope: Scope): Value {
     switch (expression.kind) {
-      case "constant": return expression.value;
+      case "constant":
+        return expression.value;
       case "variable": {
         const value = this.named(expression.name, scope);
         if (value === undefined) throw new ScriptError(expression, `"${expression.name}" has no value yet.`);
         return value;
       }
-      case "item": return itemOf(this.value(expression.of, scope), this.value(expression.index, scope), expression);
-      case "unary": return signed(expression.sign, this.value(expression.of, scope), expression);
+      case "item":
+        return itemOf(this.value(expression.of, scope), this.value(expression.index, scope), expression);
+      case "unary":
+        return signed(expression.sign, this.value(expression.of, scope), expression);
       case "binary": {
         const left = this.value(expression.left, scope);
-        return decided(expression.sign, left) ? left : binary(expression.sign, left, this.value(expression.right, scope), expression);
+        return decided(expression.sign, left)
+          ? left
+          : binary(expression.sign, left, this.value(expression.right, scope), expression);
       }
-      case "list": return made(expression.items.map(item => this.value(item, scope)), expression.isPose, expression);
-      default: throw new ScriptError(expression, "A value is expected here.");
+      case "list":
+        return made(
+          expression.items.map(item => this.value(item, scope)),
+          expression.isPose,
+          expression,
+        );
+      default:
+        throw new ScriptError(expression, "A value is expected here.");
     }
   }
 
   private *given(args: readonly Argument[], scope: Scope, at: At): Generator<void, Arguments> {
-    const placed: Value[] = [], named = new Map<string, Value>();
+    const placed: Value[] = [];
+    const named = new Map<string, Value>();
     for (const { name, value } of args) {
       const is = yield* this.evaluate(value, scope);
-      if (name === undefined) placed.push(is); else named.set(name, is);
+      if (name === undefined) placed.push(is);
+      else named.set(name, is);
     }
     return new Arguments(at, placed, named);
   }
 
   private *call(name: string, args: readonly Argument[], scope: Scope, at: At): Generator<void, Value> {
-    const given = yield* this.given(args, scope, at), routine = this.script.routines.get(name);
+    const given = yield* this.given(args, scope, at);
+    const routine = this.script.routines.get(name);
     if (routine) {
       const thread = this.threads.get(this.current);
-      if (thread && ++thread.depth > DEEPEST_CALLS) throw new ScriptError(at, `More than ${DEEPEST_CALLS} calls stand inside each other.`);
+      if (thread && ++thread.depth > DEEPEST_CALLS)
+        throw new ScriptError(at, `More than ${DEEPEST_CALLS} calls stand inside each other.`);
       const flow = yield* this.block(routine.body, this.bind(routine, given, at));
       if (thread) thread.depth--;
       return flow?.kind === "return" ? flow.value : null;
     }
-    const known = Object.hasOwn(this.functions, name) ? this.functions[name] : Object.hasOwn(PURE, name) ? PURE[name] : undefined;
+    const known = Object.hasOwn(this.functions, name)
+      ? this.functions[name]
+      : Object.hasOwn(PURE, name)
+        ? PURE[name]
+        : undefined;
     if (!known) throw new ScriptError(at, `"${name}" is no function of this controller.`);
     const answer = known(given, this.current);
     return isRunning(answer) ? yield* answer : answer;
   }
 
-  private *body(routine: Routine, scope: Scope): Generator<void, void> { yield* this.block(routine.body, scope); }
+  private *body(routine: Routine, scope: Scope): Generator<void, void> {
+    yield* this.block(routine.body, scope);
+  }
 
   private bind(routine: Routine, args: Arguments, at: At): Scope {
-    return new Map(routine.parameters.map((name, i) => {
-      const value = args.maybe(i, name);
-      if (value === undefined) throw new ScriptError(at, `"${routine.name}" wants "${name}".`);
-      return [name, value];
-    }));
+    return new Map(
+      routine.parameters.map((name, i) => {
+        const value = args.maybe(i, name);
+        if (value === undefined) throw new ScriptError(at, `"${routine.name}" wants "${name}".`);
+        return [name, value];
+      }),
+    );
   }
 }
 
-const isRunning = (answer: Value | Generator<void, Value>): answer is Generator<void, Value> => typeof answer === "object" && answer !== null && "next" in answer;
-const decided = (sign: string, left: Value): boolean => (sign === "and" && left === false) || (sign === "or" && left === true);
+const isRunning = (answer: Value | Generator<void, Value>): answer is Generator<void, Value> =>
+  typeof answer === "object" && answer !== null && "next" in answer;
+const decided = (sign: string, left: Value): boolean =>
+  (sign === "and" && left === false) || (sign === "or" && left === true);
 function signed(sign: "-" | "+" | "not", value: Value, at: At): Value {
   if (sign === "not") return !asTruth(value, at);
   return sign === "-" ? -asNumber(value, at) : asNumber(value, at);

@@ -1,10 +1,19 @@
 import { fromUrVector, toUrVector, compose, inverse, type Pose, type Quaternion } from "@twincell/core";
 
 /** A controller's pose as a turn and a place. */
-export interface Placed { readonly r: Quaternion; readonly p: readonly number[] }
+export interface Placed {
+  readonly r: Quaternion;
+  readonly p: readonly number[];
+}
 
-export const matrixOf = (six: readonly number[]): Placed => ({ r: fromUrVector(six[3]!, six[4]!, six[5]!), p: six.slice(0, 3) });
-export const poseOf = <A extends string, B extends string>({ r, p }: Placed): Pose<A, B> => ({ position: [p[0]!, p[1]!, p[2]!], quaternion: [...r] });
+export const matrixOf = (six: readonly number[]): Placed => ({
+  r: fromUrVector(six[3]!, six[4]!, six[5]!),
+  p: six.slice(0, 3),
+});
+export const poseOf = <A extends string, B extends string>({ r, p }: Placed): Pose<A, B> => ({
+  position: [p[0]!, p[1]!, p[2]!],
+  quaternion: [...r],
+});
 export const placedOf = ({ position, quaternion }: Pose): Placed => ({ r: [...quaternion], p: [...position] });
 /** x y z and a rotation vector. */
 export function sixOf({ r, p }: Placed): number[] {

@@ -2,7 +2,9 @@ import { ScriptError, type ScriptFault } from "./fault.ts";
 import { tokensOf, type Token } from "./tokens.ts";
 import type { Argument, Expression, Routine, Script, Statement } from "./tree.ts";
 
-export type ScriptRead = { readonly kind: "read"; readonly script: Script } | { readonly kind: "not-understood"; readonly fault: ScriptFault };
+export type ScriptRead =
+  | { readonly kind: "read"; readonly script: Script }
+  | { readonly kind: "not-understood"; readonly fault: ScriptFault };
 
 /** Longer texts are nobody's control program. */
 export const LONGEST_SCRIPT = 1 << 20;
@@ -10,16 +12,44 @@ export const LONGEST_SCRIPT = 1 << 20;
 const DEEPEST = 100;
 const BLOCK_ENDS: ReadonlySet<string> = new Set(["end", "elif", "else"]);
 /** Words that are no names. */
-const KEYWORDS: ReadonlySet<string> = new Set(["def", "sec", "thread", "end", "if", "elif", "else", "while", "return", "kill", "join", "global", "local", "and", "or", "xor", "not"]);
+const KEYWORDS: ReadonlySet<string> = new Set([
+  "def",
+  "sec",
+  "thread",
+  "end",
+  "if",
+  "elif",
+  "else",
+  "while",
+  "return",
+  "kill",
+  "join",
+  "global",
+  "local",
+  "and",
+  "or",
+  "xor",
+  "not",
+]);
 const BARE: ReadonlySet<string> = new Set(["break", "continue", "halt", "pass", "enter_critical", "exit_critical"]);
-const LEVELS: readonly (readonly string[])[] = [["or", "xor"], ["and"], ["==", "!=", "<", ">", "<=", ">="], ["+", "-"], ["*", "/", "%"]];
+const LEVELS: readonly (readonly string[])[] = [
+  ["or", "xor"],
+  ["and"],
+  ["==", "!=", "<", ">", "<=", ">="],
+  ["+", "-"],
+  ["*", "/", "%"],
+];
 /** "not" binds weaker than comparisons and stronger than "and". */
 const NOT_LEVEL = 2;
 
 /** Reads one program: `def name(): … end`, `sec name(): … end`, or bare statements. */
 export function readScript(text: string): ScriptRead {
   try {
-    if (text.length > LONGEST_SCRIPT) throw new ScriptError({ line: 1, column: 1 }, `A script has at most ${LONGEST_SCRIPT} letters; this one has ${text.length}.`);
+    if (text.length > LONGEST_SCRIPT)
+      throw new ScriptError(
+        { line: 1, column: 1 },
+        `A script has at most ${LONGEST_SCRIPT} letters; this one has ${text.length}.`,
+      );
     return { kind: "read", script: new Reader(tokensOf(text)).script() };
   } catch (reason) {
     if (!(reason instanceof ScriptError)) throw reason;
@@ -32,24 +62,44 @@ class Reader {
   private readonly routines = new Map<string, Routine>();
   private at = 0;
   private depth = 0;
-  constructor(tokens: readonly Token[]) { this.tokens = tokens; }
+  constructor(tokens: readonly Token[]) {
+    this.tokens = tokens;
+  }
 
-  private get token(): Token { return this.tokens[this.at]!; }
-  private is(text: string): boolean { return this.token.text === text && (this.token.kind === "word" || this.token.kind === "sign"); }
-  private take(): Token { const { token } = this; if (token.kind !== "end") this.at++; return token; }
-  private taken(text: string): boolean { if (!this.is(text)) return false; this.at++; return true; }
-  private expect(text: string): void { if (!this.taken(text)) throw this.unexpected(`"${text}"`); }
+  private get token(): Token {
+    return this.tokens[this.at]!;
+  }
+  private is(text: string): boolean {
+    return this.token.text === text && (this.token.kind === "word" || this.token.kind === "sign");
+  }
+  private take(): Token {
+    const { token } = this;
+    if (token.kind !== "end") this.at++;
+    return token;
+  }
+  private taken(text: string): boolean {
+    if (!this.is(text)) return false;
+    this.at++;
+    return true;
+  }
+  private expect(text: string): void {
+    if (!this.taken(text)) throw this.unexpected(`"${text}"`);
+  }
   private unexpected(wanted: string): ScriptError {
-    const { token } = this, found = token.kind === "line" ? "the end of the line" : token.kind === "end" ? token.text : `"${token.text}"`;
+    const { token } = this;
+    const found = token.kind === "line" ? "the end of the line" : token.kind === "end" ? token.text : `"${token.text}"`;
     return new ScriptError(token, `${wanted} is expected, and ${found} stands here.`);
   }
   private word(what: string): string {
     if (this.token.kind !== "word") throw this.unexpected(what);
     return this.take().text;
   }
-  private blankLines(): void { while (this.token.kind === "line") this.at++; }
+  private blankLines(): void {
+    while (this.token.kind === "line") this.at++;
+  }
   private deeper<T>(read: () => T): T {
-    if (++this.depth > DEEPEST) throw new ScriptError(this.token, `More than ${DEEPEST} blocks and brackets stand inside each other.`);
+    if (++this.depth > DEEPEST)
+      throw new ScriptError(this.token, `More than ${DEEPEST} blocks and brackets stand inside each other.`);
     const value = read();
     this.depth--;
     return value;
@@ -58,7 +108,9 @@ class Reader {
   script(): Script {
     this.blankLines();
     if (this.is("def") || this.is("sec")) {
-      const isSecondary = this.is("sec"), program = this.routine(), { routines } = this;
+      const isSecondary = this.is("sec");
+      const program = this.routine();
+      const { routines } = this;
       this.blankLines();
       if (this.token.kind !== "end") throw this.unexpected("The end of the program");
       return { name: program.name, isSecondary, body: program.body, routines };
@@ -70,7 +122,9 @@ class Reader {
 
   /** `def name(a, b):` and its body up to `end`. */
   private routine(): Routine {
-    const at = this.take(), name = this.word("A name"), parameters: string[] = [];
+    const at = this.take();
+    const name = this.word("A name");
+    const parameters: string[] = [];
     this.expect("(");
     while (!this.is(")")) {
       parameters.push(this.word("A parameter"));
@@ -90,7 +144,11 @@ class Reader {
 
   private statements(): Statement[] {
     const all: Statement[] = [];
-    for (this.blankLines(); this.token.kind !== "end" && !(this.token.kind === "word" && BLOCK_ENDS.has(this.token.text)); this.blankLines()) {
+    for (
+      this.blankLines();
+      this.token.kind !== "end" && !(this.token.kind === "word" && BLOCK_ENDS.has(this.token.text));
+      this.blankLines()
+    ) {
       if (this.is("def") || this.is("thread")) {
         const routine = this.routine();
         this.routines.set(routine.name, routine);
@@ -100,30 +158,53 @@ class Reader {
   }
 
   private statement(): Statement {
-    const { line, column } = this.token, at = { line, column };
+    const { line, column } = this.token;
+    const at = { line, column };
     const first = this.token.kind === "word" ? this.token.text : "";
     if (first === "if") return this.decision();
-    if (first === "while") { this.at++; const when = this.expression(), body = this.block(); this.expect("end"); return { ...at, kind: "while", when, body }; }
-    if (first === "return") { this.at++; return { ...at, kind: "return", value: this.token.kind === "line" ? undefined : this.expression() }; }
-    if (first === "kill" || first === "join") { this.at++; return { ...at, kind: first, thread: this.expression() }; }
-    if (BARE.has(first)) { this.at++; return { ...at, kind: first as "pass" }; }
+    if (first === "while") {
+      this.at++;
+      const when = this.expression();
+      const body = this.block();
+      this.expect("end");
+      return { ...at, kind: "while", when, body };
+    }
+    if (first === "return") {
+      this.at++;
+      return { ...at, kind: "return", value: this.token.kind === "line" ? undefined : this.expression() };
+    }
+    if (first === "kill" || first === "join") {
+      this.at++;
+      return { ...at, kind: first, thread: this.expression() };
+    }
+    if (BARE.has(first)) {
+      this.at++;
+      return { ...at, kind: first as "pass" };
+    }
     const scope = first === "global" || first === "local" ? first : "nearest";
     if (scope !== "nearest") this.at++;
-    const begin = this.at, value = this.expression();
+    const begin = this.at;
+    const value = this.expression();
     if (!this.is("=")) {
       if (scope !== "nearest") throw this.unexpected('"="');
       return { ...at, kind: "do", value };
     }
     this.at++;
-    if (value.kind === "variable") return { ...at, kind: "assign", scope, name: value.name, index: undefined, value: this.expression() };
-    if (value.kind === "item" && value.of.kind === "variable") return { ...at, kind: "assign", scope, name: value.of.name, index: value.index, value: this.expression() };
+    if (value.kind === "variable")
+      return { ...at, kind: "assign", scope, name: value.name, index: undefined, value: this.expression() };
+    if (value.kind === "item" && value.of.kind === "variable")
+      return { ...at, kind: "assign", scope, name: value.of.name, index: value.index, value: this.expression() };
     throw new ScriptError(this.tokens[begin]!, "Only a variable or an item of one can be given a value.");
   }
 
   private decision(): Statement {
-    const { line, column } = this.take(), arms: { when: Expression; body: readonly Statement[] }[] = [];
+    const { line, column } = this.take();
+    const arms: { when: Expression; body: readonly Statement[] }[] = [];
     let otherwise: readonly Statement[] = [];
-    const arm = (): void => { const when = this.expression(); arms.push({ when, body: this.block() }); };
+    const arm = (): void => {
+      const when = this.expression();
+      arms.push({ when, body: this.block() });
+    };
     arm();
     while (this.taken("elif")) arm();
     if (this.taken("else")) otherwise = this.block();
@@ -134,13 +215,15 @@ class Reader {
   private expression(level = 0): Expression {
     return this.deeper(() => {
       if (level === NOT_LEVEL && this.is("not")) {
-        const { line, column } = this.take(), of = this.expression(NOT_LEVEL);
+        const { line, column } = this.take();
+        const of = this.expression(NOT_LEVEL);
         return { line, column, kind: "unary", sign: "not", of, calls: of.calls };
       }
       if (level === LEVELS.length) return this.unary();
       let left = this.expression(level + 1);
       while ((this.token.kind === "sign" || this.token.kind === "word") && LEVELS[level]!.includes(this.token.text)) {
-        const { line, column, text } = this.take(), right = this.expression(level + 1);
+        const { line, column, text } = this.take();
+        const right = this.expression(level + 1);
         left = { line, column, kind: "binary", sign: text, left, right, calls: left.calls || right.calls };
       }
       return left;
@@ -158,7 +241,8 @@ class Reader {
     }
     let value = this.primary();
     while (this.is("[")) {
-      const at = this.take(), index = this.expression();
+      const at = this.take();
+      const index = this.expression();
       this.expect("]");
       value = { line: at.line, column: at.column, kind: "item", of: value, index, calls: value.calls || index.calls };
     }
@@ -166,15 +250,34 @@ class Reader {
   }
 
   private primary(): Expression {
-    const token = this.take(), { line, column } = token, at = { line, column };
+    const token = this.take();
+    const { line, column } = token;
+    const at = { line, column };
     if (token.kind === "number") return { ...at, kind: "constant", value: Number(token.text), calls: false };
     if (token.kind === "text") return { ...at, kind: "constant", value: token.text, calls: false };
-    if (token.text === "(" && token.kind === "sign") { const value = this.expression(); this.expect(")"); return value; }
+    if (token.text === "(" && token.kind === "sign") {
+      const value = this.expression();
+      this.expect(")");
+      return value;
+    }
     if (token.text === "[" && token.kind === "sign") return this.list(at, false);
     if (token.kind === "word" && !KEYWORDS.has(token.text) && !BARE.has(token.text)) {
-      if (token.text === "True" || token.text === "False") return { ...at, kind: "constant", value: token.text === "True", calls: false };
-      if (token.text === "p" && this.is("[") && this.token.column === column + 1 && this.token.line === line && this.isPoseAhead()) { this.at++; return this.list(at, true); }
-      if (token.text === "run") { const name = this.word("The name of a thread"); return { ...at, kind: "run", name, args: this.arguments(), calls: true }; }
+      if (token.text === "True" || token.text === "False")
+        return { ...at, kind: "constant", value: token.text === "True", calls: false };
+      if (
+        token.text === "p" &&
+        this.is("[") &&
+        this.token.column === column + 1 &&
+        this.token.line === line &&
+        this.isPoseAhead()
+      ) {
+        this.at++;
+        return this.list(at, true);
+      }
+      if (token.text === "run") {
+        const name = this.word("The name of a thread");
+        return { ...at, kind: "run", name, args: this.arguments(), calls: true };
+      }
       if (this.is("(")) return { ...at, kind: "call", name: token.text, args: this.arguments(), calls: true };
       return { ...at, kind: "variable", name: token.text, calls: false };
     }
@@ -210,7 +313,8 @@ class Reader {
     this.expect("(");
     while (!this.is(")")) {
       const next = this.tokens[this.at + 1];
-      const name = this.token.kind === "word" && next?.kind === "sign" && next.text === "=" ? this.take().text : undefined;
+      const name =
+        this.token.kind === "word" && next?.kind === "sign" && next.text === "=" ? this.take().text : undefined;
       if (name !== undefined) this.at++;
       all.push({ name, value: this.expression() });
       if (!this.taken(",")) break;

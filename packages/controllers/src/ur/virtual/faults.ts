@@ -24,14 +24,28 @@ export interface UrFaults {
   /** After so many more state packages of a connection it breaks; 0 for never. */
   dropAfter: number;
 }
-export const noFaults = (): UrFaults => ({ refusing: false, silent: false, frozen: false, delay_s: 0, garbage: 0, loss: 0, split: false, oldProtocol: false, inUse: false, dropAfter: 0 });
+export const noFaults = (): UrFaults => ({
+  refusing: false,
+  silent: false,
+  frozen: false,
+  delay_s: 0,
+  garbage: 0,
+  loss: 0,
+  split: false,
+  oldProtocol: false,
+  inUse: false,
+  dropAfter: 0,
+});
 
 /** More than this waiting for a client that does not read: states are left out [bytes]. */
 export const MOST_WAITING = 1 << 16;
 /** More than this, and the client is cut off: answers are not left out. */
 const FAR_TOO_MUCH = 1 << 20;
 
-interface Late { readonly due_s: number; readonly send: () => void }
+interface Late {
+  readonly due_s: number;
+  readonly send: () => void;
+}
 
 /** What is between the controller and its connections: its faults, and the bound on what waits. */
 export class Outbox {
@@ -39,21 +53,33 @@ export class Outbox {
   private readonly random = seededRandom(7);
   private late: Late[] = [];
   private readonly now_s: () => number;
-  constructor(faults: UrFaults, now_s: () => number) { this.faults = faults; this.now_s = now_s; }
+  constructor(faults: UrFaults, now_s: () => number) {
+    this.faults = faults;
+    this.now_s = now_s;
+  }
 
   /** @param isState  one of many: left out when the client does not read. */
   send(stream: ByteStream, bytes: Uint8Array, isState = false): void {
     const { faults } = this;
     if (faults.silent || faults.frozen) return;
     if (isState && (stream.waiting > MOST_WAITING || (faults.loss > 0 && this.random() < faults.loss))) return;
-    if (stream.waiting > FAR_TOO_MUCH) { stream.close(); return; }
-    const isLate = faults.delay_s > 0 || this.late.length > 0, copy = isLate || faults.garbage > 0 ? bytes.slice() : bytes;
-    if (faults.garbage > 0 && this.random() < faults.garbage) copy[Math.floor(this.random() * copy.length)] = Math.floor(this.random() * 256);
+    if (stream.waiting > FAR_TOO_MUCH) {
+      stream.close();
+      return;
+    }
+    const isLate = faults.delay_s > 0 || this.late.length > 0;
+    const copy = isLate || faults.garbage > 0 ? bytes.slice() : bytes;
+    if (faults.garbage > 0 && this.random() < faults.garbage)
+      copy[Math.floor(this.random() * copy.length)] = Math.floor(this.random() * 256);
     const send = (): void => {
-      if (!faults.split) { stream.send(copy); return; }
+      if (!faults.split) {
+        stream.send(copy);
+        return;
+      }
       for (let i = 0; i < copy.length; i++) stream.send(copy.subarray(i, i + 1));
     };
-    if (isLate) this.late.push({ due_s: this.now_s() + faults.delay_s, send }); else send();
+    if (isLate) this.late.push({ due_s: this.now_s() + faults.delay_s, send });
+    else send();
   }
 
   /** What is due goes out, in order. */
@@ -61,5 +87,7 @@ export class Outbox {
     const now_s = this.now_s();
     while (this.late.length > 0 && this.late[0]!.due_s <= now_s + 1e-9) this.late.shift()!.send();
   }
-  clear(): void { this.late = []; }
+  clear(): void {
+    this.late = [];
+  }
 }

@@ -12,13 +12,20 @@ export class NamedLines {
   readonly signals: Signals;
   private context: TextContext["signals"] = undefined;
   private readonly seen = new Map<string, boolean | number>();
-  constructor(memory: Memory, signals: Signals) { this.memory = memory; this.signals = signals; }
+  constructor(memory: Memory, signals: Signals) {
+    this.memory = memory;
+    this.signals = signals;
+  }
 
   begin(context: TextContext["signals"]): void {
     this.context = context;
     this.seen.clear();
     for (const [name, { kind, address }] of Object.entries(context ?? {})) {
-      if (kind === "digital-out" && address !== undefined) { const is = this.memory.digital("output", address); this.signals.write(name, is); this.seen.set(name, is); }
+      if (kind === "digital-out" && address !== undefined) {
+        const is = this.memory.digital("output", address);
+        this.signals.write(name, is);
+        this.seen.set(name, is);
+      }
     }
   }
 
@@ -28,13 +35,24 @@ export class NamedLines {
     for (const name in context) {
       const { kind, address } = context[name]!;
       if (address === undefined) continue;
-      if (kind === "digital-in") { signals.write(name, memory.digital("input", address)); continue; }
-      if (kind === "analogue-in") { const slot = ANALOGUE_IN[address]; if (slot) signals.write(name, memory.get(slot)); continue; }
+      if (kind === "digital-in") {
+        signals.write(name, memory.digital("input", address));
+        continue;
+      }
+      if (kind === "analogue-in") {
+        const slot = ANALOGUE_IN[address];
+        if (slot) signals.write(name, memory.get(slot));
+        continue;
+      }
       const value = signals.read(name);
       if (this.seen.get(name) === value) continue;
       this.seen.set(name, value);
-      if (kind === "digital-out") memory.setDigital("output", address, value === true || (typeof value === "number" && value !== 0));
-      else { const slot = ANALOGUE_OUT[address]; if (slot) memory.set(slot, Number(value)); }
+      if (kind === "digital-out")
+        memory.setDigital("output", address, value === true || (typeof value === "number" && value !== 0));
+      else {
+        const slot = ANALOGUE_OUT[address];
+        if (slot) memory.set(slot, Number(value));
+      }
     }
   }
 }

@@ -3,7 +3,11 @@ import type { VirtualController } from "../../virtual/index.ts";
 import { Stream } from "./stream.ts";
 
 /** A motion that was begun: over when the arm stands again, with a sentence when it did not come to its end. */
-export interface Moving { over: boolean; sentence: string; begun: boolean }
+export interface Moving {
+  over: boolean;
+  sentence: string;
+  begun: boolean;
+}
 
 /** Everything that moves the arm: whole motions through the neutral virtual robot, and streams of targets. One at a time. */
 export class Mover {
@@ -28,16 +32,24 @@ export class Mover {
   }
 
   /** Whether nothing is under way. */
-  get isAtRest(): boolean { return this.moving === null && this.stream.isAtRest; }
+  get isAtRest(): boolean {
+    return this.moving === null && this.stream.isAtRest;
+  }
   /** Whether a whole motion is under way. */
-  get isTravelling(): boolean { return this.moving !== null; }
-  get isMoving(): boolean { return this.qd.some(speed => Math.abs(speed) > 1e-9); }
+  get isTravelling(): boolean {
+    return this.moving !== null;
+  }
+  get isMoving(): boolean {
+    return this.qd.some(speed => Math.abs(speed) > 1e-9);
+  }
 
   /** Begins steps from standstill. */
   run(steps: Iterable<Step>, context: Pick<Program, "tools" | "frames">): Moving {
     const mine: Moving = { over: false, sentence: "", begun: false };
     this.moving = mine;
-    void this.neutral.run(steps, context).then(outcome => { this.end(mine, outcome.kind === "done" ? "" : outcome.why.sentence); });
+    void this.neutral.run(steps, context).then(outcome => {
+      this.end(mine, outcome.kind === "done" ? "" : outcome.why.sentence);
+    });
     return mine;
   }
   private end(moving: Moving, sentence: string): void {
@@ -54,7 +66,10 @@ export class Mover {
   }
 
   /** Speed slider 0 … 1. */
-  setRate(rate: number): void { this.rate = rate; this.neutral.setSpeed(100 * (this.held ? 0 : rate)); }
+  setRate(rate: number): void {
+    this.rate = rate;
+    this.neutral.setSpeed(100 * (this.held ? 0 : rate));
+  }
   /** Holding stops along the path, which goes on from there; streams end. */
   hold(held: boolean): void {
     this.held = held;

@@ -19,34 +19,64 @@ const LONGEST_LINE = 1 << 16;
 export class ScriptServer {
   private readonly options: ScriptServerOptions;
   private readonly streams = new Set<ByteStream>();
-  constructor(options: ScriptServerOptions) { this.options = options; }
+  constructor(options: ScriptServerOptions) {
+    this.options = options;
+  }
 
-  get clients(): number { return this.streams.size; }
+  get clients(): number {
+    return this.streams.size;
+  }
 
   accept(stream: ByteStream): void {
-    const lines = lineReader(LONGEST_LINE), { options } = this, { onScript } = options;
-    let text = "", open = 0;
+    const lines = lineReader(LONGEST_LINE);
+    const { options } = this;
+    const { onScript } = options;
+    let text = "";
+    let open = 0;
     this.streams.add(stream);
-    stream.onEnd(() => { this.streams.delete(stream); });
+    stream.onEnd(() => {
+      this.streams.delete(stream);
+    });
     for (const bytes of options.greeting()) options.outbox.send(stream, bytes);
-    if (!onScript) { stream.onBytes(() => { /* Read-only. */ }); return; }
-    const reset = (why: string): void => { options.log(`${options.name}: ${why}`); this.end(stream); };
+    if (!onScript) {
+      stream.onBytes(() => {
+        /* Read-only. */
+      });
+      return;
+    }
+    const reset = (why: string): void => {
+      options.log(`${options.name}: ${why}`);
+      this.end(stream);
+    };
     stream.onBytes(lent => {
       const why = lines.push(lent, line => {
         if (!this.streams.has(stream) || options.outbox.faults.frozen) return;
         if (text === "" && line.trim() === "") return;
         open = Math.max(0, open + blockChange(line));
         text += `${line}\n`;
-        if (text.length > LONGEST_SCRIPT) { text = ""; reset(`a script has at most ${LONGEST_SCRIPT} letters; a longer one came.`); return; }
+        if (text.length > LONGEST_SCRIPT) {
+          text = "";
+          reset(`a script has at most ${LONGEST_SCRIPT} letters; a longer one came.`);
+          return;
+        }
         if (open > 0) return;
         const whole = text;
         text = "";
-        onScript(whole, bytes => { options.outbox.send(stream, bytes); });
+        onScript(whole, bytes => {
+          options.outbox.send(stream, bytes);
+        });
       });
       if (why !== null && this.streams.has(stream)) reset(why);
     });
   }
-  private end(stream: ByteStream): void { this.streams.delete(stream); stream.close(); }
-  closeAll(): void { for (const stream of [...this.streams]) this.end(stream); }
-  tell(bytes: Uint8Array, isState = false): void { for (const stream of this.streams) this.options.outbox.send(stream, bytes, isState); }
+  private end(stream: ByteStream): void {
+    this.streams.delete(stream);
+    stream.close();
+  }
+  closeAll(): void {
+    for (const stream of [...this.streams]) this.end(stream);
+  }
+  tell(bytes: Uint8Array, isState = false): void {
+    for (const stream of this.streams) this.options.outbox.send(stream, bytes, isState);
+  }
 }

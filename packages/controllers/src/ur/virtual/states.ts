@@ -27,14 +27,28 @@ export class States {
   /** Why the robot stopped, for whoever asks. */
   message = "";
 
-  constructor(options: StatesOptions) { this.options = options; }
+  constructor(options: StatesOptions) {
+    this.options = options;
+  }
 
-  get robotMode(): number { return this.mode; }
-  get safetyMode(): number { return this.safety; }
-  get isRunning(): boolean { return this.mode === ROBOT_MODE.RUNNING; }
-  get mayMove(): boolean { return this.isRunning && (this.safety === SAFETY_MODE.NORMAL || this.safety === SAFETY_MODE.REDUCED); }
+  get robotMode(): number {
+    return this.mode;
+  }
+  get safetyMode(): number {
+    return this.safety;
+  }
+  get isRunning(): boolean {
+    return this.mode === ROBOT_MODE.RUNNING;
+  }
+  get mayMove(): boolean {
+    return this.isRunning && (this.safety === SAFETY_MODE.NORMAL || this.safety === SAFETY_MODE.REDUCED);
+  }
   /** Drives that are off stay off while the safety system wants it. */
-  private get mayPower(): boolean { return !EMERGENCY_STOPS.has(this.safety) && this.safety !== SAFETY_MODE.FAULT && this.safety !== SAFETY_MODE.VIOLATION; }
+  private get mayPower(): boolean {
+    return (
+      !EMERGENCY_STOPS.has(this.safety) && this.safety !== SAFETY_MODE.FAULT && this.safety !== SAFETY_MODE.VIOLATION
+    );
+  }
 
   private become(safety: number, message: string): void {
     this.safety = safety;
@@ -43,16 +57,25 @@ export class States {
   }
 
   /** Straight to a state, when the controller begins. */
-  begin(mode: number): void { this.mode = mode; this.due_s = Infinity; this.become(SAFETY_MODE.NORMAL, ""); }
+  begin(mode: number): void {
+    this.mode = mode;
+    this.due_s = Infinity;
+    this.become(SAFETY_MODE.NORMAL, "");
+  }
 
   powerOn(now_s: number, goal: number = ROBOT_MODE.IDLE): boolean {
     if (!this.mayPower) return false;
     this.goal = Math.max(this.goal, goal);
-    if (this.mode === ROBOT_MODE.POWER_OFF) { this.mode = ROBOT_MODE.POWER_ON; this.goal = goal; this.due_s = now_s + this.options.powerOn_s; }
-    else if (this.mode === ROBOT_MODE.IDLE && goal === ROBOT_MODE.RUNNING) this.due_s = now_s + this.options.brakes_s;
+    if (this.mode === ROBOT_MODE.POWER_OFF) {
+      this.mode = ROBOT_MODE.POWER_ON;
+      this.goal = goal;
+      this.due_s = now_s + this.options.powerOn_s;
+    } else if (this.mode === ROBOT_MODE.IDLE && goal === ROBOT_MODE.RUNNING) this.due_s = now_s + this.options.brakes_s;
     return true;
   }
-  releaseBrakes(now_s: number): boolean { return this.powerOn(now_s, ROBOT_MODE.RUNNING); }
+  releaseBrakes(now_s: number): boolean {
+    return this.powerOn(now_s, ROBOT_MODE.RUNNING);
+  }
   powerOff(): void {
     if (this.mode === ROBOT_MODE.POWER_OFF) return;
     this.mode = ROBOT_MODE.POWER_OFF;

@@ -1,6 +1,7 @@
 /** Little-endian numbers in a row of bytes. None checks bounds: callers have looked at the size. */
 export const u16 = (bytes: Uint8Array, at: number): number => bytes[at]! | (bytes[at + 1]! << 8);
-export const i32 = (bytes: Uint8Array, at: number): number => bytes[at]! | (bytes[at + 1]! << 8) | (bytes[at + 2]! << 16) | (bytes[at + 3]! << 24);
+export const i32 = (bytes: Uint8Array, at: number): number =>
+  bytes[at]! | (bytes[at + 1]! << 8) | (bytes[at + 2]! << 16) | (bytes[at + 3]! << 24);
 export const u32 = (bytes: Uint8Array, at: number): number => i32(bytes, at) >>> 0;
 export const i16 = (bytes: Uint8Array, at: number): number => (u16(bytes, at) << 16) >> 16;
 
@@ -26,7 +27,8 @@ export function putText(bytes: Uint8Array, at: number, length: number, text: str
 /** The text up to the first zero. */
 export function textAt(bytes: Uint8Array, at: number, length: number): string {
   let text = "";
-  for (let i = at; i < Math.min(at + length, bytes.length) && bytes[i] !== 0; i++) text += String.fromCharCode(bytes[i]!);
+  for (let i = at; i < Math.min(at + length, bytes.length) && bytes[i] !== 0; i++)
+    text += String.fromCharCode(bytes[i]!);
   return text;
 }
 /** Text as bytes, one each. */

@@ -1,9 +1,19 @@
 import type { Scheduler } from "@twincell/core";
 import type { Address, DatagramSocket } from "../../transport/index.ts";
-import { HEADER_BYTES, MOST_DATA_BYTES, readReply, writeRequest, type Division, type HsesReply, type HsesRequest } from "../codec/index.ts";
+import {
+  HEADER_BYTES,
+  MOST_DATA_BYTES,
+  readReply,
+  writeRequest,
+  type Division,
+  type HsesReply,
+  type HsesRequest,
+} from "../codec/index.ts";
 
 /** What came back, or nothing after so long. `data` of the reply is the receiver's to keep. */
-export type Answer = { readonly kind: "answer"; readonly reply: HsesReply } | { readonly kind: "silent"; readonly after_s: number };
+export type Answer =
+  | { readonly kind: "answer"; readonly reply: HsesReply }
+  | { readonly kind: "silent"; readonly after_s: number };
 export interface Question {
   readonly command?: number;
   readonly instance?: number;
@@ -17,7 +27,15 @@ export interface Question {
   /** A block or an acknowledgement of a file, by its number. */
   readonly block?: number;
 }
-interface Asked { readonly id: number; readonly question: Question; readonly bytes: Uint8Array; readonly resolve: (answer: Answer) => void; readonly begun_s: number; said: number; next_s: number }
+interface Asked {
+  readonly id: number;
+  readonly question: Question;
+  readonly bytes: Uint8Array;
+  readonly resolve: (answer: Answer) => void;
+  readonly begun_s: number;
+  said: number;
+  next_s: number;
+}
 
 const NOTHING = new Uint8Array(0);
 /** How often patience is looked at [s]. */
@@ -42,11 +60,28 @@ export interface ClientOptions {
 /** Asks a controller over UDP: an answer belongs to its question by the request id, and what is lost is said again. */
 export function hsesClient({ socket, to, division, scheduler, onRoundTrip }: ClientOptions): Client {
   const out = new Uint8Array(HEADER_BYTES + MOST_DATA_BYTES);
-  let waiting: Asked[] = [], current: Asked | null = null, urgent: Asked | null = null, lastId = 0, isClosed = false;
+  let waiting: Asked[] = [];
+  let current: Asked | null = null;
+  let urgent: Asked | null = null;
+  let lastId = 0;
+  let isClosed = false;
 
   /** @param id  of a file transfer: the same for all its packets. */
-  const packet = ({ command = 0, instance = 0, attribute = 0, service, data = NOTHING, block }: Omit<Question, "patience_s">, id: number): Uint8Array => {
-    const request: HsesRequest = { division, ack: block !== undefined, id, block: block ?? 0, command, instance, attribute, service, data };
+  const packet = (
+    { command = 0, instance = 0, attribute = 0, service, data = NOTHING, block }: Omit<Question, "patience_s">,
+    id: number,
+  ): Uint8Array => {
+    const request: HsesRequest = {
+      division,
+      ack: block !== undefined,
+      id,
+      block: block ?? 0,
+      command,
+      instance,
+      attribute,
+      service,
+      data,
+    };
     return out.subarray(0, writeRequest(request, out));
   };
   const nextId = (): number => (lastId = (lastId + 1) & 255);
@@ -60,12 +95,13 @@ export function hsesClient({ socket, to, division, scheduler, onRoundTrip }: Cli
     if (isClosed) return;
     if (urgent === null) {
       const at = waiting.findIndex(({ question }) => question.urgent);
-      if (at >= 0) send(urgent = waiting.splice(at, 1)[0]!);
+      if (at >= 0) send((urgent = waiting.splice(at, 1)[0]!));
     }
-    if (current === null && waiting.length > 0 && !waiting[0]!.question.urgent) send(current = waiting.shift()!);
+    if (current === null && waiting.length > 0 && !waiting[0]!.question.urgent) send((current = waiting.shift()!));
   }
   function end(asked: Asked, answer: Answer): void {
-    if (asked === current) current = null; else urgent = null;
+    if (asked === current) current = null;
+    else urgent = null;
     asked.resolve(answer);
     goOn();
   }
@@ -88,18 +124,33 @@ export function hsesClient({ socket, to, division, scheduler, onRoundTrip }: Cli
     const now_s = scheduler.now_s();
     for (const asked of [current, urgent]) {
       if (asked === null || now_s < asked.next_s - 1e-9) continue;
-      if (asked.said < asked.question.patience_s.length) send(asked); else end(asked, { kind: "silent", after_s: now_s - asked.begun_s });
+      if (asked.said < asked.question.patience_s.length) send(asked);
+      else end(asked, { kind: "silent", after_s: now_s - asked.begun_s });
     }
   });
 
   return {
-    ask: question => new Promise(resolve => {
-      if (isClosed || waiting.length >= MOST_WAITING) { resolve({ kind: "silent", after_s: 0 }); return; }
-      const id = question.block === undefined ? nextId() : lastId;
-      waiting.push({ id, question, bytes: packet(question, id).slice(), resolve, begun_s: scheduler.now_s(), said: 0, next_s: 0 });
-      goOn();
-    }),
-    say(question) { if (!isClosed) socket.send(packet(question, question.block === undefined ? nextId() : lastId), to); },
+    ask: question =>
+      new Promise(resolve => {
+        if (isClosed || waiting.length >= MOST_WAITING) {
+          resolve({ kind: "silent", after_s: 0 });
+          return;
+        }
+        const id = question.block === undefined ? nextId() : lastId;
+        waiting.push({
+          id,
+          question,
+          bytes: packet(question, id).slice(),
+          resolve,
+          begun_s: scheduler.now_s(),
+          said: 0,
+          next_s: 0,
+        });
+        goOn();
+      }),
+    say(question) {
+      if (!isClosed) socket.send(packet(question, question.block === undefined ? nextId() : lastId), to);
+    },
     close() {
       if (isClosed) return;
       isClosed = true;
@@ -116,6 +167,7 @@ export function hsesClient({ socket, to, division, scheduler, onRoundTrip }: Cli
 /** Sent blocks are answered by their own number; an acknowledged one by the next. */
 function belongs(question: Question, reply: HsesReply): boolean {
   if (reply.status !== 0) return true;
-  const asked = question.block! & 0x7FFF_FFFF, got = reply.block & 0x7FFF_FFFF;
+  const asked = question.block! & 0x7fff_ffff;
+  const got = reply.block & 0x7fff_ffff;
   return question.data === undefined ? got === asked + 1 : got === asked;
 }

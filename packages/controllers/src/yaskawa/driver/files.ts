@@ -8,12 +8,35 @@ const BLOCK_BYTES = 400;
 /** Bytes of a file that is received. */
 const MOST_BYTES = 4_000_000;
 
-export type FileOutcome<T> = { readonly kind: "done"; readonly value: T } | { readonly kind: "refused"; readonly added: number; readonly why: Refusal };
+export type FileOutcome<T> =
+  | { readonly kind: "done"; readonly value: T }
+  | { readonly kind: "refused"; readonly added: number; readonly why: Refusal };
 
-const refusal = (what: string, answer: Answer): { readonly kind: "refused"; readonly added: number; readonly why: Refusal } => answer.kind === "silent"
-  ? { kind: "refused", added: 0, why: { code: "yaskawa.silent", sentence: `${what}: the controller did not answer for ${answer.after_s.toFixed(1)} s.`, hint: "Look at the cable and the file port (UDP 10041)." } }
-  : { kind: "refused", added: answer.reply.added, why: { code: "yaskawa.refused", sentence: `${what}: ${refusalSentence(answer.reply.status, answer.reply.added)}`, hint: "Remote mode, command remote, no running job and no edit lock are needed for it." } };
-const isWell = (answer: Answer): answer is Extract<Answer, { kind: "answer" }> => answer.kind === "answer" && answer.reply.status === 0;
+const refusal = (
+  what: string,
+  answer: Answer,
+): { readonly kind: "refused"; readonly added: number; readonly why: Refusal } =>
+  answer.kind === "silent"
+    ? {
+        kind: "refused",
+        added: 0,
+        why: {
+          code: "yaskawa.silent",
+          sentence: `${what}: the controller did not answer for ${answer.after_s.toFixed(1)} s.`,
+          hint: "Look at the cable and the file port (UDP 10041).",
+        },
+      }
+    : {
+        kind: "refused",
+        added: answer.reply.added,
+        why: {
+          code: "yaskawa.refused",
+          sentence: `${what}: ${refusalSentence(answer.reply.status, answer.reply.added)}`,
+          hint: "Remote mode, command remote, no running job and no edit lock are needed for it.",
+        },
+      };
+const isWell = (answer: Answer): answer is Extract<Answer, { kind: "answer" }> =>
+  answer.kind === "answer" && answer.reply.status === 0;
 
 /** Files of the controller, block by block: names as they are there, text one byte per letter. */
 export interface FileClient {
@@ -25,12 +48,31 @@ export interface FileClient {
 
 export function fileClient(client: Client): FileClient {
   async function receive(what: string, service: number, asked: string): Promise<FileOutcome<string>> {
-    let answer = await client.ask({ service, data: textBytes(asked), patience_s: PATIENCE_S }), text = "";
+    let answer = await client.ask({ service, data: textBytes(asked), patience_s: PATIENCE_S });
+    let text = "";
     for (let expected = 1; isWell(answer); expected++) {
       const { block, data } = answer.reply;
-      if ((block & ~LAST_BLOCK) >>> 0 !== expected) return { kind: "refused", added: 0, why: { code: "yaskawa.block", sentence: `${what}: block ${(block & ~LAST_BLOCK) >>> 0} came instead of block ${expected}.`, hint: "Try the transfer again." } };
+      if ((block & ~LAST_BLOCK) >>> 0 !== expected)
+        return {
+          kind: "refused",
+          added: 0,
+          why: {
+            code: "yaskawa.block",
+            sentence: `${what}: block ${(block & ~LAST_BLOCK) >>> 0} came instead of block ${expected}.`,
+            hint: "Try the transfer again.",
+          },
+        };
       text += textAt0(data);
-      if (text.length > MOST_BYTES) return { kind: "refused", added: 0, why: { code: "yaskawa.too-long", sentence: `${what}: more than ${MOST_BYTES} bytes came.`, hint: "Transfer it by another way." } };
+      if (text.length > MOST_BYTES)
+        return {
+          kind: "refused",
+          added: 0,
+          why: {
+            code: "yaskawa.too-long",
+            sentence: `${what}: more than ${MOST_BYTES} bytes came.`,
+            hint: "Transfer it by another way.",
+          },
+        };
       if (block >= LAST_BLOCK) {
         client.say({ service, block });
         return { kind: "done", value: text };
@@ -46,11 +88,18 @@ export function fileClient(client: Client): FileClient {
     },
     load: name => receive(`Loading ${name}`, SERVICE.loadFile, name),
     async save(name, text) {
-      const what = `Saving ${name}`, bytes = textBytes(text);
+      const what = `Saving ${name}`;
+      const bytes = textBytes(text);
       let answer = await client.ask({ service: SERVICE.saveFile, data: textBytes(name), patience_s: PATIENCE_S });
       for (let number = 1; isWell(answer); number++) {
-        const isLast = number * BLOCK_BYTES >= bytes.length, data = bytes.subarray((number - 1) * BLOCK_BYTES, number * BLOCK_BYTES);
-        answer = await client.ask({ service: SERVICE.saveFile, block: isLast ? (number | LAST_BLOCK) >>> 0 : number, data, patience_s: PATIENCE_S });
+        const isLast = number * BLOCK_BYTES >= bytes.length;
+        const data = bytes.subarray((number - 1) * BLOCK_BYTES, number * BLOCK_BYTES);
+        answer = await client.ask({
+          service: SERVICE.saveFile,
+          block: isLast ? (number | LAST_BLOCK) >>> 0 : number,
+          data,
+          patience_s: PATIENCE_S,
+        });
         if (isLast && isWell(answer)) return { kind: "done", value: null };
       }
       return refusal(what, answer);

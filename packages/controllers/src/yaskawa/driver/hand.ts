@@ -5,15 +5,28 @@ import type { Client, Question } from "./client.ts";
 import { cancelError, holdOff, holdOn, resetAlarm, sayHold, saySevered, servoOff, servoOn } from "./holds.ts";
 import { commandOf, endOf } from "./motion.ts";
 import type { RobotState } from "./state.ts";
-import { endedEarly, jobPace, linkClosed, neverOn, noArc, noSoftness, notTaken, stands, standsBecause, wasStopped } from "./words.ts";
+import {
+  endedEarly,
+  jobPace,
+  linkClosed,
+  neverOn,
+  noArc,
+  noSoftness,
+  notTaken,
+  stands,
+  standsBecause,
+  wasStopped,
+} from "./words.ts";
 
 /** An order that must not be carried out twice is said once, and looked after before it is said again [s]. */
 const ONCE_S = [0.3];
 const MOST_TRIES = 3;
 /** Refusals that pass by themselves, as just after a stop: busy, still moving. Nothing was carried out, so it is said again, so often. */
-const PASSING: readonly number[] = [ADDED.moving, ADDED.busy, 0xD8F1, 0xD8FA], MOST_PASSING = 20;
+const PASSING: readonly number[] = [ADDED.moving, ADDED.busy, 0xd8f1, 0xd8fa];
+const MOST_PASSING = 20;
 /** From the acceptance of a motion until it must be seen running [s]; the drives may take so long to come on. */
-const START_S = 0.3, SERVO_S = 5;
+const START_S = 0.3;
+const SERVO_S = 5;
 /** A robot that is not where it should end is looked at twice: states may be damaged on their way. */
 const STANDS = 2;
 /** A robot this near to the end is there [pulses of each axis as a part of a degree]. */
@@ -35,9 +48,20 @@ interface Going {
   standing: number;
   stopping: Refusal | null;
 }
-export interface HandOptions { readonly robot: Robot; readonly scheduler: Scheduler; readonly scale: PulseScale; readonly state: RobotState }
+export interface HandOptions {
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  readonly scale: PulseScale;
+  readonly state: RobotState;
+}
 
-const START: Omit<Question, "patience_s"> = { command: COMMAND.start, instance: 1, attribute: 1, service: SERVICE.setOne, data: word(ON) };
+const START: Omit<Question, "patience_s"> = {
+  command: COMMAND.start,
+  instance: 1,
+  attribute: 1,
+  service: SERVICE.setOne,
+  data: word(ON),
+};
 
 /**
  * The hand on the robot: one motion or one job at a time. A change of override stops a motion by a hold and tells it
@@ -60,15 +84,25 @@ export class Hand {
   private isLettingGo = false;
   private looks: (() => void)[] = [];
 
-  constructor(options: HandOptions) { this.options = options; }
+  constructor(options: HandOptions) {
+    this.options = options;
+  }
 
-  take(client: Client): void { this.client = client; }
-  beginPoll(): number { return ++this.poll; }
+  take(client: Client): void {
+    this.client = client;
+  }
+  beginPoll(): number {
+    return ++this.poll;
+  }
 
   /** The line is given up: with a motion under way a hold is its last word. */
   letDrop(): void {
     const { client, going } = this;
-    if (client && going) { sayHold(client); sayHold(client); this.hold = { acknowledged: 0 }; }
+    if (client && going) {
+      sayHold(client);
+      sayHold(client);
+      this.hold = { acknowledged: 0 };
+    }
     this.client = null;
     this.isLettingGo = false;
     this.end({ kind: "stopped", why: linkClosed(this.options.robot) });
@@ -92,7 +126,10 @@ export class Hand {
     const { client, going } = this;
     if (emergency) {
       this.emergency = true;
-      if (client) { saySevered(client); void servoOff(client); }
+      if (client) {
+        saySevered(client);
+        void servoOff(client);
+      }
     }
     if (going) going.stopping ??= wasStopped(this.options.robot);
     this.grip();
@@ -103,23 +140,33 @@ export class Hand {
     if (going && going.motion === null && ratio !== 0 && ratio !== 1) return jobPace(this.options.robot);
     if (ratio === this.override) return null;
     this.override = ratio;
-    if (ratio === 0 || (going && going.phase !== "waiting" && going.motion !== null)) this.grip(); else this.goOn();
+    if (ratio === 0 || (going && going.phase !== "waiting" && going.motion !== null)) this.grip();
+    else this.goOn();
     return null;
   }
 
   async reset(): Promise<CommandOutcome> {
-    const { client, options: { robot, scheduler, state } } = this;
+    const {
+      client,
+      options: { robot, scheduler, state },
+    } = this;
     if (!client) return { kind: "refused", why: linkClosed(robot) };
     const { stops } = this;
     this.complaint = "";
-    for (const [what, order] of [["Resetting the alarm", resetAlarm], ["Cancelling the error", cancelError], ["Releasing the hold", holdOff], ["Turning the servo power on", servoOn]] as const) {
+    for (const [what, order] of [
+      ["Resetting the alarm", resetAlarm],
+      ["Cancelling the error", cancelError],
+      ["Releasing the hold", holdOff],
+      ["Turning the servo power on", servoOn],
+    ] as const) {
       if (order === holdOff && this.override === 0) continue;
       const answer = await order(client);
       if (stops !== this.stops) return { kind: "refused", why: wasStopped(robot) };
-      if (answer.kind === "silent" || answer.reply.status !== 0) return { kind: "refused", why: notTaken(what, answer) };
+      if (answer.kind === "silent" || answer.reply.status !== 0)
+        return { kind: "refused", why: notTaken(what, answer) };
       if (order === holdOff) this.hold = null;
     }
-    for (const from_s = scheduler.now_s(); scheduler.now_s() - from_s < SERVO_S && this.client === client;) {
+    for (const from_s = scheduler.now_s(); scheduler.now_s() - from_s < SERVO_S && this.client === client; ) {
       await this.nextLook();
       if (stops !== this.stops) return { kind: "refused", why: wasStopped(robot) };
       if (!state.status.servo) continue;
@@ -133,17 +180,38 @@ export class Hand {
   /** A state came, whose questions began with that poll. */
   look(poll: number): void {
     for (const look of this.looks.splice(0)) look();
-    const { status } = this.options.state, { hold, going } = this;
-    if (hold && hold.acknowledged !== 0 && poll > hold.acknowledged && !status.running) { this.stood(); return; }
+    const { status } = this.options.state;
+    const { hold, going } = this;
+    if (hold && hold.acknowledged !== 0 && poll > hold.acknowledged && !status.running) {
+      this.stood();
+      return;
+    }
     if (going?.phase !== "going" || poll <= going.acceptedPoll) return;
-    if (status.running) { going.seenRunning = true; going.standing = 0; return; }
+    if (status.running) {
+      going.seenRunning = true;
+      going.standing = 0;
+      return;
+    }
     if (hold) return;
-    const isOver = ++going.standing >= STANDS, because = standsBecause(status), robot = this.options.robot;
+    const isOver = ++going.standing >= STANDS;
+    const because = standsBecause(status);
+    const robot = this.options.robot;
     if (going.motion !== null && this.isThere(going)) this.end({ kind: "done" });
     else if (!isOver) return;
     else if (going.motion === null && going.seenRunning && because === undefined) this.end({ kind: "done" });
-    else if (going.seenRunning || because !== undefined || this.options.scheduler.now_s() - going.acceptedAt_s > START_S) {
-      this.end(going.motion === null && because === undefined ? { kind: "done" } : { kind: "stopped", why: because === undefined ? endedEarly(robot) : stands(robot, this.options.state.alarm || because) });
+    else if (
+      going.seenRunning ||
+      because !== undefined ||
+      this.options.scheduler.now_s() - going.acceptedAt_s > START_S
+    ) {
+      this.end(
+        going.motion === null && because === undefined
+          ? { kind: "done" }
+          : {
+              kind: "stopped",
+              why: because === undefined ? endedEarly(robot) : stands(robot, this.options.state.alarm || because),
+            },
+      );
     }
   }
 
@@ -153,7 +221,18 @@ export class Hand {
     // One that was stopped and has not been let go of yet.
     this.end({ kind: "stopped", why: wasStopped(this.options.robot) });
     return new Promise(resolve => {
-      this.going = { motion, end, resolve, phase: "waiting", accepted: false, acceptedPoll: 0, acceptedAt_s: 0, seenRunning: false, standing: 0, stopping: null };
+      this.going = {
+        motion,
+        end,
+        resolve,
+        phase: "waiting",
+        accepted: false,
+        acceptedPoll: 0,
+        acceptedAt_s: 0,
+        seenRunning: false,
+        standing: 0,
+        stopping: null,
+      };
       this.goOn();
     });
   }
@@ -163,8 +242,17 @@ export class Hand {
     const { going, hold } = this;
     if (this.isLettingGo || this.emergency) return;
     if (hold) {
-      if (hold.acknowledged === 0 && this.client && going?.phase === "waiting") { this.grip(); return; }
-      if (hold.acknowledged !== 0 && this.override > 0 && !this.options.state.status.running && (going === null || going.phase === "waiting")) void this.letGo();
+      if (hold.acknowledged === 0 && this.client && going?.phase === "waiting") {
+        this.grip();
+        return;
+      }
+      if (
+        hold.acknowledged !== 0 &&
+        this.override > 0 &&
+        !this.options.state.status.running &&
+        (going === null || going.phase === "waiting")
+      )
+        void this.letGo();
       return;
     }
     if (going?.phase === "waiting" && this.override > 0) void this.tell(going);
@@ -172,7 +260,11 @@ export class Hand {
 
   /** Says an order that must not be carried out twice: after silence the robot is looked at before it is said again. */
   private async tell(going: Going): Promise<void> {
-    const { client, options: { robot, scale, state, scheduler } } = this, command = going.motion ? commandOf(going.motion, robot, scale, this.override) : START;
+    const {
+      client,
+      options: { robot, scale, state, scheduler },
+    } = this;
+    const command = going.motion ? commandOf(going.motion, robot, scale, this.override) : START;
     if (!client || !command) return;
     going.phase = "asking";
     for (let tries = 1, passed = 0; ; tries++) {
@@ -184,31 +276,49 @@ export class Hand {
         await this.nextLook();
         if (this.going !== going || this.client !== client) return;
       }
-      if (isTaken || (answer.kind === "silent" && (state.status.running || (going.end !== null && this.isThere(going))))) {
-        Object.assign(going, { phase: "going", accepted: true, acceptedPoll: this.poll, acceptedAt_s: scheduler.now_s(), seenRunning: false, standing: 0 });
+      if (
+        isTaken ||
+        (answer.kind === "silent" && (state.status.running || (going.end !== null && this.isThere(going))))
+      ) {
+        Object.assign(going, {
+          phase: "going",
+          accepted: true,
+          acceptedPoll: this.poll,
+          acceptedAt_s: scheduler.now_s(),
+          seenRunning: false,
+          standing: 0,
+        });
         return;
       }
       // A hold of ours was quicker: it is told again when the hold is let go.
-      if (this.hold) { going.phase = "waiting"; return; }
+      if (this.hold) {
+        going.phase = "waiting";
+        return;
+      }
       if (answer.kind === "silent" && tries < MOST_TRIES) continue;
       if (answer.kind === "answer" && PASSING.includes(answer.reply.added) && passed++ < MOST_PASSING) {
         await this.nextLook();
         if (this.going !== going || this.client !== client) return;
         continue;
       }
-      this.end({ kind: going.accepted ? "stopped" : "refused", why: notTaken(going.motion ? "The motion" : "Starting the job", answer) });
+      this.end({
+        kind: going.accepted ? "stopped" : "refused",
+        why: notTaken(going.motion ? "The motion" : "Starting the job", answer),
+      });
       return;
     }
   }
 
   /** Holds the robot, ahead of whatever waits for its answer. */
   private grip(): void {
-    const { client } = this, hold = { acknowledged: 0 };
+    const { client } = this;
+    const hold = { acknowledged: 0 };
     this.hold = hold;
     if (!client) return;
     void holdOn(client).then(answer => {
       if (this.hold !== hold) return;
-      if (answer.kind === "answer" && answer.reply.status === 0) hold.acknowledged = this.poll; else this.complaint = notTaken("The hold", answer).sentence;
+      if (answer.kind === "answer" && answer.reply.status === 0) hold.acknowledged = this.poll;
+      else this.complaint = notTaken("The hold", answer).sentence;
     });
   }
 
@@ -216,7 +326,10 @@ export class Hand {
   private stood(): void {
     const { going } = this;
     if (going && going.phase === "going") going.phase = "waiting";
-    if (this.emergency) { if (going) this.end({ kind: "stopped", why: going.stopping ?? wasStopped(this.options.robot) }); return; }
+    if (this.emergency) {
+      if (going) this.end({ kind: "stopped", why: going.stopping ?? wasStopped(this.options.robot) });
+      return;
+    }
     if (this.override > 0 && !this.isLettingGo) void this.letGo();
     else if (going?.stopping) this.end({ kind: "stopped", why: going.stopping });
   }
@@ -225,7 +338,8 @@ export class Hand {
     const { client } = this;
     if (!client) return;
     this.isLettingGo = true;
-    const held = this.hold, answer = await holdOff(client);
+    const held = this.hold;
+    const answer = await holdOff(client);
     this.isLettingGo = false;
     if (this.client !== client || this.hold !== held) return;
     const { going } = this;
@@ -240,9 +354,19 @@ export class Hand {
 
   private isThere({ end }: Going): boolean {
     const { state, scale } = this.options;
-    return end !== null && scale.pulsesPerDegree.every((perDegree, i) => Math.abs(state.position.axes[i]! - end[i]!) <= Math.max(3, THERE_DEG * Math.abs(perDegree)));
+    return (
+      end !== null &&
+      scale.pulsesPerDegree.every(
+        (perDegree, i) => Math.abs(state.position.axes[i]! - end[i]!) <= Math.max(3, THERE_DEG * Math.abs(perDegree)),
+      )
+    );
   }
-  private nextLook(): Promise<void> { return new Promise(resolve => { if (this.client) this.looks.push(resolve); else resolve(); }); }
+  private nextLook(): Promise<void> {
+    return new Promise(resolve => {
+      if (this.client) this.looks.push(resolve);
+      else resolve();
+    });
+  }
   private end(outcome: CommandOutcome): void {
     const ended = this.going;
     this.going = null;

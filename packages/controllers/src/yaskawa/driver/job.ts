@@ -8,8 +8,14 @@ import { badName, noJob, notTaken } from "./words.ts";
 const PATIENCE_S = [0.3, 0.5, 1];
 
 /** Saves jobs, and what they mean by numbers, on the controller, and selects the first job; started it runs once to its end. */
-export async function handJob(files: readonly EmittedFile[], client: Client, store: FileClient, hand: Hand): Promise<HandedText> {
-  const { stops } = hand, first = files.find(({ name }) => /\.jbi$/i.test(name));
+export async function handJob(
+  files: readonly EmittedFile[],
+  client: Client,
+  store: FileClient,
+  hand: Hand,
+): Promise<HandedText> {
+  const { stops } = hand;
+  const first = files.find(({ name }) => /\.jbi$/i.test(name));
   if (!first) return { kind: "refused", why: noJob() };
   for (const { name, text } of files) {
     if (!/^[\x20-\x7E]{1,32}\.[A-Za-z]{3}$/.test(name)) return { kind: "refused", why: badName(name) };
@@ -21,9 +27,31 @@ export async function handJob(files: readonly EmittedFile[], client: Client, sto
     }
     if (saved.kind === "refused") return { kind: "refused", why: saved.why };
   }
-  const select = await client.ask({ command: COMMAND.select, instance: 1, attribute: 0, service: SERVICE.setAll, data: writeSelection(first.name.slice(0, -4)), patience_s: PATIENCE_S });
-  if (select.kind === "silent" || select.reply.status !== 0) return { kind: "refused", why: notTaken(`Selecting ${first.name}`, select) };
-  const cycle = await client.ask({ command: COMMAND.cycle, instance: 2, attribute: 1, service: SERVICE.setOne, data: word(CYCLE.once), patience_s: PATIENCE_S });
-  if (cycle.kind === "silent" || cycle.reply.status !== 0) return { kind: "refused", why: notTaken("Choosing one cycle", cycle) };
-  return { kind: "handed", start: () => hand.runJob(stops), drop() { /* A job that is selected moves nothing. */ } };
+  const select = await client.ask({
+    command: COMMAND.select,
+    instance: 1,
+    attribute: 0,
+    service: SERVICE.setAll,
+    data: writeSelection(first.name.slice(0, -4)),
+    patience_s: PATIENCE_S,
+  });
+  if (select.kind === "silent" || select.reply.status !== 0)
+    return { kind: "refused", why: notTaken(`Selecting ${first.name}`, select) };
+  const cycle = await client.ask({
+    command: COMMAND.cycle,
+    instance: 2,
+    attribute: 1,
+    service: SERVICE.setOne,
+    data: word(CYCLE.once),
+    patience_s: PATIENCE_S,
+  });
+  if (cycle.kind === "silent" || cycle.reply.status !== 0)
+    return { kind: "refused", why: notTaken("Choosing one cycle", cycle) };
+  return {
+    kind: "handed",
+    start: () => hand.runJob(stops),
+    drop() {
+      /* A job that is selected moves nothing. */
+    },
+  };
 }

@@ -1,5 +1,14 @@
 import type { JointSample, OperatingMode, Robot, SafetyState } from "@twincell/core";
-import { noPosition, noStatus, radiansOf, readPosition, readStatus, type Position, type PulseScale, type Status } from "../codec/index.ts";
+import {
+  noPosition,
+  noStatus,
+  radiansOf,
+  readPosition,
+  readStatus,
+  type Position,
+  type PulseScale,
+  type Status,
+} from "../codec/index.ts";
 import { standsBecause } from "./words.ts";
 
 type Lent = { -readonly [K in keyof Omit<JointSample, "step">]: JointSample[K] };
@@ -21,12 +30,29 @@ export interface RobotState {
 }
 
 export function robotState(robot: Robot, scale: PulseScale): RobotState {
-  const status = noStatus(), position = noPosition(), before = new Int32Array(position.axes.length), q_rad = Float64Array.from(robot.home_rad);
+  const status = noStatus();
+  const position = noPosition();
+  const before = new Int32Array(position.axes.length);
+  const q_rad = Float64Array.from(robot.home_rad);
   const sample = {
-    sequence: 0, time_s: 0, q_rad, moving: false, mode: "automatic" as OperatingMode, safety: "normal" as SafetyState, override: 1, gripperClosed: false, message: "", signals: new Map<string, boolean | number>(),
+    sequence: 0,
+    time_s: 0,
+    q_rad,
+    moving: false,
+    mode: "automatic" as OperatingMode,
+    safety: "normal" as SafetyState,
+    override: 1,
+    gripperClosed: false,
+    message: "",
+    signals: new Map<string, boolean | number>(),
   };
   const state: RobotState = {
-    status, position, sample, alarm: "", job: "", pendantOverride: 1,
+    status,
+    position,
+    sample,
+    alarm: "",
+    job: "",
+    pendantOverride: 1,
     takeStatus: data => readStatus(data, status),
     takePosition(data, now_s, ratio, emergency) {
       before.set(position.axes);
@@ -39,7 +65,12 @@ export function robotState(robot: Robot, scale: PulseScale): RobotState {
       sample.mode = status.teach ? "manual" : status.remote ? "remote" : "automatic";
       sample.safety = safetyOf(status, emergency);
       sample.override = ratio * state.pendantOverride;
-      sample.message = state.alarm !== "" ? state.alarm : sample.safety !== "normal" || status.heldByPendant ? standsBecause(status) ?? "" : "";
+      sample.message =
+        state.alarm !== ""
+          ? state.alarm
+          : sample.safety !== "normal" || status.heldByPendant
+            ? (standsBecause(status) ?? "")
+            : "";
       return true;
     },
   };

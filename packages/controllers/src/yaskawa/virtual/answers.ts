@@ -1,7 +1,33 @@
 import { compose, flangePose, inverse, type Pose } from "@twincell/core";
 import {
-  ADDED, ALARM_BYTES, COMMAND, CYCLE, FRAME, MOST_DATA_BYTES, OFF, ON, PLURAL, POWER, RESET, SERVICE, STATUS, formOf, placeOf, pulsesOf, putText, putU32, readSelection,
-  textAt, textBytes, u32, writeAlarm, writeJob, writePosition, writeStatus, type HsesRequest, type ValueKind,
+  ADDED,
+  ALARM_BYTES,
+  COMMAND,
+  CYCLE,
+  FRAME,
+  MOST_DATA_BYTES,
+  OFF,
+  ON,
+  PLURAL,
+  POWER,
+  RESET,
+  SERVICE,
+  STATUS,
+  formOf,
+  placeOf,
+  pulsesOf,
+  putText,
+  putU32,
+  readSelection,
+  textAt,
+  textBytes,
+  u32,
+  writeAlarm,
+  writeJob,
+  writePosition,
+  writeStatus,
+  type HsesRequest,
+  type ValueKind,
 } from "../codec/index.ts";
 import { elapsed, stamp } from "./clock.ts";
 import type { Lines, Variables } from "./memory.ts";
@@ -15,33 +41,54 @@ export interface AnswerOptions extends MoveOptions {
   /** What the pendant shows. */
   readonly display: (text: string) => void;
 }
-export interface Answer { readonly status: number; readonly added: number; readonly data: Uint8Array }
+export interface Answer {
+  readonly status: number;
+  readonly added: number;
+  readonly data: Uint8Array;
+}
 
 const NOTHING = new Uint8Array(0);
 const well = (data: Uint8Array = NOTHING): Answer => ({ status: STATUS.well, added: 0, data });
 const refused = (added: number, status: number = STATUS.refused): Answer => ({ status, added, data: NOTHING });
 /** The outcome of an order: 0, or why not. */
-const done = (added: number): Answer => added === 0 ? well() : refused(added);
-const noInstance = (): Answer => refused(ADDED.noInstance, STATUS.noInstance), noAttribute = (): Answer => refused(ADDED.noAttribute, STATUS.noAttribute);
+const done = (added: number): Answer => (added === 0 ? well() : refused(added));
+const noInstance = (): Answer => refused(ADDED.noInstance, STATUS.noInstance);
+const noAttribute = (): Answer => refused(ADDED.noAttribute, STATUS.noAttribute);
 
-const AXIS_NAMES = ["S", "L", "U", "R", "B", "T", "E", "W"], PLACE_NAMES = ["X", "Y", "Z", "RX", "RY", "RZ", "RE", ""];
+const AXIS_NAMES = ["S", "L", "U", "R", "B", "T", "E", "W"];
+const PLACE_NAMES = ["X", "Y", "Z", "RX", "RY", "RZ", "RE", ""];
 const WORDS = (count: number): number[] => Array<number>(count).fill(4);
 /** Lengths of the fields of an answer, in order: attribute 1 is the first. */
 const FIELDS: Readonly<Record<number, readonly number[]>> = {
-  [COMMAND.alarm]: [4, 4, 4, 16, 32], [COMMAND.alarmHistory]: [4, 4, 4, 16, 32], [COMMAND.status]: WORDS(2), [COMMAND.job]: [32, 4, 4, 4], [COMMAND.axisNames]: WORDS(8),
-  [COMMAND.position]: WORDS(13), [COMMAND.positionError]: WORDS(8), [COMMAND.torque]: WORDS(8), [COMMAND.managementTime]: [16, 12], [COMMAND.systemInfo]: [24, 16, 8],
+  [COMMAND.alarm]: [4, 4, 4, 16, 32],
+  [COMMAND.alarmHistory]: [4, 4, 4, 16, 32],
+  [COMMAND.status]: WORDS(2),
+  [COMMAND.job]: [32, 4, 4, 4],
+  [COMMAND.axisNames]: WORDS(8),
+  [COMMAND.position]: WORDS(13),
+  [COMMAND.positionError]: WORDS(8),
+  [COMMAND.torque]: WORDS(8),
+  [COMMAND.managementTime]: [16, 12],
+  [COMMAND.systemInfo]: [24, 16, 8],
 };
-const ROBOT_PULSE = 1, ROBOT_PLACE = 101;
+const ROBOT_PULSE = 1;
+const ROBOT_PLACE = 101;
 
 /** Answers of division 1: what is asked is read, what is ordered is done by the machine. */
 export function answerer(options: AnswerOptions): (request: HsesRequest) => Answer {
-  const { robot, neutral, machine, lines, variables, scale } = options, n = robot.arm.joints.length, moves = moveOrders(options);
+  const { robot, neutral, machine, lines, variables, scale } = options;
+  const n = robot.arm.joints.length;
+  const moves = moveOrders(options);
   const baseFromVendor = robot.baseFromVendorWorld as Pose as Pose<"base", "frame">;
 
   const position = (instance: number): Uint8Array | undefined => {
-    const q_rad = neutral.jointAngles(), axes = new Int32Array(8);
+    const q_rad = neutral.jointAngles();
+    const axes = new Int32Array(8);
     const head = { form: formOf(robot, q_rad), tool: 0, user: 0, extendedForm: 0, axes };
-    if (instance === ROBOT_PULSE) { pulsesOf(q_rad, scale, axes); return writePosition({ ...head, type: FRAME.pulse }); }
+    if (instance === ROBOT_PULSE) {
+      pulsesOf(q_rad, scale, axes);
+      return writePosition({ ...head, type: FRAME.pulse });
+    }
     if (instance !== ROBOT_PLACE) return undefined;
     placeOf(compose(inverse(baseFromVendor), flangePose(robot.arm, q_rad)), axes);
     return writePosition({ ...head, type: FRAME.base });
@@ -50,18 +97,31 @@ export function answerer(options: AnswerOptions): (request: HsesRequest) => Answ
     const all = instance === ROBOT_PULSE ? AXIS_NAMES.slice(0, n) : instance === ROBOT_PLACE ? PLACE_NAMES : undefined;
     if (all === undefined) return undefined;
     const out = new Uint8Array(32);
-    all.forEach((name, i) => { putText(out, 4 * i, 4, name); });
+    all.forEach((name, i) => {
+      putText(out, 4 * i, 4, name);
+    });
     return out;
   };
   const managementTime = (instance: number): Uint8Array | undefined => {
-    const { servo, playback, motion } = machine.time_s, seconds: Readonly<Record<number, number>> = { 1: neutral_s(), 10: servo, 11: servo, 110: playback, 111: playback, 210: motion, 211: motion, 301: motion };
+    const { servo, playback, motion } = machine.time_s;
+    const seconds: Readonly<Record<number, number>> = {
+      1: neutral_s(),
+      10: servo,
+      11: servo,
+      110: playback,
+      111: playback,
+      210: motion,
+      211: motion,
+      301: motion,
+    };
     const own = seconds[instance];
     if (own === undefined) return undefined;
     const out = textBytes(stamp(options.unix_s() - neutral_s()), 28);
     putText(out, 16, 12, elapsed(own));
     return out;
   };
-  const begun_s = options.unix_s(), neutral_s = (): number => options.unix_s() - begun_s;
+  const begun_s = options.unix_s();
+  const neutral_s = (): number => options.unix_s() - begun_s;
   const systemInfo = (instance: number): Uint8Array | undefined => {
     if (instance !== 11 && instance !== 101) return undefined;
     const out = textBytes("VIRTUAL HSES", 48);
@@ -73,19 +133,36 @@ export function answerer(options: AnswerOptions): (request: HsesRequest) => Answ
   /** What can only be read; null for other commands. */
   function read(command: number, instance: number): Uint8Array | undefined | null {
     switch (command) {
-      case COMMAND.alarm: return instance >= 1 && instance <= 4 ? writeAlarm(machine.alarms[instance - 1]) : undefined;
-      case COMMAND.alarmHistory: return instance >= 1 && instance <= 100 ? writeAlarm(machine.history[instance - 1])
-        : [1000, 2000, 3000, 4000].some(from => instance > from && instance <= from + 100) ? new Uint8Array(ALARM_BYTES) : undefined;
-      case COMMAND.status: return instance === 1 ? writeStatus(machine.status) : undefined;
-      case COMMAND.job: return instance === 1 ? writeJob({ ...machine.place, override: machine.speedOverride })
-        : instance <= 6 && instance > 1 ? writeJob({ job: "", line: 0, step: 0, override: machine.speedOverride }) : undefined;
-      case COMMAND.axisNames: return names(instance);
-      case COMMAND.position: return position(instance);
+      case COMMAND.alarm:
+        return instance >= 1 && instance <= 4 ? writeAlarm(machine.alarms[instance - 1]) : undefined;
+      case COMMAND.alarmHistory:
+        return instance >= 1 && instance <= 100
+          ? writeAlarm(machine.history[instance - 1])
+          : [1000, 2000, 3000, 4000].some(from => instance > from && instance <= from + 100)
+            ? new Uint8Array(ALARM_BYTES)
+            : undefined;
+      case COMMAND.status:
+        return instance === 1 ? writeStatus(machine.status) : undefined;
+      case COMMAND.job:
+        return instance === 1
+          ? writeJob({ ...machine.place, override: machine.speedOverride })
+          : instance <= 6 && instance > 1
+            ? writeJob({ job: "", line: 0, step: 0, override: machine.speedOverride })
+            : undefined;
+      case COMMAND.axisNames:
+        return names(instance);
+      case COMMAND.position:
+        return position(instance);
       // The virtual robot has ideal drives: it is where it was sent, and nothing measures what that takes.
-      case COMMAND.positionError: case COMMAND.torque: return instance === ROBOT_PULSE ? new Uint8Array(32) : undefined;
-      case COMMAND.managementTime: return managementTime(instance);
-      case COMMAND.systemInfo: return systemInfo(instance);
-      default: return null;
+      case COMMAND.positionError:
+      case COMMAND.torque:
+        return instance === ROBOT_PULSE ? new Uint8Array(32) : undefined;
+      case COMMAND.managementTime:
+        return managementTime(instance);
+      case COMMAND.systemInfo:
+        return systemInfo(instance);
+      default:
+        return null;
     }
   }
 
@@ -94,16 +171,22 @@ export function answerer(options: AnswerOptions): (request: HsesRequest) => Answ
     return to === ON || to === OFF ? done(set(to === ON)) : refused(data.length === 4 ? ADDED.outOfRange : ADDED.size);
   };
   function order({ command, instance, attribute, service, data }: HsesRequest): Answer | null {
-    const isOne = attribute === 1 && service === SERVICE.setOne, remote = machine.fromOutside();
+    const isOne = attribute === 1 && service === SERVICE.setOne;
+    const remote = machine.fromOutside();
     switch (command) {
       case COMMAND.reset:
         if (!isOne) return noAttribute();
-        return instance !== RESET.alarm && instance !== RESET.error ? noInstance() : remote !== 0 ? refused(remote) : done(instance === RESET.alarm ? machine.resetAlarm() : machine.cancelError());
+        return instance !== RESET.alarm && instance !== RESET.error
+          ? noInstance()
+          : remote !== 0
+            ? refused(remote)
+            : done(instance === RESET.alarm ? machine.resetAlarm() : machine.cancelError());
       case COMMAND.power:
         if (!isOne) return noAttribute();
         // Anyone may stop the robot in any mode.
-        if (instance === POWER.hold) return toggled(data, on => on || remote === 0 ? machine.hold("heldByCommand", on) : remote);
-        if (instance === POWER.servo) return toggled(data, on => remote === 0 ? machine.servo(on) : remote);
+        if (instance === POWER.hold)
+          return toggled(data, on => (on || remote === 0 ? machine.hold("heldByCommand", on) : remote));
+        if (instance === POWER.servo) return toggled(data, on => (remote === 0 ? machine.servo(on) : remote));
         return instance === POWER.hlock ? toggled(data, () => remote) : noInstance();
       case COMMAND.cycle: {
         if (!isOne) return noAttribute();
@@ -119,24 +202,39 @@ export function answerer(options: AnswerOptions): (request: HsesRequest) => Answ
         if (instance !== 1) return noInstance();
         options.display(textAt(data, 0, 30));
         return well();
-      case COMMAND.start: return !isOne ? noAttribute() : instance !== 1 ? noInstance() : data.length !== 4 ? refused(ADDED.size) : u32(data, 0) !== ON ? refused(ADDED.outOfRange) : done(remote || machine.start());
+      case COMMAND.start:
+        return !isOne
+          ? noAttribute()
+          : instance !== 1
+            ? noInstance()
+            : data.length !== 4
+              ? refused(ADDED.size)
+              : u32(data, 0) !== ON
+                ? refused(ADDED.outOfRange)
+                : done(remote || machine.start());
       case COMMAND.select: {
         if (attribute !== 0 || service !== SERVICE.setAll) return noAttribute();
         if (instance !== 1) return noInstance();
         const selection = readSelection(data);
         return selection ? done(remote || machine.select(selection.job, selection.line)) : refused(ADDED.size);
       }
-      case COMMAND.movePulse: return service !== SERVICE.setAll ? noAttribute() : done(remote || moves.pulse(instance, data));
-      case COMMAND.moveCartesian: return service !== SERVICE.setAll ? noAttribute() : done(remote || moves.cartesian(instance, data));
-      default: return null;
+      case COMMAND.movePulse:
+        return service !== SERVICE.setAll ? noAttribute() : done(remote || moves.pulse(instance, data));
+      case COMMAND.moveCartesian:
+        return service !== SERVICE.setAll ? noAttribute() : done(remote || moves.cartesian(instance, data));
+      default:
+        return null;
     }
   }
 
   function value(kind: ValueKind, { instance, attribute, service, data }: HsesRequest): Answer {
     if (instance < kind.first || instance > kind.last) return noInstance();
-    const isGet = service === SERVICE.getAll || service === SERVICE.getOne, isSet = service === SERVICE.setAll || service === SERVICE.setOne;
+    const isGet = service === SERVICE.getAll || service === SERVICE.getOne;
+    const isSet = service === SERVICE.setAll || service === SERVICE.setOne;
     if ((!isGet && !isSet) || (kind.whole ? attribute > kind.bytes / 4 : attribute > 1)) return noAttribute();
-    const isPart = kind.whole && attribute > 0, at = isPart ? 4 * (attribute - 1) : 0, size = isPart ? 4 : kind.bytes;
+    const isPart = kind.whole && attribute > 0;
+    const at = isPart ? 4 * (attribute - 1) : 0;
+    const size = isPart ? 4 : kind.bytes;
     const is = variables.read(kind, instance);
     if (isGet) return is ? well(is.slice(at, at + size)) : refused(ADDED.noPosition);
     const remote = machine.fromOutside();
@@ -150,25 +248,39 @@ export function answerer(options: AnswerOptions): (request: HsesRequest) => Answ
   }
 
   function many(request: HsesRequest): Answer {
-    const { instance, attribute, service, data } = request, command = request.command - PLURAL, isIo = command === COMMAND.io;
-    const kind = variables.kind(command), bytes = isIo ? 1 : kind?.bytes;
+    const { instance, attribute, service, data } = request;
+    const command = request.command - PLURAL;
+    const isIo = command === COMMAND.io;
+    const kind = variables.kind(command);
+    const bytes = isIo ? 1 : kind?.bytes;
     if (bytes === undefined) return refused(ADDED.noCommand, STATUS.noCommand);
     if (attribute !== 0 || (service !== SERVICE.getMany && service !== SERVICE.setMany)) return noAttribute();
     if (data.length < 4) return refused(ADDED.size);
     const count = u32(data, 0);
     if (count < 1 || (bytes === 1 && count % 2 === 1)) return refused(ADDED.outOfRange);
     if (4 + count * bytes > MOST_DATA_BYTES) return refused(ADDED.tooLarge);
-    const isSet = service === SERVICE.setMany, remote = isSet ? machine.fromOutside() : 0;
+    const isSet = service === SERVICE.setMany;
+    const remote = isSet ? machine.fromOutside() : 0;
     if (remote !== 0) return refused(remote);
     if (isSet && data.length < 4 + count * bytes) return refused(ADDED.size);
     // Looked at as a whole first: a refused write changes nothing.
     const last = instance + count - 1;
-    if (isIo ? lines.read(instance) === undefined || lines.read(last) === undefined : instance < kind!.first || last > kind!.last) return noInstance();
+    if (
+      isIo
+        ? lines.read(instance) === undefined || lines.read(last) === undefined
+        : instance < kind!.first || last > kind!.last
+    )
+      return noInstance();
     const out = new Uint8Array(4 + (isSet ? 0 : count * bytes));
     putU32(out, 0, count);
     for (let i = 0; i < count; i++) {
-      const at = 4 + i * bytes, one = data.subarray(at, at + bytes);
-      if (isSet) { if (!isIo) variables.write(kind!, instance + i, one); else if (!lines.write(instance + i, one[0]!)) return refused(ADDED.notAccessible); continue; }
+      const at = 4 + i * bytes;
+      const one = data.subarray(at, at + bytes);
+      if (isSet) {
+        if (!isIo) variables.write(kind!, instance + i, one);
+        else if (!lines.write(instance + i, one[0]!)) return refused(ADDED.notAccessible);
+        continue;
+      }
       const is = isIo ? Uint8Array.of(lines.read(instance + i) ?? 0) : variables.read(kind!, instance + i);
       if (!is) return refused(ADDED.noPosition);
       out.set(is, at);
@@ -198,7 +310,8 @@ export function answerer(options: AnswerOptions): (request: HsesRequest) => Answ
     if (all === null) return order(request) ?? refused(ADDED.noCommand, STATUS.noCommand);
     if (all === undefined) return noInstance();
     if (service === SERVICE.getAll && attribute === 0) return well(all);
-    const fields = FIELDS[command]!, size = fields[attribute - 1];
+    const fields = FIELDS[command]!;
+    const size = fields[attribute - 1];
     if (size === undefined || service !== SERVICE.getOne) return noAttribute();
     const at = fields.slice(0, attribute - 1).reduce((sum, length) => sum + length, 0);
     return well(all.slice(at, at + size));

@@ -1,7 +1,30 @@
-import { brakingTime_s, identity, seededRandom, type CommandOutcome, type Pose, type Robot, type Scheduler } from "@twincell/core";
+import {
+  brakingTime_s,
+  identity,
+  seededRandom,
+  type CommandOutcome,
+  type Pose,
+  type Robot,
+  type Scheduler,
+} from "@twincell/core";
 import { addressText, type Network } from "../../transport/index.ts";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
-import { DIVISION, EXAMPLE_SCALE, FILE_PORT, HEADER_BYTES, LAST_BLOCK, MOST_DATA_BYTES, ROBOT_PORT, SERVICE, STATUS, readRequest, writeReply, type HsesReply, type HsesRequest, type PulseScale } from "../codec/index.ts";
+import {
+  DIVISION,
+  EXAMPLE_SCALE,
+  FILE_PORT,
+  HEADER_BYTES,
+  LAST_BLOCK,
+  MOST_DATA_BYTES,
+  ROBOT_PORT,
+  SERVICE,
+  STATUS,
+  readRequest,
+  writeReply,
+  type HsesReply,
+  type HsesRequest,
+  type PulseScale,
+} from "../codec/index.ts";
 import { answerer, type Answer } from "./answers.ts";
 import { faultySocket, noFaults, type Faults } from "./faults.ts";
 import { fileServer } from "./files.ts";
@@ -71,7 +94,10 @@ export interface VirtualYaskawa {
   readonly faults: Faults;
   readonly files: Files;
   readonly lines: Lines;
-  readonly machine: Pick<Machine, "status" | "alarms" | "keySwitch" | "speedOverride" | "place" | "message" | "servoIsComing">;
+  readonly machine: Pick<
+    Machine,
+    "status" | "alarms" | "keySwitch" | "speedOverride" | "place" | "message" | "servoIsComing"
+  >;
   readonly scale: PulseScale;
   /** Longest time from a hold until standstill [s]. */
   readonly brakingTime_s: number;
@@ -80,59 +106,118 @@ export interface VirtualYaskawa {
   readonly ports: { readonly robot: number; readonly files: number };
   close(): void;
 }
-export type YaskawaStart = { readonly kind: "listening"; readonly controller: VirtualYaskawa } | { readonly kind: "taken"; readonly sentence: string };
+export type YaskawaStart =
+  | { readonly kind: "listening"; readonly controller: VirtualYaskawa }
+  | { readonly kind: "taken"; readonly sentence: string };
 
 /** Clients whose last order is remembered, and for how long an order with the same id counts as said again [s]. */
-const MOST_CLIENTS = 64, AGAIN_S = 2;
+const MOST_CLIENTS = 64;
+const AGAIN_S = 2;
 const MOST_LOGGED = 100;
 const CYCLE_S = 0.004;
 const READING: readonly number[] = [SERVICE.getAll, SERVICE.getOne, SERVICE.getMany];
 
-interface Client { id: number; counts: boolean; at_s: number; order: Uint8Array | null; answer: Answer | null }
+interface Client {
+  id: number;
+  counts: boolean;
+  at_s: number;
+  order: Uint8Array | null;
+  answer: Answer | null;
+}
 
 /** A virtual FS100/DX200/YRC1000: the states of the vendor, its bytes on UDP, its job text, in front of the neutral virtual robot. */
 export async function createVirtualYaskawa(options: VirtualYaskawaOptions): Promise<YaskawaStart> {
-  const { robot, scheduler, network, host } = options, random = seededRandom(options.seed ?? 1), faults = noFaults();
+  const { robot, scheduler, network, host } = options;
+  const random = seededRandom(options.seed ?? 1);
+  const faults = noFaults();
   const wanted = options.ports ?? { robot: ROBOT_PORT, files: FILE_PORT };
   const robotPort = await network.bind({ host, port: wanted.robot });
   if (robotPort.kind === "taken") return robotPort;
   const filePort = await network.bind({ host, port: wanted.files });
-  if (filePort.kind === "taken") { robotPort.socket.close(); return filePort; }
+  if (filePort.kind === "taken") {
+    robotPort.socket.close();
+    return filePort;
+  }
 
   const { start_rad, maxSpeed, initialize, onMotion } = options;
   const neutral = createVirtualController({
-    robot, scheduler, cycle_s: options.cycle_s ?? CYCLE_S, ...(start_rad ? { start_rad } : {}), ...(maxSpeed === undefined ? {} : { maxSpeed }), ...(initialize ? { initialize } : {}),
+    robot,
+    scheduler,
+    cycle_s: options.cycle_s ?? CYCLE_S,
+    ...(start_rad ? { start_rad } : {}),
+    ...(maxSpeed === undefined ? {} : { maxSpeed }),
+    ...(initialize ? { initialize } : {}),
   });
-  const scale = options.scale ?? EXAMPLE_SCALE, files = new Files(), variables = new Variables(), lines = new Lines(neutral.signals);
-  const zero_s = scheduler.now_s(), unix_s = (): number => (options.began_unix_s ?? 0) + scheduler.now_s() - zero_s;
+  const scale = options.scale ?? EXAMPLE_SCALE;
+  const files = new Files();
+  const variables = new Variables();
+  const lines = new Lines(neutral.signals);
+  const zero_s = scheduler.now_s();
+  const unix_s = (): number => (options.began_unix_s ?? 0) + scheduler.now_s() - zero_s;
   const machine = new Machine({
-    robot, neutral, files, mode: options.mode ?? "remote", servo: options.servo ?? true, servoOn_s: options.servoOn_s ?? 0.4, unix_s,
+    robot,
+    neutral,
+    files,
+    mode: options.mode ?? "remote",
+    servo: options.servo ?? true,
+    servoOn_s: options.servoOn_s ?? 0.4,
+    unix_s,
     ...(options.interpret ? { interpret: options.interpret } : {}),
   });
-  let text = "", isOff = false, stopWaiting: () => void = () => { /* Nothing is waited for yet. */ };
+  let text = "";
+  let isOff = false;
+  let stopWaiting: () => void = () => {
+    /* Nothing is waited for yet. */
+  };
   const answer = answerer({
-    robot, neutral, machine, lines, variables, scale, model: options.model ?? robot.name.toUpperCase(), unix_s, display: shown => { text = shown; },
-    tools: new Map([[0, identity<"flange", "tcp">()], ...(options.tools ?? [])]), users: options.users ?? new Map<number, Pose<"base", "frame">>(), ...(onMotion ? { onMotion } : {}),
+    robot,
+    neutral,
+    machine,
+    lines,
+    variables,
+    scale,
+    model: options.model ?? robot.name.toUpperCase(),
+    unix_s,
+    display: shown => {
+      text = shown;
+    },
+    tools: new Map([[0, identity<"flange", "tcp">()], ...(options.tools ?? [])]),
+    users: options.users ?? new Map<number, Pose<"base", "frame">>(),
+    ...(onMotion ? { onMotion } : {}),
   });
-  const answerFile = fileServer({ files, now_s: () => scheduler.now_s(), fromOutside: () => machine.fromOutside(), isRunning: () => machine.isBusy });
-  const clients = new Map<string, Client>(), logged = new Set<string>();
+  const answerFile = fileServer({
+    files,
+    now_s: () => scheduler.now_s(),
+    fromOutside: () => machine.fromOutside(),
+    isRunning: () => machine.isBusy,
+  });
+  const clients = new Map<string, Client>();
+  const logged = new Set<string>();
 
   /**
    * An order that comes again with the same id gets the same answer and is not carried out again. Clients that never
    * change their id cannot be told apart from themselves: theirs are always new.
    */
   function once(request: HsesRequest, from: string): Answer {
-    const now_s = scheduler.now_s(), known = clients.get(from), client: Client = known ?? { id: request.id, counts: false, at_s: now_s, order: null, answer: null };
+    const now_s = scheduler.now_s();
+    const known = clients.get(from);
+    const client: Client = known ?? { id: request.id, counts: false, at_s: now_s, order: null, answer: null };
     if (!known) {
       if (clients.size >= MOST_CLIENTS) clients.delete(clients.keys().next().value!);
       clients.set(from, client);
     }
     client.counts ||= request.id !== client.id;
-    const isOrder = !READING.includes(request.service), bytes = isOrder ? orderBytes(request) : null;
-    if (bytes && client.counts && client.answer && now_s - client.at_s <= AGAIN_S && same(client.order, bytes)) return client.answer;
+    const isOrder = !READING.includes(request.service);
+    const bytes = isOrder ? orderBytes(request) : null;
+    if (bytes && client.counts && client.answer && now_s - client.at_s <= AGAIN_S && same(client.order, bytes))
+      return client.answer;
     const answered = answer(request);
     client.id = request.id;
-    if (bytes) { client.order = bytes; client.answer = answered; client.at_s = now_s; }
+    if (bytes) {
+      client.order = bytes;
+      client.answer = answered;
+      client.at_s = now_s;
+    }
     return answered;
   }
 
@@ -143,21 +228,47 @@ export async function createVirtualYaskawa(options: VirtualYaskawaOptions): Prom
     options.log?.(line);
   }
 
-  const out = new Uint8Array(HEADER_BYTES + MOST_DATA_BYTES), nothing = new Uint8Array(0);
-  const robotSocket = faultySocket(robotPort.socket, faults, scheduler, random), fileSocket = faultySocket(filePort.socket, faults, scheduler, random);
-  for (const [socket, division] of [[robotSocket, DIVISION.robot], [fileSocket, DIVISION.file]] as const) {
-    const send = (reply: HsesReply, to: Parameters<typeof socket.send>[1]): void => { socket.send(out.subarray(0, writeReply(reply, out)), to); };
+  const out = new Uint8Array(HEADER_BYTES + MOST_DATA_BYTES);
+  const nothing = new Uint8Array(0);
+  const robotSocket = faultySocket(robotPort.socket, faults, scheduler, random);
+  const fileSocket = faultySocket(filePort.socket, faults, scheduler, random);
+  for (const [socket, division] of [
+    [robotSocket, DIVISION.robot],
+    [fileSocket, DIVISION.file],
+  ] as const) {
+    const send = (reply: HsesReply, to: Parameters<typeof socket.send>[1]): void => {
+      socket.send(out.subarray(0, writeReply(reply, out)), to);
+    };
     socket.onDatagram((lent, from) => {
       if (isOff) return;
-      const read = readRequest(lent), sender = addressText(from);
-      const flaw = read.kind === "flawed" ? read : read.packet.division !== division ? { added: 0xE4A3, sentence: `Division ${read.packet.division} has another port.` } : null;
+      const read = readRequest(lent);
+      const sender = addressText(from);
+      const flaw =
+        read.kind === "flawed"
+          ? read
+          : read.packet.division !== division
+            ? { added: 0xe4a3, sentence: `Division ${read.packet.division} has another port.` }
+            : null;
       if (read.kind === "flawed" || flaw) {
         log(sender, flaw!.sentence);
         // What is not even a header is not answered.
-        if (lent.length >= HEADER_BYTES) send({ division, id: lent[11]!, block: LAST_BLOCK, service: lent[29]! & 0x7F, status: STATUS.refused, added: flaw!.added, data: nothing }, from);
+        if (lent.length >= HEADER_BYTES)
+          send(
+            {
+              division,
+              id: lent[11]!,
+              block: LAST_BLOCK,
+              service: lent[29]! & 0x7f,
+              status: STATUS.refused,
+              added: flaw!.added,
+              data: nothing,
+            },
+            from,
+          );
         return;
       }
-      const { packet } = read, { id, service } = packet;
+      const { packet } = read;
+      const { id, service } = packet;
       if (division === DIVISION.robot) {
         // Answers of a robot command are one block; there is nothing to acknowledge.
         if (!packet.ack) send({ division, id, block: LAST_BLOCK, service, ...once(packet, sender) }, from);
@@ -169,23 +280,53 @@ export async function createVirtualYaskawa(options: VirtualYaskawaOptions): Prom
   }
 
   const controller: VirtualYaskawa = {
-    robot, neutral, machine, lines, faults, files, scale, brakingTime_s: brakingTime_s(robot) + 2 * (options.cycle_s ?? CYCLE_S), ports: { robot: robotSocket.address.port, files: fileSocket.address.port },
+    robot,
+    neutral,
+    machine,
+    lines,
+    faults,
+    files,
+    scale,
+    brakingTime_s: brakingTime_s(robot) + 2 * (options.cycle_s ?? CYCLE_S),
+    ports: { robot: robotSocket.address.port, files: fileSocket.address.port },
     pendant: {
-      get text() { return text; },
-      get message() { return machine.message; },
-      setMode(mode) { machine.turn(mode); },
-      setCommandRemote(on) { machine.setCommandRemote(on); },
+      get text() {
+        return text;
+      },
+      get message() {
+        return machine.message;
+      },
+      setMode(mode) {
+        machine.turn(mode);
+      },
+      setCommandRemote(on) {
+        machine.setCommandRemote(on);
+      },
       setServo: on => machine.servo(on),
-      emergencyStop(pressed) { machine.pressEmergencyStop(pressed); },
-      hold(pressed) { machine.hold("heldByPendant", pressed); },
+      emergencyStop(pressed) {
+        machine.pressEmergencyStop(pressed);
+      },
+      hold(pressed) {
+        machine.hold("heldByPendant", pressed);
+      },
       start: () => machine.start(),
       select: job => machine.select(job, 0),
-      setOverride(percent) { machine.setOverride(percent / 100); },
+      setOverride(percent) {
+        machine.setOverride(percent / 100);
+      },
       jog: (q_rad, ratio) => machine.jog(q_rad, ratio),
-      raiseAlarm(code, name, data, major) { machine.raise(code, name, data, major); },
-      reset() { machine.resetAlarm(); },
-      setGuardOpen(open) { machine.openGuard(open); },
-      setInput(number, on) { lines.setInput(number, on); },
+      raiseAlarm(code, name, data, major) {
+        machine.raise(code, name, data, major);
+      },
+      reset() {
+        machine.resetAlarm();
+      },
+      setGuardOpen(open) {
+        machine.openGuard(open);
+      },
+      setInput(number, on) {
+        lines.setInput(number, on);
+      },
     },
     reboot(off_s) {
       machine.reboot();
@@ -193,10 +334,18 @@ export async function createVirtualYaskawa(options: VirtualYaskawaOptions): Prom
       text = "";
       isOff = true;
       stopWaiting();
-      const stop = scheduler.every(off_s, () => { stop(); isOff = false; });
+      const stop = scheduler.every(off_s, () => {
+        stop();
+        isOff = false;
+      });
       stopWaiting = stop;
     },
-    close() { stopWaiting(); robotSocket.close(); fileSocket.close(); neutral.close(); },
+    close() {
+      stopWaiting();
+      robotSocket.close();
+      fileSocket.close();
+      neutral.close();
+    },
   };
   return { kind: "listening", controller };
 }
@@ -208,4 +357,5 @@ function orderBytes({ id, command, instance, attribute, service, data }: HsesReq
   bytes.set(data, 7);
   return bytes;
 }
-const same = (a: Uint8Array | null, b: Uint8Array): boolean => a !== null && a.length === b.length && a.every((byte, i) => byte === b[i]);
+const same = (a: Uint8Array | null, b: Uint8Array): boolean =>
+  a !== null && a.length === b.length && a.every((byte, i) => byte === b[i]);

@@ -2,9 +2,15 @@ import type { Executed, Interpreted, Step } from "@twincell/core";
 import { ADDED } from "../codec/index.ts";
 
 /** Where a job is in the text that is executed: its line 0 is NOP. */
-interface Stretch { readonly job: string; readonly from: number; readonly nop: number; readonly moves: readonly number[] }
+interface Stretch {
+  readonly job: string;
+  readonly from: number;
+  readonly nop: number;
+  readonly moves: readonly number[];
+}
 /** A text that only counts does not stop the clock: so many lines without a step take one cycle. */
-const LINES_PER_CYCLE = 200, CYCLE_S = 0.004;
+const LINES_PER_CYCLE = 200;
+const CYCLE_S = 0.004;
 const MOST_BYTES = 4_000_000;
 
 /** Files of a controller: jobs and the numbers they mean. Kept over a restart. */
@@ -12,8 +18,12 @@ export class Files {
   private readonly texts = new Map<string, string>();
   private bytes = 0;
 
-  names(ending: string): string[] { return [...this.texts.keys()].filter(name => name.endsWith(ending)).sort(); }
-  read(name: string): string | undefined { return this.texts.get(name.toUpperCase()); }
+  names(ending: string): string[] {
+    return [...this.texts.keys()].filter(name => name.endsWith(ending)).sort();
+  }
+  read(name: string): string | undefined {
+    return this.texts.get(name.toUpperCase());
+  }
   remove(name: string): boolean {
     this.bytes -= this.read(name)?.length ?? 0;
     return this.texts.delete(name.toUpperCase());
@@ -35,12 +45,16 @@ export class Files {
 
   /** The job, then the ones it may call, then tools and frames: what an interpreter is given. */
   together(job: string): { readonly text: string; readonly stretches: readonly Stretch[] } {
-    const first = `${job.toUpperCase()}.JBI`, others = [...this.names(".JBI").filter(name => name !== first), ...this.names(".CND")];
+    const first = `${job.toUpperCase()}.JBI`;
+    const others = [...this.names(".JBI").filter(name => name !== first), ...this.names(".CND")];
     const stretches: Stretch[] = [];
-    let text = "", line = 1;
+    let text = "";
+    let line = 1;
     for (const name of [first, ...others]) {
-      const own = this.read(name) ?? "", lines = own.split(/\r?\n/), nop = lines.findIndex(each => each.trim() === "NOP");
-      const moves = lines.flatMap((each, i) => /^\s*MOV[JLCS]\b/.test(each) ? [i - nop] : []);
+      const own = this.read(name) ?? "";
+      const lines = own.split(/\r?\n/);
+      const nop = lines.findIndex(each => each.trim() === "NOP");
+      const moves = lines.flatMap((each, i) => (/^\s*MOV[JLCS]\b/.test(each) ? [i - nop] : []));
       if (name.endsWith(".JBI")) stretches.push({ job: name.slice(0, -4), from: line, nop: line + nop, moves });
       text += own.endsWith("\n") ? own : `${own}\n`;
       line += lines.length - (own.endsWith("\n") ? 1 : 0);
@@ -50,7 +64,11 @@ export class Files {
 }
 
 /** Where a job stands: line 0 is NOP, steps count its motions. */
-export interface Place { readonly job: string; readonly line: number; readonly step: number }
+export interface Place {
+  readonly job: string;
+  readonly line: number;
+  readonly step: number;
+}
 
 /** One job on its way from NOP to END; what was begun and not ended is done again when it is continued. */
 export class JobRun {
@@ -66,7 +84,13 @@ export class JobRun {
   /** Nothing is left but what is open. */
   over = false;
 
-  constructor(job: string, line: number, ready: Extract<Interpreted, { kind: "ready" }>, stretches: readonly Stretch[], signals: Parameters<typeof ready.run>[0]) {
+  constructor(
+    job: string,
+    line: number,
+    ready: Extract<Interpreted, { kind: "ready" }>,
+    stretches: readonly Stretch[],
+    signals: Parameters<typeof ready.run>[0],
+  ) {
     this.job = job;
     this.stretches = stretches;
     this.from = line === 0 ? 0 : stretches[0]!.nop + line;
@@ -74,9 +98,14 @@ export class JobRun {
     this.at = { job, line, step: 0 };
   }
 
-  get place(): Place { return this.at; }
+  get place(): Place {
+    return this.at;
+  }
   /** Begun motions that cannot be begun again from the middle. */
-  get isInsideArc(): boolean { const first = this.open[0]?.step; return first?.type === "move" && (first.path === "circ" || first.path === "spline"); }
+  get isInsideArc(): boolean {
+    const first = this.open[0]?.step;
+    return first?.type === "move" && (first.path === "circ" || first.path === "spline");
+  }
 
   /** Steps to be executed from here on: what is open first. @param single  ends after one motion. */
   *rest(single: boolean): Generator<Step, void> {
@@ -105,7 +134,9 @@ export class JobRun {
     this.at = this.placeOf(this.open[0]!.line);
   }
   /** What was begun has ended. */
-  ended(): void { this.open.length = 0; }
+  ended(): void {
+    this.open.length = 0;
+  }
 
   private opened(step: Step, line: number): Step {
     const named = { ...step, id: `${++this.times}` };
@@ -113,7 +144,8 @@ export class JobRun {
     return named;
   }
   private placeOf(line: number): Place {
-    const in_ = this.stretches.findLast(({ from }) => from <= line) ?? this.stretches[0]!, own = line - in_.nop;
+    const in_ = this.stretches.findLast(({ from }) => from <= line) ?? this.stretches[0]!;
+    const own = line - in_.nop;
     return { job: in_.job, line: own, step: in_.moves.filter(move => move <= own).length };
   }
 }

@@ -1,4 +1,12 @@
-import { identity, type CommandOutcome, type Interpreted, type Program, type Refusal, type Robot, type Step } from "@twincell/core";
+import {
+  identity,
+  type CommandOutcome,
+  type Interpreted,
+  type Program,
+  type Refusal,
+  type Robot,
+  type Step,
+} from "@twincell/core";
 import { jointMoveSpeed } from "../../guard/index.ts";
 import type { VirtualController } from "../../virtual/index.ts";
 import { ADDED, CYCLE, noStatus, type Alarm, type Status } from "../codec/index.ts";
@@ -25,7 +33,8 @@ type Running = { readonly kind: "move" } | { readonly kind: "job"; readonly run:
 /** Codes of this virtual controller's own: a person sees the name beside it. */
 const ALARM = { motion: 4400, job: 4401 } as const;
 const MOST_ALARMS = 100;
-const TEACH_MPS = 0.25, FLANGE = identity<"flange", "tcp">();
+const TEACH_MPS = 0.25;
+const FLANGE = identity<"flange", "tcp">();
 
 /**
  * The states of a controller in front of the neutral virtual robot: key switch and command remote, servo power, three
@@ -68,23 +77,36 @@ export class Machine {
       if (this.now_s >= this.servoAt_s) this.servoIsOn();
       if (this.status.servo) this.time_s.servo += dt_s;
       if (lent.moving) this.time_s.motion += dt_s;
-      if (this.running?.kind === "job") { this.running.run.reached(lent.step); this.time_s.playback += dt_s; }
+      if (this.running?.kind === "job") {
+        this.running.run.reached(lent.step);
+        this.time_s.playback += dt_s;
+      }
       this.standing(lent.moving);
     });
     this.refresh();
   }
 
-  get isBusy(): boolean { return this.status.running; }
-  get speedOverride(): number { return this.override; }
-  get servoIsComing(): boolean { return this.servoAt_s !== Infinity; }
-  get keySwitch(): KeySwitch { return this.mode; }
+  get isBusy(): boolean {
+    return this.status.running;
+  }
+  get speedOverride(): number {
+    return this.override;
+  }
+  get servoIsComing(): boolean {
+    return this.servoAt_s !== Infinity;
+  }
+  get keySwitch(): KeySwitch {
+    return this.mode;
+  }
   get place(): Place {
     const run = this.running?.kind === "job" ? this.running.run : this.interrupted;
     return run?.place ?? { job: this.selected?.job ?? "", line: this.selected?.line ?? 0, step: 0 };
   }
 
   /** Whether a command from outside that changes something is heard now. */
-  fromOutside(): number { return this.mode !== "remote" ? ADDED.wrongMode : this.commandRemote ? 0 : ADDED.noCommandRemote; }
+  fromOutside(): number {
+    return this.mode !== "remote" ? ADDED.wrongMode : this.commandRemote ? 0 : ADDED.noCommandRemote;
+  }
 
   // At the robot itself ---------------------------------------------------------------------------------------------------
 
@@ -93,8 +115,14 @@ export class Machine {
     this.options.neutral.atTheRobot.setMode(to === "teach" ? "manual" : to === "play" ? "automatic" : "remote");
     this.refresh();
   }
-  setCommandRemote(on: boolean): void { this.commandRemote = on; this.refresh(); }
-  setOverride(ratio: number): void { this.override = Math.min(1, Math.max(0, ratio)); this.refresh(); }
+  setCommandRemote(on: boolean): void {
+    this.commandRemote = on;
+    this.refresh();
+  }
+  setOverride(ratio: number): void {
+    this.override = Math.min(1, Math.max(0, ratio));
+    this.refresh();
+  }
   /** True presses the button in; false lets it out again: alarms, servo and start wait for a person. */
   pressEmergencyStop(pressed: boolean): void {
     this.pressed = pressed;
@@ -114,11 +142,13 @@ export class Machine {
     this.history.unshift(alarm);
     this.history.length = Math.min(this.history.length, MOST_ALARMS);
     this.status.alarm = true;
-    if (major) this.powerOff(); else this.refresh();
+    if (major) this.powerOff();
+    else this.refresh();
   }
   /** A joint move with the pendant: TEACH only, the flange no faster than 250 mm/s. */
   jog(q_rad: ArrayLike<number>, most = 1): Promise<CommandOutcome> {
-    const { neutral, robot } = this.options, full_mps = jointMoveSpeed(robot, neutral.jointAngles(), q_rad, FLANGE);
+    const { neutral, robot } = this.options;
+    const full_mps = jointMoveSpeed(robot, neutral.jointAngles(), q_rad, FLANGE);
     return neutral.atTheRobot.jog(q_rad, Math.min(most, full_mps > 0 ? TEACH_MPS / full_mps : 1));
   }
   reboot(): void {
@@ -140,8 +170,12 @@ export class Machine {
     return 0;
   }
   servo(on: boolean): number {
-    if (!on) { this.powerOff(); return 0; }
-    if (this.pressed || this.guardOpen || this.status.alarm || this.status.error) return this.pressed || this.guardOpen ? ADDED.servoRefuses : ADDED.alarm;
+    if (!on) {
+      this.powerOff();
+      return 0;
+    }
+    if (this.pressed || this.guardOpen || this.status.alarm || this.status.error)
+      return this.pressed || this.guardOpen ? ADDED.servoRefuses : ADDED.alarm;
     if (!this.status.servo && this.servoAt_s === Infinity) this.servoAt_s = this.now_s + this.options.servoOn_s;
     return 0;
   }
@@ -209,12 +243,18 @@ export class Machine {
     if (this.mode === "teach") return ADDED.wrongMode;
     return this.running?.kind === "move" ? ADDED.moving : 0;
   }
-  private get held(): boolean { return this.status.heldByPendant || this.status.heldByCommand || this.status.heldOutside; }
+  private get held(): boolean {
+    return this.status.heldByPendant || this.status.heldByCommand || this.status.heldOutside;
+  }
 
   private open({ job, line }: { readonly job: string; readonly line: number }): JobRun | number {
     const { files, interpret, neutral } = this.options;
-    if (!interpret) { this.message = "This virtual controller was given no interpreter of INFORM."; return ADDED.syntax; }
-    const { text, stretches } = files.together(job), ready = interpret(text);
+    if (!interpret) {
+      this.message = "This virtual controller was given no interpreter of INFORM.";
+      return ADDED.syntax;
+    }
+    const { text, stretches } = files.together(job);
+    const ready = interpret(text);
     if (ready.kind === "not-understood") {
       this.message = `${job}, line ${ready.faults[0]?.line ?? 0}: ${ready.faults[0]?.sentence ?? "not understood."}`;
       return ADDED.syntax;
@@ -261,12 +301,21 @@ export class Machine {
       if (running.kind === "job") {
         running.run.ended();
         if (!running.run.over) this.interrupted = running.run;
-        else if (this.cycle === CYCLE.continuous && this.selected && !this.held) { this.refresh(); this.start(); return; }
+        else if (this.cycle === CYCLE.continuous && this.selected && !this.held) {
+          this.refresh();
+          this.start();
+          return;
+        }
       }
     } else {
       this.message = outcome.why.sentence;
       if (running.kind === "job" && isBrake(outcome.why)) this.interrupted = running.run;
-      else if (!isBrake(outcome.why)) this.raise(running.kind === "job" ? ALARM.job : ALARM.motion, outcome.why.code.toUpperCase(), outcome.why.joint ?? 0);
+      else if (!isBrake(outcome.why))
+        this.raise(
+          running.kind === "job" ? ALARM.job : ALARM.motion,
+          outcome.why.code.toUpperCase(),
+          outcome.why.joint ?? 0,
+        );
     }
     this.refresh();
   }
@@ -297,9 +346,17 @@ export class Machine {
   }
 
   private refresh(): void {
-    const { status, mode, options: { neutral } } = this;
-    status.step = this.cycle === CYCLE.step; status.once = this.cycle === CYCLE.once; status.continuous = this.cycle === CYCLE.continuous;
-    status.teach = mode === "teach"; status.play = mode !== "teach"; status.remote = mode === "remote" && this.commandRemote;
+    const {
+      status,
+      mode,
+      options: { neutral },
+    } = this;
+    status.step = this.cycle === CYCLE.step;
+    status.once = this.cycle === CYCLE.once;
+    status.continuous = this.cycle === CYCLE.continuous;
+    status.teach = mode === "teach";
+    status.play = mode !== "teach";
+    status.remote = mode === "remote" && this.commandRemote;
     status.slow = mode === "teach";
     neutral.setSpeed(this.held || this.paused ? 0 : 100 * this.override);
     status.running = this.running !== null && !(this.paused && !neutral.isMoving());
@@ -307,4 +364,8 @@ export class Machine {
 }
 
 /** Ended from outside, not by a fault of its own. */
-const isBrake = ({ code }: Refusal): boolean => code === "controller.stopped" || code === "controller.mode-changed" || code.startsWith("safety.") || code === "controller.closed";
+const isBrake = ({ code }: Refusal): boolean =>
+  code === "controller.stopped" ||
+  code === "controller.mode-changed" ||
+  code.startsWith("safety.") ||
+  code === "controller.closed";

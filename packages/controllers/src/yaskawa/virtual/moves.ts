@@ -1,6 +1,18 @@
 import { compose, flangePose, inverse, solveAll, type Pose, type Robot, type Step } from "@twincell/core";
 import type { VirtualController } from "../../virtual/index.ts";
-import { ADDED, CARTESIAN_PATH, MOVE_FRAME, PULSE_PATH, SPEED_CLASS, formOf, poseAt, radiansOf, readCartesianMove, readPulseMove, type PulseScale } from "../codec/index.ts";
+import {
+  ADDED,
+  CARTESIAN_PATH,
+  MOVE_FRAME,
+  PULSE_PATH,
+  SPEED_CLASS,
+  formOf,
+  poseAt,
+  radiansOf,
+  readCartesianMove,
+  readPulseMove,
+  type PulseScale,
+} from "../codec/index.ts";
 import type { Machine } from "./machine.ts";
 
 export interface MoveOptions {
@@ -25,7 +37,8 @@ const MOST_RATIO = 10_000;
 
 /** Orders to move: data looked at, the posture found, the motion handed to the machine. */
 export function moveOrders(options: MoveOptions): MoveOrders {
-  const { robot, neutral, machine, scale } = options, n = robot.arm.joints.length;
+  const { robot, neutral, machine, scale } = options;
+  const n = robot.arm.joints.length;
   const baseFromVendor = robot.baseFromVendorWorld as Pose as Pose<"base", "frame">;
 
   function movePulse(path: number, data: Uint8Array): number {
@@ -44,37 +57,88 @@ export function moveOrders(options: MoveOptions): MoveOrders {
     if (path < CARTESIAN_PATH.joint || path > CARTESIAN_PATH.straightBy) return ADDED.noInstance;
     if (!move) return ADDED.size;
     if (move.robot !== 1) return ADDED.noGroup;
-    const flangeFromTcp = options.tools.get(move.tool), now_rad = neutral.jointAngles();
+    const flangeFromTcp = options.tools.get(move.tool);
+    const now_rad = neutral.jointAngles();
     if (!flangeFromTcp) return ADDED.tool;
     const baseFromTcp = compose(flangePose(robot.arm, now_rad), flangeFromTcp);
-    const frame = move.frame === MOVE_FRAME.base || move.frame === MOVE_FRAME.robot ? baseFromVendor : move.frame === MOVE_FRAME.user ? options.users.get(move.user)
-      : move.frame === MOVE_FRAME.tool && path === CARTESIAN_PATH.straightBy ? baseFromTcp as Pose as Pose<"base", "frame"> : null;
+    const frame =
+      move.frame === MOVE_FRAME.base || move.frame === MOVE_FRAME.robot
+        ? baseFromVendor
+        : move.frame === MOVE_FRAME.user
+          ? options.users.get(move.user)
+          : move.frame === MOVE_FRAME.tool && path === CARTESIAN_PATH.straightBy
+            ? (baseFromTcp as Pose as Pose<"base", "frame">)
+            : null;
     if (frame === null) return ADDED.frame;
     if (frame === undefined) return ADDED.userFrame;
-    const said = poseAt<"frame", "tcp">(move.place), target = path === CARTESIAN_PATH.straightBy ? shifted(frame, baseFromTcp, said) : compose(frame, said);
+    const said = poseAt<"frame", "tcp">(move.place);
+    const target = path === CARTESIAN_PATH.straightBy ? shifted(frame, baseFromTcp, said) : compose(frame, said);
     const reach = solveAll(robot, compose(target, inverse(flangeFromTcp)), { near: now_rad });
     if (reach.kind !== "reached") return ADDED.outOfRange;
-    const q_rad = path === CARTESIAN_PATH.joint ? reach.solutions.find(solution => formOf(robot, solution.q_rad) === (move.form & 0x3F))?.q_rad : reach.solutions[0]!.q_rad;
+    const q_rad =
+      path === CARTESIAN_PATH.joint
+        ? reach.solutions.find(solution => formOf(robot, solution.q_rad) === (move.form & 0x3f))?.q_rad
+        : reach.solutions[0]!.q_rad;
     if (!q_rad) return ADDED.outOfRange;
-    return go(path === CARTESIAN_PATH.joint, q_rad, path === CARTESIAN_PATH.joint ? { q: [...q_rad] } : { pose: target as Pose as Pose<"frame", "tcp">, frame: "world", tool: `${move.tool}` }, move, move.tool);
+    return go(
+      path === CARTESIAN_PATH.joint,
+      q_rad,
+      path === CARTESIAN_PATH.joint
+        ? { q: [...q_rad] }
+        : { pose: target as Pose as Pose<"frame", "tcp">, frame: "world", tool: `${move.tool}` },
+      move,
+      move.tool,
+    );
   }
 
   /** By so much along the axes of a frame, turned about where the tool is. */
-  function shifted(baseFromFrame: Pose<"base", "frame">, baseFromTcp: Pose<"base", "tcp">, by: Pose<"frame", "tcp">): Pose<"base", "tcp"> {
-    const frameFromTcp = compose(inverse(baseFromFrame), baseFromTcp), [x, y, z] = frameFromTcp.position, turned = compose({ position: [0, 0, 0], quaternion: by.quaternion } as Pose, { position: [0, 0, 0], quaternion: frameFromTcp.quaternion } as Pose);
-    return compose(baseFromFrame, { position: [x + by.position[0], y + by.position[1], z + by.position[2]], quaternion: turned.quaternion } as Pose<"frame", "tcp">);
+  function shifted(
+    baseFromFrame: Pose<"base", "frame">,
+    baseFromTcp: Pose<"base", "tcp">,
+    by: Pose<"frame", "tcp">,
+  ): Pose<"base", "tcp"> {
+    const frameFromTcp = compose(inverse(baseFromFrame), baseFromTcp);
+    const [x, y, z] = frameFromTcp.position;
+    const turned = compose(
+      { position: [0, 0, 0], quaternion: by.quaternion } as Pose,
+      { position: [0, 0, 0], quaternion: frameFromTcp.quaternion } as Pose,
+    );
+    return compose(baseFromFrame, {
+      position: [x + by.position[0], y + by.position[1], z + by.position[2]],
+      quaternion: turned.quaternion,
+    } as Pose<"frame", "tcp">);
   }
-  const inside = (q_rad: ArrayLike<number>): boolean => robot.arm.joints.every(({ limits }, i) => q_rad[i]! >= limits.lower_rad && q_rad[i]! <= limits.upper_rad);
+  const inside = (q_rad: ArrayLike<number>): boolean =>
+    robot.arm.joints.every(({ limits }, i) => q_rad[i]! >= limits.lower_rad && q_rad[i]! <= limits.upper_rad);
 
-  function go(isJoint: boolean, q_rad: ArrayLike<number>, target: MoveTarget, { speedClass, speed }: { readonly speedClass: number; readonly speed: number }, tool: number): number {
+  function go(
+    isJoint: boolean,
+    q_rad: ArrayLike<number>,
+    target: MoveTarget,
+    { speedClass, speed }: { readonly speedClass: number; readonly speed: number },
+    tool: number,
+  ): number {
     if (speed < 1) return ADDED.speed;
     if (speedClass === SPEED_CLASS.ratio && speed > MOST_RATIO) return ADDED.speed;
-    if (isJoint ? speedClass !== SPEED_CLASS.ratio : speedClass !== SPEED_CLASS.ratio && speedClass !== SPEED_CLASS.linear) return ADDED.speed;
-    const ratio = speed / MOST_RATIO, step: Step = {
-      id: "", type: "move", path: isJoint ? "ptp" : "lin", target: "q" in target ? { ...target, tool: `${tool}` } : target, blend_m: 0,
-      speed: isJoint ? { ratio } : { mps: speedClass === SPEED_CLASS.ratio ? ratio * robot.maxTcpSpeed_mps : speed / 10_000 },
+    if (
+      isJoint ? speedClass !== SPEED_CLASS.ratio : speedClass !== SPEED_CLASS.ratio && speedClass !== SPEED_CLASS.linear
+    )
+      return ADDED.speed;
+    const ratio = speed / MOST_RATIO;
+    const step: Step = {
+      id: "",
+      type: "move",
+      path: isJoint ? "ptp" : "lin",
+      target: "q" in target ? { ...target, tool: `${tool}` } : target,
+      blend_m: 0,
+      speed: isJoint
+        ? { ratio }
+        : { mps: speedClass === SPEED_CLASS.ratio ? ratio * robot.maxTcpSpeed_mps : speed / 10_000 },
     };
-    const why = machine.move(step, { tools: Object.fromEntries([...options.tools].map(([number, pose]) => [`${number}`, pose])), frames: {} });
+    const why = machine.move(step, {
+      tools: Object.fromEntries([...options.tools].map(([number, pose]) => [`${number}`, pose])),
+      frames: {},
+    });
     if (why === 0) options.onMotion?.(q_rad);
     return why;
   }

@@ -7,11 +7,28 @@ import { OK, cabinet, refused } from "../testing/cabinet.ts";
 describe("a virtual Yaskawa controller: its states", () => {
   test("reading works in every mode; what changes something needs REMOTE with command remote", async () => {
     const { virtual, status, move, servo, select, start, order, hold } = await cabinet();
-    for (const [mode, commandRemote, added] of [["teach", true, 0x2080], ["play", true, 0x2080], ["remote", false, 0x2100]] as const) {
+    for (const [mode, commandRemote, added] of [
+      ["teach", true, 0x2080],
+      ["play", true, 0x2080],
+      ["remote", false, 0x2100],
+    ] as const) {
       virtual.pendant.setMode(mode);
       virtual.pendant.setCommandRemote(commandRemote);
-      expect(await status()).toMatchObject({ teach: mode === "teach", play: mode !== "teach", remote: false, servo: true });
-      for (const answer of [await move(turned(0.1)), await servo(true), await select("A"), await start(), await order(COMMAND.byte, 0, Uint8Array.of(1)), await order(COMMAND.cycle, 2, word(1)), await order(COMMAND.io, 2701, Uint8Array.of(1))]) {
+      expect(await status()).toMatchObject({
+        teach: mode === "teach",
+        play: mode !== "teach",
+        remote: false,
+        servo: true,
+      });
+      for (const answer of [
+        await move(turned(0.1)),
+        await servo(true),
+        await select("A"),
+        await start(),
+        await order(COMMAND.byte, 0, Uint8Array.of(1)),
+        await order(COMMAND.cycle, 2, word(1)),
+        await order(COMMAND.io, 2701, Uint8Array.of(1)),
+      ]) {
         expect(answer).toMatchObject(refused(added));
       }
       // Anyone may stop the robot; letting go needs remote.
@@ -70,7 +87,13 @@ describe("a virtual Yaskawa controller: its states", () => {
     const { virtual, read, status, order, move } = await cabinet({ began_unix_s: 1_795_352_400 });
     expect((await read(COMMAND.alarm, 1))!.data).toEqual(new Uint8Array(60));
     virtual.pendant.raiseAlarm(4320, "OVERLOAD (CONTINUE)", 2);
-    expect(readAlarm((await read(COMMAND.alarm, 1))!.data)).toEqual({ code: 4320, data: 2, type: 0, time: "2026/11/22 13:00", name: "OVERLOAD (CONTINUE)" });
+    expect(readAlarm((await read(COMMAND.alarm, 1))!.data)).toEqual({
+      code: 4320,
+      data: 2,
+      type: 0,
+      time: "2026/11/22 13:00",
+      name: "OVERLOAD (CONTINUE)",
+    });
     expect(await status()).toMatchObject({ alarm: true, servo: false });
     await order(COMMAND.reset, 1, word(1));
     expect(await status()).toMatchObject({ alarm: false, servo: false });
@@ -83,12 +106,22 @@ describe("a virtual Yaskawa controller: its states", () => {
   test("T-26 TEACH: nothing is started, jogs reach no more than 250 mm/s", async () => {
     const { virtual, scheduler } = await cabinet();
     virtual.pendant.setMode("teach");
-    const jog = virtual.pendant.jog(turned(0.3)), tips: { at_s: number; flange: readonly number[] }[] = [];
-    virtual.neutral.onSample(({ time_s, q_rad }) => { tips.push({ at_s: time_s, flange: [...flangePose(gp8.arm, q_rad).position] }); });
+    const jog = virtual.pendant.jog(turned(0.3));
+    const tips: { at_s: number; flange: readonly number[] }[] = [];
+    virtual.neutral.onSample(({ time_s, q_rad }) => {
+      tips.push({ at_s: time_s, flange: [...flangePose(gp8.arm, q_rad).position] });
+    });
     await scheduler.elapse(20);
     // A promise that never ends would hang the test.
     expect(await Promise.race([jog, Promise.resolve("still jogging")])).toEqual({ kind: "done" });
-    const fastest = Math.max(...tips.slice(1).map(({ at_s, flange }, i) => Math.hypot(...flange.map((value, k) => value - tips[i]!.flange[k]!)) / (at_s - tips[i]!.at_s)));
+    const fastest = Math.max(
+      ...tips
+        .slice(1)
+        .map(
+          ({ at_s, flange }, i) =>
+            Math.hypot(...flange.map((value, k) => value - tips[i]!.flange[k]!)) / (at_s - tips[i]!.at_s),
+        ),
+    );
     expect(fastest).toBeGreaterThan(0.03);
     expect(fastest).toBeLessThanOrEqual(0.25);
     virtual.pendant.setMode("remote");
@@ -112,24 +145,36 @@ describe("a virtual Yaskawa controller: its states", () => {
 });
 
 describe("a virtual Yaskawa controller: jobs and files", () => {
-  const save = async ({ filing }: Pick<Awaited<ReturnType<typeof cabinet>>, "filing">, name: string, text: string): Promise<number> => {
+  const save = async (
+    { filing }: Pick<Awaited<ReturnType<typeof cabinet>>, "filing">,
+    name: string,
+    text: string,
+  ): Promise<number> => {
     let answer = await filing.ask({ service: SERVICE.saveFile, data: textBytes(name) });
     for (let block = 1; answer?.status === 0 && answer.block < 0x8000_0000; block++) {
       const isLast = block * 400 >= text.length;
-      answer = await filing.ask({ service: SERVICE.saveFile, ack: true, block: isLast ? (block | 0x8000_0000) >>> 0 : block, data: textBytes(text.slice((block - 1) * 400, block * 400)) });
+      answer = await filing.ask({
+        service: SERVICE.saveFile,
+        ack: true,
+        block: isLast ? (block | 0x8000_0000) >>> 0 : block,
+        data: textBytes(text.slice((block - 1) * 400, block * 400)),
+      });
     }
-    return answer?.status === 0 ? 0 : answer?.added ?? -1;
+    return answer?.status === 0 ? 0 : (answer?.added ?? -1);
   };
 
   test("a job is saved in blocks, listed, loaded back letter by letter, and deleted", async () => {
-    const made = await cabinet(), { filing, virtual } = made, text = job("LONG", ...Array.from({ length: 100 }, (_, i) => `MOVJ 0.${i}`));
+    const made = await cabinet();
+    const { filing, virtual } = made;
+    const text = job("LONG", ...Array.from({ length: 100 }, (_, i) => `MOVJ 0.${i}`));
     expect(text.length).toBeGreaterThan(900);
     expect(await save(made, "LONG.JBI", text)).toBe(0);
     expect(virtual.files.read("LONG.JBI")).toBe(text);
     const list = await filing.ask({ service: SERVICE.listFiles, data: textBytes("*.JBI") });
     expect(list).toMatchObject({ ...OK, block: 0x8000_0001 });
     expect(textAt(list!.data, 0, 99)).toBe("LONG.JBI\r\n");
-    let got = "", answer = await filing.ask({ service: SERVICE.loadFile, data: textBytes("LONG.JBI") });
+    let got = "";
+    let answer = await filing.ask({ service: SERVICE.loadFile, data: textBytes("LONG.JBI") });
     for (let asked = 0; answer && asked < 10; asked++) {
       got += textAt(answer.data, 0, 400);
       if (answer.block >= 0x8000_0000) break;
@@ -137,33 +182,38 @@ describe("a virtual Yaskawa controller: jobs and files", () => {
     }
     expect(got).toBe(text);
     expect(await filing.ask({ service: SERVICE.deleteFile, data: textBytes("LONG.JBI") })).toMatchObject(OK);
-    expect(await filing.ask({ service: SERVICE.deleteFile, data: textBytes("LONG.JBI") })).toMatchObject(refused(0xE2B3));
-    expect(await filing.ask({ service: SERVICE.loadFile, data: textBytes("LONG.JBI") })).toMatchObject(refused(0xE2B3));
+    expect(await filing.ask({ service: SERVICE.deleteFile, data: textBytes("LONG.JBI") })).toMatchObject(
+      refused(0xe2b3),
+    );
+    expect(await filing.ask({ service: SERVICE.loadFile, data: textBytes("LONG.JBI") })).toMatchObject(refused(0xe2b3));
   });
 
   test("what cannot be saved says why: no job, no END, a name, a mode; a repeated block counts once, a missing one ends it, a stalled one is dropped", async () => {
-    const made = await cabinet(), { filing, virtual, scheduler } = made;
+    const made = await cabinet();
+    const { filing, virtual, scheduler } = made;
     expect(await save(made, "A.JBI", "hello")).toBe(0x5170);
     expect(await save(made, "A.JBI", "/JOB\nNOP\nMOVJ 1\n")).toBe(0x5130);
     expect(await save(made, "WRONG?.JBI", job("A"))).toBe(0x4190);
     virtual.pendant.setMode("teach");
-    expect(await save(made, "A.JBI", job("A"))).toBe(0xE2B2);
+    expect(await save(made, "A.JBI", job("A"))).toBe(0xe2b2);
     virtual.pendant.setMode("remote");
-    const block = (number: number, text: string) => filing.ask({ service: SERVICE.saveFile, ack: true, block: number, data: textBytes(text) });
+    const block = (number: number, text: string) =>
+      filing.ask({ service: SERVICE.saveFile, ack: true, block: number, data: textBytes(text) });
     await filing.ask({ service: SERVICE.saveFile, data: textBytes("B.JBI") });
     await block(1, "/JOB\nNOP\n");
     await block(1, "/JOB\nNOP\n");
     expect(await block(0x8000_0002, "END\n")).toMatchObject(OK);
     expect(virtual.files.read("B.JBI")).toBe("/JOB\nNOP\nEND\n");
     await filing.ask({ service: SERVICE.saveFile, data: textBytes("C.JBI") });
-    expect(await block(2, "END\n")).toMatchObject(refused(0xE4A1));
+    expect(await block(2, "END\n")).toMatchObject(refused(0xe4a1));
     await filing.ask({ service: SERVICE.saveFile, data: textBytes("C.JBI") });
     await scheduler.elapse(11);
-    expect(await block(1, "/JOB")).toMatchObject(refused(0xE28B));
+    expect(await block(1, "/JOB")).toMatchObject(refused(0xe28b));
   });
 
   test("a job is selected, started and watched: line and step count from NOP; a hold is followed by start", async () => {
-    const made = await cabinet(), { scheduler, select, start, read, hold, status, j1, virtual, move } = made;
+    const made = await cabinet();
+    const { scheduler, select, start, read, hold, status, j1, virtual, move } = made;
     expect(await start()).toMatchObject(refused(0x4060));
     expect(await select("PICK")).toMatchObject(refused(0x4040));
     await save(made, "PICK.JBI", job("PICK", "MOVJ 0.5", "O 2", "I 1", "MOVJ 0", "MOVJ 0.7"));
@@ -194,7 +244,8 @@ describe("a virtual Yaskawa controller: jobs and files", () => {
   });
 
   test("an emergency stop interrupts a job; after reset and servo on it goes on from its line", async () => {
-    const made = await cabinet(), { scheduler, select, start, status, j1, virtual, order, servo } = made;
+    const made = await cabinet();
+    const { scheduler, select, start, status, j1, virtual, order, servo } = made;
     await save(made, "GO.JBI", job("GO", "MOVJ 0.3", "MOVJ 1", "MOVJ 0.2"));
     await select("GO");
     await start();
@@ -213,7 +264,8 @@ describe("a virtual Yaskawa controller: jobs and files", () => {
   });
 
   test("cycles: one step at a time, once, and again and again", async () => {
-    const made = await cabinet(), { scheduler, select, start, order, status, j1 } = made;
+    const made = await cabinet();
+    const { scheduler, select, start, order, status, j1 } = made;
     await save(made, "TWO.JBI", job("TWO", "MOVJ 0.1", "MOVJ 0.2"));
     await select("TWO");
     await order(COMMAND.cycle, 2, word(1));
@@ -229,11 +281,12 @@ describe("a virtual Yaskawa controller: jobs and files", () => {
     await start();
     await scheduler.elapse(5);
     expect(await status()).toMatchObject({ running: true, continuous: true });
-    expect(await order(COMMAND.cycle, 2, word(4))).toMatchObject(refused(0xB004));
+    expect(await order(COMMAND.cycle, 2, word(4))).toMatchObject(refused(0xb004));
   });
 
   test("a job that is not understood is not started, and the pendant says the line", async () => {
-    const made = await cabinet(), { select, start, virtual } = made;
+    const made = await cabinet();
+    const { select, start, virtual } = made;
     await save(made, "ODD.JBI", job("ODD", "MOVJ 0.1", "DANCE"));
     await select("ODD");
     expect(await start()).toMatchObject(refused(0x5110));

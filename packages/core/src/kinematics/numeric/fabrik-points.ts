@@ -25,7 +25,10 @@ export function fabrikForward(points: Float64Array, lengths: ArrayLike<number>, 
 }
 
 /** Distances of the end from the goal: before, and after each round of both passes. */
-export interface FabrikPointsRun { readonly miss_m: readonly number[]; readonly settled: boolean }
+export interface FabrikPointsRun {
+  readonly miss_m: readonly number[];
+  readonly settled: boolean;
+}
 
 /**
  * Both passes, round after round, until a round improves by less than is worth it (row X-21).
@@ -34,13 +37,22 @@ export interface FabrikPointsRun { readonly miss_m: readonly number[]; readonly 
  * @param goal            where the last point should be.
  * @param insignificant_m improvement that is none.
  */
-export function fabrikPoints(points: Float64Array, lengths: ArrayLike<number>, goal: ArrayLike<number>, insignificant_m = 1e-9, most = 1000): FabrikPointsRun {
-  const last = lengths.length, base = points.slice(0, 3), miss_m = [missOf(points, last, goal)];
+export function fabrikPoints(
+  points: Float64Array,
+  lengths: ArrayLike<number>,
+  goal: ArrayLike<number>,
+  insignificant_m = 1e-9,
+  most = 1000,
+): FabrikPointsRun {
+  const last = lengths.length;
+  const base = points.slice(0, 3);
+  const miss_m = [missOf(points, last, goal)];
   for (let round = 0; round < most; round++) {
     for (let axis = 0; axis < 3; axis++) points[3 * last + axis] = goal[axis]!;
     fabrikBackward(points, lengths, last);
     fabrikForward(points, lengths, base);
-    const before = miss_m[round]!, now = missOf(points, last, goal);
+    const before = miss_m[round]!;
+    const now = missOf(points, last, goal);
     miss_m.push(now);
     if (before - now < insignificant_m) return { miss_m, settled: true };
   }
@@ -52,7 +64,9 @@ const missOf = (points: Float64Array, last: number, goal: ArrayLike<number>): nu
 
 /** Distance between points i and j of a row of points. */
 export function apart(points: ArrayLike<number>, i: number, j: number): number {
-  const x = points[3 * i]! - points[3 * j]!, y = points[3 * i + 1]! - points[3 * j + 1]!, z = points[3 * i + 2]! - points[3 * j + 2]!;
+  const x = points[3 * i]! - points[3 * j]!;
+  const y = points[3 * i + 1]! - points[3 * j + 1]!;
+  const z = points[3 * i + 2]! - points[3 * j + 2]!;
   return Math.sqrt(x * x + y * y + z * z);
 }
 
@@ -61,6 +75,7 @@ function draw(points: Float64Array, k: number, anchor: number, length: number): 
   const now = apart(points, k, anchor);
   for (let axis = 0; axis < 3; axis++) {
     const from = points[3 * anchor + axis]!;
-    points[3 * k + axis] = now > 1e-12 ? from + ((points[3 * k + axis]! - from) * length) / now : from + (axis === 2 ? length : 0);
+    points[3 * k + axis] =
+      now > 1e-12 ? from + ((points[3 * k + axis]! - from) * length) / now : from + (axis === 2 ? length : 0);
   }
 }

@@ -5,20 +5,36 @@ import type { Finding, Repair, StepVerdict } from "../verdict.ts";
 import type { Turn } from "./layout.ts";
 import type { Severity } from "./scene.ts";
 
-interface Entry { readonly severity: Severity; readonly finding: Finding; readonly atPlace: boolean; more: number }
+interface Entry {
+  readonly severity: Severity;
+  readonly finding: Finding;
+  readonly atPlace: boolean;
+  more: number;
+}
 
 /** Findings by step, the worst first. What is found at a place of a pallet says at which. */
 export class Book {
   private readonly program: Program;
   private readonly found = new Map<string, Entry[]>();
-  constructor(program: Program) { this.program = program; }
+  constructor(program: Program) {
+    this.program = program;
+  }
 
   add(id: string, severity: Severity, finding: Finding, turn: Turn | undefined): void {
-    const step = turn?.written.id ?? id, list = this.found.get(step) ?? [];
+    const step = turn?.written.id ?? id;
+    const list = this.found.get(step) ?? [];
     // A joint that is over its limit is not also near it, and one sentence per fact is enough.
     const same = list.find(one => one.finding.code === finding.code && one.finding.joint === finding.joint);
-    if (same !== undefined) { if (turn !== undefined && turn.visits.length > 0) same.more++; return; }
-    list.push({ severity, finding: turn === undefined ? finding : this.inTurn(finding, turn, id), atPlace: (turn?.visits.length ?? 0) > 0, more: 0 });
+    if (same !== undefined) {
+      if (turn !== undefined && turn.visits.length > 0) same.more++;
+      return;
+    }
+    list.push({
+      severity,
+      finding: turn === undefined ? finding : this.inTurn(finding, turn, id),
+      atPlace: (turn?.visits.length ?? 0) > 0,
+      more: 0,
+    });
     this.found.set(step, list);
   }
 
@@ -35,15 +51,31 @@ export class Book {
   }
 
   private inTurn(finding: Finding, { written, visits }: Turn, id: string): Finding {
-    const where = visits.length > 0 ? visits.map(visit => placeName(visit, visits.length > 1)).join(", ") : id === written.id ? "" : "The next time round";
-    return { ...finding, sentence: where === "" ? finding.sentence : `${where}: ${finding.sentence}`, repairs: finding.repairs.map(repair => this.asWritten(repair, written, visits)) };
+    const where =
+      visits.length > 0
+        ? visits.map(visit => placeName(visit, visits.length > 1)).join(", ")
+        : id === written.id
+          ? ""
+          : "The next time round";
+    return {
+      ...finding,
+      sentence: where === "" ? finding.sentence : `${where}: ${finding.sentence}`,
+      repairs: finding.repairs.map(repair => this.asWritten(repair, written, visits)),
+    };
   }
 
   /** A repair of one carrying out as a repair of the step that was written: its id, and its place in the pallet. */
   private asWritten(repair: Repair, written: Step, visits: readonly Visit[]): Repair {
-    const back = (step: Step): Step => (step.type !== "move" ? step : {
-      ...step, target: this.inPlace(step.target, written, visits), ...(step.via === undefined || written.type !== "move" || written.via === undefined ? {} : { via: written.via }),
-    });
+    const back = (step: Step): Step =>
+      step.type !== "move"
+        ? step
+        : {
+            ...step,
+            target: this.inPlace(step.target, written, visits),
+            ...(step.via === undefined || written.type !== "move" || written.via === undefined
+              ? {}
+              : { via: written.via }),
+          };
     return {
       ...repair,
       ...(repair.replace === undefined ? {} : { replace: { ...back(repair.replace), id: written.id } }),
@@ -53,15 +85,24 @@ export class Book {
 
   private inPlace(target: Target, written: Step, visits: readonly Visit[]): Target {
     if (!("pose" in target) || written.type !== "move" || !("pose" in written.target)) return target;
-    const { frame } = written.target, visit = visits.findLast(({ pallet }) => pallet === frame);
+    const { frame } = written.target;
+    const visit = visits.findLast(({ pallet }) => pallet === frame);
     if (visit === undefined || this.program.pallets[frame]?.frame !== target.frame) return target;
-    return { ...target, frame, pose: compose(inverse(visit.frameFromPlace), target.pose) as Pose as Pose<"frame", "tcp"> };
+    return {
+      ...target,
+      frame,
+      pose: compose(inverse(visit.frameFromPlace), target.pose) as Pose as Pose<"frame", "tcp">,
+    };
   }
 }
 
-const placeName = ({ pallet, number, of }: Visit, named: boolean): string => `Place ${number} of ${of}${named ? ` on ${pallet}` : ""}`;
+const placeName = ({ pallet, number, of }: Visit, named: boolean): string =>
+  `Place ${number} of ${of}${named ? ` on ${pallet}` : ""}`;
 
 function told({ finding, atPlace, more }: Entry): Finding {
   if (!atPlace || more === 0) return finding;
-  return { ...finding, sentence: `${finding.sentence} ${more === 1 ? "One more place has" : `${more} more places have`} the same finding.` };
+  return {
+    ...finding,
+    sentence: `${finding.sentence} ${more === 1 ? "One more place has" : `${more} more places have`} the same finding.`,
+  };
 }

@@ -51,35 +51,73 @@ export interface Collisions {
  * standing still is covered by the motions that end there.
  */
 export function checkCollision(scene: CheckScene, options: CollisionOptions): Collisions {
-  const { cell, margin_m } = options, collider = new CellCollider(cell, scene.robot.arm), prover = new Prover(collider, margin_m, scene.robot.arm);
+  const { cell, margin_m } = options;
+  const collider = new CellCollider(cell, scene.robot.arm);
+  const prover = new Prover(collider, margin_m, scene.robot.arm);
   collider.allowContactsAt(scene.robot.home_rad);
   const parts = new HeldParts(collider, cell, scene.program, scene.robot.arm, scene.layout.plan.segments, margin_m);
-  const unproven = new Set<string>(), found = new Set<string>(), all = [...motions(scene)];
-  let repaired = 0, i = 0;
+  const unproven = new Set<string>();
+  const found = new Set<string>();
+  const all = [...motions(scene)];
+  let repaired = 0;
+  let i = 0;
   for (const segment of scene.layout.plan.segments) {
     const stretches = parts.enter(segment);
     if (segment !== all[i]) continue;
-    if (options.cancelled?.() === true) { for (const rest of all.slice(i)) unproven.add(rest.step); break; }
+    if (options.cancelled?.() === true) {
+      for (const rest of all.slice(i)) unproven.add(rest.step);
+      break;
+    }
     options.onProgress?.(i / all.length);
     i++;
-    const { verdict, certificate } = options.certificates === undefined ? { verdict: prover.prove(segment, stretches), certificate: null } : prover.certify(segment, stretches);
-    if (certificate !== null) options.certificates?.push({ step: segment.step, start_s: segment.start_s, ...certificate });
+    const { verdict, certificate } =
+      options.certificates === undefined
+        ? { verdict: prover.prove(segment, stretches), certificate: null }
+        : prover.certify(segment, stretches);
+    if (certificate !== null)
+      options.certificates?.push({ step: segment.step, start_s: segment.start_s, ...certificate });
     if (verdict.kind === "undecided") unproven.add(segment.step);
     if (verdict.kind !== "contact" || found.has(segment.step)) continue;
     found.add(segment.step);
-    const at_s = segment.start_s + verdict.at, sentence = sentenceOf(verdict, cell, parts.held, at_s);
+    const at_s = segment.start_s + verdict.at;
+    const sentence = sentenceOf(verdict, cell, parts.held, at_s);
     const move = scene.layout.moves.get(segment.step);
-    const repairs = move === undefined || repaired >= MOST_REPAIRED ? [] : collisionRepairs(scene, move, prover, segment, verdict.at);
+    const repairs =
+      move === undefined || repaired >= MOST_REPAIRED ? [] : collisionRepairs(scene, move, prover, segment, verdict.at);
     repaired++;
-    scene.add(segment.step, "bad", { code: "collision.contact", value: verdict.distance_m, limit: verdict.margin_m, unit: "m", at_s, sentence, repairs });
+    scene.add(segment.step, "bad", {
+      code: "collision.contact",
+      value: verdict.distance_m,
+      limit: verdict.margin_m,
+      unit: "m",
+      at_s,
+      sentence,
+      repairs,
+    });
   }
   const { taken, missed } = parts;
-  return { clearance_m: cell.objects.length === 0 ? null : leastClearance(collider, parts, scene.layout.plan.segments, all, options.cancelled), unproven, taken, missed };
+  return {
+    clearance_m:
+      cell.objects.length === 0
+        ? null
+        : leastClearance(collider, parts, scene.layout.plan.segments, all, options.cancelled),
+    unproven,
+    taken,
+    missed,
+  };
 }
 
-function sentenceOf(contact: Extract<MotionVerdict, { kind: "contact" }>, cell: CellGeometry, held: string | undefined, at_s: number): string {
-  const carried = held !== undefined && (contact.a === held || contact.b === held), first = carried ? held : contact.a, other = first === contact.a ? contact.b : contact.a;
-  const a = carried ? `the held ${nameOf(first, cell)}` : nameOf(first, cell), b = nameOf(other, cell);
+function sentenceOf(
+  contact: Extract<MotionVerdict, { kind: "contact" }>,
+  cell: CellGeometry,
+  held: string | undefined,
+  at_s: number,
+): string {
+  const carried = held !== undefined && (contact.a === held || contact.b === held);
+  const first = carried ? held : contact.a;
+  const other = first === contact.a ? contact.b : contact.a;
+  const a = carried ? `the held ${nameOf(first, cell)}` : nameOf(first, cell);
+  const b = nameOf(other, cell);
   return contact.margin_m > 0 && contact.distance_m > 0
     ? `${capital(a)} comes within ${mm(contact.distance_m)} of ${b} at ${seconds(at_s)}; the margin is ${mm(contact.margin_m)}.`
     : `${capital(a)} ${carried ? "would touch" : "touches"} ${b} at ${seconds(at_s)}.`;
@@ -92,15 +130,27 @@ class Prover {
   private readonly rates: Float64Array;
   private readonly maps: ClearanceMaps;
   constructor(collider: CellCollider, margin_m: number, arm: SerialArm) {
-    this.collider = collider; this.margin_m = margin_m; this.rates = new Float64Array(arm.joints.length); this.maps = new ClearanceMaps(collider, arm);
+    this.collider = collider;
+    this.margin_m = margin_m;
+    this.rates = new Float64Array(arm.joints.length);
+    this.maps = new ClearanceMaps(collider, arm);
   }
 
   /** The whole motion with everything watched, or stretch by stretch as given. */
-  prove(segment: MotionSegment, stretches: readonly Stretch[] = [{ from: 0, to: segment.duration_s, watched: () => true, keepsMargin: robotAndCell }]): MotionVerdict {
+  prove(
+    segment: MotionSegment,
+    stretches: readonly Stretch[] = [
+      { from: 0, to: segment.duration_s, watched: () => true, keepsMargin: robotAndCell },
+    ],
+  ): MotionVerdict {
     const motion = motionOf(segment, this.rates);
     let checks = 0;
     for (const { from, to, ...pairs } of stretches) {
-      const verdict = checkMotion(this.collider, motion, from, to, { margin_m: this.margin_m, maps: this.maps, ...pairs });
+      const verdict = checkMotion(this.collider, motion, from, to, {
+        margin_m: this.margin_m,
+        maps: this.maps,
+        ...pairs,
+      });
       if (verdict.kind !== "clear") return verdict;
       checks += verdict.checks;
     }
@@ -109,23 +159,40 @@ class Prover {
 
   /** As `prove`, and what proves it; slower, because nothing that was found before is used. */
   certify(segment: MotionSegment, stretches: readonly Stretch[]): ReturnType<typeof certifyMotion> {
-    const motion = motionOf(segment, this.rates), proven: MotionCertificate[] = [];
+    const motion = motionOf(segment, this.rates);
+    const proven: MotionCertificate[] = [];
     let checks = 0;
     for (const { from, to, ...pairs } of stretches) {
-      const { verdict, certificate } = certifyMotion(this.collider, motion, from, to, { margin_m: this.margin_m, ...pairs });
+      const { verdict, certificate } = certifyMotion(this.collider, motion, from, to, {
+        margin_m: this.margin_m,
+        ...pairs,
+      });
       if (verdict.kind !== "clear" || certificate === null) return { verdict, certificate: null };
       checks += verdict.checks;
       proven.push(certificate);
     }
     const clearance_m = Math.min(...proven.map(each => each.clearance_m));
-    return { verdict: { kind: "clear", checks }, certificate: { from: 0, to: segment.duration_s, clearance_m, pieces: proven.flatMap(({ pieces }) => pieces) } };
+    return {
+      verdict: { kind: "clear", checks },
+      certificate: { from: 0, to: segment.duration_s, clearance_m, pieces: proven.flatMap(({ pieces }) => pieces) },
+    };
   }
 }
 
 /** What a held part rests on does not count as long as it may touch it or be near. */
-function leastClearance(collider: CellCollider, parts: HeldParts, segments: readonly Segment[], all: readonly MotionSegment[], cancelled: (() => boolean) | undefined): number {
-  const near = noClearance(), total_s = all.reduce((sum, segment) => sum + segment.duration_s, 0), period_s = total_s / CLEARANCE_LOOKS;
-  let least = CLEARANCE_CUTOFF_M, due_s = 0, passed_s = 0;
+function leastClearance(
+  collider: CellCollider,
+  parts: HeldParts,
+  segments: readonly Segment[],
+  all: readonly MotionSegment[],
+  cancelled: (() => boolean) | undefined,
+): number {
+  const near = noClearance();
+  const total_s = all.reduce((sum, segment) => sum + segment.duration_s, 0);
+  const period_s = total_s / CLEARANCE_LOOKS;
+  let least = CLEARANCE_CUTOFF_M;
+  let due_s = 0;
+  let passed_s = 0;
   const q = new Float64Array(all[0] === undefined ? 0 : all[0].q_rad.length / all[0].times_s.length);
   parts.rewind();
   for (const segment of segments) {
@@ -133,7 +200,8 @@ function leastClearance(collider: CellCollider, parts: HeldParts, segments: read
     if (segment.kind !== "motion" || segment.times_s.length < 2) continue;
     if (cancelled?.() === true) break;
     for (; due_s <= passed_s + segment.duration_s; due_s += period_s) {
-      const t_s = due_s - passed_s, { watched, keepsMargin } = stretches.find(({ to }) => t_s <= to) ?? stretches.at(-1)!;
+      const t_s = due_s - passed_s;
+      const { watched, keepsMargin } = stretches.find(({ to }) => t_s <= to) ?? stretches.at(-1)!;
       sampleSegment(segment, t_s, q);
       collider.clearance(q, least, near, pair => watched(pair) && keepsMargin(pair));
       least = Math.min(least, near.distance_m);
@@ -145,13 +213,23 @@ function leastClearance(collider: CellCollider, parts: HeldParts, segments: read
 }
 
 /** Targets and extra points higher up that are proven to be free, on the way there. */
-function collisionRepairs(scene: CheckScene, move: Move, prover: Prover, segment: MotionSegment, at_s: number): Repair[] {
-  const planner = new RunPlanner(scene.robot), start = scene.layout.starts.get(move.step.id);
+function collisionRepairs(
+  scene: CheckScene,
+  move: Move,
+  prover: Prover,
+  segment: MotionSegment,
+  at_s: number,
+): Repair[] {
+  const planner = new RunPlanner(scene.robot);
+  const start = scene.layout.starts.get(move.step.id);
   if (start === undefined) return [];
   const free = (steps: readonly MoveStep[]): boolean => {
     let q = start;
     for (const step of steps) {
-      const answer = planner.plan([resolveMove({ ...step, blend_m: 0, blend_ratio: 0 }, scene.robot, scene.context)], q);
+      const answer = planner.plan(
+        [resolveMove({ ...step, blend_m: 0, blend_ratio: 0 }, scene.robot, scene.context)],
+        q,
+      );
       if (answer.kind === "stopped") return false;
       for (const part of answer.run.parts) {
         if (part.times_s.length > 1 && prover.prove(part).kind !== "clear") return false;
@@ -160,21 +238,35 @@ function collisionRepairs(scene: CheckScene, move: Move, prover: Prover, segment
     }
     return true;
   };
-  const found: Repair[] = [], [viaId] = freshStepIds(scene.program, 1);
+  const found: Repair[] = [];
+  const [viaId] = freshStepIds(scene.program, 1);
   const late = at_s > segment.duration_s * 0.98;
   for (const height of RAISES_M) {
     const higher = raised(scene, move, height);
     if (higher === undefined) break;
     const step: MoveStep = { ...move.step, target: higher.target };
-    if (free([step])) { found.push({ sentence: `Raise the target by ${mm(height)}.`, replace: step }); break; }
+    if (free([step])) {
+      found.push({ sentence: `Raise the target by ${mm(height)}.`, replace: step });
+      break;
+    }
   }
   // Where only the way is blocked, an extra point above the target leads round.
   if (!late) {
     for (const height of RAISES_M.slice(3)) {
       const above = raised(scene, move, height);
       if (above === undefined) break;
-      const via: MoveStep = { id: viaId!, type: "move", path: "ptp", target: above.target, speed: "ratio" in move.step.speed ? move.step.speed : { ratio: 0.25 }, blend_m: 0 };
-      if (free([via, move.step])) { found.push({ sentence: `Go there over a point ${mm(height)} above the target.`, insertBefore: [via] }); break; }
+      const via: MoveStep = {
+        id: viaId!,
+        type: "move",
+        path: "ptp",
+        target: above.target,
+        speed: "ratio" in move.step.speed ? move.step.speed : { ratio: 0.25 },
+        blend_m: 0,
+      };
+      if (free([via, move.step])) {
+        found.push({ sentence: `Go there over a point ${mm(height)} above the target.`, insertBefore: [via] });
+        break;
+      }
     }
   }
   return found;

@@ -1,10 +1,24 @@
 import type { Robot } from "../../robots/robot.ts";
 import { Follower } from "../../trajectory/follow.ts";
-import { chooseBranches, ContinuitySolver, withChoice, type Break, type Choice, type Flip } from "../../trajectory/continuity/index.ts";
+import {
+  chooseBranches,
+  ContinuitySolver,
+  withChoice,
+  type Break,
+  type Choice,
+  type Flip,
+} from "../../trajectory/continuity/index.ts";
 import { GoalFinder } from "../../trajectory/goal.ts";
 import { resolveMove, type Move, type PlanContext } from "../../trajectory/moves.ts";
 import type { Plan } from "../../trajectory/plan.ts";
-import { PlanWriter, inRuns, type MoveHappening, type FlowPart, type PlanNote, type PlanOptions } from "../../trajectory/planner.ts";
+import {
+  PlanWriter,
+  inRuns,
+  type MoveHappening,
+  type FlowPart,
+  type PlanNote,
+  type PlanOptions,
+} from "../../trajectory/planner.ts";
 import { PATH_TOLERANCE_M, RunPlanner } from "../../trajectory/run.ts";
 import type { RunStop } from "../../trajectory/run-path.ts";
 import { flow, type Visit } from "../flow.ts";
@@ -12,15 +26,25 @@ import type { MoveStep, Program, Step } from "../program.ts";
 import { everyStep } from "../walk.ts";
 
 /** A step that could not be laid out as taught, and when. */
-export interface Obstacle { readonly move: Move; readonly stop: RunStop; readonly at_s: number }
+export interface Obstacle {
+  readonly move: Move;
+  readonly stop: RunStop;
+  readonly at_s: number;
+}
 
 /** A move that no posture of its path gets through, with how far the best gets, or before which the arm would have to turn over. */
 export type Impasse = { readonly move: Move; readonly broken: Break } | { readonly move: Move; readonly flip: Flip };
 
-export interface Ends { readonly from_rad: Float64Array; readonly to_rad: Float64Array }
+export interface Ends {
+  readonly from_rad: Float64Array;
+  readonly to_rad: Float64Array;
+}
 
 /** One carrying out of a step that is carried out more than once, or at the place of a pallet. */
-export interface Turn { readonly written: Step; readonly visits: readonly Visit[] }
+export interface Turn {
+  readonly written: Step;
+  readonly visits: readonly Visit[];
+}
 
 /**
  * A whole program laid out as far as it goes, so that every step can be judged. A step that is carried out again gets
@@ -68,16 +92,21 @@ const SAME_RAD = 1e-9;
  * out, and what follows from every posture they lead to. Postures are chosen as `planProgram` chooses them.
  */
 export function layOut(program: Program, robot: Robot, options: LayoutOptions = {}): Layout {
-  const sheet = new Sheet(program, robot, options), count = Math.max(1, Array.from(everyStep(program)).length);
+  const sheet = new Sheet(program, robot, options);
+  const count = Math.max(1, Array.from(everyStep(program)).length);
   const goesOn = (): boolean => {
     if (options.cancelled?.() === true) return false;
     options.onProgress?.(sheet.evaluated.size / count);
     return true;
   };
   // Postures are chosen over all that is done one after the other: from decision to decision.
-  let complete = true, parts: LinearPart[] = [];
+  let complete = true;
+  let parts: LinearPart[] = [];
   for (const part of inRuns(flow(program, { rounds: ROUNDS, mostSteps: MOST_LAID_OUT }))) {
-    if (part.kind === "run" || part.kind === "step" || part.kind === "passed") { parts.push(part); continue; }
+    if (part.kind === "run" || part.kind === "step" || part.kind === "passed") {
+      parts.push(part);
+      continue;
+    }
     complete = sheet.section(parts, goesOn) && goesOn();
     parts = [];
     if (!complete) break;
@@ -90,7 +119,10 @@ export function layOut(program: Program, robot: Robot, options: LayoutOptions = 
 type LinearPart = Extract<FlowPart, { kind: "run" | "step" | "passed" }>;
 type Turning = Exclude<FlowPart, LinearPart>;
 /** A posture the robot may be in, and how it was chosen to go on from there. */
-interface Chain { readonly q: Float64Array; readonly choice: Choice | undefined }
+interface Chain {
+  readonly q: Float64Array;
+  readonly choice: Choice | undefined;
+}
 
 class Sheet {
   readonly evaluated = new Set<string>();
@@ -117,7 +149,11 @@ class Sheet {
   constructor(program: Program, robot: Robot, options: LayoutOptions) {
     this.program = program;
     this.robot = robot;
-    this.context = { tools: program.tools, frames: program.frames, ...(options.worldFromBase === undefined ? {} : { worldFromBase: options.worldFromBase }) };
+    this.context = {
+      tools: program.tools,
+      frames: program.frames,
+      ...(options.worldFromBase === undefined ? {} : { worldFromBase: options.worldFromBase }),
+    };
     this.writer = new PlanWriter(robot, options);
     this.planner = new RunPlanner(robot, options.tolerance_m ?? PATH_TOLERANCE_M);
     this.goals = new GoalFinder(robot, new Follower(robot.arm));
@@ -127,8 +163,15 @@ class Sheet {
 
   /** What is done one after the other, from every posture the robot may be in. @returns false when `goesOn` did. */
   section(parts: readonly LinearPart[], goesOn: () => boolean): boolean {
-    const runs = parts.flatMap(part => (part.kind === "run" ? [part.moves.map(({ step }) => resolveMove(step, this.robot, this.context))] : []));
-    let chains: readonly Chain[] = this.postures.map(q => ({ q, choice: chooseBranches(runs, this.robot, q, this.solver) })), run = 0, first = 0;
+    const runs = parts.flatMap(part =>
+      part.kind === "run" ? [part.moves.map(({ step }) => resolveMove(step, this.robot, this.context))] : [],
+    );
+    let chains: readonly Chain[] = this.postures.map(q => ({
+      q,
+      choice: chooseBranches(runs, this.robot, q, this.solver),
+    }));
+    let run = 0;
+    let first = 0;
     for (const part of parts) {
       if (!goesOn()) return false;
       if (part.kind === "run") {
@@ -143,7 +186,9 @@ class Sheet {
   /** Decisions and ends. */
   turn(happening: Turning): void {
     switch (happening.kind) {
-      case "fork": this.forks.push({ before: this.postures, after: [] }); return;
+      case "fork":
+        this.forks.push({ before: this.postures, after: [] });
+        return;
       case "other": {
         const fork = this.forks.at(-1)!;
         fork.after = this.postures;
@@ -156,7 +201,8 @@ class Sheet {
         this.postures = after.slice(0, MOST_POSTURES).map(({ q }) => q);
         return this.stand(this.postures);
       }
-      case "end": this.postures = [];
+      case "end":
+        this.postures = [];
     }
   }
 
@@ -169,13 +215,22 @@ class Sheet {
     this.evaluated.add(happening.step.id);
   }
 
-  private run(run: readonly MoveHappening[], resolved: readonly Move[], chains: readonly Chain[], first: number): readonly Chain[] {
+  private run(
+    run: readonly MoveHappening[],
+    resolved: readonly Move[],
+    chains: readonly Chain[],
+    first: number,
+  ): readonly Chain[] {
     const ends: Chain[] = [];
     for (const { q, choice } of chains) {
       this.writer.jumpTo(q);
-      const moves = run.map((happening, i) => this.own(happening, resolved[i]!)), chosen = choice === undefined ? moves : withChoice(moves, choice, first);
+      const moves = run.map((happening, i) => this.own(happening, resolved[i]!));
+      const chosen = choice === undefined ? moves : withChoice(moves, choice, first);
       for (const move of chosen) this.moves.set(move.step.id, move);
-      if (choice !== undefined) { this.noteImpasses(choice, chosen, first); this.noteEnds(choice, chosen, first, q); }
+      if (choice !== undefined) {
+        this.noteImpasses(choice, chosen, first);
+        this.noteEnds(choice, chosen, first, q);
+      }
       this.lay(chosen);
       ends.push({ q: this.writer.q.slice(), choice });
     }
@@ -187,19 +242,39 @@ class Sheet {
 
   private noteEnds({ way }: Choice, moves: readonly Move[], first: number, q: Float64Array): void {
     for (let i = 0; i < moves.length; i++) {
-      const from_rad = first + i === 0 ? q : way.ends[first + i - 1], to_rad = way.ends[first + i];
+      const from_rad = first + i === 0 ? q : way.ends[first + i - 1];
+      const to_rad = way.ends[first + i];
       if (from_rad !== undefined && to_rad !== undefined) this.ends.set(moves[i]!.step.id, { from_rad, to_rad });
     }
   }
 
   private noteImpasses({ turning, broken }: Choice, moves: readonly Move[], first: number): void {
-    for (const one of broken) { const move = moves[one.move - first]; if (move !== undefined) this.impasses.push({ move, broken: one }); }
-    for (const flip of turning) { const move = moves[flip.move - first]; if (move !== undefined) this.impasses.push({ move, flip }); }
+    for (const one of broken) {
+      const move = moves[one.move - first];
+      if (move !== undefined) this.impasses.push({ move, broken: one });
+    }
+    for (const flip of turning) {
+      const move = moves[flip.move - first];
+      if (move !== undefined) this.impasses.push({ move, flip });
+    }
   }
 
   finish(complete: boolean): Layout {
     const { writer, obstacles, impasses, ends, moves, starts, turns, evaluated, unjudged } = this;
-    return { plan: writer.plan(this.program.robot), notes: writer.notes, obstacles, impasses, ends, moves, starts, turns, evaluated, unjudged, complete, cut: this.made > MOST_LAID_OUT ? MOST_LAID_OUT : undefined };
+    return {
+      plan: writer.plan(this.program.robot),
+      notes: writer.notes,
+      obstacles,
+      impasses,
+      ends,
+      moves,
+      starts,
+      turns,
+      evaluated,
+      unjudged,
+      complete,
+      cut: this.made > MOST_LAID_OUT ? MOST_LAID_OUT : undefined,
+    };
   }
 
   private stand(postures: readonly Float64Array[]): void {
@@ -222,7 +297,8 @@ class Sheet {
     while (rest.length > 0) {
       const stop = this.write(rest);
       if (stop === undefined) return;
-      const at = stop.move, move = rest[at]!;
+      const at = stop.move;
+      const move = rest[at]!;
       if (stop.kind === "goal" && stop.goal.beyond_rad !== undefined) {
         // It fails by joint limits only: the path is laid out beyond them.
         obstacles.push({ move, stop, at_s: writer.now_s });
@@ -241,9 +317,11 @@ class Sheet {
   }
 
   private write(run: readonly Move[]): RunStop | undefined {
-    const first = this.writer.q.slice(), answer = this.planner.plan(run, this.writer.q, true);
+    const first = this.writer.q.slice();
+    const answer = this.planner.plan(run, this.writer.q, true);
     if (answer.kind === "stopped") return answer.stop;
-    for (let k = 0; k < run.length; k++) this.starts.set(run[k]!.step.id, k === 0 ? first : answer.run.parts[k]!.q_rad.slice(0, first.length));
+    for (let k = 0; k < run.length; k++)
+      this.starts.set(run[k]!.step.id, k === 0 ? first : answer.run.parts[k]!.q_rad.slice(0, first.length));
     this.writer.run(answer.run.parts, answer.run.slowed);
     return undefined;
   }
@@ -251,6 +329,7 @@ class Sheet {
 
 function distinct<T extends { readonly q: Float64Array }>(all: readonly T[]): readonly T[] {
   const kept: T[] = [];
-  for (const one of all) if (!kept.some(other => other.q.every((q, j) => Math.abs(q - one.q[j]!) <= SAME_RAD))) kept.push(one);
+  for (const one of all)
+    if (!kept.some(other => other.q.every((q, j) => Math.abs(q - one.q[j]!) <= SAME_RAD))) kept.push(one);
   return kept;
 }

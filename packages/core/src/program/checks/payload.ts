@@ -9,9 +9,19 @@ export function checkPayload(scene: CheckScene): void {
     if (step.type !== "payload") continue;
     const base = { value: step.mass_kg, unit: "kg", at_s: startOf(scene, step.id), repairs: [] } as const;
     if (step.mass_kg > payloadMax_kg) {
-      scene.add(step.id, "bad", { ...base, code: "payload.too-heavy", limit: payloadMax_kg, sentence: `The load is ${step.mass_kg} kg; the ${name} lifts at most ${payloadMax_kg} kg.` });
+      scene.add(step.id, "bad", {
+        ...base,
+        code: "payload.too-heavy",
+        limit: payloadMax_kg,
+        sentence: `The load is ${step.mass_kg} kg; the ${name} lifts at most ${payloadMax_kg} kg.`,
+      });
     } else if (step.mass_kg > payload_kg) {
-      scene.add(step.id, "warn", { ...base, code: "payload.reduced-speed", limit: payload_kg, sentence: `The load is ${step.mass_kg} kg; above ${payload_kg} kg the ${name} moves at reduced speed.` });
+      scene.add(step.id, "warn", {
+        ...base,
+        code: "payload.reduced-speed",
+        limit: payload_kg,
+        sentence: `The load is ${step.mass_kg} kg; above ${payload_kg} kg the ${name} moves at reduced speed.`,
+      });
     }
   }
 }

@@ -19,7 +19,8 @@ export interface CheckScene {
 
 /** A motion of the plan with the step it belongs to. */
 export function* motions(scene: CheckScene): Generator<MotionSegment> {
-  for (const segment of scene.layout.plan.segments) if (segment.kind === "motion" && segment.times_s.length > 1) yield segment;
+  for (const segment of scene.layout.plan.segments)
+    if (segment.kind === "motion" && segment.times_s.length > 1) yield segment;
 }
 
 /** When a step begins for the first time; 0 for one that is not in the plan. */

@@ -9,7 +9,8 @@ import { metresPerSecond, seconds, type CheckScene } from "./scene.ts";
  * @param stretch by how much longer than planned a step of given duration has to take.
  */
 export function slower(scene: CheckScene, step: MoveStep, factor: number, stretch = 1): Repair[] {
-  const spare = 1.02, speed = step.speed;
+  const spare = 1.02;
+  const speed = step.speed;
   const replace = (next: Speed, sentence: string): Repair[] => [{ sentence, replace: { ...step, speed: next } }];
   if ("mps" in speed) {
     const mps = floored(speed.mps / (factor * spare));
@@ -20,7 +21,9 @@ export function slower(scene: CheckScene, step: MoveStep, factor: number, stretc
     return replace({ ratio }, `Lower the speed to ${(ratio * 100).toPrecision(2)} %.`);
   }
   // A duration that was too short was not kept: the plan's own is the shortest there is.
-  const least_s = scene.layout.plan.segments.filter(segment => segment.step === step.id).reduce((sum, segment) => sum + segment.duration_s, 0);
+  const least_s = scene.layout.plan.segments
+    .filter(segment => segment.step === step.id)
+    .reduce((sum, segment) => sum + segment.duration_s, 0);
   const time_s = Math.ceil(least_s * stretch * spare * 100) / 100;
   return replace({ time_s }, `Give it ${seconds(time_s)}.`);
 }

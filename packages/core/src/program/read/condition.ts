@@ -7,11 +7,17 @@ export function readCondition(reader: Reader, value: unknown, path: string, what
   if (fields === undefined) return undefined;
   reader.onlyKeys(fields, path, `the condition of ${what}`, ["signal", "is", "above", "below"]);
   const signal = reader.name(fields.signal, `${path}.signal`, `the signal of ${what}`);
-  const given = (["is", "above", "below"] as const).filter(key => fields[key] !== undefined), key = given[0];
-  if (key === undefined || given.length !== 1) return reader.fault(path, `the condition of ${what} has exactly one of is, above and below; here are ${given.length} of them.`);
+  const given = (["is", "above", "below"] as const).filter(key => fields[key] !== undefined);
+  const key = given[0];
+  if (key === undefined || given.length !== 1)
+    return reader.fault(
+      path,
+      `the condition of ${what} has exactly one of is, above and below; here are ${given.length} of them.`,
+    );
   if (key === "is") {
     const { is } = fields;
-    if (typeof is !== "boolean") return reader.fault(`${path}.is`, `“is” of ${what} is true or false; here it is ${reader.shown(is)}.`);
+    if (typeof is !== "boolean")
+      return reader.fault(`${path}.is`, `“is” of ${what} is true or false; here it is ${reader.shown(is)}.`);
     return signal === undefined ? undefined : { signal, is };
   }
   const level = reader.number(fields[key], `${path}.${key}`, `“${key}” of ${what}`, "");

@@ -8,7 +8,10 @@ const QUATERNION_SLACK = 1e-3;
 export type Fields = Readonly<Record<string, unknown>>;
 
 /** The names of a type's fields, checked against the type: `keys<Step>()("id", "type")`. */
-export const keys = <T>() => (...names: readonly (T extends unknown ? keyof T & string : never)[]): readonly string[] => names;
+export const keys =
+  <T>() =>
+  (...names: readonly (T extends unknown ? keyof T & string : never)[]): readonly string[] =>
+    names;
 
 /**
  * Looks at unknown values and collects one sentence per fault. Every method returns undefined when the value cannot be
@@ -17,11 +20,14 @@ export const keys = <T>() => (...names: readonly (T extends unknown ? keyof T & 
 export class Reader {
   readonly faults: { readonly path: string; readonly sentence: string }[] = [];
   private readonly most: number;
-  constructor(most: number) { this.most = most; }
+  constructor(most: number) {
+    this.most = most;
+  }
 
   fault(path: string, sentence: string): undefined {
     // Callers name things as inside a sentence ("the target of step 3"); here the sentence begins.
-    if (this.faults.length < this.most) this.faults.push({ path, sentence: sentence.charAt(0).toUpperCase() + sentence.slice(1) });
+    if (this.faults.length < this.most)
+      this.faults.push({ path, sentence: sentence.charAt(0).toUpperCase() + sentence.slice(1) });
     return undefined;
   }
 
@@ -44,7 +50,11 @@ export class Reader {
 
   number(value: unknown, path: string, what: string, unit: string): number | undefined {
     return typeof value === "number" && Number.isFinite(value)
-      ? value : this.fault(path, `${what} is a finite number${unit === "" ? "" : ` [${unit}]`}; here it is ${this.shown(value)}.`);
+      ? value
+      : this.fault(
+          path,
+          `${what} is a finite number${unit === "" ? "" : ` [${unit}]`}; here it is ${this.shown(value)}.`,
+        );
   }
 
   text(value: unknown, path: string, what: string): string | undefined {
@@ -53,13 +63,18 @@ export class Reader {
 
   /** A text that something else refers to by: not empty. */
   name(value: unknown, path: string, what: string): string | undefined {
-    return typeof value === "string" && value !== "" ? value : this.fault(path, `${what} is a text that is not empty; here it is ${this.shown(value)}.`);
+    return typeof value === "string" && value !== ""
+      ? value
+      : this.fault(path, `${what} is a text that is not empty; here it is ${this.shown(value)}.`);
   }
 
   onlyKeys(fields: Fields, path: string, what: string, known: readonly string[]): void {
     for (const key of Object.keys(fields)) {
       if (!known.includes(key) && !/^(\$|_|x-)/.test(key)) {
-        this.fault(path === "" ? key : `${path}.${key}`, `${what} has no field “${key}”; it can have ${known.join(", ")}.`);
+        this.fault(
+          path === "" ? key : `${path}.${key}`,
+          `${what} has no field “${key}”; it can have ${known.join(", ")}.`,
+        );
       }
     }
   }
@@ -67,7 +82,8 @@ export class Reader {
   numbers(value: unknown, path: string, what: string, unit: string, count: number | undefined): number[] | undefined {
     const list = this.list(value, path, what);
     if (list === undefined) return undefined;
-    if (count !== undefined && list.length !== count) return this.fault(path, `${what} has ${count} numbers; here it has ${list.length}.`);
+    if (count !== undefined && list.length !== count)
+      return this.fault(path, `${what} has ${count} numbers; here it has ${list.length}.`);
     const numbers: number[] = [];
     for (let i = 0; i < list.length; i++) {
       const number = this.number(list[i], `${path}[${i}]`, `Number ${i + 1} of ${what}`, unit);
@@ -76,7 +92,11 @@ export class Reader {
     return numbers.length === list.length ? numbers : undefined;
   }
 
-  pose<Into extends string, From extends string>(value: unknown, path: string, what: string): Pose<Into, From> | undefined {
+  pose<Into extends string, From extends string>(
+    value: unknown,
+    path: string,
+    what: string,
+  ): Pose<Into, From> | undefined {
     const fields = this.object(value, path, what);
     if (fields === undefined) return undefined;
     this.onlyKeys(fields, path, what, ["position", "quaternion"]);
@@ -86,7 +106,10 @@ export class Reader {
     const [x, y, z, w] = quaternion as Quaternion;
     const length = Math.hypot(x, y, z, w);
     if (!(Math.abs(length - 1) <= QUATERNION_SLACK)) {
-      return this.fault(`${path}.quaternion`, `The quaternion of ${what} has length 1; here it has ${length.toPrecision(4)}.`);
+      return this.fault(
+        `${path}.quaternion`,
+        `The quaternion of ${what} has length 1; here it has ${length.toPrecision(4)}.`,
+      );
     }
     // What is already a unit quaternion keeps its bits, so that reading and writing again changes nothing.
     const unit: Quaternion = Math.abs(length - 1) < 1e-12 ? [x, y, z, w] : normalizeQuaternion([x, y, z, w]);
@@ -94,4 +117,5 @@ export class Reader {
   }
 }
 
-export const isFields = (value: unknown): value is Fields => value !== null && typeof value === "object" && !Array.isArray(value);
+export const isFields = (value: unknown): value is Fields =>
+  value !== null && typeof value === "object" && !Array.isArray(value);

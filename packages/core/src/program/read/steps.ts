@@ -1,5 +1,17 @@
 import type { Vector3 } from "../../spatial/vector.ts";
-import { STEP_TYPES, type CallStep, type IfStep, type MessageStep, type PalletStep, type PayloadStep, type RepeatStep, type SetStep, type Step, type StopStep, type WaitForStep } from "../program.ts";
+import {
+  STEP_TYPES,
+  type CallStep,
+  type IfStep,
+  type MessageStep,
+  type PalletStep,
+  type PayloadStep,
+  type RepeatStep,
+  type SetStep,
+  type Step,
+  type StopStep,
+  type WaitForStep,
+} from "../program.ts";
 import { readCondition } from "./condition.ts";
 import { readMove } from "./move.ts";
 import { keys, type Fields, type Reader } from "./reader.ts";
@@ -13,11 +25,24 @@ const MOST_TIMES = 1_000_000_000;
 
 /** What a step says beside its id, name and group. */
 type Body<S> = S extends Step ? Omit<S, "id" | "name" | "group"> : never;
-type BodyReader = (reader: Reader, fields: Fields, path: string, what: string, around: Surroundings) => Body<Step> | undefined;
+type BodyReader = (
+  reader: Reader,
+  fields: Fields,
+  path: string,
+  what: string,
+  around: Surroundings,
+) => Body<Step> | undefined;
 
 /** A list of steps, with all that is inside them. */
-export function readSteps(reader: Reader, value: unknown, path: string, what: string, around: Surroundings): readonly Step[] {
-  const list = reader.list(value, path, what), steps: Step[] = [];
+export function readSteps(
+  reader: Reader,
+  value: unknown,
+  path: string,
+  what: string,
+  around: Surroundings,
+): readonly Step[] {
+  const list = reader.list(value, path, what);
+  const steps: Step[] = [];
   if (list === undefined) return steps;
   if (around.depth > DEEPEST) {
     reader.fault(path, `Blocks stand in blocks ${DEEPEST} deep at most.`);
@@ -31,20 +56,41 @@ export function readSteps(reader: Reader, value: unknown, path: string, what: st
 }
 
 function readStep(reader: Reader, value: unknown, path: string, index: number, around: Surroundings): Step | undefined {
-  const { seen, depth } = around, fields = reader.object(value, path, depth === 0 ? `step ${index + 1}` : `step ${index + 1} of its block`);
+  const { seen, depth } = around;
+  const fields = reader.object(value, path, depth === 0 ? `step ${index + 1}` : `step ${index + 1} of its block`);
   if (fields === undefined) return undefined;
-  const number = seen.size + 1, id = reader.name(fields.id, `${path}.id`, `the id of step ${number}`) ?? "";
-  const what = id === "" ? `step ${number}` : `step “${id}”`, earlier = seen.get(id);
-  if (id !== "" && earlier !== undefined) reader.fault(`${path}.id`, `${what} exists twice: as number ${earlier} and as number ${number}.`);
+  const number = seen.size + 1;
+  const id = reader.name(fields.id, `${path}.id`, `the id of step ${number}`) ?? "";
+  const what = id === "" ? `step ${number}` : `step “${id}”`;
+  const earlier = seen.get(id);
+  if (id !== "" && earlier !== undefined)
+    reader.fault(`${path}.id`, `${what} exists twice: as number ${earlier} and as number ${number}.`);
   // A step without an id counts as well.
   seen.set(id === "" || earlier !== undefined ? `\0${number}` : id, number);
   const type = STEP_TYPES.find(known => known === fields.type);
-  if (type === undefined) return reader.fault(`${path}.type`, `${what} is of type ${reader.shown(fields.type)}; a step is one of ${STEP_TYPES.join(", ")}.`);
+  if (type === undefined)
+    return reader.fault(
+      `${path}.type`,
+      `${what} is of type ${reader.shown(fields.type)}; a step is one of ${STEP_TYPES.join(", ")}.`,
+    );
   const body = READERS[type](reader, fields, path, what, around);
-  return body === undefined ? undefined : { id, ...optionalText(reader, fields, "name", path, what), ...optionalText(reader, fields, "group", path, what), ...body };
+  return body === undefined
+    ? undefined
+    : {
+        id,
+        ...optionalText(reader, fields, "name", path, what),
+        ...optionalText(reader, fields, "group", path, what),
+        ...body,
+      };
 }
 
-function optionalText<K extends "name" | "group">(reader: Reader, fields: Fields, key: K, path: string, what: string): { readonly [k in K]?: string } {
+function optionalText<K extends "name" | "group">(
+  reader: Reader,
+  fields: Fields,
+  key: K,
+  path: string,
+  what: string,
+): { readonly [k in K]?: string } {
   if (fields[key] === undefined) return {};
   const text = reader.text(fields[key], `${path}.${key}`, `the ${key} of ${what}`);
   const found: { [k in K]?: string } = {};
@@ -52,7 +98,11 @@ function optionalText<K extends "name" | "group">(reader: Reader, fields: Fields
   return found;
 }
 
-const inside = (around: Surroundings, open: readonly string[] = around.open): Surroundings => ({ ...around, open, depth: around.depth + 1 });
+const inside = (around: Surroundings, open: readonly string[] = around.open): Surroundings => ({
+  ...around,
+  open,
+  depth: around.depth + 1,
+});
 
 const READERS: Readonly<Record<Step["type"], BodyReader>> = {
   move: readMove,
@@ -65,35 +115,56 @@ const READERS: Readonly<Record<Step["type"], BodyReader>> = {
   gripper(reader, fields, path, what) {
     reader.onlyKeys(fields, path, what, [...BASE, "closed"]);
     if (typeof fields.closed === "boolean") return { type: "gripper", closed: fields.closed };
-    return reader.fault(`${path}.closed`, `“closed” of ${what} is true or false; here it is ${reader.shown(fields.closed)}.`);
+    return reader.fault(
+      `${path}.closed`,
+      `“closed” of ${what} is true or false; here it is ${reader.shown(fields.closed)}.`,
+    );
   },
   set(reader, fields, path, what) {
     reader.onlyKeys(fields, path, what, keys<SetStep>()(...BASE, "signal", "to", "pulse_s"));
-    const signal = reader.name(fields.signal, `${path}.signal`, `the signal of ${what}`), { to } = fields;
-    if (typeof to !== "boolean" && !(typeof to === "number" && Number.isFinite(to))) return reader.fault(`${path}.to`, `${what} sets its signal to true, false or a finite number; here it is ${reader.shown(to)}.`);
+    const signal = reader.name(fields.signal, `${path}.signal`, `the signal of ${what}`);
+    const { to } = fields;
+    if (typeof to !== "boolean" && !(typeof to === "number" && Number.isFinite(to)))
+      return reader.fault(
+        `${path}.to`,
+        `${what} sets its signal to true, false or a finite number; here it is ${reader.shown(to)}.`,
+      );
     if (signal === undefined) return undefined;
     if (fields.pulse_s === undefined) return { type: "set", signal, to };
     const pulse_s = reader.number(fields.pulse_s, `${path}.pulse_s`, `the pulse of ${what}`, "s");
     if (pulse_s === undefined) return undefined;
-    if (!(pulse_s > 0)) return reader.fault(`${path}.pulse_s`, `the pulse of ${what} is longer than 0 s; here it is ${pulse_s}.`);
-    return typeof to === "boolean" ? { type: "set", signal, to, pulse_s } : reader.fault(`${path}.pulse_s`, `${what} sets a number; only true and false can be a pulse.`);
+    if (!(pulse_s > 0))
+      return reader.fault(`${path}.pulse_s`, `the pulse of ${what} is longer than 0 s; here it is ${pulse_s}.`);
+    return typeof to === "boolean"
+      ? { type: "set", signal, to, pulse_s }
+      : reader.fault(`${path}.pulse_s`, `${what} sets a number; only true and false can be a pulse.`);
   },
   "wait-for"(reader, fields, path, what) {
     reader.onlyKeys(fields, path, what, keys<WaitForStep>()(...BASE, "when", "timeout_s"));
     const when = readCondition(reader, fields.when, `${path}.when`, what);
     if (fields.timeout_s === undefined) return when === undefined ? undefined : { type: "wait-for", when };
     const timeout_s = reader.number(fields.timeout_s, `${path}.timeout_s`, `the longest wait of ${what}`, "s");
-    if (timeout_s !== undefined && !(timeout_s > 0)) reader.fault(`${path}.timeout_s`, `the longest wait of ${what} is more than 0 s; here it is ${timeout_s}.`);
+    if (timeout_s !== undefined && !(timeout_s > 0))
+      reader.fault(`${path}.timeout_s`, `the longest wait of ${what} is more than 0 s; here it is ${timeout_s}.`);
     return when === undefined || timeout_s === undefined ? undefined : { type: "wait-for", when, timeout_s };
   },
   payload(reader, fields, path, what) {
     reader.onlyKeys(fields, path, what, keys<PayloadStep>()(...BASE, "mass_kg", "center_m", "inertia_kgm2"));
     const mass_kg = reader.number(fields.mass_kg, `${path}.mass_kg`, `the payload of ${what}`, "kg");
     const center_m = reader.numbers(fields.center_m, `${path}.center_m`, `the centre of mass of ${what}`, "m", 3);
-    const inertia = fields.inertia_kgm2 === undefined ? undefined : reader.numbers(fields.inertia_kgm2, `${path}.inertia_kgm2`, `the inertia of ${what}`, "kg·m²", 6);
+    const inertia =
+      fields.inertia_kgm2 === undefined
+        ? undefined
+        : reader.numbers(fields.inertia_kgm2, `${path}.inertia_kgm2`, `the inertia of ${what}`, "kg·m²", 6);
     if (mass_kg === undefined || center_m === undefined) return undefined;
-    if (mass_kg < 0) return reader.fault(`${path}.mass_kg`, `the payload of ${what} is 0 kg or more; here it is ${mass_kg} kg.`);
-    return { type: "payload", mass_kg, center_m: center_m as Vector3, ...(inertia === undefined ? {} : { inertia_kgm2: inertia as [number, number, number, number, number, number] }) };
+    if (mass_kg < 0)
+      return reader.fault(`${path}.mass_kg`, `the payload of ${what} is 0 kg or more; here it is ${mass_kg} kg.`);
+    return {
+      type: "payload",
+      mass_kg,
+      center_m: center_m as Vector3,
+      ...(inertia === undefined ? {} : { inertia_kgm2: inertia as [number, number, number, number, number, number] }),
+    };
   },
   message(reader, fields, path, what) {
     reader.onlyKeys(fields, path, what, keys<MessageStep>()(...BASE, "text"));
@@ -114,28 +185,52 @@ const READERS: Readonly<Record<Step["type"], BodyReader>> = {
     const routine = reader.name(fields.routine, `${path}.routine`, `the routine of ${what}`);
     if (routine === undefined) return undefined;
     if (around.routines.has(routine)) return { type: "call", routine };
-    return reader.fault(`${path}.routine`, `${what} calls the routine “${routine}”, which the program does not have; it has ${listed(around.routines)}.`);
+    return reader.fault(
+      `${path}.routine`,
+      `${what} calls the routine “${routine}”, which the program does not have; it has ${listed(around.routines)}.`,
+    );
   },
   repeat(reader, fields, path, what, around) {
     reader.onlyKeys(fields, path, what, keys<RepeatStep>()(...BASE, "times", "steps"));
-    const steps = readSteps(reader, fields.steps, `${path}.steps`, `the list of steps of ${what}`, inside(around)), { times } = fields;
+    const steps = readSteps(reader, fields.steps, `${path}.steps`, `the list of steps of ${what}`, inside(around));
+    const { times } = fields;
     if (times === "forever") return { type: "repeat", times, steps };
-    if (typeof times === "number" && Number.isInteger(times) && times >= 0 && times <= MOST_TIMES) return { type: "repeat", times, steps };
-    return reader.fault(`${path}.times`, `${what} repeats a whole number of times from 0 to ${MOST_TIMES}, or "forever"; here it is ${reader.shown(times)}.`);
+    if (typeof times === "number" && Number.isInteger(times) && times >= 0 && times <= MOST_TIMES)
+      return { type: "repeat", times, steps };
+    return reader.fault(
+      `${path}.times`,
+      `${what} repeats a whole number of times from 0 to ${MOST_TIMES}, or "forever"; here it is ${reader.shown(times)}.`,
+    );
   },
   if(reader, fields, path, what, around) {
     reader.onlyKeys(fields, path, what, keys<IfStep>()(...BASE, "when", "then", "else"));
     const when = readCondition(reader, fields.when, `${path}.when`, what);
     const then = readSteps(reader, fields.then, `${path}.then`, `the list of steps of ${what}`, inside(around));
-    const otherwise = fields.else === undefined ? {} : { else: readSteps(reader, fields.else, `${path}.else`, `the other list of steps of ${what}`, inside(around)) };
+    const otherwise =
+      fields.else === undefined
+        ? {}
+        : {
+            else: readSteps(reader, fields.else, `${path}.else`, `the other list of steps of ${what}`, inside(around)),
+          };
     return when === undefined ? undefined : { type: "if", when, then, ...otherwise };
   },
   pallet(reader, fields, path, what, around) {
     reader.onlyKeys(fields, path, what, keys<PalletStep>()(...BASE, "pallet", "steps"));
     const pallet = reader.name(fields.pallet, `${path}.pallet`, `the pallet of ${what}`) ?? "";
-    if (pallet !== "" && !Object.hasOwn(around.pallets, pallet)) reader.fault(`${path}.pallet`, `${what} names the pallet “${pallet}”, which the program does not have; it has ${listed(Object.keys(around.pallets))}.`);
-    if (around.open.includes(pallet)) reader.fault(`${path}.pallet`, `${what} visits the pallet “${pallet}” inside itself.`);
-    const steps = readSteps(reader, fields.steps, `${path}.steps`, `the list of steps of ${what}`, inside(around, [...around.open, pallet]));
+    if (pallet !== "" && !Object.hasOwn(around.pallets, pallet))
+      reader.fault(
+        `${path}.pallet`,
+        `${what} names the pallet “${pallet}”, which the program does not have; it has ${listed(Object.keys(around.pallets))}.`,
+      );
+    if (around.open.includes(pallet))
+      reader.fault(`${path}.pallet`, `${what} visits the pallet “${pallet}” inside itself.`);
+    const steps = readSteps(
+      reader,
+      fields.steps,
+      `${path}.steps`,
+      `the list of steps of ${what}`,
+      inside(around, [...around.open, pallet]),
+    );
     return { type: "pallet", pallet, steps };
   },
 };

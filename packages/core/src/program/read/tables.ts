@@ -4,7 +4,11 @@ import { isFields, type Reader } from "./reader.ts";
 
 /** Named poses. Frame "world" and tool "flange" always exist; an entry of that name must not move them. */
 export function readPoses<Into extends string, From extends string>(
-  reader: Reader, value: unknown, path: string, noun: string, builtIn: string,
+  reader: Reader,
+  value: unknown,
+  path: string,
+  noun: string,
+  builtIn: string,
 ): Readonly<Record<string, Pose<Into, From>>> {
   if (value === undefined) return {};
   const fields = reader.object(value, path, `the table of ${noun}s`);
@@ -32,17 +36,25 @@ export function readGroups(reader: Reader, value: unknown): Readonly<Record<stri
   if (fields === undefined) return {};
   const entries: [string, Group][] = [];
   for (const [id, entry] of Object.entries(fields)) {
-    const path = `groups.${id}`, what = `the group “${id}”`;
+    const path = `groups.${id}`;
+    const what = `the group “${id}”`;
     const group = reader.object(entry, path, what);
     if (group === undefined) continue;
     reader.onlyKeys(group, path, what, ["name", "recipe"]);
     const name = reader.text(group.name, `${path}.name`, `the name of group “${id}”`) ?? "";
-    if (group.recipe === undefined) { entries.push([id, { name }]); continue; }
+    if (group.recipe === undefined) {
+      entries.push([id, { name }]);
+      continue;
+    }
     const recipe = reader.object(group.recipe, `${path}.recipe`, `the recipe of group “${id}”`);
     if (recipe === undefined) continue;
     const copy = plain(recipe, 0);
     if (isFields(copy)) entries.push([id, { name, recipe: copy }]);
-    else reader.fault(`${path}.recipe`, `the recipe of group “${id}” holds only JSON with finite numbers, nested ${DEEPEST} deep at most.`);
+    else
+      reader.fault(
+        `${path}.recipe`,
+        `the recipe of group “${id}” holds only JSON with finite numbers, nested ${DEEPEST} deep at most.`,
+      );
   }
   return Object.fromEntries(entries);
 }

@@ -3,7 +3,17 @@ import type { SerialArm } from "../arm.ts";
 import { familyOf } from "../family.ts";
 import type { Robot } from "../robot.ts";
 import { CASTINGS } from "./forms/abb_crb15000_5_95.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_FITTED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, castings, inDegrees, joint, turned } from "./write.ts";
+import {
+  ACCELERATIONS_ASSUMED,
+  FROM_MEMORY,
+  SHAPES_FITTED,
+  TCP_SPEED_ASSUMED,
+  TCP_SPEED_MPS,
+  castings,
+  inDegrees,
+  joint,
+  turned,
+} from "./write.ts";
 
 const arm: SerialArm = {
   name: "ABB GoFa CRB 15000-5/0.95",
@@ -43,7 +53,9 @@ export const abbCrb15000: Robot = {
     "payload, reach, mass, repeatability": FROM_MEMORY,
   },
   assumptions: [
-    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_FITTED,
+    ACCELERATIONS_ASSUMED,
+    TCP_SPEED_ASSUMED,
+    SHAPES_FITTED,
     "To which point the vendor measures the reach of 950 mm is not published; the arm itself is the limit.",
   ],
   shapeError_m: 0.013,

@@ -1,7 +1,19 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
 import { CASTINGS } from "./forms/abb_irb120.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_FITTED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, castings, inRadians, joint, orthoParallel, solid, turned } from "./write.ts";
+import {
+  ACCELERATIONS_ASSUMED,
+  FROM_MEMORY,
+  SHAPES_FITTED,
+  TCP_SPEED_ASSUMED,
+  TCP_SPEED_MPS,
+  castings,
+  inRadians,
+  joint,
+  orthoParallel,
+  solid,
+  turned,
+} from "./write.ts";
 
 export const abbIrb120: Robot = {
   id: "abb_irb120",
@@ -36,19 +48,26 @@ export const abbIrb120: Robot = {
     solid(3.909, [0.00078, -0.00212, 0.10124], [0.0603111, 0.041569, 0.0259548, 9.83431e-6, 5.72407e-5, -0.00050497]),
     solid(2.944, [0.02281, 0.00106, 0.05791], [0.00835606, 0.016713, 0.0126984, -8.01545e-5, 0.00142884, -0.000182227]),
     solid(1.328, [0.2247, 0.00015, 0.00041], [0.00284661, 0.00401346, 0.0052535, -2.12765e-5, -1.6435e-5, 1.31336e-5]),
-    solid(0.546, [-0.00109, 3.68e-5, 6.22e-5], [0.000404891, 0.000892825, 0.000815468, 1.61943e-6, 8.46805e-7, -1.51792e-8]),
+    solid(
+      0.546,
+      [-0.00109, 3.68e-5, 6.22e-5],
+      [0.000404891, 0.000892825, 0.000815468, 1.61943e-6, 8.46805e-7, -1.51792e-8],
+    ),
     solid(0.137, [-0.00706, -0.00017, -1.32e-6], [0.001, 0.001, 0.001, 0, 0, 0]),
   ],
   form: castings(CASTINGS, ["casting", "casting", "casting", "casting", "casting", "casting", "metal"]),
   paint: { casting: "#d9612a", dark: "#2b2f31", cover: "#40474a" },
   sources: {
-    "lengths, limits, speeds, masses": "ros-industrial/abb_experimental, irb120_3_58_macro.xacro (Apache-2.0), which quotes ABB ROB0149EN_D, May 2012; masses from the vendor's CAD.",
-    "reach": "580 mm = 270 + √(302² + 70²).",
-    "payload": "The name of the model: 3 kg.",
+    "lengths, limits, speeds, masses":
+      "ros-industrial/abb_experimental, irb120_3_58_macro.xacro (Apache-2.0), which quotes ABB ROB0149EN_D, May 2012; masses from the vendor's CAD.",
+    reach: "580 mm = 270 + √(302² + 70²).",
+    payload: "The name of the model: 3 kg.",
     "mass, repeatability": FROM_MEMORY,
   },
   assumptions: [
-    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_FITTED,
+    ACCELERATIONS_ASSUMED,
+    TCP_SPEED_ASSUMED,
+    SHAPES_FITTED,
     "The inertia of link 6 in the source is a round number, not a measured one.",
   ],
   shapeError_m: 0.014,

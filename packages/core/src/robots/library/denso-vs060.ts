@@ -1,6 +1,15 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_ESTIMATED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, inRadians, joint, orthoParallel } from "./write.ts";
+import {
+  ACCELERATIONS_ASSUMED,
+  FROM_MEMORY,
+  SHAPES_ESTIMATED,
+  TCP_SPEED_ASSUMED,
+  TCP_SPEED_MPS,
+  inRadians,
+  joint,
+  orthoParallel,
+} from "./write.ts";
 
 /** All joints 0 stands straight up; the arm reaches along +x of its base. */
 export const densoVs060: Robot = {
@@ -33,13 +42,11 @@ export const densoVs060: Robot = {
   mass_kg: 28,
   paint: { casting: "#eef0f2", dark: "#22272d", cover: "#2d6fb5" },
   sources: {
-    "lengths, limits, speeds": "DENSORobot/denso_robot_ros, vs060_description/vs060.urdf, commit f6798bd (MIT), by the maker.",
-    "reach": "605 mm = 305 + √(300² + 10²), rounded.",
+    "lengths, limits, speeds":
+      "DENSORobot/denso_robot_ros, vs060_description/vs060.urdf, commit f6798bd (MIT), by the maker.",
+    reach: "605 mm = 305 + √(300² + 10²), rounded.",
     "payload, mass, repeatability": FROM_MEMORY,
   },
-  assumptions: [
-    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_ESTIMATED,
-    "Masses of the links are not published.",
-  ],
+  assumptions: [ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_ESTIMATED, "Masses of the links are not published."],
   shapeError_m: 0.08,
 };

@@ -1,6 +1,15 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_ESTIMATED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, inDegrees, joint, orthoParallel } from "./write.ts";
+import {
+  ACCELERATIONS_ASSUMED,
+  FROM_MEMORY,
+  SHAPES_ESTIMATED,
+  TCP_SPEED_ASSUMED,
+  TCP_SPEED_MPS,
+  inDegrees,
+  joint,
+  orthoParallel,
+} from "./write.ts";
 
 /** All joints 0 stands with the upper arm upright and the forearm level along +y of its base. */
 export const epsonC4A601s: Robot = {
@@ -34,12 +43,15 @@ export const epsonC4A601s: Robot = {
   paint: { casting: "#f1f1ee", dark: "#23272b", cover: "#c9cdd1" },
   sources: {
     "lengths, limits, speeds": "4rtur1t0/ARTE, parameters of the Prosix C4-A60 (LGPL-3.0): the numbers alone.",
-    "zeros and senses": "SPEL+ language reference, TLSet: Tool 0 of six-axis arms; axes of the C8L in a public kinematics catalogue. docs/languages/spel.md.",
-    "reach": "600 mm = 100 + 250 + 250.",
+    "zeros and senses":
+      "SPEL+ language reference, TLSet: Tool 0 of six-axis arms; axes of the C8L in a public kinematics catalogue. docs/languages/spel.md.",
+    reach: "600 mm = 100 + 250 + 250.",
     "payload, mass, repeatability": FROM_MEMORY,
   },
   assumptions: [
-    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_ESTIMATED,
+    ACCELERATIONS_ASSUMED,
+    TCP_SPEED_ASSUMED,
+    SHAPES_ESTIMATED,
     "The senses of joints 4, 5 and 6 are those of one public model of a sister arm.",
     "Masses of the links are not published.",
   ],

@@ -1,7 +1,18 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
 import { CASTINGS } from "./forms/fanuc_lrmate200id.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_FITTED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, castings, inDegrees, joint, orthoParallel, turned } from "./write.ts";
+import {
+  ACCELERATIONS_ASSUMED,
+  FROM_MEMORY,
+  SHAPES_FITTED,
+  TCP_SPEED_ASSUMED,
+  TCP_SPEED_MPS,
+  castings,
+  inDegrees,
+  joint,
+  orthoParallel,
+  turned,
+} from "./write.ts";
 
 /**
  * Joint 3 is counted against the upper arm. The pendant counts it against the horizon: J3 of the pendant = joint 3 − joint 2.
@@ -38,13 +49,16 @@ export const fanucLrmate200id: Robot = {
   form: castings(CASTINGS, ["cover", "casting", "casting", "casting", "casting", "casting", "metal"]),
   paint: { casting: "#f2c21a", dark: "#24282a", cover: "#474c4e" },
   sources: {
-    "lengths, limits, speeds": "ros-industrial/fanuc, lrmate200id_macro.xacro (BSD-3-Clause), which quotes FANUC B-83494EN/03.",
+    "lengths, limits, speeds":
+      "ros-industrial/fanuc, lrmate200id_macro.xacro (BSD-3-Clause), which quotes FANUC B-83494EN/03.",
     "joint 3 against joint 2": "ros-industrial/fanuc, fanuc_driver robot_state.launch: J23_factor 1 for this model.",
     "payload, reach": "7 kg, 717 mm; 50 + 330 + √(335² + 35²) = 716.8 mm.",
     "mass, repeatability": FROM_MEMORY,
   },
   assumptions: [
-    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_FITTED,
+    ACCELERATIONS_ASSUMED,
+    TCP_SPEED_ASSUMED,
+    SHAPES_FITTED,
     "The limits of joint 3 hold for the angle against the upper arm; the limit against the horizon is not published.",
   ],
   shapeError_m: 0.017,

@@ -17,7 +17,21 @@ import { yaskawaGp8 } from "./yaskawa-gp8.ts";
 
 /** Every robot of the library. A new robot is one data file and one line here. */
 export const LIBRARY: readonly Robot[] = [
-  staubliRx90l, staubliRx160, yaskawaGp8, kukaKr6R900, kukaKr6p2, kukaLbrIiwa14, abbIrb120, abbCrb15000, fanucLrmate200id, ur10e, kawasakiRs007l, mitsubishiRv7fl, densoVs060, epsonC4A601s, lolaRl15,
+  staubliRx90l,
+  staubliRx160,
+  yaskawaGp8,
+  kukaKr6R900,
+  kukaKr6p2,
+  kukaLbrIiwa14,
+  abbIrb120,
+  abbCrb15000,
+  fanucLrmate200id,
+  ur10e,
+  kawasakiRs007l,
+  mitsubishiRv7fl,
+  densoVs060,
+  epsonC4A601s,
+  lolaRl15,
 ];
 
 /** The robot of that id, or undefined. */

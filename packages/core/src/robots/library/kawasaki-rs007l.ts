@@ -1,6 +1,16 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_ESTIMATED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, inDegrees, joint, orthoParallel, turned } from "./write.ts";
+import {
+  ACCELERATIONS_ASSUMED,
+  FROM_MEMORY,
+  SHAPES_ESTIMATED,
+  TCP_SPEED_ASSUMED,
+  TCP_SPEED_MPS,
+  inDegrees,
+  joint,
+  orthoParallel,
+  turned,
+} from "./write.ts";
 
 const QUARTER = Math.PI / 2;
 
@@ -33,15 +43,25 @@ export const kawasakiRs007l: Robot = {
   repeatability_m: 30e-6,
   maxTcpSpeed_mps: TCP_SPEED_MPS,
   mass_kg: 37,
-  masses: [{ mass_kg: 8.188 }, { mass_kg: 6.826 }, { mass_kg: 5.236 }, { mass_kg: 5.066 }, { mass_kg: 1.625 }, { mass_kg: 0.625 }],
+  masses: [
+    { mass_kg: 8.188 },
+    { mass_kg: 6.826 },
+    { mass_kg: 5.236 },
+    { mass_kg: 5.066 },
+    { mass_kg: 1.625 },
+    { mass_kg: 0.625 },
+  ],
   paint: { casting: "#f2f2ee", dark: "#22262a", cover: "#c8cdd0" },
   sources: {
-    "lengths, limits, speeds, masses": "Kawasaki-Robotics/khi_robot, rs007l_macro.xacro, commit 57200db (BSD-3-Clause), by the maker.",
-    "reach": "930 mm = 455 + 92.5 + 382.5.",
+    "lengths, limits, speeds, masses":
+      "Kawasaki-Robotics/khi_robot, rs007l_macro.xacro, commit 57200db (BSD-3-Clause), by the maker.",
+    reach: "930 mm = 455 + 92.5 + 382.5.",
     "payload, mass, repeatability": FROM_MEMORY,
   },
   assumptions: [
-    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_ESTIMATED,
+    ACCELERATIONS_ASSUMED,
+    TCP_SPEED_ASSUMED,
+    SHAPES_ESTIMATED,
     "Centres of mass and inertias of the links are not published.",
   ],
   shapeError_m: 0.08,

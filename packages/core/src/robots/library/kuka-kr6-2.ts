@@ -1,6 +1,16 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_ESTIMATED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, inRadians, joint, orthoParallel, turned } from "./write.ts";
+import {
+  ACCELERATIONS_ASSUMED,
+  FROM_MEMORY,
+  SHAPES_ESTIMATED,
+  TCP_SPEED_ASSUMED,
+  TCP_SPEED_MPS,
+  inRadians,
+  joint,
+  orthoParallel,
+  turned,
+} from "./write.ts";
 
 /** A1, A4 and A6 turn by the left hand, as KUKA counts them. */
 export const kukaKr6p2: Robot = {
@@ -33,9 +43,10 @@ export const kukaKr6p2: Robot = {
   mass_kg: 235,
   paint: { casting: "#f0701a", dark: "#2a2d2f", cover: "#3b3e40" },
   sources: {
-    "lengths, limits, speeds": "Numbers of ARTE, KR6_2 parameters; lengths and limits again in robotkinematicscatalogue 1.1.2, KUKA_KR6_2; the arm again in kuka_experimental, kr16_2_macro.xacro. They reproduce the published formulas of the KRC6 teaching system (row M-42).",
-    "reach": "1611 mm; 260 + 680 + √(670² + 35²) = 1610.9 mm.",
-    "payload": "The name of the model: 6 kg.",
+    "lengths, limits, speeds":
+      "Numbers of ARTE, KR6_2 parameters; lengths and limits again in robotkinematicscatalogue 1.1.2, KUKA_KR6_2; the arm again in kuka_experimental, kr16_2_macro.xacro. They reproduce the published formulas of the KRC6 teaching system (row M-42).",
+    reach: "1611 mm; 260 + 680 + √(670² + 35²) = 1610.9 mm.",
+    payload: "The name of the model: 6 kg.",
     "mass, repeatability": FROM_MEMORY,
   },
   assumptions: [ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_ESTIMATED],

@@ -1,7 +1,18 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
 import { CASTINGS } from "./forms/kuka_kr6r900sixx.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_FITTED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, castings, inDegrees, joint, orthoParallel, turned } from "./write.ts";
+import {
+  ACCELERATIONS_ASSUMED,
+  FROM_MEMORY,
+  SHAPES_FITTED,
+  TCP_SPEED_ASSUMED,
+  TCP_SPEED_MPS,
+  castings,
+  inDegrees,
+  joint,
+  orthoParallel,
+  turned,
+} from "./write.ts";
 
 /** A1, A4 and A6 turn by the left hand, as KUKA counts them. */
 export const kukaKr6R900: Robot = {
@@ -35,9 +46,10 @@ export const kukaKr6R900: Robot = {
   form: castings(CASTINGS, ["cover", "casting", "casting", "casting", "casting", "casting", "metal"]),
   paint: { casting: "#f0701a", dark: "#2a2d2f", cover: "#8d8478" },
   sources: {
-    "lengths, limits, speeds": "ros-industrial/kuka_experimental, kr6r900sixx_macro.xacro (Apache-2.0), which quotes KUKA Spez KR AGILUS sixx V12, 26.03.2015.",
-    "reach": "901.5 mm = 25 + 455 + √(420² + 35²).",
-    "payload": "The name of the model: 6 kg.",
+    "lengths, limits, speeds":
+      "ros-industrial/kuka_experimental, kr6r900sixx_macro.xacro (Apache-2.0), which quotes KUKA Spez KR AGILUS sixx V12, 26.03.2015.",
+    reach: "901.5 mm = 25 + 455 + √(420² + 35²).",
+    payload: "The name of the model: 6 kg.",
     "mass, repeatability": FROM_MEMORY,
   },
   assumptions: [ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_FITTED],

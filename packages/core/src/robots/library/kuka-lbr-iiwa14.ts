@@ -3,7 +3,16 @@ import type { SerialArm } from "../arm.ts";
 import { familyOf } from "../family.ts";
 import type { Robot } from "../robot.ts";
 import { CASTINGS } from "./forms/kuka_lbr_iiwa_14_r820.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_FITTED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, castings, inRadians, joint } from "./write.ts";
+import {
+  ACCELERATIONS_ASSUMED,
+  FROM_MEMORY,
+  SHAPES_FITTED,
+  TCP_SPEED_ASSUMED,
+  TCP_SPEED_MPS,
+  castings,
+  inRadians,
+  joint,
+} from "./write.ts";
 
 const arm: SerialArm = {
   name: "KUKA LBR iiwa 14 R820",
@@ -40,10 +49,16 @@ export const kukaLbrIiwa14: Robot = {
   form: castings(CASTINGS, ["casting", "casting", "casting", "casting", "casting", "casting", "casting", "metal"]),
   paint: { casting: "#d4d6d5", dark: "#53585b", cover: "#e8731c" },
   sources: {
-    "lengths, limits, speeds": "ros-industrial/kuka_experimental, lbr_iiwa_14_r820_macro.xacro (Apache-2.0); its sideways steps of 0.436 mm are kept.",
+    "lengths, limits, speeds":
+      "ros-industrial/kuka_experimental, lbr_iiwa_14_r820_macro.xacro (Apache-2.0); its sideways steps of 0.436 mm are kept.",
     "payload, reach": "14 kg, 820 mm = 420 + 400 from the shoulder to the wrist.",
     "mass, repeatability": FROM_MEMORY,
   },
-  assumptions: [ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_FITTED, "Joint torques are not in the source and not checked."],
+  assumptions: [
+    ACCELERATIONS_ASSUMED,
+    TCP_SPEED_ASSUMED,
+    SHAPES_FITTED,
+    "Joint torques are not in the source and not checked.",
+  ],
   shapeError_m: 0.016,
 };

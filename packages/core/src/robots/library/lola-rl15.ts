@@ -1,6 +1,13 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
-import { ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, drivenJoint, orthoParallel, turned } from "./write.ts";
+import {
+  ACCELERATIONS_ASSUMED,
+  TCP_SPEED_ASSUMED,
+  TCP_SPEED_MPS,
+  drivenJoint,
+  orthoParallel,
+  turned,
+} from "./write.ts";
 
 /**
  * Limits, motors, gears and masses are published (rows L-18 … L-20); lengths are not, by anybody: they are made up here.
@@ -14,12 +21,42 @@ export const lolaRl15: Robot = {
   arm: {
     name: "Lola RL15 (stand-in geometry)",
     joints: [
-      drivenJoint("joint_1", [0, 0, 0.85], [0, 0, 1], [-150, 150], { motorTorque_Nm: 17.8, motorSpeed_rpm: 3500, gear: 120, rotorInertia_kgm2: 4.2e-3 }),
-      drivenJoint("joint_2", [0.2, 0, 0], [0, 1, 0], [-120, 80], { motorTorque_Nm: 38.6, motorSpeed_rpm: 2800, gear: 119, rotorInertia_kgm2: 9.0e-3 }),
-      drivenJoint("joint_3", [0, 0, 0.7], [0, 1, 0], [-73, 73], { motorTorque_Nm: 17.8, motorSpeed_rpm: 3500, gear: 119, rotorInertia_kgm2: 9.0e-3 }),
-      drivenJoint("joint_4", [0, 0, 0.15], [1, 0, 0], [-250, 250], { motorTorque_Nm: 3.47, motorSpeed_rpm: 3400, gear: 133.4, rotorInertia_kgm2: 0.8e-3 }),
-      drivenJoint("joint_5", [0.8, 0, 0], [0, 1, 0], [-110, 110], { motorTorque_Nm: 3.47, motorSpeed_rpm: 3400, gear: 219.4, rotorInertia_kgm2: 1e-3 }),
-      drivenJoint("joint_6", [0, 0, 0], [1, 0, 0], [-200, 200], { motorTorque_Nm: 3.47, motorSpeed_rpm: 3400, gear: 53.3, rotorInertia_kgm2: 0.7e-3 }),
+      drivenJoint("joint_1", [0, 0, 0.85], [0, 0, 1], [-150, 150], {
+        motorTorque_Nm: 17.8,
+        motorSpeed_rpm: 3500,
+        gear: 120,
+        rotorInertia_kgm2: 4.2e-3,
+      }),
+      drivenJoint("joint_2", [0.2, 0, 0], [0, 1, 0], [-120, 80], {
+        motorTorque_Nm: 38.6,
+        motorSpeed_rpm: 2800,
+        gear: 119,
+        rotorInertia_kgm2: 9.0e-3,
+      }),
+      drivenJoint("joint_3", [0, 0, 0.7], [0, 1, 0], [-73, 73], {
+        motorTorque_Nm: 17.8,
+        motorSpeed_rpm: 3500,
+        gear: 119,
+        rotorInertia_kgm2: 9.0e-3,
+      }),
+      drivenJoint("joint_4", [0, 0, 0.15], [1, 0, 0], [-250, 250], {
+        motorTorque_Nm: 3.47,
+        motorSpeed_rpm: 3400,
+        gear: 133.4,
+        rotorInertia_kgm2: 0.8e-3,
+      }),
+      drivenJoint("joint_5", [0.8, 0, 0], [0, 1, 0], [-110, 110], {
+        motorTorque_Nm: 3.47,
+        motorSpeed_rpm: 3400,
+        gear: 219.4,
+        rotorInertia_kgm2: 1e-3,
+      }),
+      drivenJoint("joint_6", [0, 0, 0], [1, 0, 0], [-200, 200], {
+        motorTorque_Nm: 3.47,
+        motorSpeed_rpm: 3400,
+        gear: 53.3,
+        rotorInertia_kgm2: 0.7e-3,
+      }),
     ],
     lastJointFromFlange: turned([0.12, 0, 0], [0, Math.PI / 2, 0]),
   },
@@ -34,12 +71,20 @@ export const lolaRl15: Robot = {
   reachMeasuredTo: "wrist",
   repeatability_m: 0,
   maxTcpSpeed_mps: TCP_SPEED_MPS,
-  masses: [{ mass_kg: 347.95 }, { mass_kg: 75.17 }, { mass_kg: 82.34 }, { mass_kg: 46.3 }, { mass_kg: 2.37 }, { mass_kg: 0.9 }],
+  masses: [
+    { mass_kg: 347.95 },
+    { mass_kg: 75.17 },
+    { mass_kg: 82.34 },
+    { mass_kg: 46.3 },
+    { mass_kg: 2.37 },
+    { mass_kg: 0.9 },
+  ],
   madeUpGeometry: true,
   paint: { casting: "#9aa3a8", dark: "#4a5257", cover: "#6b747a" },
   sources: {
     "joint limits, motor speeds": "Machines 2024, 12(7) 480, Table A3.",
-    "masses, motor torques, gears, inertias": "The same, Table A2; motor torque times gear is the printed joint torque.",
+    "masses, motor torques, gears, inertias":
+      "The same, Table A2; motor torque times gear is the printed joint torque.",
     "lengths, reach, zeros, senses": "Made up for an arm of this class.",
   },
   assumptions: [
@@ -47,7 +92,8 @@ export const lolaRl15: Robot = {
     "The paper's speed limits [r/min] are read as speeds of the motors; the table does not say so. Joint speed is motor speed over gear.",
     "Payload and repeatability are not published: 0 is shown.",
     "Centres of mass and inertias of the links are not published.",
-    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED,
+    ACCELERATIONS_ASSUMED,
+    TCP_SPEED_ASSUMED,
     "Link shapes are drawn from the made-up lengths.",
   ],
   shapeError_m: 0.1,

@@ -1,6 +1,15 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_ESTIMATED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, inDegrees, joint, orthoParallel } from "./write.ts";
+import {
+  ACCELERATIONS_ASSUMED,
+  FROM_MEMORY,
+  SHAPES_ESTIMATED,
+  TCP_SPEED_ASSUMED,
+  TCP_SPEED_MPS,
+  inDegrees,
+  joint,
+  orthoParallel,
+} from "./write.ts";
 
 /** All joints 0 stands straight up; the arm reaches along +x of its base. */
 export const mitsubishiRv7fl: Robot = {
@@ -33,13 +42,11 @@ export const mitsubishiRv7fl: Robot = {
   mass_kg: 67,
   paint: { casting: "#f3f2ee", dark: "#25292c", cover: "#c6cacd" },
   sources: {
-    "lengths, limits, speeds": "tork-a/melfa_robot, melfa_description/urdf/rv7fl.xacro, commit 8437e45 (Apache-2.0); a public kinematics catalogue has the same lengths for the RV-7FRL.",
-    "reach": "908 mm = 435 + √(470² + 50²), rounded.",
+    "lengths, limits, speeds":
+      "tork-a/melfa_robot, melfa_description/urdf/rv7fl.xacro, commit 8437e45 (Apache-2.0); a public kinematics catalogue has the same lengths for the RV-7FRL.",
+    reach: "908 mm = 435 + √(470² + 50²), rounded.",
     "payload, mass, repeatability": FROM_MEMORY,
   },
-  assumptions: [
-    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_ESTIMATED,
-    "Masses of the links are not published.",
-  ],
+  assumptions: [ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_ESTIMATED, "Masses of the links are not published."],
   shapeError_m: 0.08,
 };

@@ -1,7 +1,18 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
 import { CASTINGS } from "./forms/staubli_rx160.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_FITTED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, castings, inDegrees, joint, orthoParallel, solid } from "./write.ts";
+import {
+  ACCELERATIONS_ASSUMED,
+  FROM_MEMORY,
+  SHAPES_FITTED,
+  TCP_SPEED_ASSUMED,
+  TCP_SPEED_MPS,
+  castings,
+  inDegrees,
+  joint,
+  orthoParallel,
+  solid,
+} from "./write.ts";
 
 /** All joints 0 stands straight up; the controller counts from the shoulder. */
 export const staubliRx160: Robot = {
@@ -43,12 +54,15 @@ export const staubliRx160: Robot = {
   form: castings(CASTINGS, ["casting", "casting", "casting", "casting", "casting", "cover", "metal"]),
   paint: { casting: "#eaa50c", dark: "#272c30", cover: "#87847f" },
   sources: {
-    "lengths, limits, speeds, torques, masses": "ros-industrial/staubli, rx160_macro.xacro (Apache-2.0), which quotes Stäubli manual D28086504A, 19/06/2012; masses from CAD. Lengths again in rs-opw-kinematics, staubli_rx160.",
-    "reach": "1710 mm to the flange = 150 + 825 + 625 + 110.",
+    "lengths, limits, speeds, torques, masses":
+      "ros-industrial/staubli, rx160_macro.xacro (Apache-2.0), which quotes Stäubli manual D28086504A, 19/06/2012; masses from CAD. Lengths again in rs-opw-kinematics, staubli_rx160.",
+    reach: "1710 mm to the flange = 150 + 825 + 625 + 110.",
     "payload, mass, repeatability": FROM_MEMORY,
   },
   assumptions: [
-    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_FITTED,
+    ACCELERATIONS_ASSUMED,
+    TCP_SPEED_ASSUMED,
+    SHAPES_FITTED,
     "The published masses of the links are those of CAD solids and add up to 155 kg of the robot's 248 kg.",
   ],
   shapeError_m: 0.037,

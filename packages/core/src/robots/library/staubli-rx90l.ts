@@ -21,7 +21,13 @@ export const staubliRx90l: Robot = {
   },
   family: {
     kind: "ortho-parallel",
-    a1_m: 0, a2_m: 0, b_m: 0, c1_m: 0.42, c2_m: 0.45, c3_m: 0.65, c4_m: 0.085,
+    a1_m: 0,
+    a2_m: 0,
+    b_m: 0,
+    c1_m: 0.42,
+    c2_m: 0.45,
+    c3_m: 0.65,
+    c4_m: 0.085,
     offsets_rad: [0, -Math.PI / 2, Math.PI / 2, 0, 0, 0],
     signs: [1, 1, 1, 1, 1, 1],
     formulaFromFlange: pose(),
@@ -37,14 +43,13 @@ export const staubliRx90l: Robot = {
   repeatability_m: 25e-6,
   maxTcpSpeed_mps: 12.6,
   sources: {
-    "a3 = 450 mm, d4 = 650 mm": "The vertical 80.003 mm move hidden in two published #PPOINT lines (IJMMS 10(3) 2017) fits only these lengths.",
-    "shoulder height 420 mm, flange 85 mm": "robotkinematicscatalogue 1.1.2, Staubli_RX90BL; overall height 1185 mm in IJMMS 10(3) 2017.",
+    "a3 = 450 mm, d4 = 650 mm":
+      "The vertical 80.003 mm move hidden in two published #PPOINT lines (IJMMS 10(3) 2017) fits only these lengths.",
+    "shoulder height 420 mm, flange 85 mm":
+      "robotkinematicscatalogue 1.1.2, Staubli_RX90BL; overall height 1185 mm in IJMMS 10(3) 2017.",
     "joint limits, payload, repeatability, TCP speed": "IJMMS 10(3) 2017, Table 1 and Section 3.",
     "joint speeds": "RX90 values 236, 200, 286, 401, 320, 580 °/s; the RX90L is assumed to have the same.",
   },
-  assumptions: [
-    ACCELERATIONS_ASSUMED,
-    SHAPES_ESTIMATED,
-  ],
+  assumptions: [ACCELERATIONS_ASSUMED, SHAPES_ESTIMATED],
   shapeError_m: 0.02,
 };

@@ -3,7 +3,18 @@ import type { SerialArm } from "../arm.ts";
 import { familyOf } from "../family.ts";
 import type { Robot } from "../robot.ts";
 import { CASTINGS } from "./forms/ur10e.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_FITTED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, castings, inDegrees, joint, solid, turned } from "./write.ts";
+import {
+  ACCELERATIONS_ASSUMED,
+  FROM_MEMORY,
+  SHAPES_FITTED,
+  TCP_SPEED_ASSUMED,
+  TCP_SPEED_MPS,
+  castings,
+  inDegrees,
+  joint,
+  solid,
+  turned,
+} from "./write.ts";
 
 /** The angles of the data file, rounded as it rounds them, so that its poses are met to the last digit. */
 const QUARTER = 1.570796327;
@@ -15,8 +26,18 @@ const arm: SerialArm = {
     joint("shoulder_lift_joint", turned([0, 0, 0], [QUARTER, 0, 0]), [0, 0, 1], inDegrees(-360, 360, 120, 330)),
     joint("elbow_joint", [-0.6127, 0, 0], [0, 0, 1], inDegrees(-180, 180, 180, 150)),
     joint("wrist_1_joint", [-0.57155, 0, 0.17415], [0, 0, 1], inDegrees(-360, 360, 180, 54)),
-    joint("wrist_2_joint", turned([0, -0.11985, -2.458164590756244e-11], [QUARTER, 0, 0]), [0, 0, 1], inDegrees(-360, 360, 180, 54)),
-    joint("wrist_3_joint", turned([0, 0.11655, -2.390480459346185e-11], [1.570796326589793, Math.PI, Math.PI]), [0, 0, 1], inDegrees(-360, 360, 180, 54)),
+    joint(
+      "wrist_2_joint",
+      turned([0, -0.11985, -2.458164590756244e-11], [QUARTER, 0, 0]),
+      [0, 0, 1],
+      inDegrees(-360, 360, 180, 54),
+    ),
+    joint(
+      "wrist_3_joint",
+      turned([0, 0.11655, -2.390480459346185e-11], [1.570796326589793, Math.PI, Math.PI]),
+      [0, 0, 1],
+      inDegrees(-360, 360, 180, 54),
+    ),
   ],
   lastJointFromFlange: pose(),
 };
@@ -51,14 +72,17 @@ export const ur10e: Robot = {
   form: castings(CASTINGS, ["casting", "casting", "casting", "casting", "casting", "casting", "metal"]),
   paint: { casting: "#c9ced2", dark: "#33393d", cover: "#5d8fb8" },
   sources: {
-    "lengths": "UniversalRobots/Universal_Robots_ROS2_Description (BSD-3-Clause), config/ur10e/default_kinematics.yaml.",
-    "limits, speeds, torques": "The same, config/ur10e/joint_limits.yaml: UR10e User Manual 5.8 and UR's article on joint torques.",
+    lengths: "UniversalRobots/Universal_Robots_ROS2_Description (BSD-3-Clause), config/ur10e/default_kinematics.yaml.",
+    "limits, speeds, torques":
+      "The same, config/ur10e/joint_limits.yaml: UR10e User Manual 5.8 and UR's article on joint torques.",
     "masses, inertias": "The same, config/ur10e/physical_parameters.yaml.",
     "payload, reach, mass": "10 kg, 1300 mm, 33.5 kg, as published with the pick-and-place system of the X rows.",
-    "repeatability": FROM_MEMORY,
+    repeatability: FROM_MEMORY,
   },
   assumptions: [
-    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_FITTED,
+    ACCELERATIONS_ASSUMED,
+    TCP_SPEED_ASSUMED,
+    SHAPES_FITTED,
     "The elbow is kept within ±180°, as the vendor's own robot file does; the controller allows ±360°.",
     "Each UR10e is calibrated in the factory; these are the lengths of the drawing.",
     "Reach is counted from axis 2 to the wrist centre, where axes 5 and 6 meet; the links would reach 1304 mm.",

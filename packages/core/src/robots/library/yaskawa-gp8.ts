@@ -1,7 +1,18 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
 import { CASTINGS } from "./forms/yaskawa_gp8.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_FITTED, TCP_SPEED_ASSUMED, TCP_SPEED_MPS, castings, inRadians, joint, orthoParallel, turned } from "./write.ts";
+import {
+  ACCELERATIONS_ASSUMED,
+  FROM_MEMORY,
+  SHAPES_FITTED,
+  TCP_SPEED_ASSUMED,
+  TCP_SPEED_MPS,
+  castings,
+  inRadians,
+  joint,
+  orthoParallel,
+  turned,
+} from "./write.ts";
 
 /** Axes S, L, U, R, B, T. The controller counts from the height of axis 2. */
 export const yaskawaGp8: Robot = {
@@ -21,8 +32,12 @@ export const yaskawaGp8: Robot = {
     // Rounded in the source; kept, so that its poses are met to the last digit.
     lastJointFromFlange: turned([0.08, 0, 0], [3.1415926, -1.570796, 0]),
   },
-  family: orthoParallel([0.04, -0.04, 0, 0.33, 0.345, 0.34, 0.08], [0, 0, -1, 0, 0, 0], [1, 1, -1, -1, -1, -1],
-    pose([0, 0, 0], [1.6339744818294477e-7, -2.6794896585028275e-8, 0.9999999999999862, 0])),
+  family: orthoParallel(
+    [0.04, -0.04, 0, 0.33, 0.345, 0.34, 0.08],
+    [0, 0, -1, 0, 0, 0],
+    [1, 1, -1, -1, -1, -1],
+    pose([0, 0, 0], [1.6339744818294477e-7, -2.6794896585028275e-8, 0.9999999999999862, 0]),
+  ),
   frames: { base: "base_link", tip: "tool0" },
   baseFromVendorWorld: pose([0, 0, 0.33]),
   home_rad: [0, 0, 0, 0, -Math.PI / 2, 0],
@@ -37,12 +52,15 @@ export const yaskawaGp8: Robot = {
   form: castings(CASTINGS, ["cover", "casting", "casting", "casting", "casting", "casting", "metal"]),
   paint: { casting: "#2a4fb0", dark: "#20262c", cover: "#39424a" },
   sources: {
-    "lengths, limits, speeds, flange": "ros-industrial/motoman, gp8_macro.xacro (BSD), which quotes the vendor's data sheet; lengths again in robotkinematicscatalogue 1.1.2, Yaskawa_GP8.",
+    "lengths, limits, speeds, flange":
+      "ros-industrial/motoman, gp8_macro.xacro (BSD), which quotes the vendor's data sheet; lengths again in robotkinematicscatalogue 1.1.2, Yaskawa_GP8.",
     "payload, reach": "8 kg, 727 mm; 40 + 345 + √(340² + 40²) = 727.3 mm.",
     "mass, repeatability": FROM_MEMORY,
   },
   assumptions: [
-    ACCELERATIONS_ASSUMED, TCP_SPEED_ASSUMED, SHAPES_FITTED,
+    ACCELERATIONS_ASSUMED,
+    TCP_SPEED_ASSUMED,
+    SHAPES_FITTED,
     "The upper limit of axis U is counted from another zero in some tables; here it is 190° from the level forearm.",
   ],
   shapeError_m: 0.014,

@@ -4,7 +4,17 @@ import type { PartMaterial } from "./link-shape.ts";
  * A ring of a casting, a rectangle with four corners of their own roundness [mm]:
  * place along the loft; lower and upper u; lower and upper v; radii at (u0, v0), (u1, v0), (u1, v1), (u0, v1).
  */
-export type FormRing = readonly [w: number, u0: number, u1: number, v0: number, v1: number, r00: number, r10: number, r11: number, r01: number];
+export type FormRing = readonly [
+  w: number,
+  u0: number,
+  u1: number,
+  v0: number,
+  v1: number,
+  r00: number,
+  r10: number,
+  r11: number,
+  r01: number,
+];
 
 /** A casting drawn through rings along one axis of its link's frame. u and v are the next two axes: along y, u is z and v is x. */
 export interface FormLoft {
@@ -18,10 +28,19 @@ export interface FormLoft {
   readonly bolts?: number;
 }
 
-export interface FormLink { readonly material: PartMaterial; readonly lofts: readonly FormLoft[] }
+export interface FormLink {
+  readonly material: PartMaterial;
+  readonly lofts: readonly FormLoft[];
+}
 
 /** Colours as the maker paints the robot, `#rrggbb`. */
-export interface RobotPaint { readonly casting: string; readonly dark: string; readonly cover: string }
+export interface RobotPaint {
+  readonly casting: string;
+  readonly dark: string;
+  readonly cover: string;
+}
 
 /** What a robot looks like: link by link, base first. Plain data. */
-export interface RobotForm { readonly links: readonly FormLink[] }
+export interface RobotForm {
+  readonly links: readonly FormLink[];
+}

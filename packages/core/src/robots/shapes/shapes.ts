@@ -14,7 +14,8 @@ export const linkName = (link: number): string => `link ${link}`;
 /** Links as designed, each already in its own frame. */
 export function linkDesigns(robot: Robot): LinkDesign[] {
   if (robot.form !== undefined) return robot.form.links.map(({ material, lofts }) => loftedLink(material, lofts));
-  const { arm, family } = robot, n = arm.joints.length;
+  const { arm, family } = robot;
+  const n = arm.joints.length;
   const parallel = family.kind === "ortho-parallel" && n === 6;
   const q_rad = parallel ? family.offsets_rad.map((offset, i) => offset * family.signs[i]!) : new Float64Array(n);
   const designs = parallel ? articulatedArm(family) : plainArm(robot);

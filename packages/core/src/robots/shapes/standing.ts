@@ -31,7 +31,12 @@ export function standing(geometry: OrthoParallelGeometry): Standing {
 }
 
 /** A straight convex shell between two heights. */
-export const shell = (frame: Frame, outline: Outline, from_m: number, to_m: number): TriangleMesh => prism(frame, outline, [[0, from_m], [0, to_m]]);
+export const shell = (frame: Frame, outline: Outline, from_m: number, to_m: number): TriangleMesh =>
+  prism(frame, outline, [
+    [0, from_m],
+    [0, to_m],
+  ]);
 
 /** Lengths drawn for the RX90L, made larger or smaller with the arm. */
-export const sized = (size: number, points: readonly Point2[]): Point2[] => points.map(([a, b]) => [a * size, b * size] as const);
+export const sized = (size: number, points: readonly Point2[]): Point2[] =>
+  points.map(([a, b]) => [a * size, b * size] as const);

@@ -1,5 +1,25 @@
 import {
-  allBranches, angleBetween, conjugate, distance, flangePose, fromUrVector, identity, jacobian, jogScratch, jogStep, multiply, singularValues, toUrVector, wrapAngle, type JogCell, type JogCommand, type Pose, type Random, type Reach, type Robot, type Vector3,
+  allBranches,
+  angleBetween,
+  conjugate,
+  distance,
+  flangePose,
+  fromUrVector,
+  identity,
+  jacobian,
+  jogScratch,
+  jogStep,
+  multiply,
+  singularValues,
+  toUrVector,
+  wrapAngle,
+  type JogCell,
+  type JogCommand,
+  type Pose,
+  type Random,
+  type Reach,
+  type Robot,
+  type Vector3,
 } from "../../index.ts";
 
 const DT = 1 / 60;
@@ -12,7 +32,8 @@ const FRAMES = 600;
 /** How far the tip may stray from the straight way [m, rad] where nothing was blocked. */
 const STRAYS = 1e-6;
 /** At one of these shares farther on, up to a frame's, no posture may exist where a jog was stopped by the end of the reach, with joints 1, 2, 3 and 5 so near to where it stopped [rad]. */
-const FARTHER = Array.from({ length: 60 }, (_, k) => 5e-5 * 1.115 ** k), NEAR_RAD = 0.2;
+const FARTHER = Array.from({ length: 60 }, (_, k) => 5e-5 * 1.115 ** k);
+const NEAR_RAD = 0.2;
 /** The joint whose turning makes the arm singular: 2 brings the wrist over axis 1, 3 stretches or folds the arm, 5 straightens the wrist. */
 export type SingularJoint = 2 | 3 | 5;
 /**
@@ -21,12 +42,27 @@ export type SingularJoint = 2 | 3 | 5;
  * longer): then `allBranches` finds no posture a little farther on anywhere near (`explained`). One that a joint's limit, named, keeps from turning in place far enough is `limited`. All others are `stuck`.
  */
 export interface SingularJogs {
-  readonly jogs: number; readonly left: number; readonly through: number; readonly explained: number; readonly limited: number; readonly arrived: number;
-  readonly notNumbers: number; readonly tooFast: number; readonly outside: number; readonly strayed: number; readonly stuck: readonly Stuck[];
+  readonly jogs: number;
+  readonly left: number;
+  readonly through: number;
+  readonly explained: number;
+  readonly limited: number;
+  readonly arrived: number;
+  readonly notNumbers: number;
+  readonly tooFast: number;
+  readonly outside: number;
+  readonly strayed: number;
+  readonly stuck: readonly Stuck[];
   /** Of one frame that moves [ms]: the median and the longest. */
   readonly frame_ms: { readonly median: number; readonly longest: number };
 }
-export interface Stuck { readonly share: number; readonly start: readonly number[]; readonly goal: readonly number[]; readonly end: readonly number[]; readonly why: string }
+export interface Stuck {
+  readonly share: number;
+  readonly start: readonly number[];
+  readonly goal: readonly number[];
+  readonly end: readonly number[];
+  readonly why: string;
+}
 type Outcome = "through" | "explained" | "limited" | Stuck;
 
 /**
@@ -35,17 +71,47 @@ type Outcome = "through" | "explained" | "limited" | Stuck;
  *
  * @param clock_ms  for the time a frame takes; without one it is 0.
  */
-export function singularJogs(robot: Robot, joint: SingularJoint, jogs: number, random: Random, clock_ms: () => number = () => 0): SingularJogs {
-  const { arm } = robot, cell: JogCell = { robot, worldFromBase: identity(), flangeFromTcp: identity() };
-  let through = 0, explained = 0, limited = 0, arrived = 0, notNumbers = 0, tooFast = 0, outside = 0, strayed = 0;
-  const stuck: Stuck[] = [], limits = arm.joints.map(each => each.limits), times_ms: number[] = [], scratch = jogScratch();
+export function singularJogs(
+  robot: Robot,
+  joint: SingularJoint,
+  jogs: number,
+  random: Random,
+  clock_ms: () => number = () => 0,
+): SingularJogs {
+  const { arm } = robot;
+  const cell: JogCell = { robot, worldFromBase: identity(), flangeFromTcp: identity() };
+  let through = 0;
+  let explained = 0;
+  let limited = 0;
+  let arrived = 0;
+  let notNumbers = 0;
+  let tooFast = 0;
+  let outside = 0;
+  let strayed = 0;
+  const stuck: Stuck[] = [];
+  const limits = arm.joints.map(each => each.limits);
+  const times_ms: number[] = [];
+  const scratch = jogScratch();
   const run = (q: Float64Array, goal: Float64Array): Outcome => {
-    const start = [...q], from = flangePose(arm, q), to = flangePose(arm, goal), shift = to.position.map((value, i) => value - from.position[i]!) as Vector3;
-    const turn = toUrVector(multiply(to.quaternion, conjugate(from.quaternion))), takes_s = (Math.hypot(...shift) + Math.hypot(...turn)) / 0.3;
-    const command: JogCommand = { kind: "tip", linear_mps: shift.map(value => value / takes_s) as Vector3, angular_rad_s: turn.map(value => value / takes_s) as Vector3, frame: "world" };
-    let done_s = 0, why = "The joints were still turning in place.", reason: Reach | undefined;
+    const start = [...q];
+    const from = flangePose(arm, q);
+    const to = flangePose(arm, goal);
+    const shift = to.position.map((value, i) => value - from.position[i]!) as Vector3;
+    const turn = toUrVector(multiply(to.quaternion, conjugate(from.quaternion)));
+    const takes_s = (Math.hypot(...shift) + Math.hypot(...turn)) / 0.3;
+    const command: JogCommand = {
+      kind: "tip",
+      linear_mps: shift.map(value => value / takes_s) as Vector3,
+      angular_rad_s: turn.map(value => value / takes_s) as Vector3,
+      frame: "world",
+    };
+    let done_s = 0;
+    let why = "The joints were still turning in place.";
+    let reason: Reach | undefined;
     for (let frame = 0; frame < FRAMES && done_s < FOLLOWED * takes_s; frame++) {
-      const before = q.slice(), began_ms = clock_ms(), jogged = jogStep(cell, q, command, DT, q, scratch);
+      const before = q.slice();
+      const began_ms = clock_ms();
+      const jogged = jogStep(cell, q, command, DT, q, scratch);
       times_ms.push(clock_ms() - began_ms);
       if (!q.every(Number.isFinite)) notNumbers++;
       if (limits.some(({ speed_rad_s }, j) => Math.abs(q[j]! - before[j]!) > speed_rad_s * DT * (1 + 1e-9))) tooFast++;
@@ -53,45 +119,88 @@ export function singularJogs(robot: Robot, joint: SingularJoint, jogs: number, r
       const block = jogged.blocked[0];
       if (jogged.kind === "moved") done_s += jogged.fraction * DT;
       // A coordinate that stops is where this jog ends: what goes on beside it is another way.
-      if (block !== undefined) { why = block.sentence; reason = block.reach; break; }
+      if (block !== undefined) {
+        why = block.sentence;
+        reason = block.reach;
+        break;
+      }
     }
     const share = done_s / takes_s;
     const placeAt = (part: number): Pose<"base", "flange"> => ({
-      position: shift.map((value, i) => from.position[i]! + part * value) as Vector3, quaternion: multiply(fromUrVector(...turn.map(value => value * part) as Vector3), from.quaternion),
+      position: shift.map((value, i) => from.position[i]! + part * value) as Vector3,
+      quaternion: multiply(fromUrVector(...(turn.map(value => value * part) as Vector3)), from.quaternion),
     });
     if (reason === undefined) {
-      const is = flangePose(arm, q), should = placeAt(share);
-      if (distance(is.position, should.position) > STRAYS || angleBetween(is.quaternion, should.quaternion) > STRAYS) strayed++;
+      const is = flangePose(arm, q);
+      const should = placeAt(share);
+      if (distance(is.position, should.position) > STRAYS || angleBetween(is.quaternion, should.quaternion) > STRAYS)
+        strayed++;
     }
     if (share >= FOLLOWED) return "through";
-    const goesOn = (part: number): boolean => allBranches(robot, placeAt(part)).some(other => [0, 1, 2, 4].every(j => Math.abs(wrapAngle(other[j]! - q[j]!)) < NEAR_RAD));
+    const goesOn = (part: number): boolean =>
+      allBranches(robot, placeAt(part)).some(other =>
+        [0, 1, 2, 4].every(j => Math.abs(wrapAngle(other[j]! - q[j]!)) < NEAR_RAD),
+      );
     if (reason?.kind === "outside-limits") return share >= AWAY ? "explained" : "limited";
     if (reason !== undefined && FARTHER.some(more => !goesOn(share + more))) return "explained";
     return { share, start, goal: [...goal], end: [...q], why };
   };
-  for (let count = 0; count < jogs;) {
+  for (let count = 0; count < jogs; ) {
     const on = singularPosture(robot, joint, random);
     if (on === null) continue;
     count++;
-    const beside = (): Float64Array => on.map(angle => angle + 0.3 * (random() - 0.5)), into = beside();
+    const beside = (): Float64Array => on.map(angle => angle + 0.3 * (random() - 0.5));
+    const into = beside();
     if (typeof run(into, on) === "string") arrived++; // a way in may be cut off by a limit; the way out may not
     const out = run(on.slice(), beside());
-    if (out === "through") through++; else if (out === "explained") explained++; else if (out === "limited") limited++; else stuck.push(out);
+    if (out === "through") through++;
+    else if (out === "explained") explained++;
+    else if (out === "limited") limited++;
+    else stuck.push(out);
   }
   times_ms.sort((a, b) => a - b);
-  return { jogs, left: through + explained, through, explained, limited, arrived, notNumbers, tooFast, outside, strayed, stuck, frame_ms: { median: times_ms[times_ms.length >> 1]!, longest: times_ms.at(-1)! } };
+  return {
+    jogs,
+    left: through + explained,
+    through,
+    explained,
+    limited,
+    arrived,
+    notNumbers,
+    tooFast,
+    outside,
+    strayed,
+    stuck,
+    frame_ms: { median: times_ms[times_ms.length >> 1]!, longest: times_ms.at(-1)! },
+  };
 }
 
 /** A posture well inside the limits in which exactly one direction is lost; null when turning that joint meets none. */
 function singularPosture({ arm }: Robot, joint: SingularJoint, random: Random): Float64Array | null {
-  const inner = arm.joints.map(({ limits }) => ({ lower: Math.max(-Math.PI, limits.lower_rad), upper: Math.min(Math.PI, limits.upper_rad) }));
-  const q = Float64Array.from(inner, ({ lower, upper }) => (lower + upper) / 2 + 0.75 * (upper - lower) * (random() - 0.5)), scan = joint - 1, first = q[scan]!;
-  const at = (angle: number): number => { q[scan] = angle; return determinant(jacobian(arm, q)); };
+  const inner = arm.joints.map(({ limits }) => ({
+    lower: Math.max(-Math.PI, limits.lower_rad),
+    upper: Math.min(Math.PI, limits.upper_rad),
+  }));
+  const q = Float64Array.from(
+    inner,
+    ({ lower, upper }) => (lower + upper) / 2 + 0.75 * (upper - lower) * (random() - 0.5),
+  );
+  const scan = joint - 1;
+  const first = q[scan]!;
+  const at = (angle: number): number => {
+    q[scan] = angle;
+    return determinant(jacobian(arm, q));
+  };
   for (let angle = first, before = at(first); angle < Math.min(first + 3, inner[scan]!.upper - 0.3); angle += 0.05) {
     const now = at(angle);
     if (before * now < 0) {
-      let a = angle - 0.05, b = angle;
-      for (let k = 0; k < 60; k++) { const middle = (a + b) / 2; if (at(middle) * now < 0) a = middle; else b = middle; }
+      let a = angle - 0.05;
+      let b = angle;
+      for (let k = 0; k < 60; k++) {
+        const middle = (a + b) / 2;
+        if (at(middle) * now < 0) a = middle;
+        else b = middle;
+      }
       q[scan] = a;
       return singularValues(jacobian(arm, q))[4]! > 0.02 ? q : null;
     }
@@ -107,7 +216,12 @@ function determinant(rows: Float64Array): number {
   for (let i = 0; i < 6; i++) {
     let pivot = i;
     for (let r = i + 1; r < 6; r++) if (Math.abs(a[r]![i]!) > Math.abs(a[pivot]![i]!)) pivot = r;
-    if (pivot !== i) { const row = a[i]!; a[i] = a[pivot]!; a[pivot] = row; product = -product; }
+    if (pivot !== i) {
+      const row = a[i]!;
+      a[i] = a[pivot]!;
+      a[pivot] = row;
+      product = -product;
+    }
     if (a[i]![i] === 0) return 0;
     product *= a[i]![i]!;
     for (let r = i + 1; r < 6; r++) for (let c = 5; c >= i; c--) a[r]![c]! -= (a[r]![i]! / a[i]![i]!) * a[i]![c]!;

@@ -15,7 +15,8 @@ export interface Choice {
 }
 
 /** Whether a move's posture is for the arm to choose: a joint move to a pose taught without a branch. */
-export const isFree = (move: Move): boolean => move.step.path === "ptp" && move.q_rad === undefined && move.branch === undefined;
+export const isFree = (move: Move): boolean =>
+  move.step.path === "ptp" && move.q_rad === undefined && move.branch === undefined;
 
 /** How bad a way is before time counts: paths nobody gets through, postures changed at a standstill or other than taught, flips. */
 function faults({ breaks, flips, otherwise }: Continuity): readonly [number, number, number] {
@@ -24,7 +25,8 @@ function faults({ breaks, flips, otherwise }: Continuity): readonly [number, num
 }
 
 function fewer(a: Continuity, b: Continuity): boolean {
-  const [x, y] = [faults(a), faults(b)], differs = x.findIndex((count, i) => count !== y[i]);
+  const [x, y] = [faults(a), faults(b)];
+  const differs = x.findIndex((count, i) => count !== y[i]);
   return differs >= 0 && x[differs]! < y[differs]!;
 }
 
@@ -34,13 +36,21 @@ function fewer(a: Continuity, b: Continuity): boolean {
  *
  * @returns undefined where the path has nothing to choose and nothing to follow.
  */
-export function chooseBranches(runs: readonly (readonly Move[])[], robot: Robot, start_rad: Float64Array, solver = new ContinuitySolver(robot)): Choice | undefined {
+export function chooseBranches(
+  runs: readonly (readonly Move[])[],
+  robot: Robot,
+  start_rad: Float64Array,
+  solver = new ContinuitySolver(robot),
+): Choice | undefined {
   if (!runs.some(run => run.some(move => isFree(move) || move.step.path !== "ptp"))) return undefined;
   const nearest = solver.solve(runs, start_rad, { nearest: true });
   if (faults(nearest).every(count => count === 0)) return { way: nearest, chosen: false, broken: [], turning: [] };
-  const best = solver.solve(runs, start_rad), broken = best.breaks;
-  const turned = broken.length > 0 ? solver.solve(runs, start_rad, { standstill: true }) : best, turning = turned.flips.filter(({ kind }) => kind === "standstill");
-  const way = fewer(turned, best) ? turned : best, chosen = fewer(way, nearest);
+  const best = solver.solve(runs, start_rad);
+  const broken = best.breaks;
+  const turned = broken.length > 0 ? solver.solve(runs, start_rad, { standstill: true }) : best;
+  const turning = turned.flips.filter(({ kind }) => kind === "standstill");
+  const way = fewer(turned, best) ? turned : best;
+  const chosen = fewer(way, nearest);
   return { way: chosen ? way : nearest, chosen, broken, turning };
 }
 

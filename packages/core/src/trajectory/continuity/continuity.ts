@@ -17,7 +17,10 @@ import { StretchFollower, type Lost } from "./stretch.ts";
 /** A joint move that turns a joint further than this and changes the branch turns the arm over [rad]. */
 export const FLIP_RAD = radians(150);
 /** Penalties [s]: a flip is worth a detour of a thousand seconds; what cannot be driven as taught, any number of flips. */
-export const FLIP_S = 1e3, OTHERWISE_S = 1e6, STANDSTILL_S = 1e6, BREAK_S = 1e9;
+export const FLIP_S = 1e3;
+export const OTHERWISE_S = 1e6;
+export const STANDSTILL_S = 1e6;
+export const BREAK_S = 1e9;
 /** Joint angles this near to the taught ones are the taught ones [rad]. */
 const TAUGHT_RAD = 1e-4;
 /** Two postures this near are one [rad]. */
@@ -35,7 +38,11 @@ export interface Flip {
 }
 
 /** A posture that was tried, and where it was lost. */
-export interface Tried { readonly q_rad: Float64Array; readonly branch: Branch | undefined; readonly lost: Lost }
+export interface Tried {
+  readonly q_rad: Float64Array;
+  readonly branch: Branch | undefined;
+  readonly lost: Lost;
+}
 
 /** A move that no posture gets through. */
 export interface Break {
@@ -68,7 +75,11 @@ export interface ContinuityOptions {
   readonly standstill?: boolean;
 }
 
-interface Stage { readonly first: number; readonly count: number; /** No posture is at the target. */ readonly nowhere: boolean }
+interface Stage {
+  readonly first: number;
+  readonly count: number /** No posture is at the target. */;
+  readonly nowhere: boolean;
+}
 
 /**
  * The least costly postures over a whole path, by dynamic programming (Viterbi) over the postures of every target:
@@ -93,7 +104,10 @@ export class ContinuitySolver {
   private endOf: number[] = [];
   private breaks: Break[] = [];
   private fault = PLAIN;
-  private readonly asked = new Map<Move, readonly { readonly q_rad: Float64Array; readonly lost: Lost | undefined }[]>();
+  private readonly asked = new Map<
+    Move,
+    readonly { readonly q_rad: Float64Array; readonly lost: Lost | undefined }[]
+  >();
 
   constructor(robot: Robot) {
     const newton = new Follower(robot.arm);
@@ -109,7 +123,9 @@ export class ContinuitySolver {
   solve(runs: readonly (readonly Move[])[], start_rad: Float64Array, options: ContinuityOptions = {}): Continuity {
     const { pool } = this;
     pool.clear();
-    this.stages = []; this.endOf = []; this.breaks = [];
+    this.stages = [];
+    this.endOf = [];
+    this.breaks = [];
     pool.add(start_rad, 0, 0, -1, 0, this.code(start_rad), PLAIN);
     let stage = this.close(0, false);
     for (const run of runs) {
@@ -135,54 +151,95 @@ export class ContinuitySolver {
   }
 
   private arrive(before: Stage, move: Move, nearest: boolean): Stage {
-    const { pool } = this, first = pool.count;
-    if (move.q_rad !== undefined) { this.offer(before, move.q_rad, 0, 0, this.code(move.q_rad), 0, PLAIN); return this.close(first, false); }
+    const { pool } = this;
+    const first = pool.count;
+    if (move.q_rad !== undefined) {
+      this.offer(before, move.q_rad, 0, 0, this.code(move.q_rad), 0, PLAIN);
+      return this.close(first, false);
+    }
     if (nearest || move.branch !== undefined || this.robot.family.kind === "general") return this.follow(before, move);
-    const { q, groups, codes } = this.postures.at(move.baseFromFlange, pool.posture(this.best(before)), move.step.target);
+    const { q, groups, codes } = this.postures.at(
+      move.baseFromFlange,
+      pool.posture(this.best(before)),
+      move.step.target,
+    );
     for (let t = 0; t < groups.length; t++) this.offer(before, q, t * pool.joints, groups[t]!, codes[t]!, 0, PLAIN);
     return pool.count > first ? this.close(first, false) : this.nowhere(before, move);
   }
 
   /** From every candidate to the nearest posture, as it is done without looking ahead. */
   private follow(before: Stage, move: Move): Stage {
-    const { pool } = this, first = pool.count;
+    const { pool } = this;
+    const first = pool.count;
     for (let p = before.first; p < before.first + before.count; p++) {
       const goal = this.goals.find(move, pool.posture(p));
       if (goal.kind === "none") continue;
-      const code = this.code(goal.q_rad), step = this.cost(p, goal.q_rad, 0, code, Number.POSITIVE_INFINITY);
-      const known = this.sameIn(first, pool.count, goal.q_rad, 0), cost = pool.cost[p]! + step;
+      const code = this.code(goal.q_rad);
+      const step = this.cost(p, goal.q_rad, 0, code, Number.POSITIVE_INFINITY);
+      const known = this.sameIn(first, pool.count, goal.q_rad, 0);
+      const cost = pool.cost[p]! + step;
       if (known < 0) pool.add(goal.q_rad, 0, cost, p, pool.count - first, code, this.fault);
-      else if (cost < pool.cost[known]!) { pool.cost[known] = cost; pool.from[known] = p; pool.fault[known] = this.fault; }
+      else if (cost < pool.cost[known]!) {
+        pool.cost[known] = cost;
+        pool.from[known] = p;
+        pool.fault[known] = this.fault;
+      }
     }
     return pool.count > first ? this.close(first, false) : this.nowhere(before, move);
   }
 
   /** No posture is at the target: the arm stays where it is, in thought. */
   private nowhere(before: Stage, move: Move): Stage {
-    const { pool } = this, first = pool.count, p = this.best(before), at = pool.posture(p), goal = this.goals.find(move, at);
-    this.breaks.push({ move: this.endOf.length, share: 1, best: undefined, tried: [], ...(goal.kind === "none" ? { reach: goal.reach } : {}) });
+    const { pool } = this;
+    const first = pool.count;
+    const p = this.best(before);
+    const at = pool.posture(p);
+    const goal = this.goals.find(move, at);
+    this.breaks.push({
+      move: this.endOf.length,
+      share: 1,
+      best: undefined,
+      tried: [],
+      ...(goal.kind === "none" ? { reach: goal.reach } : {}),
+    });
     pool.add(at, 0, pool.cost[p]! + BREAK_S, p, 0, pool.code[p]!, BROKEN);
     return this.close(first, true);
   }
 
   /** Every candidate along the path, or as far as it gets. */
   private keep(before: Stage, move: Move, path: PosePath | undefined): Stage {
-    const { pool, follower, q } = this, first = pool.count, n = pool.joints, moved = new Float64Array(n);
+    const { pool, follower, q } = this;
+    const first = pool.count;
+    const n = pool.joints;
+    const moved = new Float64Array(n);
     const last = before.first + before.count;
     for (let p = before.first; p < last && path !== undefined; p++) {
       // Candidates of one group move alike: the first of them is followed for all.
       const leader = pool.group[p]!;
       if (this.metBefore(before.first, p, leader)) continue;
       this.load(p, q);
-      if (follower.follow(path, move.tcpFromFlange, q, false) !== undefined || this.refused(move, path, p) !== undefined) continue;
+      if (
+        follower.follow(path, move.tcpFromFlange, q, false) !== undefined ||
+        this.refused(move, path, p) !== undefined
+      )
+        continue;
       for (let j = 0; j < n; j++) moved[j] = q[j]! - pool.q[p * n + j]!;
-      const code = this.code(q), { seconds } = follower;
+      const code = this.code(q);
+      const { seconds } = follower;
       for (let c = p; c < last; c++) {
         if (pool.group[c] !== leader || !follower.fits(pool.q, c * n)) continue;
         this.load(c, q);
         for (let j = 0; j < n; j++) q[j]! += moved[j]!;
         const other = this.arrivesOtherwise(move, q);
-        pool.add(q, 0, pool.cost[c]! + (seconds + (other ? OTHERWISE_S : 0)), c, leader, code, other ? OTHERWISE : PLAIN);
+        pool.add(
+          q,
+          0,
+          pool.cost[c]! + (seconds + (other ? OTHERWISE_S : 0)),
+          c,
+          leader,
+          code,
+          other ? OTHERWISE : PLAIN,
+        );
       }
     }
     return pool.count > first ? this.close(first, false) : this.broken(before, move, path);
@@ -191,7 +248,8 @@ export class ContinuitySolver {
   /** Whether the planner itself does not get along where the follower did; asked once for each posture. */
   private refused(move: Move, path: PosePath, p: number): Lost | undefined {
     if (!this.follower.doubtful) return undefined;
-    const q_rad = this.pool.posture(p), asked = this.asked.get(move) ?? [];
+    const q_rad = this.pool.posture(p);
+    const asked = this.asked.get(move) ?? [];
     const known = asked.find(one => one.q_rad.every((angle, j) => Math.abs(wrapAngle(angle - q_rad[j]!)) < SAME_RAD));
     if (known !== undefined) return known.lost;
     const lost = this.follower.confirm(path, move.tcpFromFlange, q_rad);
@@ -206,18 +264,26 @@ export class ContinuitySolver {
 
   /** No candidate got through: the path goes on behind this move from any posture of its target. */
   private broken(before: Stage, move: Move, path: PosePath | undefined): Stage {
-    const { pool } = this, first = pool.count, tried: Tried[] = [];
-    let best = this.best(before), farthest: Tried | undefined;
+    const { pool } = this;
+    const first = pool.count;
+    const tried: Tried[] = [];
+    let best = this.best(before);
+    let farthest: Tried | undefined;
     for (let p = before.first; p < before.first + before.count && path !== undefined; p++) {
-      const q_rad = pool.posture(p), lost = this.follower.follow(path, move.tcpFromFlange, q_rad.slice(), true) ?? this.refused(move, path, p);
+      const q_rad = pool.posture(p);
+      const lost = this.follower.follow(path, move.tcpFromFlange, q_rad.slice(), true) ?? this.refused(move, path, p);
       if (lost === undefined) continue;
       const one = { q_rad, branch: branchOf(this.robot, q_rad), lost };
       tried.push(one);
-      if (farthest === undefined || lost.share > farthest.lost.share) { farthest = one; best = p; }
+      if (farthest === undefined || lost.share > farthest.lost.share) {
+        farthest = one;
+        best = p;
+      }
     }
     this.breaks.push({ move: this.endOf.length, share: farthest?.lost.share ?? 0, best: farthest, tried });
     const { q, groups, codes } = this.postures.at(move.baseFromFlange, pool.posture(best));
-    for (let t = 0; t < groups.length; t++) pool.add(q, t * pool.joints, pool.cost[best]! + BREAK_S, best, groups[t]!, codes[t]!, BROKEN);
+    for (let t = 0; t < groups.length; t++)
+      pool.add(q, t * pool.joints, pool.cost[best]! + BREAK_S, best, groups[t]!, codes[t]!, BROKEN);
     if (groups.length > 0) return this.close(first, false);
     pool.add(pool.posture(best), 0, pool.cost[best]! + BREAK_S, best, 0, pool.code[best]!, BROKEN);
     return this.close(first, true);
@@ -225,39 +291,71 @@ export class ContinuitySolver {
 
   /** The same place once more, with the postures that could be had there by turning over. */
   private stand(before: Stage, baseFromFlange: Pose<"base", "flange">): Stage {
-    const { pool } = this, first = pool.count, n = pool.joints;
+    const { pool } = this;
+    const first = pool.count;
+    const n = pool.joints;
     if (this.robot.family.kind === "general") return before;
     const { q, groups, codes }: Postures = this.postures.at(baseFromFlange, pool.posture(this.best(before)));
     let next = 0;
     for (let p = before.first; p < before.first + before.count; p++) next = Math.max(next, pool.group[p]! + 1);
-    for (let p = before.first; p < before.first + before.count; p++) pool.add(pool.posture(p), 0, pool.cost[p]!, p, pool.group[p]!, pool.code[p]!, PLAIN);
+    for (let p = before.first; p < before.first + before.count; p++)
+      pool.add(pool.posture(p), 0, pool.cost[p]!, p, pool.group[p]!, pool.code[p]!, PLAIN);
     const own = pool.count;
-    for (let t = 0; t < groups.length; t++) if (this.sameIn(first, own, q, t * n) < 0) this.offer(before, q, t * n, next + groups[t]!, codes[t]!, STANDSTILL_S, STOOD);
+    for (let t = 0; t < groups.length; t++)
+      if (this.sameIn(first, own, q, t * n) < 0)
+        this.offer(before, q, t * n, next + groups[t]!, codes[t]!, STANDSTILL_S, STOOD);
     return this.close(first, false);
   }
 
   /** Adds a candidate with the least costly way to it. */
-  private offer(before: Stage, q: Float64Array, at: number, group: number, code: number, penalty_s: number, fault: number): void {
+  private offer(
+    before: Stage,
+    q: Float64Array,
+    at: number,
+    group: number,
+    code: number,
+    penalty_s: number,
+    fault: number,
+  ): void {
     const { pool } = this;
-    let least = Number.POSITIVE_INFINITY, from = before.first, kind = PLAIN;
+    let least = Number.POSITIVE_INFINITY;
+    let from = before.first;
+    let kind = PLAIN;
     for (let p = before.first; p < before.first + before.count; p++) {
       const here = pool.cost[p]!;
       if (!(here < least)) continue;
       const total = here + (this.cost(p, q, at, penalty_s > 0 ? NO_CODE : code, least - here) + penalty_s);
-      if (total < least) { least = total; from = p; kind = this.fault; }
+      if (total < least) {
+        least = total;
+        from = p;
+        kind = this.fault;
+      }
     }
     pool.add(q, at, least, from, group, code, kind | fault);
   }
 
   /** τ(p, t) [s]; whether it is a flip is left in `fault`. Gives up at `most`. */
   private cost(p: number, q: Float64Array, at: number, code: number, most: number): number {
-    const { pool, robot: { arm: { joints } } } = this, n = pool.joints, base = p * n;
-    let seconds = 0, way = 0;
+    const {
+      pool,
+      robot: {
+        arm: { joints },
+      },
+    } = this;
+    const n = pool.joints;
+    const base = p * n;
+    let seconds = 0;
+    let way = 0;
     this.fault = PLAIN;
     for (let j = 0; j < n; j++) {
-      const joint = joints[j]!, gone = Math.abs(q[at + j]! - pool.q[base + j]!), time_s = gone / joint.limits.speed_rad_s;
+      const joint = joints[j]!;
+      const gone = Math.abs(q[at + j]! - pool.q[base + j]!);
+      const time_s = gone / joint.limits.speed_rad_s;
       if (gone > way && turns(joint)) way = gone;
-      if (time_s > seconds) { seconds = time_s; if (seconds >= most) return seconds; }
+      if (time_s > seconds) {
+        seconds = time_s;
+        if (seconds >= most) return seconds;
+      }
     }
     const own = pool.code[p]!;
     if (way <= FLIP_RAD || code === own || code === NO_CODE || own === NO_CODE) return seconds;
@@ -272,7 +370,9 @@ export class ContinuitySolver {
     return arrived !== undefined && !sameBranch(arrived, move.branch!);
   }
 
-  private code(q: Float64Array): number { return codeOf(branchOf(this.robot, q)); }
+  private code(q: Float64Array): number {
+    return codeOf(branchOf(this.robot, q));
+  }
 
   private load(index: number, out: Float64Array): void {
     const n = this.pool.joints;
@@ -296,14 +396,21 @@ export class ContinuitySolver {
   }
 
   private answer(): Continuity {
-    const { pool, stages } = this, chain = new Int32Array(stages.length), flips: Flip[] = [], otherwise: number[] = [];
+    const { pool, stages } = this;
+    const chain = new Int32Array(stages.length);
+    const flips: Flip[] = [];
+    const otherwise: number[] = [];
     const last = this.best(stages.at(-1)!);
-    for (let s = stages.length - 1, c = last; s >= 0; s--) { chain[s] = c; c = pool.from[c]!; }
+    for (let s = stages.length - 1, c = last; s >= 0; s--) {
+      chain[s] = c;
+      c = pool.from[c]!;
+    }
     let seen = 0;
     const ends = this.endOf.map((stage, move) => {
       for (let s = seen + 1; s <= stage; s++) {
         const fault = pool.fault[chain[s]!]!;
-        if ((fault & (FLIPPED | STOOD)) !== 0) flips.push(this.flip(chain[s - 1]!, chain[s]!, move, (fault & STOOD) === 0 ? "joint-move" : "standstill"));
+        if ((fault & (FLIPPED | STOOD)) !== 0)
+          flips.push(this.flip(chain[s - 1]!, chain[s]!, move, (fault & STOOD) === 0 ? "joint-move" : "standstill"));
         if ((fault & OTHERWISE) !== 0) otherwise.push(move);
       }
       seen = stage;
@@ -313,9 +420,17 @@ export class ContinuitySolver {
   }
 
   private flip(from: number, to: number, move: number, kind: Flip["kind"]): Flip {
-    const a = this.pool.posture(from), b = this.pool.posture(to);
+    const a = this.pool.posture(from);
+    const b = this.pool.posture(to);
     let joint = 0;
     for (let j = 1; j < a.length; j++) if (Math.abs(b[j]! - a[j]!) > Math.abs(b[joint]! - a[joint]!)) joint = j;
-    return { kind, move, joint: joint + 1, way_rad: Math.abs(b[joint]! - a[joint]!), from: branchOf(this.robot, a), to: branchOf(this.robot, b) };
+    return {
+      kind,
+      move,
+      joint: joint + 1,
+      way_rad: Math.abs(b[joint]! - a[joint]!),
+      from: branchOf(this.robot, a),
+      to: branchOf(this.robot, b),
+    };
   }
 }

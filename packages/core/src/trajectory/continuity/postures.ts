@@ -16,8 +16,13 @@ export interface Postures {
 }
 
 /** The branch as a small number, so that two can be compared at a glance. */
-export const codeOf = (branch: Branch | undefined): number => branch === undefined ? NO_CODE
-  : (branch.shoulder === "back" ? 1 : 0) + (branch.elbow === "down" ? 2 : 0) + (branch.wrist === "negative" ? 4 : 0) + (branch.determinant === "negative" ? 8 : 0);
+export const codeOf = (branch: Branch | undefined): number =>
+  branch === undefined
+    ? NO_CODE
+    : (branch.shoulder === "back" ? 1 : 0) +
+      (branch.elbow === "down" ? 2 : 0) +
+      (branch.wrist === "negative" ? 4 : 0) +
+      (branch.determinant === "negative" ? 8 : 0);
 
 /**
  * Every posture of a pose: all branches, and of each all copies by whole turns of the joints that turn, inside limits and
@@ -29,32 +34,47 @@ export class PostureFinder {
   /** What a program comes to again, in loops. Only where `near` has no say. */
   private readonly known = new Map<object, Postures>();
 
-  constructor(robot: Robot) { this.robot = robot; }
+  constructor(robot: Robot) {
+    this.robot = robot;
+  }
 
   /** @param key  the same for the same pose. */
   at(baseFromFlange: Pose<"base", "flange">, near: Float64Array, key?: object): Postures {
     const seen = key === undefined ? undefined : this.known.get(key);
     if (seen !== undefined) return seen;
-    const { robot } = this, bases = this.bases(baseFromFlange, near), n = robot.arm.joints.length;
-    const groups: number[] = [], codes: number[] = [], found: Float64Array[] = [];
+    const { robot } = this;
+    const bases = this.bases(baseFromFlange, near);
+    const n = robot.arm.joints.length;
+    const groups: number[] = [];
+    const codes: number[] = [];
+    const found: Float64Array[] = [];
     for (let group = 0; group < bases.length; group++) {
       let code: number | undefined;
       for (const copy of turnsInside(robot, bases[group]!)) {
         if (!isInsideWorkspace(robot, copy)) break;
         code ??= codeOf(branchOf(robot, copy));
-        found.push(copy); groups.push(group); codes.push(code);
+        found.push(copy);
+        groups.push(group);
+        codes.push(code);
       }
     }
     const q = new Float64Array(found.length * n);
     for (let k = 0; k < found.length; k++) q.set(found[k]!, k * n);
     const postures = { q, groups, codes };
-    if (key !== undefined && robot.family.kind !== "spherical-seven" && !bases.some(base => isSingularPosture(robot, base))) this.known.set(key, postures);
+    if (
+      key !== undefined &&
+      robot.family.kind !== "spherical-seven" &&
+      !bases.some(base => isSingularPosture(robot, base))
+    )
+      this.known.set(key, postures);
     return postures;
   }
 
   private bases(baseFromFlange: Pose<"base", "flange">, near: Float64Array): readonly Float64Array[] {
-    const { robot, scratch } = this, bases = allBranches(robot, baseFromFlange, near, scratch);
-    if (robot.family.kind !== "spherical-seven" || bases.some(base => turnsInside(robot, base).length > 0)) return bases;
+    const { robot, scratch } = this;
+    const bases = allBranches(robot, baseFromFlange, near, scratch);
+    if (robot.family.kind !== "spherical-seven" || bases.some(base => turnsInside(robot, base).length > 0))
+      return bases;
     const reach = solveAll(robot, baseFromFlange, { near }, scratch);
     return reach.kind === "reached" ? reach.solutions.map(({ q_rad }) => q_rad) : [];
   }

@@ -11,7 +11,13 @@ import { PATH_TOLERANCE_M } from "../run.ts";
 
 /** Why a posture cannot be kept any further along a path. Joint counts from 1. */
 export type Lost =
-  | { readonly kind: "limit"; readonly share: number; readonly joint: number; readonly wanted_rad: number; readonly limit_rad: number }
+  | {
+      readonly kind: "limit";
+      readonly share: number;
+      readonly joint: number;
+      readonly wanted_rad: number;
+      readonly limit_rad: number;
+    }
   /** Joints would have to jump. `near`: what the arm is close to there, in words. */
   | { readonly kind: "singular"; readonly share: number; readonly near: string | undefined }
   | { readonly kind: "out-of-reach"; readonly share: number };
@@ -50,32 +56,50 @@ export class StretchFollower {
     this.robot = robot;
     this.follower = follower;
     this.exact = new HermitePath(follower, PATH_TOLERANCE_M);
-    this.below = new Float64Array(n); this.above = new Float64Array(n);
-    this.trial = new Float64Array(n); this.start = new Float64Array(n);
+    this.below = new Float64Array(n);
+    this.above = new Float64Array(n);
+    this.trial = new Float64Array(n);
+    this.start = new Float64Array(n);
   }
 
   /** Whether the last path goes so close by a singularity that only laying it out can tell. */
-  get doubtful(): boolean { return this.steep; }
+  get doubtful(): boolean {
+    return this.steep;
+  }
 
   /**
    * @param q       posture at the start of the path; receives the one at its end, or the last one that was kept.
    * @param within  whether leaving the joint limits loses the posture.
    */
   follow(path: PosePath, tcpFromFlange: Pose<"tcp", "flange">, q: Float64Array, within: boolean): Lost | undefined {
-    const { trial, start, below, above, robot: { arm: { joints } } } = this, n = q.length, { length } = path;
+    const {
+      trial,
+      start,
+      below,
+      above,
+      robot: {
+        arm: { joints },
+      },
+    } = this;
+    const n = q.length;
+    const { length } = path;
     this.seconds = 0;
     this.steep = false;
-    below.fill(0); above.fill(0); start.set(q);
+    below.fill(0);
+    above.fill(0);
+    start.set(q);
     if (length < SHORTEST_M) return undefined;
     const least = length * SHORTEST_SHARE;
-    let h = Math.min(length, LOOK_M), steepest = 0;
-    for (let s = 0; s < length;) {
+    let h = Math.min(length, LOOK_M);
+    let steepest = 0;
+    for (let s = 0; s < length; ) {
       const to = length - s < h + least ? length : s + h;
       posePoint(path, to, this.tcp, this.scratch);
       compose(this.tcp, tcpFromFlange, this.goal);
       trial.set(q);
       const met = this.follower.meet(this.goal, trial);
-      let longest = met ? 0 : Number.POSITIVE_INFINITY, seconds = 0;
+      let longest = met ? 0 : Number.POSITIVE_INFINITY;
+      let seconds = 0;
       for (let j = 0; j < n && met; j++) {
         const way = Math.abs(trial[j]! - q[j]!);
         if (!(way <= longest)) longest = way;
@@ -87,14 +111,23 @@ export class StretchFollower {
         if (h < least) return this.lost(q, s / length);
         continue;
       }
-      steepest = Math.max(steepest, longest * length / (to - s));
+      steepest = Math.max(steepest, (longest * length) / (to - s));
       s = to;
       this.seconds += seconds;
       for (let j = 0; j < n; j++) {
         const gone = trial[j]! - start[j]!;
-        if (gone < below[j]!) below[j] = gone; else if (gone > above[j]!) above[j] = gone;
-        const { lower_rad, upper_rad } = joints[j]!.limits, over = trial[j]! > upper_rad + LIMIT_SLACK_RAD;
-        if (within && (over || trial[j]! < lower_rad - LIMIT_SLACK_RAD)) return { kind: "limit", share: s / length, joint: j + 1, wanted_rad: trial[j]!, limit_rad: over ? upper_rad : lower_rad };
+        if (gone < below[j]!) below[j] = gone;
+        else if (gone > above[j]!) above[j] = gone;
+        const { lower_rad, upper_rad } = joints[j]!.limits;
+        const over = trial[j]! > upper_rad + LIMIT_SLACK_RAD;
+        if (within && (over || trial[j]! < lower_rad - LIMIT_SLACK_RAD))
+          return {
+            kind: "limit",
+            share: s / length,
+            joint: j + 1,
+            wanted_rad: trial[j]!,
+            limit_rad: over ? upper_rad : lower_rad,
+          };
       }
       q.set(trial);
       if (longest < CONTINUITY_RAD / 4) h = Math.min(2 * h, LOOK_M);
@@ -109,7 +142,9 @@ export class StretchFollower {
     this.trial.set(q);
     this.exact.clear();
     const stop = this.exact.addPoses(path, tcpFromFlange, 0, path.length, this.trial, 0, 0);
-    return stop === undefined ? undefined : { kind: "singular", share: stop.s / path.length, near: nearestSingularity(this.robot, this.trial)?.sentence };
+    return stop === undefined
+      ? undefined
+      : { kind: "singular", share: stop.s / path.length, near: nearestSingularity(this.robot, this.trial)?.sentence };
   }
 
   /** Whether another posture that is the same up to whole turns keeps inside its limits where the last one went. */
@@ -117,14 +152,19 @@ export class StretchFollower {
     const joints = this.robot.arm.joints;
     for (let j = 0; j < joints.length; j++) {
       const { lower_rad, upper_rad } = joints[j]!.limits;
-      if (q[at + j]! + this.below[j]! < lower_rad - LIMIT_SLACK_RAD || q[at + j]! + this.above[j]! > upper_rad + LIMIT_SLACK_RAD) return false;
+      if (
+        q[at + j]! + this.below[j]! < lower_rad - LIMIT_SLACK_RAD ||
+        q[at + j]! + this.above[j]! > upper_rad + LIMIT_SLACK_RAD
+      )
+        return false;
     }
     return true;
   }
 
   private lost(q: Float64Array, share: number): Lost {
     // An arm without closed form cannot tell the two apart: the place was not met.
-    if (this.robot.family.kind === "general" || allBranches(this.robot, this.goal, q, solverScratch()).length === 0) return { kind: "out-of-reach", share };
+    if (this.robot.family.kind === "general" || allBranches(this.robot, this.goal, q, solverScratch()).length === 0)
+      return { kind: "out-of-reach", share };
     return { kind: "singular", share, near: nearestSingularity(this.robot, q)?.sentence };
   }
 }

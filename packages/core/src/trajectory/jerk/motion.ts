@@ -27,9 +27,14 @@ export class JerkMotion {
     const size = axes * MOST_PIECES;
     this.axes = axes;
     this.pieces = new Uint8Array(axes);
-    this.begin = new Float64Array(size); this.jerk = new Float64Array(size);
-    this.acceleration = new Float64Array(size); this.speed = new Float64Array(size); this.place = new Float64Array(size);
-    this.endPlace = new Float64Array(axes); this.endSpeed = new Float64Array(axes); this.endAcceleration = new Float64Array(axes);
+    this.begin = new Float64Array(size);
+    this.jerk = new Float64Array(size);
+    this.acceleration = new Float64Array(size);
+    this.speed = new Float64Array(size);
+    this.place = new Float64Array(size);
+    this.endPlace = new Float64Array(axes);
+    this.endSpeed = new Float64Array(axes);
+    this.endAcceleration = new Float64Array(axes);
   }
 
   /**
@@ -48,7 +53,10 @@ export class JerkMotion {
       const first = i * MOST_PIECES;
       let k = first + this.pieces[i]! - 1;
       while (k > first && this.begin[k]! > t_s) k--;
-      const t = Math.max(0, t_s - this.begin[k]!), j = this.jerk[k]!, a = this.acceleration[k]!, v = this.speed[k]!;
+      const t = Math.max(0, t_s - this.begin[k]!);
+      const j = this.jerk[k]!;
+      const a = this.acceleration[k]!;
+      const v = this.speed[k]!;
       outPlace[i] = this.place[k]! + t * (v + t * (a / 2 + (t * j) / 6));
       if (outSpeed) outSpeed[i] = v + t * (a + (t * j) / 2);
       if (outAcceleration) outAcceleration[i] = a + t * j;
@@ -58,14 +66,18 @@ export class JerkMotion {
   /** Times at which the jerk of some axis changes, both ends included, rising. Allocates. */
   knots_s(): Float64Array {
     const all: number[] = [0, this.duration_s];
-    for (let i = 0; i < this.axes; i++) for (let k = 0; k < this.pieces[i]!; k++) all.push(this.begin[i * MOST_PIECES + k]!);
+    for (let i = 0; i < this.axes; i++)
+      for (let k = 0; k < this.pieces[i]!; k++) all.push(this.begin[i * MOST_PIECES + k]!);
     const sorted = Float64Array.from(all).sort();
     let count = 0;
     for (let k = 0; k < sorted.length; k++) {
       const t = sorted[k]!;
       if (t > this.duration_s) break;
       // Knots closer than rounding are one; the end stays exact.
-      if (count > 0 && t - sorted[count - 1]! <= 1e-12 * this.duration_s) { if (t === this.duration_s) sorted[count - 1] = t; continue; }
+      if (count > 0 && t - sorted[count - 1]! <= 1e-12 * this.duration_s) {
+        if (t === this.duration_s) sorted[count - 1] = t;
+        continue;
+      }
       sorted[count++] = t;
     }
     return sorted.slice(0, count);

@@ -5,7 +5,11 @@ import { meetingTimes, shortestScratch, shortestTime, type ShortestScratch } fro
 import { axisTask, canBeMet, type AxisTask, type JerkLimits } from "./task.ts";
 
 /** Where the axes are or shall be; missing speeds and accelerations are 0. */
-export interface JerkState { readonly place: ArrayLike<number>; readonly speed?: ArrayLike<number>; readonly acceleration?: ArrayLike<number> }
+export interface JerkState {
+  readonly place: ArrayLike<number>;
+  readonly speed?: ArrayLike<number>;
+  readonly acceleration?: ArrayLike<number>;
+}
 
 /** Axis counts from 1. */
 export type JerkAnswer =
@@ -58,25 +62,38 @@ export class JerkPlanner {
     this.brake_s = new Float64Array(n);
     for (let i = 0; i < n; i++) {
       const { speed, acceleration, jerk } = limits[i]!;
-      for (const task of [this.tasks[i]!, this.begun[i]!]) { task.speed = speed; task.acceleration = acceleration; task.jerk = jerk; }
+      for (const task of [this.tasks[i]!, this.begun[i]!]) {
+        task.speed = speed;
+        task.acceleration = acceleration;
+        task.jerk = jerk;
+      }
     }
   }
 
   /** @param out  receives the motion; untouched unless it is planned. */
   plan(from: JerkState, to: JerkState, out: JerkMotion): JerkAnswer {
     const n = this.axes;
-    let longest = 0, ruling = 0, braking = false;
+    let longest = 0;
+    let ruling = 0;
+    let braking = false;
     for (let i = 0; i < n; i++) {
       const begun = this.begun[i]!;
-      begun.v0 = from.speed ? from.speed[i]! : 0; begun.a0 = from.acceleration ? from.acceleration[i]! : 0;
-      begun.v1 = to.speed ? to.speed[i]! : 0; begun.a1 = to.acceleration ? to.acceleration[i]! : 0;
+      begun.v0 = from.speed ? from.speed[i]! : 0;
+      begun.a0 = from.acceleration ? from.acceleration[i]! : 0;
+      begun.v1 = to.speed ? to.speed[i]! : 0;
+      begun.a1 = to.acceleration ? to.acceleration[i]! : 0;
       begun.way = to.place[i]! - from.place[i]!;
-      if (!Number.isFinite(begun.v0 + begun.a0 + begun.v1 + begun.a1 + begun.way)) return { kind: "not-a-number", axis: i + 1 };
-      if (!canBeMet(begun.v1, begun.a1, begun.speed, begun.acceleration, begun.jerk)) return { kind: "end-outside", axis: i + 1 };
+      if (!Number.isFinite(begun.v0 + begun.a0 + begun.v1 + begun.a1 + begun.way))
+        return { kind: "not-a-number", axis: i + 1 };
+      if (!canBeMet(begun.v1, begun.a1, begun.speed, begun.acceleration, begun.jerk))
+        return { kind: "end-outside", axis: i + 1 };
       const time = this.braked(i) + shortestTime(this.tasks[i]!, this.scratch);
       if (this.brakePhases[i]! > 0) braking = true;
       this.times[i] = time;
-      if (time > longest) { longest = time; ruling = i; }
+      if (time > longest) {
+        longest = time;
+        ruling = i;
+      }
     }
     if (!braking && this.inPhase(ruling, longest, from, to, out)) return PLANNED;
     const duration_s = this.earliest(longest);
@@ -88,17 +105,27 @@ export class JerkPlanner {
 
   /** Takes the brake of an axis off its task; returns how long it takes. */
   private braked(i: number): number {
-    const begun = this.begun[i]!, task = this.tasks[i]!, phases = this.brakes[i]!;
+    const begun = this.begun[i]!;
+    const task = this.tasks[i]!;
+    const phases = this.brakes[i]!;
     const count = brake(begun.v0, begun.a0, begun.speed, begun.acceleration, begun.jerk, phases);
-    let v = begun.v0, a = begun.a0, way = 0, total = 0;
+    let v = begun.v0;
+    let a = begun.a0;
+    let way = 0;
+    let total = 0;
     for (let k = 0; k < count; k++) {
-      const t = phases[2 * k]!, j = phases[2 * k + 1]!;
+      const t = phases[2 * k]!;
+      const j = phases[2 * k + 1]!;
       way += t * (v + t * (a / 2 + (t * j) / 6));
       v += t * (a + (t * j) / 2);
       a += t * j;
       total += t;
     }
-    task.v0 = v; task.a0 = a; task.v1 = begun.v1; task.a1 = begun.a1; task.way = begun.way - way;
+    task.v0 = v;
+    task.a0 = a;
+    task.v1 = begun.v1;
+    task.a1 = begun.a1;
+    task.way = begun.way - way;
     this.brakePhases[i] = count;
     this.brake_s[i] = total;
     return total;
@@ -128,41 +155,70 @@ export class JerkPlanner {
   }
 
   private canArrive(i: number, time_s: number): boolean {
-    const task = this.tasks[i]!, t = time_s - this.brake_s[i]!;
+    const task = this.tasks[i]!;
+    const t = time_s - this.brake_s[i]!;
     if (t < 0) return false;
     if (time_s === this.times[i]) return true;
-    const most = farthest(task, 1, t, this.upper), least = -farthest(task, -1, t, this.lower), slack = ROUNDING * (Math.abs(task.way) + task.speed * t);
+    const most = farthest(task, 1, t, this.upper);
+    const least = -farthest(task, -1, t, this.lower);
+    const slack = ROUNDING * (Math.abs(task.way) + task.speed * t);
     return task.way <= most + slack && task.way >= least - slack;
   }
 
   /** All axes along one line: the slowest axis sets the pace, and the others must keep their limits at it. */
   private inPhase(ruling: number, duration_s: number, from: JerkState, to: JerkState, out: JerkMotion): boolean {
-    const lead = this.tasks[ruling]!, n = this.axes;
+    const lead = this.tasks[ruling]!;
+    const n = this.axes;
     if (n === 1 || lead.way === 0) return false;
     for (let i = 0; i < n; i++) {
       if (i === ruling) continue;
-      const task = this.tasks[i]!, share = task.way / lead.way, near = ROUNDING * task.speed, bent = ROUNDING * task.acceleration;
-      if (Math.abs(task.v0 - share * lead.v0) > near || Math.abs(task.v1 - share * lead.v1) > near || Math.abs(task.a0 - share * lead.a0) > bent || Math.abs(task.a1 - share * lead.a1) > bent) return false;
+      const task = this.tasks[i]!;
+      const share = task.way / lead.way;
+      const near = ROUNDING * task.speed;
+      const bent = ROUNDING * task.acceleration;
+      if (
+        Math.abs(task.v0 - share * lead.v0) > near ||
+        Math.abs(task.v1 - share * lead.v1) > near ||
+        Math.abs(task.a0 - share * lead.a0) > bent ||
+        Math.abs(task.a1 - share * lead.a1) > bent
+      )
+        return false;
     }
     this.layAxis(ruling, duration_s, from.place[ruling]!, to.place[ruling]!, out);
-    const first = ruling * MOST_PIECES, pieces = out.pieces[ruling]!;
-    let topSpeed = Math.max(Math.abs(lead.v0), Math.abs(lead.v1)), topAcceleration = Math.max(Math.abs(lead.a0), Math.abs(lead.a1)), topJerk = 0;
+    const first = ruling * MOST_PIECES;
+    const pieces = out.pieces[ruling]!;
+    let topSpeed = Math.max(Math.abs(lead.v0), Math.abs(lead.v1));
+    let topAcceleration = Math.max(Math.abs(lead.a0), Math.abs(lead.a1));
+    let topJerk = 0;
     for (let k = first; k < first + pieces; k++) {
-      const a = out.acceleration[k]!, j = out.jerk[k]!, v = out.speed[k]!;
+      const a = out.acceleration[k]!;
+      const j = out.jerk[k]!;
+      const v = out.speed[k]!;
       const end = k + 1 < first + pieces ? out.acceleration[k + 1]! : lead.a1;
       topSpeed = Math.max(topSpeed, Math.abs(v), a * end < 0 ? Math.abs(v - (a * a) / (2 * j)) : 0);
       topAcceleration = Math.max(topAcceleration, Math.abs(a));
       topJerk = Math.max(topJerk, Math.abs(j));
     }
     for (let i = 0; i < n; i++) {
-      const task = this.tasks[i]!, share = Math.abs(task.way / lead.way);
-      if (i !== ruling && (share * topSpeed > task.speed * (1 + 1e-12) || share * topAcceleration > task.acceleration * (1 + 1e-12) || share * topJerk > task.jerk * (1 + 1e-12))) return false;
+      const task = this.tasks[i]!;
+      const share = Math.abs(task.way / lead.way);
+      if (
+        i !== ruling &&
+        (share * topSpeed > task.speed * (1 + 1e-12) ||
+          share * topAcceleration > task.acceleration * (1 + 1e-12) ||
+          share * topJerk > task.jerk * (1 + 1e-12))
+      )
+        return false;
     }
     out.duration_s = duration_s;
     out.synchronised = "phase";
     for (let i = 0; i < n; i++) {
-      const task = this.begun[i]!, share = task.way / lead.way, at = i * MOST_PIECES;
-      out.endPlace[i] = to.place[i]!; out.endSpeed[i] = task.v1; out.endAcceleration[i] = task.a1;
+      const task = this.begun[i]!;
+      const share = task.way / lead.way;
+      const at = i * MOST_PIECES;
+      out.endPlace[i] = to.place[i]!;
+      out.endSpeed[i] = task.v1;
+      out.endAcceleration[i] = task.a1;
       if (i === ruling) continue;
       out.pieces[i] = pieces;
       for (let k = 0; k < pieces; k++) {
@@ -178,35 +234,80 @@ export class JerkPlanner {
 
   /** Writes the pieces of one axis: its brake, then the mixture of its two extreme motions of that duration. */
   private layAxis(i: number, duration_s: number, start: number, end: number, out: JerkMotion): void {
-    const task = this.tasks[i]!, begun = this.begun[i]!, { upper, lower } = this, at = i * MOST_PIECES;
-    const t = Math.max(0, duration_s - this.brake_s[i]!), most = farthest(task, 1, t, upper), least = -farthest(task, -1, t, lower);
-    const wide = most - least, slack = 1e-14 * (Math.abs(task.way) + task.speed * t);
+    const task = this.tasks[i]!;
+    const begun = this.begun[i]!;
+    const { upper, lower } = this;
+    const at = i * MOST_PIECES;
+    const t = Math.max(0, duration_s - this.brake_s[i]!);
+    const most = farthest(task, 1, t, upper);
+    const least = -farthest(task, -1, t, lower);
+    const wide = most - least;
+    const slack = 1e-14 * (Math.abs(task.way) + task.speed * t);
     let share = wide > slack ? (task.way - least) / wide : 0.5;
     share = share < 1e-12 ? 0 : share > 1 - 1e-12 ? 1 : share;
-    let p = start, v = begun.v0, a = begun.a0, now = 0, pieces = 0;
+    let p = start;
+    let v = begun.v0;
+    let a = begun.a0;
+    let now = 0;
+    let pieces = 0;
     const piece = (jerk: number, duration: number): void => {
       if (duration <= 0) return;
       const k = at + pieces;
-      if (pieces > 0 && out.jerk[k - 1] === jerk) { pieces--; const b = at + pieces, whole = now - out.begin[b]!; p = out.place[b]!; v = out.speed[b]!; a = out.acceleration[b]!; now = out.begin[b]!; duration += whole; }
+      if (pieces > 0 && out.jerk[k - 1] === jerk) {
+        pieces--;
+        const b = at + pieces;
+        const whole = now - out.begin[b]!;
+        p = out.place[b]!;
+        v = out.speed[b]!;
+        a = out.acceleration[b]!;
+        now = out.begin[b]!;
+        duration += whole;
+      }
       const here = at + pieces++;
-      out.begin[here] = now; out.jerk[here] = jerk; out.acceleration[here] = a; out.speed[here] = v; out.place[here] = p;
+      out.begin[here] = now;
+      out.jerk[here] = jerk;
+      out.acceleration[here] = a;
+      out.speed[here] = v;
+      out.place[here] = p;
       p += duration * (v + duration * (a / 2 + (duration * jerk) / 6));
       v += duration * (a + (duration * jerk) / 2);
       a += duration * jerk;
       now += duration;
     };
     for (let k = 0; k < this.brakePhases[i]!; k++) piece(this.brakes[i]![2 * k + 1]!, this.brakes[i]![2 * k]!);
-    let ku = 0, kl = 0, leftU = share > 0 ? upper[0]! : Number.POSITIVE_INFINITY, leftL = share < 1 ? lower[0]! : Number.POSITIVE_INFINITY;
+    let ku = 0;
+    let kl = 0;
+    let leftU = share > 0 ? upper[0]! : Number.POSITIVE_INFINITY;
+    let leftL = share < 1 ? lower[0]! : Number.POSITIVE_INFINITY;
     while (ku < PHASES && kl < PHASES) {
       const step = leftU < leftL ? leftU : leftL;
       if (step === Number.POSITIVE_INFINITY) break;
-      piece(task.jerk * ((share > 0 ? share * PHASE_JERK[ku]! : 0) - (share < 1 ? (1 - share) * PHASE_JERK[kl]! : 0)), step);
-      leftU -= step; leftL -= step;
-      if (leftU <= 0) { ku++; leftU = ku < PHASES ? upper[ku]! : 0; }
-      if (leftL <= 0) { kl++; leftL = kl < PHASES ? lower[kl]! : 0; }
+      piece(
+        task.jerk * ((share > 0 ? share * PHASE_JERK[ku]! : 0) - (share < 1 ? (1 - share) * PHASE_JERK[kl]! : 0)),
+        step,
+      );
+      leftU -= step;
+      leftL -= step;
+      if (leftU <= 0) {
+        ku++;
+        leftU = ku < PHASES ? upper[ku]! : 0;
+      }
+      if (leftL <= 0) {
+        kl++;
+        leftL = kl < PHASES ? lower[kl]! : 0;
+      }
     }
-    if (pieces === 0) { out.begin[at] = 0; out.jerk[at] = 0; out.acceleration[at] = a; out.speed[at] = v; out.place[at] = p; pieces = 1; }
+    if (pieces === 0) {
+      out.begin[at] = 0;
+      out.jerk[at] = 0;
+      out.acceleration[at] = a;
+      out.speed[at] = v;
+      out.place[at] = p;
+      pieces = 1;
+    }
     out.pieces[i] = pieces;
-    out.endPlace[i] = end; out.endSpeed[i] = begun.v1; out.endAcceleration[i] = begun.a1;
+    out.endPlace[i] = end;
+    out.endSpeed[i] = begun.v1;
+    out.endAcceleration[i] = begun.a1;
   }
 }

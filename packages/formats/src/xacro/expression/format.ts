@@ -9,32 +9,54 @@ const WIDEST = 1000;
 /** `"%s_%02d" % (name, n)` with s, r, d, i, f, e, g and their widths. */
 export function formatPercent(pattern: string, values: readonly Value[], budget: Budget): string {
   let used = 0;
-  const text = pattern.replace(/%(?:%|([-+0 ]*)(\d*)(?:\.(\d+))?([A-Za-z]))/g, (whole, flags?: string, width?: string, places?: string, type?: string) => {
-    if (whole === "%%") return "%";
-    const value = values[used++];
-    if (value === undefined) throw new Refusal(`“${shorten(pattern)}” asks for more values than it is given.`);
-    return laidOut(value, flags ?? "", width ?? "", places, type ?? "s");
-  });
-  if (used < values.length && !(values.length === 1 && values[0] instanceof Dict)) throw new Refusal(`“${shorten(pattern)}” asks for ${used} values and is given ${values.length}.`);
+  const text = pattern.replace(
+    /%(?:%|([-+0 ]*)(\d*)(?:\.(\d+))?([A-Za-z]))/g,
+    (whole, flags?: string, width?: string, places?: string, type?: string) => {
+      if (whole === "%%") return "%";
+      const value = values[used++];
+      if (value === undefined) throw new Refusal(`“${shorten(pattern)}” asks for more values than it is given.`);
+      return laidOut(value, flags ?? "", width ?? "", places, type ?? "s");
+    },
+  );
+  if (used < values.length && !(values.length === 1 && values[0] instanceof Dict))
+    throw new Refusal(`“${shorten(pattern)}” asks for ${used} values and is given ${values.length}.`);
   budget.spend(text.length);
   return text;
 }
 
 /** `"{}_{1}_{name:.3f}".format(…)`. */
-export function formatBraces(pattern: string, values: readonly Value[], named: ReadonlyMap<string, Value>, budget: Budget): string {
+export function formatBraces(
+  pattern: string,
+  values: readonly Value[],
+  named: ReadonlyMap<string, Value>,
+  budget: Budget,
+): string {
   let next = 0;
-  const text = pattern.replace(/\{\{|\}\}|\{(\w*)(?::([-+0 <>]*)(\d*)(?:\.(\d+))?([a-z]?))?\}/g, (whole, name?: string, flags?: string, width?: string, places?: string, type?: string) => {
-    if (whole === "{{" || whole === "}}") return whole.charAt(0);
-    const index = name === "" ? BigInt(next++) : wholeOf(name ?? ""), value = index === undefined ? named.get(name ?? "") : values[Number(index)];
-    if (value === undefined) throw new Refusal(`“${shorten(pattern)}” asks for a value it is not given.`);
-    return flags === undefined ? textOf(value) : laidOut(value, flags.replace("<", "-").replace(">", ""), width ?? "", places, type === undefined || type === "" ? (places === undefined ? "" : "g") : type);
-  });
+  const text = pattern.replace(
+    /\{\{|\}\}|\{(\w*)(?::([-+0 <>]*)(\d*)(?:\.(\d+))?([a-z]?))?\}/g,
+    (whole, name?: string, flags?: string, width?: string, places?: string, type?: string) => {
+      if (whole === "{{" || whole === "}}") return whole.charAt(0);
+      const index = name === "" ? BigInt(next++) : wholeOf(name ?? "");
+      const value = index === undefined ? named.get(name ?? "") : values[Number(index)];
+      if (value === undefined) throw new Refusal(`“${shorten(pattern)}” asks for a value it is not given.`);
+      return flags === undefined
+        ? textOf(value)
+        : laidOut(
+            value,
+            flags.replace("<", "-").replace(">", ""),
+            width ?? "",
+            places,
+            type === undefined || type === "" ? (places === undefined ? "" : "g") : type,
+          );
+    },
+  );
   budget.spend(text.length);
   return text;
 }
 
 function laidOut(value: Value, flags: string, width: string, places: string | undefined, type: string): string {
-  if (Number(width) > WIDEST || Number(places ?? 0) > 60) throw new Refusal(`A number is to be written ${width || places} characters wide.`);
+  if (Number(width) > WIDEST || Number(places ?? 0) > 60)
+    throw new Refusal(`A number is to be written ${width || places} characters wide.`);
   let text: string;
   if (type === "s" || type === "r" || type === "") text = textOf(value);
   else {

@@ -7,12 +7,15 @@ type Method<T> = (self: T, given: Arguments, budget: Budget) => Value;
 
 const textArgument = ({ values }: Arguments, at: number, method: string): string => {
   const value = values[at];
-  if (typeof value !== "string") throw new Refusal(`${method}() wants a text${value === undefined ? "" : `, not ${kindOf(value)}`}.`);
+  if (typeof value !== "string")
+    throw new Refusal(`${method}() wants a text${value === undefined ? "" : `, not ${kindOf(value)}`}.`);
   return value;
 };
 const trimmed = (self: string, { values }: Arguments, front: boolean, back: boolean): string => {
-  const letters = values[0] === undefined || values[0] === null ? undefined : textOf(values[0]), drop = (letter: string): boolean => (letters === undefined ? letter.trim() === "" : letters.includes(letter));
-  let from = 0, to = self.length;
+  const letters = values[0] === undefined || values[0] === null ? undefined : textOf(values[0]);
+  const drop = (letter: string): boolean => (letters === undefined ? letter.trim() === "" : letters.includes(letter));
+  let from = 0;
+  let to = self.length;
   while (front && from < to && drop(self.charAt(from))) from++;
   while (back && to > from && drop(self.charAt(to - 1))) to--;
   return self.slice(from, to);
@@ -21,7 +24,13 @@ const trimmed = (self: string, { values }: Arguments, front: boolean, back: bool
 const OF_TEXT = new Map<string, Method<string>>([
   ["lower", self => self.toLowerCase()],
   ["upper", self => self.toUpperCase()],
-  ["title", self => self.toLowerCase().replace(/(^|[^a-z])([a-z])/g, (_, before: string, letter: string) => before + letter.toUpperCase())],
+  [
+    "title",
+    self =>
+      self
+        .toLowerCase()
+        .replace(/(^|[^a-z])([a-z])/g, (_, before: string, letter: string) => before + letter.toUpperCase()),
+  ],
   ["capitalize", self => self.charAt(0).toUpperCase() + self.slice(1).toLowerCase()],
   ["strip", (self, given) => trimmed(self, given, true, true)],
   ["lstrip", (self, given) => trimmed(self, given, true, false)],
@@ -31,31 +40,53 @@ const OF_TEXT = new Map<string, Method<string>>([
   ["find", (self, given) => BigInt(self.indexOf(textArgument(given, 0, "find")))],
   ["count", (self, given) => BigInt(self.split(textArgument(given, 0, "count")).length - 1)],
   ["isdigit", self => /^\d+$/.test(self)],
-  ["replace", (self, given, budget) => {
-    const from = textArgument(given, 0, "replace"), to = textArgument(given, 1, "replace"), pieces = self.split(from);
-    budget.spend(self.length + pieces.length * to.length);
-    return pieces.join(to);
-  }],
-  ["split", (self, given, budget) => {
-    const by = given.values[0] ?? null;
-    const pieces = by === null ? self.trim().split(/\s+/).filter(piece => piece !== "") : self.split(textArgument(given, 0, "split"));
-    budget.spend(pieces.length);
-    return new List(pieces);
-  }],
-  ["join", (self, given, budget) => {
-    const text = itemsOf(given.values[0] ?? null).map(textOf).join(self);
-    budget.spend(text.length);
-    return text;
-  }],
+  [
+    "replace",
+    (self, given, budget) => {
+      const from = textArgument(given, 0, "replace");
+      const to = textArgument(given, 1, "replace");
+      const pieces = self.split(from);
+      budget.spend(self.length + pieces.length * to.length);
+      return pieces.join(to);
+    },
+  ],
+  [
+    "split",
+    (self, given, budget) => {
+      const by = given.values[0] ?? null;
+      const pieces =
+        by === null
+          ? self
+              .trim()
+              .split(/\s+/)
+              .filter(piece => piece !== "")
+          : self.split(textArgument(given, 0, "split"));
+      budget.spend(pieces.length);
+      return new List(pieces);
+    },
+  ],
+  [
+    "join",
+    (self, given, budget) => {
+      const text = itemsOf(given.values[0] ?? null)
+        .map(textOf)
+        .join(self);
+      budget.spend(text.length);
+      return text;
+    },
+  ],
   ["format", (self, given, budget) => formatBraces(self, given.values, given.named, budget)],
 ]);
 
 const OF_LIST = new Map<string, Method<List>>([
-  ["index", (self, { values }) => {
-    const at = self.items.findIndex(item => equal(item, values[0] ?? null));
-    if (at < 0) throw new Refusal("index() asks for an item that is not in the list.");
-    return BigInt(at);
-  }],
+  [
+    "index",
+    (self, { values }) => {
+      const at = self.items.findIndex(item => equal(item, values[0] ?? null));
+      if (at < 0) throw new Refusal("index() asks for an item that is not in the list.");
+      return BigInt(at);
+    },
+  ],
   ["count", (self, { values }) => BigInt(self.items.filter(item => equal(item, values[0] ?? null)).length)],
 ]);
 
@@ -68,7 +99,8 @@ const OF_DICT = new Map<string, Method<Dict>>([
 
 /** The method of that name bound to its value, if there is one. */
 export function methodOf(self: Value, name: string, budget: Budget): Callable | undefined {
-  const bound = <T>(method: Method<T> | undefined, of: T): Callable | undefined => method && new Callable(`${name}()`, given => method(of, given, budget));
+  const bound = <T>(method: Method<T> | undefined, of: T): Callable | undefined =>
+    method && new Callable(`${name}()`, given => method(of, given, budget));
   if (typeof self === "string") return bound(OF_TEXT.get(name), self);
   if (self instanceof List) return bound(OF_LIST.get(name), self);
   if (self instanceof Dict) return bound(OF_DICT.get(name), self);

@@ -8,11 +8,16 @@ const DEEPEST = 60;
 /** Binary operators, those that bind less first. */
 const LEVELS: readonly (readonly string[])[] = [["|"], ["^"], ["&"], ["<<", ">>"], ["+", "-"], ["*", "/", "//", "%"]];
 const WORDS = new Set(["and", "or", "not", "if", "else", "in", "is", "for", "lambda"]);
-const CONSTANTS = new Map<string, null | boolean>([["True", true], ["False", false], ["None", null]]);
+const CONSTANTS = new Map<string, null | boolean>([
+  ["True", true],
+  ["False", false],
+  ["None", null],
+]);
 
 /** Takes an expression apart. @throws {Refusal} that quotes the expression. */
 export function parseExpression(text: string): Node {
-  if (text.length > LONGEST) throw new Refusal(`An expression has ${text.length} characters; at most ${LONGEST} are read.`);
+  if (text.length > LONGEST)
+    throw new Refusal(`An expression has ${text.length} characters; at most ${LONGEST} are read.`);
   return new Parser(text).whole();
 }
 
@@ -38,17 +43,25 @@ class Parser {
     return node;
   }
 
-  private get token(): Token { return this.tokens[this.at]!; }
-  private is(value: string): boolean { return (this.token.kind === "sign" || this.token.kind === "name") && this.token.value === value; }
+  private get token(): Token {
+    return this.tokens[this.at]!;
+  }
+  private is(value: string): boolean {
+    return (this.token.kind === "sign" || this.token.kind === "name") && this.token.value === value;
+  }
   private take(value: string): boolean {
     const taken = this.is(value);
     if (taken) this.at++;
     return taken;
   }
-  private expect(value: string): void { if (!this.take(value)) throw this.stuck(`“${value}” is missing`); }
+  private expect(value: string): void {
+    if (!this.take(value)) throw this.stuck(`“${value}” is missing`);
+  }
   private stuck(why = ""): Refusal {
     const found = this.token.kind === "end" ? "its end" : `“${String(this.token.value)}”`;
-    return new Refusal(`The expression “${shorten(this.text.trim())}” is not understood: ${why === "" ? `${found} is not expected there` : why}.`);
+    return new Refusal(
+      `The expression “${shorten(this.text.trim())}” is not understood: ${why === "" ? `${found} is not expected there` : why}.`,
+    );
   }
 
   /** `a if b else c`, and all below. */
@@ -78,24 +91,37 @@ class Parser {
     let nots = 0;
     while (this.take("not")) nots++;
     const inner = this.comparison();
-    return nots === 0 ? inner : nots % 2 === 1 ? { kind: "unary", operator: "not", operand: inner } : { kind: "unary", operator: "not", operand: { kind: "unary", operator: "not", operand: inner } };
+    return nots === 0
+      ? inner
+      : nots % 2 === 1
+        ? { kind: "unary", operator: "not", operand: inner }
+        : { kind: "unary", operator: "not", operand: { kind: "unary", operator: "not", operand: inner } };
   }
   private comparison(): Node {
-    const first = this.binary(0), rest: { operator: string; with: Node }[] = [];
-    for (let operator = this.comparator(); operator !== undefined; operator = this.comparator()) rest.push({ operator, with: this.binary(0) });
+    const first = this.binary(0);
+    const rest: { operator: string; with: Node }[] = [];
+    for (let operator = this.comparator(); operator !== undefined; operator = this.comparator())
+      rest.push({ operator, with: this.binary(0) });
     return rest.length === 0 ? first : { kind: "comparison", first, rest };
   }
   private comparator(): string | undefined {
     for (const sign of ["==", "!=", "<=", ">=", "<", ">", "in"]) if (this.take(sign)) return sign;
     if (this.take("is")) return this.take("not") ? "is not" : "is";
-    if (this.is("not") && this.tokens[this.at + 1]?.value === "in") { this.at += 2; return "not in"; }
+    if (this.is("not") && this.tokens[this.at + 1]?.value === "in") {
+      this.at += 2;
+      return "not in";
+    }
     return undefined;
   }
   private binary(level: number): Node {
     const operators = LEVELS[level];
     if (!operators) return this.signed();
     let left = this.binary(level + 1);
-    for (let operator = operators.find(sign => this.take(sign)); operator !== undefined; operator = operators.find(sign => this.take(sign))) {
+    for (
+      let operator = operators.find(sign => this.take(sign));
+      operator !== undefined;
+      operator = operators.find(sign => this.take(sign))
+    ) {
       left = { kind: "binary", operator, left, right: this.binary(level + 1) };
     }
     return left;
@@ -130,9 +156,11 @@ class Parser {
     }
   }
   private call(of: Node): Node {
-    const values: Node[] = [], named: [string, Node][] = [];
+    const values: Node[] = [];
+    const named: [string, Node][] = [];
     while (!this.take(")")) {
-      const name = this.token, next = this.tokens[this.at + 1];
+      const name = this.token;
+      const next = this.tokens[this.at + 1];
       if (name.kind === "name" && next?.kind === "sign" && next.value === "=") {
         this.at += 2;
         named.push([name.value, this.expression()]);
@@ -149,7 +177,8 @@ class Parser {
     const from = part();
     if (from && this.take("]")) return { kind: "item", of, at: from };
     this.expect(":");
-    const to = part(), step = this.take(":") ? part() : undefined;
+    const to = part();
+    const step = this.take(":") ? part() : undefined;
     this.expect("]");
     return { kind: "slice", of, from, to, step };
   }
@@ -163,7 +192,8 @@ class Parser {
       names.push(name.value);
     } while (this.take(","));
     this.expect("in");
-    const over = this.either(), only: Node[] = [];
+    const over = this.either();
+    const only: Node[] = [];
     while (this.take("if")) only.push(this.either());
     return { kind: "each", result, names, over, only };
   }
@@ -171,10 +201,14 @@ class Parser {
     const token = this.token;
     this.at++;
     switch (token.kind) {
-      case "number": return { kind: "value", value: token.value };
+      case "number":
+        return { kind: "value", value: token.value };
       case "text": {
         let text = token.value;
-        for (let next = this.token; next.kind === "text"; next = this.token) { text += next.value; this.at++; }
+        for (let next = this.token; next.kind === "text"; next = this.token) {
+          text += next.value;
+          this.at++;
+        }
         return { kind: "value", value: text };
       }
       case "name": {
@@ -189,15 +223,21 @@ class Parser {
         if (token.value === "{") return this.inBraces();
         break;
       }
-      case "end": break;
+      case "end":
+        break;
     }
     this.at--;
     throw this.stuck();
   }
   private inParentheses(): Node {
     if (this.take(")")) return { kind: "list", items: [], isTuple: true };
-    const first = this.expression(), items = [first];
-    if (this.is("for")) { const each = this.each(first); this.expect(")"); return each; }
+    const first = this.expression();
+    const items = [first];
+    if (this.is("for")) {
+      const each = this.each(first);
+      this.expect(")");
+      return each;
+    }
     if (this.take(")")) return first;
     while (this.take(",")) if (!this.is(")")) items.push(this.expression());
     this.expect(")");
@@ -207,7 +247,11 @@ class Parser {
     const items: Node[] = [];
     while (!this.take("]")) {
       const item = this.expression();
-      if (this.is("for") && items.length === 0) { const each = this.each(item); this.expect("]"); return each; }
+      if (this.is("for") && items.length === 0) {
+        const each = this.each(item);
+        this.expect("]");
+        return each;
+      }
       items.push(item);
       if (!this.is("]")) this.expect(",");
     }

@@ -7,7 +7,9 @@
 export function fixed(value: number, places: number): string {
   const near = value.toFixed(places);
   if (Math.abs(value) >= 1e21) return near;
-  const long = value.toFixed(Math.min(100, places + 40)), point = long.indexOf("."), rest = long.slice(point + 1 + places);
+  const long = value.toFixed(Math.min(100, places + 40));
+  const point = long.indexOf(".");
+  const rest = long.slice(point + 1 + places);
   const down = places === 0 ? long.slice(0, point) : long.slice(0, point + 1 + places);
   return /^50*$/.test(rest) && "02468".includes(down.at(-1) ?? "") ? down : near;
 }

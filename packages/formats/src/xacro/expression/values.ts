@@ -16,9 +16,14 @@ export class List {
 }
 export class Dict {
   readonly entries: ReadonlyMap<string | bigint | number | boolean | null, Value>;
-  constructor(entries: ReadonlyMap<string | bigint | number | boolean | null, Value>) { this.entries = entries; }
+  constructor(entries: ReadonlyMap<string | bigint | number | boolean | null, Value>) {
+    this.entries = entries;
+  }
 }
-export interface Arguments { readonly values: readonly Value[]; readonly named: ReadonlyMap<string, Value> }
+export interface Arguments {
+  readonly values: readonly Value[];
+  readonly named: ReadonlyMap<string, Value>;
+}
 export class Callable {
   readonly name: string;
   readonly call: (given: Arguments) => Value;
@@ -44,7 +49,9 @@ export function kindOf(value: Value): string {
   if (value instanceof List) return "a list";
   if (value instanceof Dict) return "a dictionary";
   if (value instanceof Callable || value instanceof Names) return value.name;
-  return { boolean: "a truth value", number: "a number", string: "a text" }[typeof value as "boolean" | "number" | "string"];
+  return { boolean: "a truth value", number: "a number", string: "a text" }[
+    typeof value as "boolean" | "number" | "string"
+  ];
 }
 
 export function isTrue(value: Value): boolean {
@@ -54,7 +61,9 @@ export function isTrue(value: Value): boolean {
 }
 
 /** As it stands in the text: `True`, `2.0`, `[1, 'a']`. */
-export function textOf(value: Value): string { return typeof value === "string" ? value : representation(value, 0); }
+export function textOf(value: Value): string {
+  return typeof value === "string" ? value : representation(value, 0);
+}
 
 /** Deeper lists than this are not printed. */
 const DEEPEST = 32;
@@ -65,12 +74,16 @@ function representation(value: Value, depth: number): string {
   if (typeof value === "boolean") return value ? "True" : "False";
   if (typeof value === "bigint") return String(value);
   if (typeof value === "number") return floatText(value);
-  if (typeof value === "string") return value.includes("'") && !value.includes("\"") ? `"${value}"` : `'${value.replaceAll("\\", "\\\\").replaceAll("'", "\\'")}'`;
+  if (typeof value === "string")
+    return value.includes("'") && !value.includes('"')
+      ? `"${value}"`
+      : `'${value.replaceAll("\\", "\\\\").replaceAll("'", "\\'")}'`;
   if (value instanceof List) {
     const inside = value.items.map(item => representation(item, depth + 1)).join(", ");
     return value.isTuple ? `(${inside}${value.items.length === 1 ? "," : ""})` : `[${inside}]`;
   }
-  if (value instanceof Dict) return `{${[...value.entries].map(([key, item]) => `${representation(key, depth + 1)}: ${representation(item, depth + 1)}`).join(", ")}}`;
+  if (value instanceof Dict)
+    return `{${[...value.entries].map(([key, item]) => `${representation(key, depth + 1)}: ${representation(item, depth + 1)}`).join(", ")}}`;
   throw new Refusal(`${value.name} stands where its value is expected.`);
 }
 
@@ -79,17 +92,25 @@ export function floatText(value: number): string {
   if (!Number.isFinite(value)) return Number.isNaN(value) ? "nan" : value > 0 ? "inf" : "-inf";
   if (Object.is(value, -0)) return "-0.0";
   if (value === 0) return "0.0";
-  const [digits = "", power = "0"] = value.toExponential().split("e"), exponent = Number(power);
-  if (exponent < -4 || exponent >= 16) return `${digits}e${exponent < 0 ? "-" : "+"}${String(Math.abs(exponent)).padStart(2, "0")}`;
-  if (exponent >= 0) { const text = value.toFixed(Math.max(0, digits.replace(/[-.]/g, "").length - 1 - exponent)); return text.includes(".") ? text : `${text}.0`; }
+  const [digits = "", power = "0"] = value.toExponential().split("e");
+  const exponent = Number(power);
+  if (exponent < -4 || exponent >= 16)
+    return `${digits}e${exponent < 0 ? "-" : "+"}${String(Math.abs(exponent)).padStart(2, "0")}`;
+  if (exponent >= 0) {
+    const text = value.toFixed(Math.max(0, digits.replace(/[-.]/g, "").length - 1 - exponent));
+    return text.includes(".") ? text : `${text}.0`;
+  }
   return value.toFixed(Math.min(100, digits.replace(/[-.]/g, "").length - 1 - exponent));
 }
 
-const WHOLE = /^\s*[+-]?\d+\s*$/, REAL = /^\s*[+-]?((\d+\.?\d*|\.\d+)(e[+-]?\d+)?|inf|infinity|nan)\s*$/i;
-export const wholeOf = (text: string): bigint | undefined => (WHOLE.test(text) && text.length < 400 ? BigInt(text.trim().replace("+", "")) : undefined);
+const WHOLE = /^\s*[+-]?\d+\s*$/;
+const REAL = /^\s*[+-]?((\d+\.?\d*|\.\d+)(e[+-]?\d+)?|inf|infinity|nan)\s*$/i;
+export const wholeOf = (text: string): bigint | undefined =>
+  WHOLE.test(text) && text.length < 400 ? BigInt(text.trim().replace("+", "")) : undefined;
 export function realOf(text: string): number | undefined {
   if (!REAL.test(text)) return undefined;
-  const plain = text.trim().toLowerCase(), sign = plain.startsWith("-") ? -1 : 1;
+  const plain = text.trim().toLowerCase();
+  const sign = plain.startsWith("-") ? -1 : 1;
   return plain.includes("inf") ? sign * Infinity : plain.includes("nan") ? NaN : Number(plain);
 }
 
@@ -111,21 +132,40 @@ export function truthOf(value: Value, written: string): boolean {
 
 /** A number of either kind, or nothing. Truth values count as 0 and 1. */
 export const numberOf = (value: Value): number | undefined =>
-  (typeof value === "number" ? value : typeof value === "bigint" || typeof value === "boolean" ? Number(value) : undefined);
+  typeof value === "number"
+    ? value
+    : typeof value === "bigint" || typeof value === "boolean"
+      ? Number(value)
+      : undefined;
 /** A whole number, or nothing. */
-export const integerOf = (value: Value): bigint | undefined => (typeof value === "bigint" ? value : typeof value === "boolean" ? BigInt(value) : undefined);
+export const integerOf = (value: Value): bigint | undefined =>
+  typeof value === "bigint" ? value : typeof value === "boolean" ? BigInt(value) : undefined;
 
 export function equal(a: Value, b: Value): boolean {
-  const x = numberOf(a), y = numberOf(b);
+  const x = numberOf(a);
+  const y = numberOf(b);
   if (x !== undefined && y !== undefined) return typeof a === "bigint" && typeof b === "bigint" ? a === b : x === y;
-  if (a instanceof List && b instanceof List) return a.isTuple === b.isTuple && a.items.length === b.items.length && a.items.every((item, i) => equal(item, b.items[i]!));
-  if (a instanceof Dict && b instanceof Dict) return a.entries.size === b.entries.size && [...a.entries].every(([key, item]) => { const other = b.entries.get(key); return other !== undefined && equal(item, other); });
+  if (a instanceof List && b instanceof List)
+    return (
+      a.isTuple === b.isTuple &&
+      a.items.length === b.items.length &&
+      a.items.every((item, i) => equal(item, b.items[i]!))
+    );
+  if (a instanceof Dict && b instanceof Dict)
+    return (
+      a.entries.size === b.entries.size &&
+      [...a.entries].every(([key, item]) => {
+        const other = b.entries.get(key);
+        return other !== undefined && equal(item, other);
+      })
+    );
   return a === b;
 }
 
 /** Negative, 0 or positive as a is before, with or after b; undefined when they have no order. */
 export function order(a: Value, b: Value): number | undefined {
-  const x = numberOf(a), y = numberOf(b);
+  const x = numberOf(a);
+  const y = numberOf(b);
   if (x !== undefined && y !== undefined) return x < y ? -1 : x > y ? 1 : x === y ? 0 : NaN;
   if (typeof a === "string" && typeof b === "string") return a < b ? -1 : a > b ? 1 : 0;
   if (a instanceof List && b instanceof List) {
@@ -141,7 +181,8 @@ export function order(a: Value, b: Value): number | undefined {
 export function keyOf(value: Value): string | bigint | number | boolean | null {
   if (typeof value === "number" && Number.isInteger(value)) return BigInt(value);
   if (typeof value === "boolean") return BigInt(value);
-  if (value === null || typeof value === "string" || typeof value === "bigint" || typeof value === "number") return value;
+  if (value === null || typeof value === "string" || typeof value === "bigint" || typeof value === "number")
+    return value;
   throw new Refusal(`${kindOf(value)} cannot be a key of a dictionary.`);
 }
 

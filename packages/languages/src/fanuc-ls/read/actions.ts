@@ -1,7 +1,10 @@
 import type { Expression, Statement } from "../../text/structured/index.ts";
 
 /** Where a motion goes: P[n], or PR[n]. */
-export interface Point { readonly register: "p" | "pr"; readonly number: Expression }
+export interface Point {
+  readonly register: "p" | "pr";
+  readonly number: Expression;
+}
 /** What happens behind a jump that is not taken by itself: the program goes on, is aborted, or goes elsewhere. */
 export type Fate = "on" | "abort" | "elsewhere";
 export interface Motion {
@@ -22,14 +25,26 @@ export interface Motion {
 /** What an instruction does, apart from loops, decisions, calls and assignments to registers. */
 export type Action =
   | Motion
-  | { readonly kind: "set"; readonly word: string; readonly number: Expression; readonly value: Expression; readonly pulse?: Expression }
+  | {
+      readonly kind: "set";
+      readonly word: string;
+      readonly number: Expression;
+      readonly value: Expression;
+      readonly pulse?: Expression;
+    }
   | { readonly kind: "wait"; readonly s: Expression }
   | { readonly kind: "wait-for"; readonly when: Expression; readonly label?: number }
   | { readonly kind: "skip-condition"; readonly when: Expression }
   | { readonly kind: "offset-condition"; readonly register: Expression }
   | { readonly kind: "message"; readonly text: string }
   | { readonly kind: "select"; readonly what: "uframe" | "utool"; readonly number: Expression }
-  | { readonly kind: "define"; readonly what: "uframe" | "utool"; readonly number: Expression; readonly value: Expression; readonly spelling: string }
+  | {
+      readonly kind: "define";
+      readonly what: "uframe" | "utool";
+      readonly number: Expression;
+      readonly value: Expression;
+      readonly spelling: string;
+    }
   | { readonly kind: "timeout"; readonly value: Expression }
   | { readonly kind: "jump"; readonly label: number }
   | { readonly kind: "label"; readonly label: number }

@@ -2,7 +2,12 @@ import type { TextPlace } from "@twincell/core";
 import { TextError, plainText } from "../../text/index.ts";
 
 /** Three flags and the whole turns of axes 1, 4 and 6. */
-export interface Config { readonly flip: boolean; readonly up: boolean; readonly toward: boolean; readonly turns: readonly [number, number, number] }
+export interface Config {
+  readonly flip: boolean;
+  readonly up: boolean;
+  readonly toward: boolean;
+  readonly turns: readonly [number, number, number];
+}
 export interface PositionRecord extends TextPlace {
   readonly uf: number;
   readonly ut: number;
@@ -22,7 +27,8 @@ export interface ListedProgram extends TextPlace {
 }
 
 /** Marks that no file holds: before a remark, and around a message. */
-export const REMARK = "\u0002", MESSAGE = "\u0001";
+export const REMARK = "\u0002";
+export const MESSAGE = "\u0001";
 
 const SECTION = /^\s*\/(PROG|ATTR|APPL|MN|POS|END)\b\s*(.*)$/i;
 const NUMBERED = /^\s*[0-9]*\s*:/;
@@ -35,20 +41,38 @@ const blank = (text: string): string => " ".repeat(text.length);
  * @param label  told what a person calls a register or a line: "DO", 5, "lamp".
  * @throws {TextError} at the first thing that belongs to no listing.
  */
-export function readListings(text: string, label: (word: string, number: number, name: string) => void): ListedProgram[] {
-  const lines = plainText(text).split(/\r\n|\n|\r/), programs: ListedProgram[] = [];
-  let section = "", name = "", comment = "", from = 0, opened: TextPlace = { line: 1, column: 1 }, code: string[] = [], positions = new Map<number, PositionRecord>(), record: RecordReader | undefined;
+export function readListings(
+  text: string,
+  label: (word: string, number: number, name: string) => void,
+): ListedProgram[] {
+  const lines = plainText(text).split(/\r\n|\n|\r/);
+  const programs: ListedProgram[] = [];
+  let section = "";
+  let name = "";
+  let comment = "";
+  let from = 0;
+  let opened: TextPlace = { line: 1, column: 1 };
+  let code: string[] = [];
+  let positions = new Map<number, PositionRecord>();
+  let record: RecordReader | undefined;
   for (const [i, raw] of lines.entries()) {
-    const line = i === 0 && raw.startsWith("\uFEFF") ? ` ${raw.slice(1)}` : raw, place = { line: i + 1, column: 1 + (/\S/.exec(line)?.index ?? 0) };
+    const line = i === 0 && raw.startsWith("\uFEFF") ? ` ${raw.slice(1)}` : raw;
+    const place = { line: i + 1, column: 1 + (/\S/.exec(line)?.index ?? 0) };
     const head = line.trimStart().startsWith("/") && !line.trimStart().startsWith("//") ? SECTION.exec(line) : null;
     if (head !== null) {
-      const next = head[1]!.toUpperCase(), rest = head[2]!.trim();
+      const next = head[1]!.toUpperCase();
+      const rest = head[2]!.trim();
       if (record !== undefined) throw new TextError(place, "};", "The position is not closed.");
       if (next === "PROG") {
         if (section !== "") throw new TextError(place, "/END", "A program begins inside another.");
         const found = /^([A-Za-z_-][A-Za-z0-9_-]*)/.exec(rest)?.[1];
         if (found === undefined) throw new TextError(place, "the name of the program", "The program has no name.");
-        name = found; comment = ""; code = []; positions = new Map(); from = i; opened = place;
+        name = found;
+        comment = "";
+        code = [];
+        positions = new Map();
+        from = i;
+        opened = place;
       } else if (section === "") throw new TextError(place, "/PROG", `/${next} stands outside a program.`);
       if (next === "END") {
         programs.push({ name, comment, code: "\n".repeat(from) + code.join("\n"), positions, ...opened });
@@ -58,7 +82,9 @@ export function readListings(text: string, label: (word: string, number: number,
       continue;
     }
     switch (section) {
-      case "MN": code.push(statementOf(line, i + 1, label)); break;
+      case "MN":
+        code.push(statementOf(line, i + 1, label));
+        break;
       case "POS": {
         code.push("");
         if (line.trim() === "") break;
@@ -77,28 +103,43 @@ export function readListings(text: string, label: (word: string, number: number,
       }
       default:
         code.push("");
-        if (section === "" && line.trim() !== "") throw new TextError(place, "/PROG", "The text is no listing of a TP program.");
+        if (section === "" && line.trim() !== "")
+          throw new TextError(place, "/PROG", "The text is no listing of a TP program.");
     }
   }
-  if (section !== "" || programs.length === 0) throw new TextError({ line: lines.length, column: 1 }, section === "" ? "/PROG" : "/END", section === "" ? "The text holds no program." : `The program ${name} has no end.`);
+  if (section !== "" || programs.length === 0)
+    throw new TextError(
+      { line: lines.length, column: 1 },
+      section === "" ? "/PROG" : "/END",
+      section === "" ? "The text holds no program." : `The program ${name} has no end.`,
+    );
   return programs;
 }
 
 /** A numbered line without its number, its end and the names that people gave to registers. */
 function statementOf(line: string, at: number, label: (word: string, number: number, name: string) => void): string {
   const number = NUMBERED.exec(line)?.[0] ?? "";
-  if (number === "" && line.trim() !== "" && !/^\s/.test(line)) throw new TextError({ line: at, column: 1 }, "the number of the line and a colon", "The line has no number.");
-  let rest = line.slice(number.length).replace(/;\s*$/, end => blank(end)).replaceAll(MESSAGE, " ").replaceAll(REMARK, " ");
-  const first = rest.trimStart(), indent = rest.length - first.length;
+  if (number === "" && line.trim() !== "" && !/^\s/.test(line))
+    throw new TextError({ line: at, column: 1 }, "the number of the line and a colon", "The line has no number.");
+  let rest = line
+    .slice(number.length)
+    .replace(/;\s*$/, end => blank(end))
+    .replaceAll(MESSAGE, " ")
+    .replaceAll(REMARK, " ");
+  const first = rest.trimStart();
+  const indent = rest.length - first.length;
   if (first.startsWith("!")) rest = `${blank(rest.slice(0, indent))}${REMARK}${first.slice(1)}`;
   else if (first.startsWith("--eg:")) rest = `${blank(rest.slice(0, indent + 4))}${REMARK}${first.slice(5)}`;
   // A statement that was taken out.
   else if (first.startsWith("//")) rest = "";
   else if (/^MESSAGE\s*\[/i.test(first)) {
-    const open = rest.indexOf("["), close = rest.lastIndexOf("]");
-    if (close > open) rest = `${rest.slice(0, open)}${MESSAGE}${rest.slice(open + 1, close)}${MESSAGE}${rest.slice(close + 1)}`;
+    const open = rest.indexOf("[");
+    const close = rest.lastIndexOf("]");
+    if (close > open)
+      rest = `${rest.slice(0, open)}${MESSAGE}${rest.slice(open + 1, close)}${MESSAGE}${rest.slice(close + 1)}`;
   } else if (rest.includes(":")) {
-    for (const [, word, index, name] of rest.matchAll(/([A-Za-z]+)\[\s*([0-9]+)\s*(?:,[^\]:]*)?:([^\]]*)\]/g)) label(word!, Number(index), name!.trim());
+    for (const [, word, index, name] of rest.matchAll(/([A-Za-z]+)\[\s*([0-9]+)\s*(?:,[^\]:]*)?:([^\]]*)\]/g))
+      label(word!, Number(index), name!.trim());
     rest = rest.replace(LABEL, (whole, open: string) => open + blank(whole.slice(open.length)));
   }
   return blank(number) + rest;
@@ -106,7 +147,8 @@ function statementOf(line: string, at: number, label: (word: string, number: num
 
 const CONFIG = /CONFIG\s*:\s*'\s*([FN])\s*([UD])\s*([TB])\s*,\s*(-?[0-9]+)\s*,\s*(-?[0-9]+)\s*,\s*(-?[0-9]+)\s*'/i;
 const FIELD = /\b(X|Y|Z|W|P|R|J[1-9]|E[1-9])\s*=\s*([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)|\*+)\s*(mm|deg)/gi;
-const CARTESIAN = ["X", "Y", "Z", "W", "P", "R"], JOINTS = ["J1", "J2", "J3", "J4", "J5", "J6"];
+const CARTESIAN = ["X", "Y", "Z", "W", "P", "R"];
+const JOINTS = ["J1", "J2", "J3", "J4", "J5", "J6"];
 
 /** One record of /POS, line by line. */
 class RecordReader {
@@ -135,24 +177,40 @@ class RecordReader {
     if (group !== undefined) this.group = Number(group);
     if (this.group === 1) {
       const frames = /UF\s*:\s*([0-9F]+)\s*,\s*UT\s*:\s*([0-9F]+)/i.exec(line);
-      if (frames !== null) { this.uf = Number(frames[1]); this.ut = Number(frames[2]); }
+      if (frames !== null) {
+        this.uf = Number(frames[1]);
+        this.ut = Number(frames[2]);
+      }
       if (/CONFIG/i.test(line)) {
         const found = CONFIG.exec(line);
-        if (found === null) throw new TextError(place, "CONFIG : 'N U T, 0, 0, 0'", "The configuration is not understood.");
-        this.config = { flip: found[1]!.toUpperCase() === "F", up: found[2]!.toUpperCase() === "U", toward: found[3]!.toUpperCase() === "T", turns: [Number(found[4]), Number(found[5]), Number(found[6])] };
+        if (found === null)
+          throw new TextError(place, "CONFIG : 'N U T, 0, 0, 0'", "The configuration is not understood.");
+        this.config = {
+          flip: found[1]!.toUpperCase() === "F",
+          up: found[2]!.toUpperCase() === "U",
+          toward: found[3]!.toUpperCase() === "T",
+          turns: [Number(found[4]), Number(found[5]), Number(found[6])],
+        };
       }
-      for (const [, name, value] of line.matchAll(FIELD)) this.fields.set(name!.toUpperCase(), value!.startsWith("*") ? undefined : Number(value));
+      for (const [, name, value] of line.matchAll(FIELD))
+        this.fields.set(name!.toUpperCase(), value!.startsWith("*") ? undefined : Number(value));
     }
     if (/\}\s*;/.test(line)) return true;
-    if (this.fields.size > 40 || place.line > this.place.line + 60) throw new TextError(place, "};", `The position P[${this.number}] is not closed.`);
+    if (this.fields.size > 40 || place.line > this.place.line + 60)
+      throw new TextError(place, "};", `The position P[${this.number}] is not closed.`);
     return false;
   }
 
   done(): PositionRecord {
-    const { fields, uf, ut, config, place } = this, joints = fields.has("J1"), names = joints ? JOINTS : CARTESIAN;
-    if (!names.every(name => fields.has(name))) throw new TextError(place, names.join(", "), `The position P[${this.number}] lacks one of ${names.join(", ")}.`);
-    if (!Number.isInteger(uf) || !Number.isInteger(ut)) throw new TextError(place, "UF : 0, UT : 1", `The position P[${this.number}] has no numbers of frame and tool.`);
-    const values = names.map(name => fields.get(name)), known = values.filter(value => value !== undefined);
+    const { fields, uf, ut, config, place } = this;
+    const joints = fields.has("J1");
+    const names = joints ? JOINTS : CARTESIAN;
+    if (!names.every(name => fields.has(name)))
+      throw new TextError(place, names.join(", "), `The position P[${this.number}] lacks one of ${names.join(", ")}.`);
+    if (!Number.isInteger(uf) || !Number.isInteger(ut))
+      throw new TextError(place, "UF : 0, UT : 1", `The position P[${this.number}] has no numbers of frame and tool.`);
+    const values = names.map(name => fields.get(name));
+    const known = values.filter(value => value !== undefined);
     return { uf, ut, joints, config, values: known.length === names.length ? known : undefined, ...place };
   }
 }

@@ -20,19 +20,30 @@ export interface Source {
   /** Jumps that are neither a loop without end nor a decision. */
   readonly hasJumps: boolean;
 }
-export type SourceAnswer = { readonly kind: "source"; readonly source: Source } | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
+export type SourceAnswer =
+  | { readonly kind: "source"; readonly source: Source }
+  | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 /** Reads one listing or several, one behind the other; the first is the one that is started. */
 export function readSource(text: string): SourceAnswer {
   const labels = new Map<string, string>();
   try {
-    const programs = readListings(text, (word, number, name) => { const key = `${word.toLowerCase()}${number}`; if (name !== "" && !labels.has(key)) labels.set(key, name); });
-    const routines = new Map<string, Routine>(), positions = new Map<string, ReadonlyMap<number, PositionRecord>>(), spelling = new Map<string, string>(), faults: TextFault[] = [];
-    const actions = new Map<Statement, Action>(), fates = new Map<Statement, Fate>();
-    let hasJumps = false, title = "";
+    const programs = readListings(text, (word, number, name) => {
+      const key = `${word.toLowerCase()}${number}`;
+      if (name !== "" && !labels.has(key)) labels.set(key, name);
+    });
+    const routines = new Map<string, Routine>();
+    const positions = new Map<string, ReadonlyMap<number, PositionRecord>>();
+    const spelling = new Map<string, string>();
+    const faults: TextFault[] = [];
+    const actions = new Map<Statement, Action>();
+    const fates = new Map<Statement, Fate>();
+    let hasJumps = false;
+    let title = "";
     for (const { name, comment, code, positions: own, line, column } of programs) {
       const key = name.toLowerCase();
-      if (routines.has(key)) throw new TextError({ line, column }, "a name used once", `The program ${name} is there twice.`);
+      if (routines.has(key))
+        throw new TextError({ line, column }, "a name used once", `The program ${name} is there twice.`);
       const reading = readStatements(code);
       faults.push(...reading.faults);
       for (const [statement, action] of reading.actions) actions.set(statement, action);
@@ -45,7 +56,20 @@ export function readSource(text: string): SourceAnswer {
       spelling.set(key, isSpelling(comment, name) ? comment : name);
     }
     if (faults.length > 0) return { kind: "not-understood", faults };
-    return { kind: "source", source: { title, main: [...routines.values()][0]!, routines, positions, actions, fates, labels, spelling, hasJumps } };
+    return {
+      kind: "source",
+      source: {
+        title,
+        main: [...routines.values()][0]!,
+        routines,
+        positions,
+        actions,
+        fates,
+        labels,
+        spelling,
+        hasJumps,
+      },
+    };
   } catch (cause) {
     if (!(cause instanceof TextError)) throw cause;
     return { kind: "not-understood", faults: [cause.fault] };
@@ -53,7 +77,8 @@ export function readSource(text: string): SourceAnswer {
 }
 
 /** Whether a comment is the name with the signs that a name of a program cannot have. */
-const isSpelling = (comment: string, name: string): boolean => comment.replace(/[^A-Za-z0-9]+/g, "_").toLowerCase() === name.toLowerCase();
+const isSpelling = (comment: string, name: string): boolean =>
+  comment.replace(/[^A-Za-z0-9]+/g, "_").toLowerCase() === name.toLowerCase();
 
 /** What the first remark `!* …` calls the program. */
 function titleOf(block: Block): string | undefined {
@@ -77,11 +102,17 @@ class Jumps {
     this.judge(block);
   }
 
-  structured(): Block { return this.shape(this.block); }
+  structured(): Block {
+    return this.shape(this.block);
+  }
 
-  private actionOf(statement: Statement | undefined): Action | undefined { return statement === undefined ? undefined : this.actions.get(statement); }
+  private actionOf(statement: Statement | undefined): Action | undefined {
+    return statement === undefined ? undefined : this.actions.get(statement);
+  }
 
-  private use(label: number): void { this.uses.set(label, (this.uses.get(label) ?? 0) + 1); }
+  private use(label: number): void {
+    this.uses.set(label, (this.uses.get(label) ?? 0) + 1);
+  }
 
   private count(block: Block): void {
     for (const statement of block) {
@@ -94,17 +125,32 @@ class Jumps {
   /** Where the labels of searches and waits lead. */
   private judge(block: Block): void {
     for (const [i, statement] of block.entries()) {
-      const action = this.actionOf(statement), label = action?.kind === "motion" ? action.skip : action?.kind === "wait-for" ? action.label : undefined;
+      const action = this.actionOf(statement);
+      const label = action?.kind === "motion" ? action.skip : action?.kind === "wait-for" ? action.label : undefined;
       if (label !== undefined) this.fates.set(statement, this.fate(label, block, i));
       for (const inner of inside(statement)) this.judge(inner);
     }
   }
 
   private fate(label: number, block: Block, from: number): Fate {
-    const is = (statement: Statement | undefined): boolean => { const action = this.actionOf(statement); return action?.kind === "label" && action.label === label; };
+    const is = (statement: Statement | undefined): boolean => {
+      const action = this.actionOf(statement);
+      return action?.kind === "label" && action.label === label;
+    };
     const next = block.slice(from + 1).find(({ kind }) => kind !== "comment");
     if (is(next)) return "on";
-    const at = this.block.findIndex(is), then = at < 0 ? undefined : this.block.slice(at + 1).find(each => each.kind !== "comment" && this.actionOf(each)?.kind !== "label" && this.actionOf(each)?.kind !== "message");
+    const at = this.block.findIndex(is);
+    const then =
+      at < 0
+        ? undefined
+        : this.block
+            .slice(at + 1)
+            .find(
+              each =>
+                each.kind !== "comment" &&
+                this.actionOf(each)?.kind !== "label" &&
+                this.actionOf(each)?.kind !== "message",
+            );
     return then?.kind === "halt" ? "abort" : "elsewhere";
   }
 
@@ -115,7 +161,8 @@ class Jumps {
       if (action?.kind === "jump" && this.uses.get(action.label) === 1) {
         const from = this.labelIn(out, action.label);
         if (from >= 0) {
-          const { line, column } = out[from]!, body = out.splice(from).slice(1);
+          const { line, column } = out[from]!;
+          const body = out.splice(from).slice(1);
           out.push({ kind: "while", when: { kind: "truth", value: true, line, column }, body, line, column });
           continue;
         }
@@ -124,7 +171,14 @@ class Jumps {
         const from = out.findIndex(each => this.skips(each, action.label));
         const start = out[from];
         if (start?.kind === "if") {
-          const body = out.splice(from).slice(1), when: Expression = { kind: "unary", sign: "!", of: start.branches[0]!.when, line: start.line, column: start.column };
+          const body = out.splice(from).slice(1);
+          const when: Expression = {
+            kind: "unary",
+            sign: "!",
+            of: start.branches[0]!.when,
+            line: start.line,
+            column: start.column,
+          };
           out.push({ kind: "if", branches: [{ when, body }], line: start.line, column: start.column });
           continue;
         }
@@ -135,12 +189,16 @@ class Jumps {
   }
 
   private labelIn(block: Block, label: number): number {
-    return block.findIndex(each => { const action = this.actionOf(each); return action?.kind === "label" && action.label === label; });
+    return block.findIndex(each => {
+      const action = this.actionOf(each);
+      return action?.kind === "label" && action.label === label;
+    });
   }
 
   /** `IF …,JMP LBL[n]` */
   private skips(statement: Statement, label: number): boolean {
-    if (statement.kind !== "if" || statement.otherwise !== undefined || statement.branches[0]!.body.length !== 1) return false;
+    if (statement.kind !== "if" || statement.otherwise !== undefined || statement.branches[0]!.body.length !== 1)
+      return false;
     const action = this.actionOf(statement.branches[0]!.body[0]);
     return action?.kind === "jump" && action.label === label;
   }
@@ -148,22 +206,37 @@ class Jumps {
   private inner(statement: Statement): Statement {
     switch (statement.kind) {
       case "if": {
-        const { otherwise } = statement, branches = statement.branches.map(({ when, body }) => ({ when, body: this.shape(body) }));
-        return otherwise === undefined ? { ...statement, branches } : { ...statement, branches, otherwise: this.shape(otherwise) };
+        const { otherwise } = statement;
+        const branches = statement.branches.map(({ when, body }) => ({ when, body: this.shape(body) }));
+        return otherwise === undefined
+          ? { ...statement, branches }
+          : { ...statement, branches, otherwise: this.shape(otherwise) };
       }
-      case "for": case "while": return { ...statement, body: this.shape(statement.body) };
-      default: return statement;
+      case "for":
+      case "while":
+        return { ...statement, body: this.shape(statement.body) };
+      default:
+        return statement;
     }
   }
 }
 
 const jumps = (block: Block, actions: ReadonlyMap<Statement, Action>): boolean =>
-  block.some(statement => actions.get(statement)?.kind === "jump" || inside(statement).some(each => jumps(each, actions)));
+  block.some(
+    statement => actions.get(statement)?.kind === "jump" || inside(statement).some(each => jumps(each, actions)),
+  );
 
 function inside(statement: Statement): readonly Block[] {
   switch (statement.kind) {
-    case "if": return [...statement.branches.map(({ body }) => body), ...(statement.otherwise === undefined ? [] : [statement.otherwise])];
-    case "for": case "while": return [statement.body];
-    default: return [];
+    case "if":
+      return [
+        ...statement.branches.map(({ body }) => body),
+        ...(statement.otherwise === undefined ? [] : [statement.otherwise]),
+      ];
+    case "for":
+    case "while":
+      return [statement.body];
+    default:
+      return [];
   }
 }

@@ -1,6 +1,25 @@
-import type { Condition, Executed, MoveStep, Pose, Robot, SignalLine, Signals, Step, Target, TextPlace } from "@twincell/core";
+import type {
+  Condition,
+  Executed,
+  MoveStep,
+  Pose,
+  Robot,
+  SignalLine,
+  Signals,
+  Step,
+  Target,
+  TextPlace,
+} from "@twincell/core";
 import { TextError, nameIn, type Surroundings } from "../../text/index.ts";
-import { BlockMachine, type Block, type Do, type Expression, type Flow, type Statement, type WaitUntil } from "../../text/structured/index.ts";
+import {
+  BlockMachine,
+  type Block,
+  type Do,
+  type Expression,
+  type Flow,
+  type Statement,
+  type WaitUntil,
+} from "../../text/structured/index.ts";
 import type { Action, Motion, Point } from "../read/actions.ts";
 import type { PositionRecord } from "../read/listing.ts";
 import type { Source } from "../read/source.ts";
@@ -10,8 +29,18 @@ import { keep, speedOf } from "./pace.ts";
 import { asNumber, binary, isSix, type Value } from "./values.ts";
 
 const KINDS: Readonly<Record<string, SignalLine["kind"]>> = {
-  di: "digital-in", ri: "digital-in", ui: "digital-in", si: "digital-in", do: "digital-out", ro: "digital-out", uo: "digital-out", so: "digital-out",
-  ai: "analogue-in", gi: "analogue-in", ao: "analogue-out", go: "analogue-out",
+  di: "digital-in",
+  ri: "digital-in",
+  ui: "digital-in",
+  si: "digital-in",
+  do: "digital-out",
+  ro: "digital-out",
+  uo: "digital-out",
+  so: "digital-out",
+  ai: "analogue-in",
+  gi: "analogue-in",
+  ao: "analogue-out",
+  go: "analogue-out",
 };
 /** Lines that the neutral program has numbers for; others go by their names. */
 const NUMBERED = new Set(["di", "do", "ai", "ao"]);
@@ -21,9 +50,15 @@ const TIMEOUT = 3000;
 const DEFAULT_WIDE = 360;
 
 /** A tool or a frame as it was set up, and what a person calls it. */
-interface Setup { readonly matrix: Matrix; readonly name: string }
+interface Setup {
+  readonly matrix: Matrix;
+  readonly name: string;
+}
 /** A position register that is the difference of two others: how far a place is from the first. */
-interface Difference { readonly present: string; readonly first: string }
+interface Difference {
+  readonly present: string;
+  readonly first: string;
+}
 
 /** Executes TP statement by statement. */
 export class Machine extends BlockMachine<Value> {
@@ -47,7 +82,14 @@ export class Machine extends BlockMachine<Value> {
   private jump: number | undefined;
 
   /** @param writesDown  the program becomes steps to be kept: poses stay poses, whatever turn of an axis the text asks for. */
-  constructor(source: Source, robot: Robot, worldFromBase: Pose<"world", "base">, surroundings: Surroundings, signals: Signals | undefined, writesDown: boolean) {
+  constructor(
+    source: Source,
+    robot: Robot,
+    worldFromBase: Pose<"world", "base">,
+    surroundings: Surroundings,
+    signals: Signals | undefined,
+    writesDown: boolean,
+  ) {
     super(source.routines);
     this.source = source;
     this.arm = new ControllerArm(robot, worldFromBase);
@@ -56,7 +98,9 @@ export class Machine extends BlockMachine<Value> {
     this.writesDown = writesDown;
   }
 
-  *main(): Generator<Executed, Flow> { return yield* this.call(this.source.main, [], this.source.main); }
+  *main(): Generator<Executed, Flow> {
+    return yield* this.call(this.source.main, [], this.source.main);
+  }
 
   /** The body of the first program, to be written down. */
   open(): Block {
@@ -66,14 +110,19 @@ export class Machine extends BlockMachine<Value> {
 
   spelt(name: string): string {
     const { labels, spelling } = this.source;
-    return labels.get(name) ?? spelling.get(name) ?? name.replace(/^([a-z]+)([0-9]+)$/, (_, word: string, number: string) => `${word.toUpperCase()}[${number}]`);
+    return (
+      labels.get(name) ??
+      spelling.get(name) ??
+      name.replace(/^([a-z]+)([0-9]+)$/, (_, word: string, number: string) => `${word.toUpperCase()}[${number}]`)
+    );
   }
 
   // --- jumps ------------------------------------------------------------------------------------------------------
 
   override *block(block: Block): Generator<Executed, Flow> {
     for (let i = 0; i < block.length; i++) {
-      const statement = block[i]!, flow = yield* this.statement(statement);
+      const statement = block[i]!;
+      const flow = yield* this.statement(statement);
       if (this.jump !== undefined) {
         const to = block.findIndex(each => this.isLabel(each, this.jump!));
         if (to < 0) return "break";
@@ -95,35 +144,50 @@ export class Machine extends BlockMachine<Value> {
 
   evaluate(expression: Expression): Value {
     switch (expression.kind) {
-      case "number": case "truth": return expression.value;
+      case "number":
+      case "truth":
+        return expression.value;
       case "variable": {
-        if (expression.name === "lpos") return [...toSix(times(times(inverted(this.frameNow(expression)), this.arm.flange), this.toolNow(expression)))];
+        if (expression.name === "lpos")
+          return [
+            ...toSix(times(times(inverted(this.frameNow(expression)), this.arm.flange), this.toolNow(expression))),
+          ];
         return this.register(expression.name, expression);
       }
       case "index": {
-        const { of, indices } = expression, word = of.kind === "variable" ? of.name : "", [first, second] = indices.map(index => this.numberOf(index));
+        const { of, indices } = expression;
+        const word = of.kind === "variable" ? of.name : "";
+        const [first, second] = indices.map(index => this.numberOf(index));
         if (Object.hasOwn(KINDS, word)) return this.read(this.line(word, first!, expression));
-        if (word !== "r" && word !== "pr") throw new TextError(expression, "R[n], PR[n] or a line", `${word.toUpperCase()}[] is not read here.`);
+        if (word !== "r" && word !== "pr")
+          throw new TextError(expression, "R[n], PR[n] or a line", `${word.toUpperCase()}[] is not read here.`);
         const value = this.register(`${word}${first}`, expression);
         if (second === undefined) return value;
         const part = isSix(value) ? value[second - 1] : undefined;
-        if (part === undefined) throw new TextError(expression, "PR[n,1] … PR[n,6]", `PR[${first}] has no element ${second}.`);
+        if (part === undefined)
+          throw new TextError(expression, "PR[n,1] … PR[n,6]", `PR[${first}] has no element ${second}.`);
         return part;
       }
-      case "unary": return expression.sign === "!" ? !this.isTrue(expression.of) : -this.numberOf(expression.of);
-      case "binary": return binary(expression.sign, this.evaluate(expression.left), this.evaluate(expression.right), expression);
-      default: throw new TextError(expression, "a value of TP", "This is no value of TP.");
+      case "unary":
+        return expression.sign === "!" ? !this.isTrue(expression.of) : -this.numberOf(expression.of);
+      case "binary":
+        return binary(expression.sign, this.evaluate(expression.left), this.evaluate(expression.right), expression);
+      default:
+        throw new TextError(expression, "a value of TP", "This is no value of TP.");
     }
   }
 
   private register(name: string, at: TextPlace): Value {
     const value = this.holder(name).get(name);
-    if (value === undefined) throw new TextError(at, "a register that has a value", `${this.spelt(name)} has no value here.`);
+    if (value === undefined)
+      throw new TextError(at, "a register that has a value", `${this.spelt(name)} has no value here.`);
     return value;
   }
 
   /** Where a register is kept: those that loops count in belong to the call. */
-  private holder(name: string): Map<string, Value> { return this.scopes.findLast(({ names }) => names.has(name))?.names ?? this.globals; }
+  private holder(name: string): Map<string, Value> {
+    return this.scopes.findLast(({ names }) => names.has(name))?.names ?? this.globals;
+  }
 
   isTrue(expression: Expression): boolean {
     const when = this.condition(expression);
@@ -132,51 +196,85 @@ export class Machine extends BlockMachine<Value> {
     if (typeof value !== "boolean") throw new TextError(expression, "a condition", "A number is no condition.");
     return value;
   }
-  numberOf(expression: Expression): number { return asNumber(this.evaluate(expression), expression); }
-  fromNumber(value: number): Value { return value; }
+  numberOf(expression: Expression): number {
+    return asNumber(this.evaluate(expression), expression);
+  }
+  fromNumber(value: number): Value {
+    return value;
+  }
 
   protected store(to: Expression, value: Value): void {
     if (to.kind === "variable") {
-      if (to.name.startsWith("pr") !== isSix(value)) throw new TextError(to, to.name.startsWith("pr") ? "a position" : "a number", `${this.spelt(to.name)} cannot hold this.`);
+      if (to.name.startsWith("pr") !== isSix(value))
+        throw new TextError(
+          to,
+          to.name.startsWith("pr") ? "a position" : "a number",
+          `${this.spelt(to.name)} cannot hold this.`,
+        );
       this.holder(to.name).set(to.name, value);
       return;
     }
-    if (to.kind !== "index" || to.of.kind !== "variable") throw new TextError(to, "a register", "Only a register can be given a value.");
-    const word = to.of.name, [number, element] = to.indices.map(index => this.numberOf(index)), name = `${word}${number}`;
+    if (to.kind !== "index" || to.of.kind !== "variable")
+      throw new TextError(to, "a register", "Only a register can be given a value.");
+    const word = to.of.name;
+    const [number, element] = to.indices.map(index => this.numberOf(index));
+    const name = `${word}${number}`;
     this.differences.delete(name);
-    if (element === undefined) { this.globals.set(name, value); return; }
+    if (element === undefined) {
+      this.globals.set(name, value);
+      return;
+    }
     const before = this.globals.get(name) ?? [0, 0, 0, 0, 0, 0];
-    if (!isSix(before) || !Number.isInteger(element) || element < 1 || element > 6) throw new TextError(to, "PR[n,1] … PR[n,6]", `PR[${number}] has no element ${element}.`);
+    if (!isSix(before) || !Number.isInteger(element) || element < 1 || element > 6)
+      throw new TextError(to, "PR[n,1] … PR[n,6]", `PR[${number}] has no element ${element}.`);
     this.globals.set(name, before.with(element - 1, asNumber(value, to)));
   }
 
   override *statement(statement: Statement): Generator<Executed, Flow> {
     if (statement.kind === "assign" && statement.to.kind === "variable") {
-      const { value, to } = statement, [left, right] = value.kind === "binary" && value.sign === "-" ? [this.registerName(value.left), this.registerName(value.right)] : [];
-      if (left !== undefined && right !== undefined) this.differences.set(to.name, { present: left, first: right }); else this.differences.delete(to.name);
+      const { value, to } = statement;
+      const [left, right] =
+        value.kind === "binary" && value.sign === "-"
+          ? [this.registerName(value.left), this.registerName(value.right)]
+          : [];
+      if (left !== undefined && right !== undefined) this.differences.set(to.name, { present: left, first: right });
+      else this.differences.delete(to.name);
     }
     return yield* super.statement(statement);
   }
 
   /** PR[n] */
   private registerName(expression: Expression): string | undefined {
-    return expression.kind === "index" && expression.of.kind === "variable" && expression.of.name === "pr" && expression.indices.length === 1 ? `pr${this.numberOf(expression.indices[0]!)}` : undefined;
+    return expression.kind === "index" &&
+      expression.of.kind === "variable" &&
+      expression.of.name === "pr" &&
+      expression.indices.length === 1
+      ? `pr${this.numberOf(expression.indices[0]!)}`
+      : undefined;
   }
 
   // --- lines ------------------------------------------------------------------------------------------------------
 
   private line(word: string, number: number, at: TextPlace): string {
-    if (!Number.isInteger(number) || number < 1) throw new TextError(at, "the number of a line", `There is no line ${word.toUpperCase()}[${number}].`);
-    const key = `${word}${number}`, kind = KINDS[word]!, { signals } = this.surroundings, numbered = NUMBERED.has(word);
-    const known = numbered ? Object.entries(signals).find(([, line]) => line.kind === kind && line.address === number)?.[0] : undefined;
+    if (!Number.isInteger(number) || number < 1)
+      throw new TextError(at, "the number of a line", `There is no line ${word.toUpperCase()}[${number}].`);
+    const key = `${word}${number}`;
+    const kind = KINDS[word]!;
+    const { signals } = this.surroundings;
+    const numbered = NUMBERED.has(word);
+    const known = numbered
+      ? Object.entries(signals).find(([, line]) => line.kind === kind && line.address === number)?.[0]
+      : undefined;
     if (known !== undefined) return known;
-    const wanted = numbered ? this.spelt(key) : `${word.toUpperCase()}[${number}]`, name = Object.hasOwn(signals, wanted) && numbered ? `${word.toUpperCase()}[${number}]` : wanted;
+    const wanted = numbered ? this.spelt(key) : `${word.toUpperCase()}[${number}]`;
+    const name = Object.hasOwn(signals, wanted) && numbered ? `${word.toUpperCase()}[${number}]` : wanted;
     signals[name] ??= numbered ? { kind, address: number } : { kind };
     return name;
   }
 
   private read(line: string): boolean | number {
-    const isDigital = this.surroundings.signals[line]!.kind.startsWith("digital"), value = this.outputs.get(line) ?? this.signals?.read(line);
+    const isDigital = this.surroundings.signals[line]!.kind.startsWith("digital");
+    const value = this.outputs.get(line) ?? this.signals?.read(line);
     return isDigital ? value === true || (typeof value === "number" && value !== 0) : Number(value ?? 0);
   }
 
@@ -193,28 +291,41 @@ export class Machine extends BlockMachine<Value> {
     }
     if (expression.kind === "index") {
       const signal = this.lineIn(expression);
-      return signal !== undefined && this.surroundings.signals[signal]!.kind.startsWith("digital") ? { signal, is: true } : undefined;
+      return signal !== undefined && this.surroundings.signals[signal]!.kind.startsWith("digital")
+        ? { signal, is: true }
+        : undefined;
     }
     if (expression.kind !== "binary") return undefined;
-    const { sign, left, right } = expression, signal = this.lineIn(left);
+    const { sign, left, right } = expression;
+    const signal = this.lineIn(left);
     if (signal === undefined || (right.kind !== "truth" && right.kind !== "number")) return undefined;
-    if (right.kind === "truth") return sign === "=" || sign === "<>" ? { signal, is: right.value === (sign === "=") } : undefined;
+    if (right.kind === "truth")
+      return sign === "=" || sign === "<>" ? { signal, is: right.value === (sign === "=") } : undefined;
     if (sign !== "<" && sign !== ">") return undefined;
     return sign === ">" ? { signal, above: right.value } : { signal, below: right.value };
   }
 
   private lineIn(expression: Expression): string | undefined {
-    return expression.kind === "index" && expression.of.kind === "variable" && Object.hasOwn(KINDS, expression.of.name) ? this.line(expression.of.name, this.numberOf(expression.indices[0]!), expression) : undefined;
+    return expression.kind === "index" && expression.of.kind === "variable" && Object.hasOwn(KINDS, expression.of.name)
+      ? this.line(expression.of.name, this.numberOf(expression.indices[0]!), expression)
+      : undefined;
   }
 
   // --- instructions -----------------------------------------------------------------------------------------------
 
   /* v8 ignore next */
-  protected *waitUntil(statement: WaitUntil): Generator<Executed, void> { throw new TextError(statement, "a statement of TP", "TP has no such wait."); }
+  protected *waitUntil(statement: WaitUntil): Generator<Executed, void> {
+    throw new TextError(statement, "a statement of TP", "TP has no such wait.");
+  }
 
   protected *instruction(statement: Do): Generator<Executed, Flow | undefined> {
     const action = this.source.actions.get(statement);
-    if (action === undefined) throw new TextError(statement, "the listing of the program that is called", `The program ${statement.name.toUpperCase()} is not in the text.`);
+    if (action === undefined)
+      throw new TextError(
+        statement,
+        "the listing of the program that is called",
+        `The program ${statement.name.toUpperCase()} is not in the text.`,
+      );
     if (action.kind === "jump") {
       this.jump = action.label;
       yield { line: statement.line };
@@ -228,42 +339,68 @@ export class Machine extends BlockMachine<Value> {
   private step(action: Exclude<Action, { kind: "jump" }>, at: Do): Step | undefined {
     const id = (): string => this.stepId(at);
     switch (action.kind) {
-      case "motion": return this.motion(action, at, id());
-      case "set": return this.set(action, at, id);
+      case "motion":
+        return this.motion(action, at, id());
+      case "set":
+        return this.set(action, at, id);
       case "wait": {
         const s = this.numberOf(action.s);
         if (!(s >= 0)) throw new TextError(at, "a time of 0 s or more", `The time is ${s} s.`);
         return { id: id(), type: "wait", s };
       }
-      case "wait-for": return this.waitFor(action, at, id());
-      case "message": return { id: id(), type: "message", text: action.text.trim() };
-      case "skip-condition": this.skip = action.when; return undefined;
-      case "offset-condition": this.offset = `pr${this.numberOf(action.register)}`; return undefined;
-      case "timeout": this.timeout = this.numberOf(action.value); return undefined;
+      case "wait-for":
+        return this.waitFor(action, at, id());
+      case "message":
+        return { id: id(), type: "message", text: action.text.trim() };
+      case "skip-condition":
+        this.skip = action.when;
+        return undefined;
+      case "offset-condition":
+        this.offset = `pr${this.numberOf(action.register)}`;
+        return undefined;
+      case "timeout":
+        this.timeout = this.numberOf(action.value);
+        return undefined;
       case "select": {
         const number = this.numberOf(action.number);
-        if (action.what === "uframe") this.uframe = number; else this.utool = number;
+        if (action.what === "uframe") this.uframe = number;
+        else this.utool = number;
         return undefined;
       }
-      case "define": this.define(action, at); return undefined;
-      case "label": case "nothing": return undefined;
+      case "define":
+        this.define(action, at);
+        return undefined;
+      case "label":
+      case "nothing":
+        return undefined;
     }
   }
 
   private define({ what, number, value }: Extract<Action, { kind: "define" }>, at: TextPlace): void {
-    const six = this.evaluate(value), name = this.registerName(value);
+    const six = this.evaluate(value);
+    const name = this.registerName(value);
     if (!isSix(six)) throw new TextError(at, "a position register", "A number is no frame.");
-    const matrix = fromSix(six), key = `${what}${this.numberOf(number)}`, isNothing = six.every(each => each === 0);
+    const matrix = fromSix(six);
+    const key = `${what}${this.numberOf(number)}`;
+    const isNothing = six.every(each => each === 0);
     const wanted = what === "utool" && isNothing ? "flange" : name === undefined ? this.spelt(key) : this.spelt(name);
     this.setups.set(key, { matrix, name: wanted });
   }
 
   private set({ word, number, value, pulse }: Extract<Action, { kind: "set" }>, at: TextPlace, id: () => string): Step {
-    const line = this.numberOf(number), to = this.evaluate(value);
-    if (KINDS[word]!.endsWith("in")) throw new TextError(at, "an output", `${word.toUpperCase()}[${line}] is an input.`);
-    if (`${word}${line}` === GRIPPER && typeof to === "boolean" && pulse === undefined) return { id: id(), type: "gripper", closed: to };
+    const line = this.numberOf(number);
+    const to = this.evaluate(value);
+    if (KINDS[word]!.endsWith("in"))
+      throw new TextError(at, "an output", `${word.toUpperCase()}[${line}] is an input.`);
+    if (`${word}${line}` === GRIPPER && typeof to === "boolean" && pulse === undefined)
+      return { id: id(), type: "gripper", closed: to };
     const signal = this.line(word, line, at);
-    if (isSix(to) || (typeof to === "boolean") !== KINDS[word]!.startsWith("digital")) throw new TextError(at, KINDS[word]!.startsWith("digital") ? "ON or OFF" : "a number", `${word.toUpperCase()}[${line}] takes no such value.`);
+    if (isSix(to) || (typeof to === "boolean") !== KINDS[word]!.startsWith("digital"))
+      throw new TextError(
+        at,
+        KINDS[word]!.startsWith("digital") ? "ON or OFF" : "a number",
+        `${word.toUpperCase()}[${line}] takes no such value.`,
+      );
     this.outputs.set(signal, to);
     return { id: id(), type: "set", signal, to, ...(pulse === undefined ? {} : { pulse_s: this.numberOf(pulse) }) };
   }
@@ -271,11 +408,21 @@ export class Machine extends BlockMachine<Value> {
   private waitFor({ when, label }: Extract<Action, { kind: "wait-for" }>, at: Do, id: string): Step {
     const condition = this.condition(when);
     if (condition === undefined) {
-      if (!this.isTrue(when)) throw new TextError(when, "a condition of one line", "The program waits for a condition that nothing here makes true.");
+      if (!this.isTrue(when))
+        throw new TextError(
+          when,
+          "a condition of one line",
+          "The program waits for a condition that nothing here makes true.",
+        );
       return { id, type: "wait", s: 0 };
     }
     if (label === undefined) return { id, type: "wait-for", when: condition };
-    if (this.source.fates.get(at) !== "abort") throw new TextError(at, "a label before ABORT", "A wait that goes on elsewhere after its time is not executed here.");
+    if (this.source.fates.get(at) !== "abort")
+      throw new TextError(
+        at,
+        "a label before ABORT",
+        "A wait that goes on elsewhere after its time is not executed here.",
+      );
     return { id, type: "wait-for", when: condition, timeout_s: this.timeout / 100 };
   }
 
@@ -289,105 +436,221 @@ export class Machine extends BlockMachine<Value> {
     if (!this.assumed.has(name)) this.assumed.set(name, at);
     return { matrix: NOTHING, name };
   }
-  private frameNow(at: TextPlace): Matrix { return this.setup("uframe", this.uframe ?? 0, at).matrix; }
-  private toolNow(at: TextPlace): Matrix { return this.setup("utool", this.utool ?? 0, at).matrix; }
+  private frameNow(at: TextPlace): Matrix {
+    return this.setup("uframe", this.uframe ?? 0, at).matrix;
+  }
+  private toolNow(at: TextPlace): Matrix {
+    return this.setup("utool", this.utool ?? 0, at).matrix;
+  }
 
   private record({ register, number }: Point, at: TextPlace): PositionRecord {
     const n = this.numberOf(number);
     if (register === "pr") {
       const values = this.register(`pr${n}`, at);
       if (!isSix(values)) throw new TextError(at, "a position", `PR[${n}] holds no position.`);
-      return { uf: this.uframe ?? 0, ut: this.utool ?? 0, joints: false, config: undefined, values, line: at.line, column: at.column };
+      return {
+        uf: this.uframe ?? 0,
+        ut: this.utool ?? 0,
+        joints: false,
+        config: undefined,
+        values,
+        line: at.line,
+        column: at.column,
+      };
     }
     const record = this.source.positions.get(this.scopes.at(-1)?.routine ?? "")?.get(n);
     if (record === undefined) throw new TextError(at, "a position in /POS", `P[${n}] is not in the list of positions.`);
-    for (const [word, taught, used] of [["UFRAME", record.uf, this.uframe], ["UTOOL", record.ut, this.utool]] as const) {
-      if (used !== undefined && used !== taught) throw new TextError(at, `a position of ${word} ${used}`, `P[${n}] was taught with ${word} ${taught}, and ${used} is in use.`);
+    for (const [word, taught, used] of [
+      ["UFRAME", record.uf, this.uframe],
+      ["UTOOL", record.ut, this.utool],
+    ] as const) {
+      if (used !== undefined && used !== taught)
+        throw new TextError(
+          at,
+          `a position of ${word} ${used}`,
+          `P[${n}] was taught with ${word} ${taught}, and ${used} is in use.`,
+        );
     }
     return record;
   }
 
   private motion(motion: Motion, at: Do, id: string): MoveStep {
-    const { path, goal, via, cnt, acceleration, offset } = motion, shifted = this.shift(offset, at);
-    const speed = speedOf(this.numberOf(motion.speed), motion, at), ratio = acceleration === undefined ? 1 : Math.min(1, this.numberOf(acceleration) / 100), share = cnt === undefined ? 0 : this.numberOf(cnt) / 100;
+    const { path, goal, via, cnt, acceleration, offset } = motion;
+    const shifted = this.shift(offset, at);
+    const speed = speedOf(this.numberOf(motion.speed), motion, at);
+    const ratio = acceleration === undefined ? 1 : Math.min(1, this.numberOf(acceleration) / 100);
+    const share = cnt === undefined ? 0 : this.numberOf(cnt) / 100;
     if (!(share >= 0 && share <= 1)) throw new TextError(at, "CNT0 … CNT100", `CNT${share * 100} is no share of 100.`);
     const passing = via === undefined ? {} : { via: this.target(via, shifted, "on-the-way", at) };
-    const common = { id, type: "move", speed, ...(ratio < 1 ? { acceleration: { ratio } } : {}), blend_m: 0, ...(share > 0 ? { blend_ratio: share } : {}) } as const;
+    const common = {
+      id,
+      type: "move",
+      speed,
+      ...(ratio < 1 ? { acceleration: { ratio } } : {}),
+      blend_m: 0,
+      ...(share > 0 ? { blend_ratio: share } : {}),
+    } as const;
     const target = this.target(goal, shifted, path === "J" ? "by-joints" : "by-path", at);
-    return { ...common, path: path === "J" ? "ptp" : path === "L" ? "lin" : "circ", target, ...passing, ...this.search(motion, at) };
+    return {
+      ...common,
+      path: path === "J" ? "ptp" : path === "L" ? "lin" : "circ",
+      target,
+      ...passing,
+      ...this.search(motion, at),
+    };
   }
 
   private search({ skip }: Motion, at: Do): Pick<MoveStep, "until"> {
     if (skip === undefined) return {};
-    const when = this.skip === undefined ? undefined : this.condition(this.skip), fate = this.source.fates.get(at);
-    if (when === undefined) throw new TextError(at, "SKIP CONDITION of one line before it", "The search has no condition of one line.");
-    if (fate === "elsewhere" || fate === undefined) throw new TextError(at, "a label in the next line, or one before ABORT", "A search that goes on elsewhere is not executed here.");
+    const when = this.skip === undefined ? undefined : this.condition(this.skip);
+    const fate = this.source.fates.get(at);
+    if (when === undefined)
+      throw new TextError(at, "SKIP CONDITION of one line before it", "The search has no condition of one line.");
+    if (fate === "elsewhere" || fate === undefined)
+      throw new TextError(
+        at,
+        "a label in the next line, or one before ABORT",
+        "A search that goes on elsewhere is not executed here.",
+      );
     return { until: { when, missing: fate === "abort" ? "fault" : "continue" } };
   }
 
   /** How far the positions of a motion are shifted along the axes of the frame in use, and by which register. */
-  private shift(offset: Motion["offset"], at: TextPlace): { readonly mm: readonly [number, number, number]; readonly register: string } | undefined {
+  private shift(
+    offset: Motion["offset"],
+    at: TextPlace,
+  ): { readonly mm: readonly [number, number, number]; readonly register: string } | undefined {
     if (offset === undefined) return undefined;
-    const register = offset.register === undefined ? this.offset : `pr${this.numberOf(offset.register)}`, six = register === undefined ? undefined : this.register(register, at);
-    if (register === undefined || six === undefined || !isSix(six)) throw new TextError(at, "Offset,PR[n]", "The offset is in no register.");
-    if (six.slice(3).some(each => Math.abs(((each + DEFAULT_WIDE / 2) % DEFAULT_WIDE + DEFAULT_WIDE) % DEFAULT_WIDE - DEFAULT_WIDE / 2) > 1e-6)) throw new TextError(at, "an offset that does not turn", "Offsets that turn are not executed here.");
+    const register = offset.register === undefined ? this.offset : `pr${this.numberOf(offset.register)}`;
+    const six = register === undefined ? undefined : this.register(register, at);
+    if (register === undefined || six === undefined || !isSix(six))
+      throw new TextError(at, "Offset,PR[n]", "The offset is in no register.");
+    if (
+      six
+        .slice(3)
+        .some(
+          each =>
+            Math.abs(((((each + DEFAULT_WIDE / 2) % DEFAULT_WIDE) + DEFAULT_WIDE) % DEFAULT_WIDE) - DEFAULT_WIDE / 2) >
+            1e-6,
+        )
+    )
+      throw new TextError(at, "an offset that does not turn", "Offsets that turn are not executed here.");
     return { mm: [six[0]!, six[1]!, six[2]!], register };
   }
 
-  private target(point: Point, shifted: ReturnType<Machine["shift"]>, how: "by-joints" | "by-path" | "on-the-way", at: TextPlace): Target {
-    const record = this.record(point, at), { values, config } = record, uf = this.uframe ?? record.uf, ut = this.utool ?? record.ut;
-    if (values === undefined) throw new TextError(at, "a position that was taught", "The position was never taught: it is ********.");
-    const frame = this.setup("uframe", uf, at), tool = this.setup("utool", ut, at), name = this.toolName(tool);
+  private target(
+    point: Point,
+    shifted: ReturnType<Machine["shift"]>,
+    how: "by-joints" | "by-path" | "on-the-way",
+    at: TextPlace,
+  ): Target {
+    const record = this.record(point, at);
+    const { values, config } = record;
+    const uf = this.uframe ?? record.uf;
+    const ut = this.utool ?? record.ut;
+    if (values === undefined)
+      throw new TextError(at, "a position that was taught", "The position was never taught: it is ********.");
+    const frame = this.setup("uframe", uf, at);
+    const tool = this.setup("utool", ut, at);
+    const name = this.toolName(tool);
     if (record.joints) {
-      if (shifted !== undefined) throw new TextError(at, "a position of X, Y, Z", "A position of joint angles is not shifted here.");
-      const before = this.arm.remember(), q = this.arm.atShown(values);
+      if (shifted !== undefined)
+        throw new TextError(at, "a position of X, Y, Z", "A position of joint angles is not shifted here.");
+      const before = this.arm.remember();
+      const q = this.arm.atShown(values);
       if (how === "on-the-way") before();
       return { q, tool: name };
     }
-    const written = fromSix(values), seen: Matrix = shifted === undefined ? written : { rows: written.rows, mm: [written.mm[0] + shifted.mm[0], written.mm[1] + shifted.mm[1], written.mm[2] + shifted.mm[2]] };
-    const named = this.frameName(frame), inPlace = shifted === undefined ? undefined : this.atPlace(shifted.register, written);
-    const plain = { pose: named === "world" ? this.arm.cell<"frame", "tcp">(times(frame.matrix, seen)) : toPose<"frame", "tcp">(seen), frame: named, tool: name }, target = inPlace === undefined ? plain : { ...plain, ...inPlace };
+    const written = fromSix(values);
+    const seen: Matrix =
+      shifted === undefined
+        ? written
+        : {
+            rows: written.rows,
+            mm: [written.mm[0] + shifted.mm[0], written.mm[1] + shifted.mm[1], written.mm[2] + shifted.mm[2]],
+          };
+    const named = this.frameName(frame);
+    const inPlace = shifted === undefined ? undefined : this.atPlace(shifted.register, written);
+    const plain = {
+      pose: named === "world" ? this.arm.cell<"frame", "tcp">(times(frame.matrix, seen)) : toPose<"frame", "tcp">(seen),
+      frame: named,
+      tool: name,
+    };
+    const target = inPlace === undefined ? plain : { ...plain, ...inPlace };
     if (how === "on-the-way") return target;
     const reached = this.arm.atFlange(times(times(frame.matrix, seen), inverted(tool.matrix)), config);
-    if (how === "by-joints" && !reached.fits) throw new TextError(at, "a configuration that reaches the position", "The position is not reached in its configuration.");
+    if (how === "by-joints" && !reached.fits)
+      throw new TextError(
+        at,
+        "a configuration that reaches the position",
+        "The position is not reached in its configuration.",
+      );
     if (how === "by-joints" && reached.turned && !this.writesDown) return { q: reached.q!, tool: name };
     return { ...target, ...(reached.branch === undefined ? {} : { branch: reached.branch }) };
   }
 
   /** A taught point as it is seen from the place of a pallet that is being read as one. */
-  private atPlace(register: string, written: Matrix): { readonly pose: Pose<"frame", "tcp">; readonly frame: string } | undefined {
-    const difference = this.differences.get(register), first = difference === undefined ? undefined : this.globals.get(difference.first);
+  private atPlace(
+    register: string,
+    written: Matrix,
+  ): { readonly pose: Pose<"frame", "tcp">; readonly frame: string } | undefined {
+    const difference = this.differences.get(register);
+    const first = difference === undefined ? undefined : this.globals.get(difference.first);
     if (!this.places.has(this.spelt(register)) || first === undefined || !isSix(first)) return undefined;
     return { pose: toPose(times(inverted(fromSix(first)), written)), frame: this.spelt(register) };
   }
 
   private toolName(tool: Setup): string {
-    return tool.name === "flange" ? "flange" : nameIn(this.surroundings.tools, toPose<"flange", "tcp">(tool.matrix), tool.name, " ");
+    return tool.name === "flange"
+      ? "flange"
+      : nameIn(this.surroundings.tools, toPose<"flange", "tcp">(tool.matrix), tool.name, " ");
   }
   private frameName(frame: Setup): string {
-    return frame.name === "world" ? "world" : nameIn(this.surroundings.frames, this.arm.cell<"world", "frame">(frame.matrix), frame.name, " ");
+    return frame.name === "world"
+      ? "world"
+      : nameIn(this.surroundings.frames, this.arm.cell<"world", "frame">(frame.matrix), frame.name, " ");
   }
 
   // --- writing a program down -------------------------------------------------------------------------------------
 
   /** The place that an offset belongs to: the position that it is the distance of from the first. */
   placeIn(variable: string): { readonly frame: string; readonly pose: Pose<"frame", "place"> } | undefined {
-    const difference = this.differences.get(variable), present = difference === undefined ? undefined : this.globals.get(difference.present), offset = this.globals.get(variable);
-    if (present === undefined || offset === undefined || !isSix(present) || !isSix(offset) || offset.slice(3).some(each => each !== 0)) return undefined;
-    const frame = this.setup("uframe", this.uframe ?? 0, { line: 1, column: 1 }), name = this.frameName(frame), matrix = fromSix(present);
+    const difference = this.differences.get(variable);
+    const present = difference === undefined ? undefined : this.globals.get(difference.present);
+    const offset = this.globals.get(variable);
+    if (
+      present === undefined ||
+      offset === undefined ||
+      !isSix(present) ||
+      !isSix(offset) ||
+      offset.slice(3).some(each => each !== 0)
+    )
+      return undefined;
+    const frame = this.setup("uframe", this.uframe ?? 0, { line: 1, column: 1 });
+    const name = this.frameName(frame);
+    const matrix = fromSix(present);
     return { frame: name, pose: name === "world" ? this.arm.cell(times(frame.matrix, matrix)) : toPose(matrix) };
   }
 
-  edge(): void { /* every position says its frame and its tool */ }
+  edge(): void {
+    /* every position says its frame and its tool */
+  }
 
   override remember(): () => void {
-    const values = super.remember(), arm = this.arm.remember(), { uframe, utool, timeout, skip, offset, jump } = this;
+    const values = super.remember();
+    const arm = this.arm.remember();
+    const { uframe, utool, timeout, skip, offset, jump } = this;
     const maps = [keep(this.outputs), keep(this.setups), keep(this.differences)];
     return () => {
       values();
       arm();
       for (const back of maps) back();
-      this.uframe = uframe; this.utool = utool; this.timeout = timeout; this.skip = skip; this.offset = offset; this.jump = jump;
+      this.uframe = uframe;
+      this.utool = utool;
+      this.timeout = timeout;
+      this.skip = skip;
+      this.offset = offset;
+      this.jump = jump;
     };
   }
 }

@@ -8,37 +8,62 @@ export const isSix = (value: Value): value is readonly number[] => typeof value 
 
 export function asNumber(value: Value, at: TextPlace): number {
   if (typeof value === "number") return value;
-  throw new TextError(at, "a number", `${isSix(value) ? "A position" : "ON or OFF"} stands where a number is expected.`);
+  throw new TextError(
+    at,
+    "a number",
+    `${isSix(value) ? "A position" : "ON or OFF"} stands where a number is expected.`,
+  );
 }
 
 export function binary(sign: string, left: Value, right: Value, at: TextPlace): Value {
   if (typeof left === "boolean" && typeof right === "boolean") {
     switch (sign) {
-      case "and": return left && right;
-      case "or": return left || right;
-      case "=": return left === right;
-      case "<>": return left !== right;
-      default: throw new TextError(at, "AND, OR, = or <>", `"${sign}" does not join ON and OFF.`);
+      case "and":
+        return left && right;
+      case "or":
+        return left || right;
+      case "=":
+        return left === right;
+      case "<>":
+        return left !== right;
+      default:
+        throw new TextError(at, "AND, OR, = or <>", `"${sign}" does not join ON and OFF.`);
     }
   }
   // Positions add and subtract number by number.
-  if (isSix(left) && isSix(right) && (sign === "+" || sign === "-")) return left.map((value, i) => sign === "+" ? value + right[i]! : value - right[i]!);
-  const a = asNumber(left, at), b = asNumber(right, at);
-  if ((sign === "/" || sign === "div" || sign === "mod") && b === 0) throw new TextError(at, "a divisor other than 0", "The divisor is 0.");
+  if (isSix(left) && isSix(right) && (sign === "+" || sign === "-"))
+    return left.map((value, i) => (sign === "+" ? value + right[i]! : value - right[i]!));
+  const a = asNumber(left, at);
+  const b = asNumber(right, at);
+  if ((sign === "/" || sign === "div" || sign === "mod") && b === 0)
+    throw new TextError(at, "a divisor other than 0", "The divisor is 0.");
   switch (sign) {
-    case "+": return finite(a + b, at);
-    case "-": return finite(a - b, at);
-    case "*": return finite(a * b, at);
-    case "/": return finite(a / b, at);
-    case "div": return Math.trunc(a / b);
-    case "mod": return a % b;
-    case "=": return a === b;
-    case "<>": return a !== b;
-    case "<": return a < b;
-    case ">": return a > b;
-    case "<=": return a <= b;
-    case ">=": return a >= b;
-    default: throw new TextError(at, "an operator", `"${sign}" does not join numbers.`);
+    case "+":
+      return finite(a + b, at);
+    case "-":
+      return finite(a - b, at);
+    case "*":
+      return finite(a * b, at);
+    case "/":
+      return finite(a / b, at);
+    case "div":
+      return Math.trunc(a / b);
+    case "mod":
+      return a % b;
+    case "=":
+      return a === b;
+    case "<>":
+      return a !== b;
+    case "<":
+      return a < b;
+    case ">":
+      return a > b;
+    case "<=":
+      return a <= b;
+    case ">=":
+      return a >= b;
+    default:
+      throw new TextError(at, "an operator", `"${sign}" does not join numbers.`);
   }
 }
 

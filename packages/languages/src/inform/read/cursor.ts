@@ -40,7 +40,8 @@ export class Cursor extends LineCursor<Kind> {
 
   /** What is left of the line up to the next blank, as it stands: names of jobs hold more than letters. */
   name(what: string): string {
-    const from = this.here.column - 1, match = /^[^\s'"=,()]+/.exec(this.text.slice(from))?.[0];
+    const from = this.here.column - 1;
+    const match = /^[^\s'"=,()]+/.exec(this.text.slice(from))?.[0];
     if (match === undefined) throw this.unexpected(what);
     while (!this.done && this.here.column - 1 < from + match.length) this.take();
     return match;

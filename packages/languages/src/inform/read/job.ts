@@ -33,12 +33,14 @@ export class JobBuilder {
     if (cursor.nextKind === "label") {
       const label = cursor.take().toUpperCase();
       cursor.expectEnd();
-      if (this.labels.has(label)) throw new TextError(at, "a label used once", `Label ${label} is in job ${this.name} twice.`);
+      if (this.labels.has(label))
+        throw new TextError(at, "a label used once", `Label ${label} is in job ${this.name} twice.`);
       this.labels.set(label, this.code.length);
       return;
     }
     switch (cursor.next) {
-      case "JUMP": return this.readJump(cursor, at);
+      case "JUMP":
+        return this.readJump(cursor, at);
       case "IFTHENEXP": {
         cursor.take();
         const when = condition(cursor);
@@ -53,7 +55,9 @@ export class JobBuilder {
         block.miss = this.push({ kind: "unless", when, to: -1, at });
         return;
       }
-      case "ELSE": this.branch(cursor, at); return cursor.expectEnd();
+      case "ELSE":
+        this.branch(cursor, at);
+        return cursor.expectEnd();
       case "ENDIF": {
         const block = this.open.at(-1);
         if (block?.kind !== "IFTHENEXP") throw cursor.unexpected("an instruction, since no IFTHENEXP is open");
@@ -62,22 +66,37 @@ export class JobBuilder {
         if (block.miss !== undefined) block.miss.to = this.code.length;
         return this.close(block);
       }
-      case "FOR": return this.readFor(cursor, at);
-      case "NEXT": return this.readNext(cursor, at);
-      default: this.code.push({ kind: "statement", statement: readStatement(cursor) });
+      case "FOR":
+        return this.readFor(cursor, at);
+      case "NEXT":
+        return this.readNext(cursor, at);
+      default:
+        this.code.push({ kind: "statement", statement: readStatement(cursor) });
     }
   }
 
   /** @throws {TextError} for a block without its end, or a JUMP to a label that is not there. */
   finish(end: TextPlace): Job {
     const block = this.open.at(-1);
-    if (block !== undefined) throw new TextError(block.at, block.kind === "FOR" ? "NEXT" : "ENDIF", `The ${block.kind} of line ${block.at.line} is not closed before line ${end.line}.`);
+    if (block !== undefined)
+      throw new TextError(
+        block.at,
+        block.kind === "FOR" ? "NEXT" : "ENDIF",
+        `The ${block.kind} of line ${block.at.line} is not closed before line ${end.line}.`,
+      );
     for (const { jump, label, at } of this.jumps) {
       const to = this.labels.get(label);
-      if (to === undefined) throw new TextError(at, "a label of this job", `Label ${label} is not in job ${this.name}.`);
+      if (to === undefined)
+        throw new TextError(at, "a label of this job", `Label ${label} is not in job ${this.name}.`);
       jump.to = to;
     }
-    return { name: this.name, place: this.place, positions: this.positions, instructions: this.code, slots: this.slots };
+    return {
+      name: this.name,
+      place: this.place,
+      positions: this.positions,
+      instructions: this.code,
+      slots: this.slots,
+    };
   }
 
   private push<I extends Instruction>(instruction: I): I {
@@ -98,7 +117,8 @@ export class JobBuilder {
 
   private branch(cursor: Cursor, at: TextPlace): Extract<Open, { kind: "IFTHENEXP" }> {
     const block = this.open.at(-1);
-    if (block?.kind !== "IFTHENEXP" || block.miss === undefined) throw cursor.unexpected("an instruction, since no IFTHENEXP is open");
+    if (block?.kind !== "IFTHENEXP" || block.miss === undefined)
+      throw cursor.unexpected("an instruction, since no IFTHENEXP is open");
     cursor.take();
     block.leaves.push(this.push({ kind: "jump", to: -1, at }));
     block.miss.to = this.code.length;
@@ -123,15 +143,24 @@ export class JobBuilder {
     const slot = this.slots++;
     this.push({ kind: "for", variable: name, from, last, step, slot, at });
     const start = this.code.length;
-    this.open.push({ kind: "FOR", at, variable: name, slot, start, leaves: [this.push({ kind: "for-check", variable: name, slot, to: -1 })] });
+    this.open.push({
+      kind: "FOR",
+      at,
+      variable: name,
+      slot,
+      start,
+      leaves: [this.push({ kind: "for-check", variable: name, slot, to: -1 })],
+    });
   }
 
   private readNext(cursor: Cursor, at: TextPlace): void {
     const block = this.open.at(-1);
     if (block?.kind !== "FOR") throw cursor.unexpected("an instruction, since no FOR is open");
     cursor.take();
-    const place = cursor.here, name = variable(cursor);
-    if (name !== block.variable) throw new TextError(place, block.variable, `NEXT ${name} closes the FOR of ${block.variable}.`);
+    const place = cursor.here;
+    const name = variable(cursor);
+    if (name !== block.variable)
+      throw new TextError(place, block.variable, `NEXT ${name} closes the FOR of ${block.variable}.`);
     cursor.expectEnd();
     this.push({ kind: "for-next", variable: name, slot: block.slot, to: block.start, at });
     this.close(block);

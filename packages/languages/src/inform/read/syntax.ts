@@ -17,7 +17,11 @@ export type Operand =
   | { readonly kind: "number"; readonly value: number }
   | { readonly kind: "variable"; readonly name: string }
   | { readonly kind: "line"; readonly wire: "IN" | "OT"; readonly number: number };
-export interface Condition { readonly left: Operand; readonly sign: "=" | "<>" | "<" | ">" | "<=" | ">="; readonly right: Operand | "ON" | "OFF" }
+export interface Condition {
+  readonly left: Operand;
+  readonly sign: "=" | "<>" | "<" | ">" | "<=" | ">=";
+  readonly right: Operand | "ON" | "OFF";
+}
 
 export interface Move {
   readonly motion: "MOVJ" | "MOVL" | "MOVC" | "MOVS";
@@ -33,30 +37,47 @@ export interface Move {
   readonly until: Condition | undefined;
 }
 
-export type Statement = TextPlace & (
-  | { readonly kind: "move" } & Move
-  | { readonly kind: "timer"; readonly s: Operand; readonly isHundredths: boolean }
-  | { readonly kind: "dout"; readonly number: number; readonly to: boolean }
-  | { readonly kind: "pulse"; readonly number: number; readonly s: number }
-  | { readonly kind: "aout"; readonly number: number; readonly to: number }
-  | { readonly kind: "din"; readonly to: string; readonly from: Operand }
-  | { readonly kind: "wait"; readonly when: Condition }
-  | { readonly kind: "hand"; readonly to: boolean }
-  | { readonly kind: "call"; readonly job: string; readonly when: Condition | undefined }
-  | { readonly kind: "return"; readonly when: Condition | undefined }
-  | { readonly kind: "abort"; readonly when: Condition | undefined }
-  | { readonly kind: "message"; readonly text: string }
-  | { readonly kind: "arithmetic"; readonly word: "SET" | "ADD" | "SUB" | "MUL" | "DIV"; readonly to: string; readonly by: Operand }
-  | { readonly kind: "element"; readonly get: boolean; readonly position: string; readonly element: number; readonly with: Operand }
-  /** Keeps the position of the robot in a variable. */
-  | { readonly kind: "here"; readonly position: string }
-  | { readonly kind: "clear"; readonly from: string; readonly count: number }
-  | { readonly kind: "shift"; readonly position: string; readonly frame: "BASE" | "ROBOT" | "USER"; readonly user: number }
-  | { readonly kind: "shift-off" }
-  | { readonly kind: "speed"; readonly vj: number | undefined; readonly v: number | undefined }
-  /** Read, and without effect on where the robot goes. */
-  | { readonly kind: "nothing" }
-);
+export type Statement = TextPlace &
+  (
+    | ({ readonly kind: "move" } & Move)
+    | { readonly kind: "timer"; readonly s: Operand; readonly isHundredths: boolean }
+    | { readonly kind: "dout"; readonly number: number; readonly to: boolean }
+    | { readonly kind: "pulse"; readonly number: number; readonly s: number }
+    | { readonly kind: "aout"; readonly number: number; readonly to: number }
+    | { readonly kind: "din"; readonly to: string; readonly from: Operand }
+    | { readonly kind: "wait"; readonly when: Condition }
+    | { readonly kind: "hand"; readonly to: boolean }
+    | { readonly kind: "call"; readonly job: string; readonly when: Condition | undefined }
+    | { readonly kind: "return"; readonly when: Condition | undefined }
+    | { readonly kind: "abort"; readonly when: Condition | undefined }
+    | { readonly kind: "message"; readonly text: string }
+    | {
+        readonly kind: "arithmetic";
+        readonly word: "SET" | "ADD" | "SUB" | "MUL" | "DIV";
+        readonly to: string;
+        readonly by: Operand;
+      }
+    | {
+        readonly kind: "element";
+        readonly get: boolean;
+        readonly position: string;
+        readonly element: number;
+        readonly with: Operand;
+      }
+    /** Keeps the position of the robot in a variable. */
+    | { readonly kind: "here"; readonly position: string }
+    | { readonly kind: "clear"; readonly from: string; readonly count: number }
+    | {
+        readonly kind: "shift";
+        readonly position: string;
+        readonly frame: "BASE" | "ROBOT" | "USER";
+        readonly user: number;
+      }
+    | { readonly kind: "shift-off" }
+    | { readonly kind: "speed"; readonly vj: number | undefined; readonly v: number | undefined }
+    /** Read, and without effect on where the robot goes. */
+    | { readonly kind: "nothing" }
+  );
 
 /** A job as a list of statements and jumps; `to` is an index into the list, -1 only while the list is being made. */
 export type Instruction =
@@ -64,7 +85,15 @@ export type Instruction =
   | { readonly kind: "jump"; to: number; readonly at: TextPlace }
   /** Goes on only when the condition holds. */
   | { readonly kind: "unless"; readonly when: Condition; to: number; readonly at: TextPlace }
-  | { readonly kind: "for"; readonly variable: string; readonly from: Operand; readonly last: Operand; readonly step: Operand; readonly slot: number; readonly at: TextPlace }
+  | {
+      readonly kind: "for";
+      readonly variable: string;
+      readonly from: Operand;
+      readonly last: Operand;
+      readonly step: Operand;
+      readonly slot: number;
+      readonly at: TextPlace;
+    }
   | { readonly kind: "for-check"; readonly variable: string; readonly slot: number; to: number }
   | { readonly kind: "for-next"; readonly variable: string; readonly slot: number; to: number; readonly at: TextPlace };
 
@@ -77,7 +106,11 @@ export interface Job {
   readonly slots: number;
 }
 /** A tool or user frame of the controller. */
-export interface Frame { readonly number: number; readonly name: string; readonly values: readonly number[] }
+export interface Frame {
+  readonly number: number;
+  readonly name: string;
+  readonly values: readonly number[];
+}
 export interface Source {
   readonly jobs: ReadonlyMap<string, Job>;
   readonly tools: ReadonlyMap<number, Frame>;

@@ -9,10 +9,17 @@ import type { Context, ControllerState } from "./state.ts";
 const INSTRUCTIONS_WITHOUT_MOTION = 100_000;
 const CALL_DEPTH = 40;
 /** Elements of a position: three in µm, three in 1/10000 of a degree. */
-const ELEMENTS = 6, PER_MM = 1000, PER_DEG = 10_000;
+const ELEMENTS = 6;
+const PER_MM = 1000;
+const PER_DEG = 10_000;
 const ORIGIN: TextPlace = { line: 1, column: 1 };
 
-interface Frame { readonly job: Job; at: number; readonly last: number[]; readonly step: number[] }
+interface Frame {
+  readonly job: Job;
+  at: number;
+  readonly last: number[];
+  readonly step: number[];
+}
 
 /** Executes INFORM jobs instruction by instruction. Deterministic: the same text and the same signals give the same steps. */
 export class Machine {
@@ -26,7 +33,10 @@ export class Machine {
   private readonly since: Executed[] = [];
   private ready: Executed[] = [];
   /** The point on the way of an arc that has begun; how many points of it were met. */
-  private arc: { readonly points: number; readonly via: { readonly position: Position; readonly line: number } | undefined } = { points: 0, via: undefined };
+  private arc: {
+    readonly points: number;
+    readonly via: { readonly position: Position; readonly line: number } | undefined;
+  } = { points: 0, via: undefined };
   private inCurve = false;
   /** Positions that were taken from the robot itself, by their variable. */
   private readonly taken = new Map<string, Pose<"base", "flange">>();
@@ -46,7 +56,11 @@ export class Machine {
       this.stack.push(newFrame(main.value));
       while (this.stack.length > 0 && !this.stopped) {
         this.instruction(this.stack.at(-1)!);
-        if (this.ready.length > 0) { const ready = this.ready; this.ready = []; yield* ready; }
+        if (this.ready.length > 0) {
+          const ready = this.ready;
+          this.ready = [];
+          yield* ready;
+        }
       }
     }
     this.endArc(ORIGIN);
@@ -76,16 +90,22 @@ export class Machine {
         memory.set(instruction.variable, memory.value(instruction.from), instruction.at);
         frame.last[instruction.slot] = memory.value(instruction.last);
         frame.step[instruction.slot] = memory.value(instruction.step);
-        if (frame.step[instruction.slot] === 0) throw new TextError(instruction.at, "a step other than 0", "The loop has the step 0.");
+        if (frame.step[instruction.slot] === 0)
+          throw new TextError(instruction.at, "a step other than 0", "The loop has the step 0.");
         return;
       case "for-check": {
-        const value = memory.value({ kind: "variable", name: instruction.variable }), last = frame.last[instruction.slot]!;
+        const value = memory.value({ kind: "variable", name: instruction.variable });
+        const last = frame.last[instruction.slot]!;
         if (frame.step[instruction.slot]! > 0 ? value > last : value < last) frame.at = instruction.to;
         return;
       }
       case "for-next":
         this.spend(instruction.at);
-        memory.set(instruction.variable, memory.value({ kind: "variable", name: instruction.variable }) + frame.step[instruction.slot]!, instruction.at);
+        memory.set(
+          instruction.variable,
+          memory.value({ kind: "variable", name: instruction.variable }) + frame.step[instruction.slot]!,
+          instruction.at,
+        );
         frame.at = instruction.to;
         return;
     }
@@ -101,7 +121,12 @@ export class Machine {
     this.spend(statement);
     if (statement.kind === "move") return this.move(statement, frame);
     // Whatever the robot stands still for ends arcs and curves.
-    const done = (step: Step): void => { this.endArc(statement); this.inCurve = false; this.settle(false); this.step(statement, step); };
+    const done = (step: Step): void => {
+      this.endArc(statement);
+      this.inCurve = false;
+      this.settle(false);
+      this.step(statement, step);
+    };
     const id = (): string => this.stepId(statement.line);
     switch (statement.kind) {
       case "timer": {
@@ -109,15 +134,29 @@ export class Machine {
         if (!(s >= 0)) throw new TextError(statement, "a time of 0 s or more", `The time is ${s} s.`);
         return done({ id: id(), type: "wait", s });
       }
-      case "dout": return done({ id: id(), type: "set", signal: memory.write(statement.number, statement.to), to: statement.to });
+      case "dout":
+        return done({ id: id(), type: "set", signal: memory.write(statement.number, statement.to), to: statement.to });
       case "pulse":
         if (!(statement.s > 0)) throw new TextError(statement, "a time above 0 s", `The time is ${statement.s} s.`);
-        return done({ id: id(), type: "set", signal: memory.write(statement.number, false), to: true, pulse_s: statement.s });
-      case "aout": return done({ id: id(), type: "set", signal: memory.note("AO", statement.number), to: statement.to });
-      case "din": this.settle(false); memory.set(statement.to, memory.value(statement.from), statement); break;
-      case "wait": return done({ id: id(), type: "wait-for", when: memory.awaited(statement.when, statement) });
-      case "hand": return done({ id: id(), type: "gripper", closed: statement.to });
-      case "message": return done({ id: id(), type: "message", text: statement.text });
+        return done({
+          id: id(),
+          type: "set",
+          signal: memory.write(statement.number, false),
+          to: true,
+          pulse_s: statement.s,
+        });
+      case "aout":
+        return done({ id: id(), type: "set", signal: memory.note("AO", statement.number), to: statement.to });
+      case "din":
+        this.settle(false);
+        memory.set(statement.to, memory.value(statement.from), statement);
+        break;
+      case "wait":
+        return done({ id: id(), type: "wait-for", when: memory.awaited(statement.when, statement) });
+      case "hand":
+        return done({ id: id(), type: "gripper", closed: statement.to });
+      case "message":
+        return done({ id: id(), type: "message", text: statement.text });
       case "abort":
         if (statement.when !== undefined && !this.holds(statement.when, statement)) break;
         this.stopped = true;
@@ -128,42 +167,71 @@ export class Machine {
       case "return":
         if (statement.when === undefined || this.holds(statement.when, statement)) this.stack.pop();
         break;
-      case "arithmetic": this.arithmetic(statement); break;
-      case "element": this.element(statement); break;
-      case "here": this.taken.set(statement.position, this.state.here); break;
-      case "clear": memory.clear(statement.from, statement.count); break;
+      case "arithmetic":
+        this.arithmetic(statement);
+        break;
+      case "element":
+        this.element(statement);
+        break;
+      case "here":
+        this.taken.set(statement.position, this.state.here);
+        break;
+      case "clear":
+        memory.clear(statement.from, statement.count);
+        break;
       case "shift": {
-        const [x, y, z, rx, ry, rz] = memory.position(statement.position), { baseFromFrame } = this.state.frameOf(statement.frame, statement.user, statement);
-        this.state.shift = { baseFromFrame, by: poseOf([x! / PER_MM, y! / PER_MM, z! / PER_MM, rx! / PER_DEG, ry! / PER_DEG, rz! / PER_DEG]) };
+        const [x, y, z, rx, ry, rz] = memory.position(statement.position);
+        const { baseFromFrame } = this.state.frameOf(statement.frame, statement.user, statement);
+        this.state.shift = {
+          baseFromFrame,
+          by: poseOf([x! / PER_MM, y! / PER_MM, z! / PER_MM, rx! / PER_DEG, ry! / PER_DEG, rz! / PER_DEG]),
+        };
         break;
       }
-      case "shift-off": this.state.shift = undefined; break;
+      case "shift-off":
+        this.state.shift = undefined;
+        break;
       case "speed":
         if (statement.vj !== undefined) this.state.speed.vj = statement.vj;
         if (statement.v !== undefined) this.state.speed.v_mps = statement.v / 1000;
         break;
-      case "nothing": break;
+      case "nothing":
+        break;
     }
     this.note(statement);
   }
 
   private arithmetic({ word, to, by, ...at }: Extract<Statement, { kind: "arithmetic" }>): void {
-    const a = this.memory.value({ kind: "variable", name: to }), b = this.memory.value(by);
+    const a = this.memory.value({ kind: "variable", name: to });
+    const b = this.memory.value(by);
     if (word === "DIV" && b === 0) throw new TextError(at, "a divisor other than 0", "The divisor is 0.");
-    this.memory.set(to, word === "SET" ? b : word === "ADD" ? a + b : word === "SUB" ? a - b : word === "MUL" ? a * b : a / b, at);
+    this.memory.set(
+      to,
+      word === "SET" ? b : word === "ADD" ? a + b : word === "SUB" ? a - b : word === "MUL" ? a * b : a / b,
+      at,
+    );
   }
 
   private element({ get, position, element, with: operand, ...at }: Extract<Statement, { kind: "element" }>): void {
-    if (element > ELEMENTS) throw new TextError(at, `an element from 1 to ${ELEMENTS}`, `A position has no element ${element}.`);
+    if (element > ELEMENTS)
+      throw new TextError(at, `an element from 1 to ${ELEMENTS}`, `A position has no element ${element}.`);
     const values = this.memory.position(position);
-    if (!get) { values[element - 1] = this.memory.value(operand); return; }
+    if (!get) {
+      values[element - 1] = this.memory.value(operand);
+      return;
+    }
     if (operand.kind === "variable") this.memory.set(operand.name, values[element - 1]!, at);
   }
 
   private call(name: string, at: TextPlace): void {
     const job = this.source.jobs.get(name);
     if (job === undefined) throw new TextError(at, "a job of this text", `Job ${name} is not in this text.`);
-    if (this.stack.length >= CALL_DEPTH) throw new TextError(at, `at most ${CALL_DEPTH} calls inside each other`, `Job ${name} is called more than ${CALL_DEPTH} deep.`);
+    if (this.stack.length >= CALL_DEPTH)
+      throw new TextError(
+        at,
+        `at most ${CALL_DEPTH} calls inside each other`,
+        `Job ${name} is called more than ${CALL_DEPTH} deep.`,
+      );
     this.stack.push(newFrame(job));
   }
 
@@ -176,21 +244,31 @@ export class Machine {
     if (move.motion !== "MOVC") this.endArc(move);
     if (move.motion !== "MOVS") this.inCurve = false;
     switch (move.motion) {
-      case "MOVJ": case "MOVL": return this.go(move, position, undefined, frame);
+      case "MOVJ":
+      case "MOVL":
+        return this.go(move, position, undefined, frame);
       case "MOVS": {
         // A curve begins where it is: with the point before it once more, or with a straight way to its first point.
         const first = !this.inCurve;
         this.inCurve = true;
         if (!first) return this.go(move, position, undefined, frame);
-        return this.state.isAt(position, move) ? this.note(move) : this.go({ ...move, motion: "MOVL" }, position, undefined, frame);
+        return this.state.isAt(position, move)
+          ? this.note(move)
+          : this.go({ ...move, motion: "MOVL" }, position, undefined, frame);
       }
-      case "MOVC": return this.arcPoint(move, position, frame);
+      case "MOVC":
+        return this.arcPoint(move, position, frame);
     }
   }
 
   /** An arc or a curve that begins where the robot was when it was asked. */
   private begin(move: Extract<Statement, { kind: "move" }>, taken: Pose<"base", "flange">): void {
-    if ((move.motion !== "MOVC" && move.motion !== "MOVS") || !this.state.isAt(taken, move)) throw new TextError(move, "a position of this job", "A motion back to a position that was taken from the robot is not understood here.");
+    if ((move.motion !== "MOVC" && move.motion !== "MOVS") || !this.state.isAt(taken, move))
+      throw new TextError(
+        move,
+        "a position of this job",
+        "A motion back to a position that was taken from the robot is not understood here.",
+      );
     this.endArc(move);
     this.inCurve = move.motion === "MOVS";
     if (move.motion === "MOVC") this.arc = { points: 1, via: undefined };
@@ -202,7 +280,9 @@ export class Machine {
     const { points, via } = this.arc;
     if (points === 0) {
       this.arc = { points: 1, via: undefined };
-      return this.state.isAt(position, move) ? this.note(move) : this.go({ ...move, motion: "MOVL" }, position, undefined, frame);
+      return this.state.isAt(position, move)
+        ? this.note(move)
+        : this.go({ ...move, motion: "MOVL" }, position, undefined, frame);
     }
     if (via === undefined) {
       this.arc = { points: 2, via: { position, line: move.line } };
@@ -216,13 +296,25 @@ export class Machine {
   private endArc(at: TextPlace): void {
     const { via } = this.arc;
     this.arc = { points: 0, via: undefined };
-    if (via !== undefined) throw new TextError({ line: via.line, column: 1 }, "a third MOVC behind it", `The arc with the point of line ${via.line} has no end before line ${at.line}.`);
+    if (via !== undefined)
+      throw new TextError(
+        { line: via.line, column: 1 },
+        "a third MOVC behind it",
+        `The arc with the point of line ${via.line} has no end before line ${at.line}.`,
+      );
   }
 
   private go(move: Move & TextPlace, position: Position, via: Position | undefined, frame: Frame): void {
     this.settle(true);
-    const corner_m = this.state.corner(move, move), step = this.state.move(this.stepId(move.line), move, position, via, move);
-    const until = move.until === undefined ? undefined : { when: this.memory.awaited(move.until, move), missing: this.aborts(move.until, frame) ? "fault" as const : "continue" as const };
+    const corner_m = this.state.corner(move, move);
+    const step = this.state.move(this.stepId(move.line), move, position, via, move);
+    const until =
+      move.until === undefined
+        ? undefined
+        : {
+            when: this.memory.awaited(move.until, move),
+            missing: this.aborts(move.until, frame) ? ("fault" as const) : ("continue" as const),
+          };
     this.pending = { line: move.line, step: until === undefined ? step : { ...step, until }, corner_m };
     this.idle = 0;
   }
@@ -230,16 +322,27 @@ export class Machine {
   /** Whether the job ends when a search met nothing: ABORT behind it, on the opposite of its condition. Goes past it. */
   private aborts(until: Condition, frame: Frame): boolean {
     const next = frame.job.instructions[frame.at];
-    if (next?.kind !== "statement" || next.statement.kind !== "abort" || next.statement.when === undefined) return false;
+    if (next?.kind !== "statement" || next.statement.kind !== "abort" || next.statement.when === undefined)
+      return false;
     const { left, right } = next.statement.when;
-    if (left.kind !== "line" || until.left.kind !== "line" || left.wire !== until.left.wire || left.number !== until.left.number || right === until.right) return false;
+    if (
+      left.kind !== "line" ||
+      until.left.kind !== "line" ||
+      left.wire !== until.left.wire ||
+      left.number !== until.left.number ||
+      right === until.right
+    )
+      return false;
     frame.at++;
     return true;
   }
 
   private positionOf({ position, ...at }: Move & TextPlace, { job }: Frame): Position {
-    const own = job.positions.get(position), isVariable = position.startsWith("P"), anywhere = own ?? (isVariable ? this.globalPosition(position) : undefined);
-    if (anywhere === undefined) throw new TextError(at, "a position of this job", `Position ${position} is not in job ${job.name}.`);
+    const own = job.positions.get(position);
+    const isVariable = position.startsWith("P");
+    const anywhere = own ?? (isVariable ? this.globalPosition(position) : undefined);
+    if (anywhere === undefined)
+      throw new TextError(at, "a position of this job", `Position ${position} is not in job ${job.name}.`);
     return anywhere;
   }
 
@@ -257,11 +360,15 @@ export class Machine {
     const { pending } = this;
     if (pending === undefined) return;
     this.pending = undefined;
-    this.ready.push({ line: pending.line, step: goesOn ? { ...pending.step, blend_m: pending.corner_m } : pending.step }, ...this.since.splice(0));
+    this.ready.push(
+      { line: pending.line, step: goesOn ? { ...pending.step, blend_m: pending.corner_m } : pending.step },
+      ...this.since.splice(0),
+    );
   }
 
   private note({ line }: TextPlace): void {
-    if (this.pending === undefined) this.ready.push({ line }); else this.since.push({ line });
+    if (this.pending === undefined) this.ready.push({ line });
+    else this.since.push({ line });
   }
 
   private step({ line }: TextPlace, step: Step): void {
@@ -279,7 +386,11 @@ export class Machine {
   private spend(at: TextPlace): void {
     if (++this.idle <= INSTRUCTIONS_WITHOUT_MOTION) return;
     if (this.memory.asked) throw new WaitsOutside(at, "job");
-    throw new TextError(at, "a motion, a wait or an end", `The job has executed ${INSTRUCTIONS_WITHOUT_MOTION} instructions without a motion: it runs on the spot for ever.`);
+    throw new TextError(
+      at,
+      "a motion, a wait or an end",
+      `The job has executed ${INSTRUCTIONS_WITHOUT_MOTION} instructions without a motion: it runs on the spot for ever.`,
+    );
   }
 }
 

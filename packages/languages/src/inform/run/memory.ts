@@ -3,9 +3,17 @@ import { TextError } from "../../text/index.ts";
 import type { Condition, Operand } from "../read/syntax.ts";
 
 /** Least and greatest value of a variable, by its letter; R is a real. */
-const RANGES: Readonly<Record<string, readonly [number, number]>> = { B: [0, 255], I: [-32768, 32767], D: [-2147483648, 2147483647] };
+const RANGES: Readonly<Record<string, readonly [number, number]>> = {
+  B: [0, 255],
+  I: [-32768, 32767],
+  D: [-2147483648, 2147483647],
+};
 
-const KINDS: Readonly<Record<"IN" | "OT" | "AO", SignalLine["kind"]>> = { IN: "digital-in", OT: "digital-out", AO: "analogue-out" };
+const KINDS: Readonly<Record<"IN" | "OT" | "AO", SignalLine["kind"]>> = {
+  IN: "digital-in",
+  OT: "digital-out",
+  AO: "analogue-out",
+};
 
 /** Lines in and out by number, with the names that the steps know them by. */
 const lineName = (wire: "IN" | "OT" | "AO", number: number): string => `${wire.toLowerCase()}_${number}`;
@@ -33,24 +41,32 @@ export class Memory {
   }
 
   set(name: string, value: number, at: TextPlace): void {
-    const letter = name.replace(/^L/, "")[0]!, range = RANGES[letter];
+    const letter = name.replace(/^L/, "")[0]!;
+    const range = RANGES[letter];
     if (!Number.isFinite(value)) throw new TextError(at, "a finite result", "The result is not a number.");
     const whole = range === undefined ? Math.fround(value) : Math.trunc(value);
-    if (range !== undefined && (whole < range[0] || whole > range[1])) throw new TextError(at, `a number from ${range[0]} to ${range[1]}`, `${name} cannot hold ${whole}.`);
+    if (range !== undefined && (whole < range[0] || whole > range[1]))
+      throw new TextError(at, `a number from ${range[0]} to ${range[1]}`, `${name} cannot hold ${whole}.`);
     this.values.set(name, whole);
   }
 
   /** Elements of a position variable: µm and 1/10000°. */
   position(name: string): number[] {
     let values = this.positions.get(name);
-    if (values === undefined) this.positions.set(name, values = [0, 0, 0, 0, 0, 0]);
+    if (values === undefined) this.positions.set(name, (values = [0, 0, 0, 0, 0, 0]));
     return values;
   }
 
   clear(name: string, count: number): void {
-    const stem = name.slice(0, -3), first = Number(name.slice(-3));
-    if (name.startsWith("P")) { this.positions.delete(name); return; }
-    for (const key of [...this.values.keys()]) if (key.slice(0, -3) === stem && Number(key.slice(-3)) >= first && Number(key.slice(-3)) < first + count) this.values.delete(key);
+    const stem = name.slice(0, -3);
+    const first = Number(name.slice(-3));
+    if (name.startsWith("P")) {
+      this.positions.delete(name);
+      return;
+    }
+    for (const key of [...this.values.keys()])
+      if (key.slice(0, -3) === stem && Number(key.slice(-3)) >= first && Number(key.slice(-3)) < first + count)
+        this.values.delete(key);
   }
 
   write(number: number, to: boolean): string {
@@ -65,30 +81,45 @@ export class Memory {
   }
 
   private line({ wire, number }: Extract<Operand, { kind: "line" }>): boolean {
-    const name = this.note(wire, number), known = wire === "OT" ? this.outputs.get(number) : undefined;
+    const name = this.note(wire, number);
+    const known = wire === "OT" ? this.outputs.get(number) : undefined;
     if (known === undefined) this.asked = true;
     return known ?? this.outside?.read(name) === true;
   }
 
   holds({ left, sign, right }: Condition, at: TextPlace): boolean {
-    const a = this.value(left), b = right === "ON" ? 1 : right === "OFF" ? 0 : this.value(right);
+    const a = this.value(left);
+    const b = right === "ON" ? 1 : right === "OFF" ? 0 : this.value(right);
     switch (sign) {
-      case "=": return a === b;
-      case "<>": return a !== b;
-      case "<": return a < b;
-      case ">": return a > b;
-      case "<=": return a <= b;
-      case ">=": return a >= b;
-      default: throw new TextError(at, "a comparison", "The condition compares nothing.");
+      case "=":
+        return a === b;
+      case "<>":
+        return a !== b;
+      case "<":
+        return a < b;
+      case ">":
+        return a > b;
+      case "<=":
+        return a <= b;
+      case ">=":
+        return a >= b;
+      default:
+        throw new TextError(at, "a comparison", "The condition compares nothing.");
     }
   }
 
   /** What is waited for, when it is one line that is on or off. */
   awaited({ left, sign, right }: Condition, at: TextPlace): Neutral {
-    if (left.kind !== "line" || (right !== "ON" && right !== "OFF") || (sign !== "=" && sign !== "<>")) throw new TextError(at, "IN#(n)=ON or =OFF", "The job waits for something that is not one line of the controller.");
+    if (left.kind !== "line" || (right !== "ON" && right !== "OFF") || (sign !== "=" && sign !== "<>"))
+      throw new TextError(
+        at,
+        "IN#(n)=ON or =OFF",
+        "The job waits for something that is not one line of the controller.",
+      );
     return { signal: this.note(left.wire, left.number), is: (right === "ON") === (sign === "=") };
   }
 }
 
 /** Whether looking at a condition is looking at the outside, which stops the robot at its point. */
-export const looksOutside = ({ left, right }: Condition): boolean => left.kind === "line" || (typeof right === "object" && right.kind === "line");
+export const looksOutside = ({ left, right }: Condition): boolean =>
+  left.kind === "line" || (typeof right === "object" && right.kind === "line");

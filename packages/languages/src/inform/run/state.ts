@@ -1,5 +1,18 @@
 import {
-  angleBetween, branchOf, compose, distance, flangePose, identity, inverse, type MoveStep, type Pose, type Robot, type SignalLine, type Speed, type Target, type TextPlace,
+  angleBetween,
+  branchOf,
+  compose,
+  distance,
+  flangePose,
+  identity,
+  inverse,
+  type MoveStep,
+  type Pose,
+  type Robot,
+  type SignalLine,
+  type Speed,
+  type Target,
+  type TextPlace,
 } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
 import type { Frame, Move, Position, Source } from "../read/syntax.ts";
@@ -20,7 +33,10 @@ const SAME = { position_m: 5e-5, angle_rad: 2e-4 } as const;
 const PATHS = { MOVJ: "ptp", MOVL: "lin", MOVC: "circ", MOVS: "spline" } as const;
 
 /** A shift in force: positions are moved by it along the axes of a frame. */
-export interface Shift { readonly baseFromFrame: Pose<"base", "frame">; readonly by: Pose }
+export interface Shift {
+  readonly baseFromFrame: Pose<"base", "frame">;
+  readonly by: Pose;
+}
 
 /** Where the arm is sent, and the steps this amounts to. */
 export class ControllerState {
@@ -38,7 +54,14 @@ export class ControllerState {
   private axes_deg: readonly number[];
   private baseFromFlange: Pose<"base", "flange">;
 
-  constructor(robot: Robot, arm: Arm, source: Source, worldFromBase: Pose<"world", "base">, context: Context, pulses: readonly number[] | undefined) {
+  constructor(
+    robot: Robot,
+    arm: Arm,
+    source: Source,
+    worldFromBase: Pose<"world", "base">,
+    context: Context,
+    pulses: readonly number[] | undefined,
+  ) {
     this.robot = robot;
     this.arm = arm;
     this.source = source;
@@ -51,70 +74,118 @@ export class ControllerState {
   }
 
   /** Where the robot is sent, to be compared with later. */
-  get here(): Pose<"base", "flange"> { return this.baseFromFlange; }
+  get here(): Pose<"base", "flange"> {
+    return this.baseFromFlange;
+  }
 
   /** Whether the robot is there already: arcs and curves begin with the point before them once more. */
   isAt(position: Position | Pose<"base", "flange">, at: TextPlace): boolean {
-    const there = "quaternion" in position ? position : this.flangeOf(position, at), here = this.baseFromFlange;
-    return distance(there.position, here.position) < SAME.position_m && angleBetween(there.quaternion, here.quaternion) < SAME.angle_rad;
+    const there = "quaternion" in position ? position : this.flangeOf(position, at);
+    const here = this.baseFromFlange;
+    return (
+      distance(there.position, here.position) < SAME.position_m &&
+      angleBetween(there.quaternion, here.quaternion) < SAME.angle_rad
+    );
   }
 
   /** The neutral step of a motion; from now on the arm is at its end. */
   move(id: string, move: Move, position: Position, via: Position | undefined, at: TextPlace): MoveStep {
-    const path = PATHS[move.motion], passing = via === undefined ? undefined : this.place(via, at);
+    const path = PATHS[move.motion];
+    const passing = via === undefined ? undefined : this.place(via, at);
     const acceleration = Math.min(move.acc ?? 100, move.dec ?? 100) / 100;
     if (move.vj !== undefined) this.speed.vj = percent(move.vj, at);
     if (move.v !== undefined) this.speed.v_mps = positive(move.v, at) / 1000;
     const speed: Speed = path === "ptp" ? { ratio: this.speed.vj / 100 } : { mps: this.speed.v_mps };
     const target = position.type === "PULSE" ? this.toPulses(position, at) : this.toPlace(position, at);
-    return { id, type: "move", path, target, speed, blend_m: 0, ...(passing === undefined ? {} : { via: passing }), ...(acceleration < 1 ? { acceleration: { ratio: acceleration } } : {}) };
+    return {
+      id,
+      type: "move",
+      path,
+      target,
+      speed,
+      blend_m: 0,
+      ...(passing === undefined ? {} : { via: passing }),
+      ...(acceleration < 1 ? { acceleration: { ratio: acceleration } } : {}),
+    };
   }
 
   /** How far from the point a corner begins. */
   corner({ pl, cr }: Move, at: TextPlace): number {
     if (cr !== undefined) return positive(cr, at) / 1000;
     if (pl === undefined) return 0;
-    if (!(Number.isInteger(pl) && pl >= 0 && pl <= LAST_LEVEL)) throw new TextError(at, `PL=0 to PL=${LAST_LEVEL}`, `There is no position level ${pl}.`);
+    if (!(Number.isInteger(pl) && pl >= 0 && pl <= LAST_LEVEL))
+      throw new TextError(at, `PL=0 to PL=${LAST_LEVEL}`, `There is no position level ${pl}.`);
     return LEVELS_M[Math.min(pl, LEVELS_M.length - 1)]!;
   }
 
-  frameOf(type: Position["type"], user: number, at: TextPlace): { readonly name: string; readonly baseFromFrame: Pose<"base", "frame"> } {
+  frameOf(
+    type: Position["type"],
+    user: number,
+    at: TextPlace,
+  ): { readonly name: string; readonly baseFromFrame: Pose<"base", "frame"> } {
     if (type !== "USER") return { name: "world", baseFromFrame: this.baseFromVendor as Pose as Pose<"base", "frame"> };
-    const frame = this.listed(this.source.users, user, "User frame", at), vendorFromFrame = poseOf<"vendor-world", "frame">(frame.values);
-    return { name: named(this.context.frames, compose(this.worldFromVendor, vendorFromFrame), frame.name, "world"), baseFromFrame: compose(this.baseFromVendor, vendorFromFrame) };
+    const frame = this.listed(this.source.users, user, "User frame", at);
+    const vendorFromFrame = poseOf<"vendor-world", "frame">(frame.values);
+    return {
+      name: named(this.context.frames, compose(this.worldFromVendor, vendorFromFrame), frame.name, "world"),
+      baseFromFrame: compose(this.baseFromVendor, vendorFromFrame),
+    };
   }
 
   private toPulses(position: Position, at: TextPlace): Target {
     this.axes_deg = this.axesOf(position, at);
     const q = this.arm.radians(this.axes_deg);
     this.baseFromFlange = flangePose(this.robot.arm, q);
-    if (this.shift !== undefined) throw new TextError(at, "a position in X, Y, Z", "A shift of a position in pulses is not understood here.");
+    if (this.shift !== undefined)
+      throw new TextError(at, "a position in X, Y, Z", "A shift of a position in pulses is not understood here.");
     return { q, tool: this.toolOf(position, at).name };
   }
 
   private axesOf(position: Position, at: TextPlace): number[] {
-    if (this.pulses === undefined) throw new TextError(position, "X, Y, Z positions, or the pulses per degree of this robot", "Positions in pulses are only understood with the pulses per degree from the controller's parameters.");
-    const { pulses } = this, count = this.robot.arm.joints.length;
-    if (position.values.length < count || position.values.slice(count).some(value => value !== 0)) throw new TextError(at, `${count} axes`, `The position has ${position.values.length} axes; the robot has ${count}.`);
+    if (this.pulses === undefined)
+      throw new TextError(
+        position,
+        "X, Y, Z positions, or the pulses per degree of this robot",
+        "Positions in pulses are only understood with the pulses per degree from the controller's parameters.",
+      );
+    const { pulses } = this;
+    const count = this.robot.arm.joints.length;
+    if (position.values.length < count || position.values.slice(count).some(value => value !== 0))
+      throw new TextError(
+        at,
+        `${count} axes`,
+        `The position has ${position.values.length} axes; the robot has ${count}.`,
+      );
     return pulses.map((perDegree, i) => position.values[i]! / perDegree);
   }
 
   private toPlace(position: Position, at: TextPlace): Target {
-    const flange = this.flangeOf(position, at), place = this.place(position, at), all = this.arm.reaching(flange, this.axes_deg);
+    const flange = this.flangeOf(position, at);
+    const place = this.place(position, at);
+    const all = this.arm.reaching(flange, this.axes_deg);
     this.baseFromFlange = flange;
     if (all.length === 0) return place;
-    const ofType = (border: typeof BORDERS.exact | typeof BORDERS.written): number[] | undefined => all.find(axes => this.arm.isOfType(axes, position.rconf, border));
+    const ofType = (border: typeof BORDERS.exact | typeof BORDERS.written): number[] | undefined =>
+      all.find(axes => this.arm.isOfType(axes, position.rconf, border));
     const taken = ofType(BORDERS.exact) ?? ofType(BORDERS.written);
     if (taken === undefined) {
-      if (this.shift === undefined) throw new TextError(at, "a manipulator type that the point can be reached with", `The point cannot be reached within the axis limits as RCONF ${position.rconf.slice(0, 6).join(",")}.`);
+      if (this.shift === undefined)
+        throw new TextError(
+          at,
+          "a manipulator type that the point can be reached with",
+          `The point cannot be reached within the axis limits as RCONF ${position.rconf.slice(0, 6).join(",")}.`,
+        );
       this.axes_deg = all[0]!;
       return place;
     }
     this.axes_deg = taken;
-    const q = this.arm.radians(taken), branch = branchOf(this.robot, q);
+    const q = this.arm.radians(taken);
+    const branch = branchOf(this.robot, q);
     // The nearest turn of that posture is what a pose means; another one can only be said by the axes themselves.
     const nearest = all.find(axes => sameBranch(branchOf(this.robot, this.arm.radians(axes)), branch));
-    return nearest === taken || position.type === "PULSE" ? { ...place, ...(branch === undefined ? {} : { branch }) } : { q, tool: place.tool };
+    return nearest === taken || position.type === "PULSE"
+      ? { ...place, ...(branch === undefined ? {} : { branch }) }
+      : { q, tool: place.tool };
   }
 
   private flangeOf(position: Position, at: TextPlace): Pose<"base", "flange"> {
@@ -123,27 +194,48 @@ export class ControllerState {
   }
 
   private baseFromTcp(position: Position, at: TextPlace): Pose<"base", "tcp"> {
-    const { baseFromFrame } = this.frameOf(position.type, position.user, at), taught = compose(baseFromFrame, poseOf<"frame", "tcp">(position.values));
+    const { baseFromFrame } = this.frameOf(position.type, position.user, at);
+    const taught = compose(baseFromFrame, poseOf<"frame", "tcp">(position.values));
     const { shift } = this;
     if (shift === undefined) return taught;
-    return compose(compose(shift.baseFromFrame, shift.by as Pose as Pose<"frame", "frame">), compose(inverse(shift.baseFromFrame), taught));
+    return compose(
+      compose(shift.baseFromFrame, shift.by as Pose as Pose<"frame", "frame">),
+      compose(inverse(shift.baseFromFrame), taught),
+    );
   }
 
   private place(position: Position, at: TextPlace): Extract<Target, { readonly pose: unknown }> {
     const tool = this.toolOf(position, at);
     if (position.type === "PULSE") {
-      const tip = compose(compose(this.worldFromVendor, inverse(this.baseFromVendor)), compose(this.flangeOf(position, at), tool.flangeFromTcp));
+      const tip = compose(
+        compose(this.worldFromVendor, inverse(this.baseFromVendor)),
+        compose(this.flangeOf(position, at), tool.flangeFromTcp),
+      );
       return { pose: tip as Pose as Pose<"frame", "tcp">, frame: "world", tool: tool.name };
     }
-    const { name, baseFromFrame } = this.frameOf(position.type, position.user, at), tip = this.baseFromTcp(position, at);
+    const { name, baseFromFrame } = this.frameOf(position.type, position.user, at);
+    const tip = this.baseFromTcp(position, at);
     if (name !== "world") return { pose: compose(inverse(baseFromFrame), tip), frame: name, tool: tool.name };
-    const vendorFromTcp = this.shift === undefined ? poseOf<"vendor-world", "tcp">(position.values) : compose(inverse(this.baseFromVendor), tip);
-    return { pose: compose(this.worldFromVendor, vendorFromTcp) as Pose as Pose<"frame", "tcp">, frame: "world", tool: tool.name };
+    const vendorFromTcp =
+      this.shift === undefined
+        ? poseOf<"vendor-world", "tcp">(position.values)
+        : compose(inverse(this.baseFromVendor), tip);
+    return {
+      pose: compose(this.worldFromVendor, vendorFromTcp) as Pose as Pose<"frame", "tcp">,
+      frame: "world",
+      tool: tool.name,
+    };
   }
 
-  private toolOf({ tool }: Position, at: TextPlace): { readonly name: string; readonly flangeFromTcp: Pose<"flange", "tcp"> } {
-    const frame = this.listed(this.source.tools, tool, "Tool", at), flangeFromTcp = poseOf<"flange", "tcp">(frame.values);
-    return frame.values.every(value => value === 0) ? { name: "flange", flangeFromTcp: identity() } : { name: named(this.context.tools, flangeFromTcp, frame.name, "flange"), flangeFromTcp };
+  private toolOf(
+    { tool }: Position,
+    at: TextPlace,
+  ): { readonly name: string; readonly flangeFromTcp: Pose<"flange", "tcp"> } {
+    const frame = this.listed(this.source.tools, tool, "Tool", at);
+    const flangeFromTcp = poseOf<"flange", "tcp">(frame.values);
+    return frame.values.every(value => value === 0)
+      ? { name: "flange", flangeFromTcp: identity() }
+      : { name: named(this.context.tools, flangeFromTcp, frame.name, "flange"), flangeFromTcp };
   }
 
   private listed(list: ReadonlyMap<number, Frame>, number: number, what: string, at: TextPlace): Frame {
@@ -154,22 +246,26 @@ export class ControllerState {
   }
 }
 
-const sameBranch = (a: ReturnType<typeof branchOf>, b: ReturnType<typeof branchOf>): boolean => a?.shoulder === b?.shoulder && a?.elbow === b?.elbow && a?.wrist === b?.wrist;
+const sameBranch = (a: ReturnType<typeof branchOf>, b: ReturnType<typeof branchOf>): boolean =>
+  a?.shoulder === b?.shoulder && a?.elbow === b?.elbow && a?.wrist === b?.wrist;
 
 function positive(value: number, at: TextPlace): number {
   if (!(value > 0)) throw new TextError(at, "a number above 0", `The value is ${value}.`);
   return value;
 }
 function percent(value: number, at: TextPlace): number {
-  if (!(value > 0 && value <= 100)) throw new TextError(at, "a number above 0 and up to 100", `The share is ${value} %.`);
+  if (!(value > 0 && value <= 100))
+    throw new TextError(at, "a number above 0 and up to 100", `The share is ${value} %.`);
   return value;
 }
 
 /** What was met before keeps its name; two things never share one. */
 function named<P extends Pose>(known: Record<string, P>, pose: P, wanted: string, never: string): string {
-  const text = JSON.stringify(pose), stem = wanted === never ? `${wanted} 1` : wanted;
+  const text = JSON.stringify(pose);
+  const stem = wanted === never ? `${wanted} 1` : wanted;
   for (let i = 1; ; i++) {
-    const name = i === 1 ? stem : `${stem} ${i}`, there = Object.hasOwn(known, name) ? known[name] : undefined;
+    const name = i === 1 ? stem : `${stem} ${i}`;
+    const there = Object.hasOwn(known, name) ? known[name] : undefined;
     if (there === undefined) known[name] = pose;
     if (there === undefined || JSON.stringify(there) === text) return name;
   }

@@ -5,7 +5,8 @@ import type { WalkedPlace } from "../../writing/index.ts";
 import { TextWriter } from "./text-writer.ts";
 
 /** Tools 0 … 63 and user frames 1 … 63; variables of a kind 0 … 99. */
-const LAST_FRAME = 63, LAST_VARIABLE = 99;
+const LAST_FRAME = 63;
+const LAST_VARIABLE = 99;
 
 /** What a controller keeps outside of jobs, numbered in the order of use: tools, user frames, variables. */
 export class Controller {
@@ -16,10 +17,16 @@ export class Controller {
   private readonly users = new Map<string, number>();
   private readonly used: Record<"I" | "D" | "P", number> = { I: 0, D: 0, P: 0 };
 
-  constructor(place: WalkedPlace) { this.place = place; }
+  constructor(place: WalkedPlace) {
+    this.place = place;
+  }
 
-  tool(name: string): number { return this.numbered(this.tools, name, this.tools.size, "tools"); }
-  user(name: string): number { return this.numbered(this.users, name, this.users.size + 1, "user frames"); }
+  tool(name: string): number {
+    return this.numbered(this.tools, name, this.tools.size, "tools");
+  }
+  user(name: string): number {
+    return this.numbered(this.users, name, this.users.size + 1, "user frames");
+  }
 
   variable(letter: "I" | "D" | "P"): string {
     if (this.used[letter] > LAST_VARIABLE) this.spent.add(`${letter} variables`);
@@ -27,7 +34,9 @@ export class Controller {
   }
 
   /** The user frame of a name, in robot coordinates. */
-  vendorFromFrame(name: string): Pose<"vendor-world", "frame"> { return compose(this.place.vendorFromWorld, this.place.worldFromFrame(name)); }
+  vendorFromFrame(name: string): Pose<"vendor-world", "frame"> {
+    return compose(this.place.vendorFromWorld, this.place.worldFromFrame(name));
+  }
 
   /** TOOL.CND and UFRAME.CND with the numbers that the jobs mean. */
   files(): EmittedFile[] {

@@ -1,4 +1,15 @@
-import { compose, distance, type Condition, type EmittedFile, type MoveStep, type PalletStep, type Pose, type SetStep, type Step, type Target } from "@twincell/core";
+import {
+  compose,
+  distance,
+  type Condition,
+  type EmittedFile,
+  type MoveStep,
+  type PalletStep,
+  type Pose,
+  type SetStep,
+  type Step,
+  type Target,
+} from "@twincell/core";
 import type { AxisConvention, PulseData } from "../robots.ts";
 import type { Controller } from "./controller.ts";
 import { fixed } from "./location.ts";
@@ -46,7 +57,8 @@ export class JobWriter {
 
   write(name: string, title: string, steps: readonly Step[]): EmittedFile {
     this.steps(steps, undefined);
-    const file = new TextWriter(), { points, variables, setting } = this;
+    const file = new TextWriter();
+    const { points, variables, setting } = this;
     for (const variable of variables) points.variable(variable);
     file.add("/JOB");
     file.add(`//NAME ${name}`);
@@ -70,35 +82,58 @@ export class JobWriter {
   private steps(steps: readonly Step[], after: Step | undefined): void {
     for (const [i, step] of steps.entries()) {
       const next = steps.slice(i + 1).find(({ type }) => type !== "comment") ?? after;
-      this.step(step, next, steps.slice(0, i).findLast(({ type }) => type !== "comment"));
+      this.step(
+        step,
+        next,
+        steps.slice(0, i).findLast(({ type }) => type !== "comment"),
+      );
     }
   }
 
   private step(step: Step, next: Step | undefined, before: Step | undefined): void {
-    const add = (...lines: string[]): void => { for (const line of lines) this.out.add(line, step.id); };
+    const add = (...lines: string[]): void => {
+      for (const line of lines) this.out.add(line, step.id);
+    };
     this.title(step);
     switch (step.type) {
-      case "move": return this.move(step, next, before);
-      case "wait": return add(`TIMER T=${fixed(Math.max(0.01, step.s), 2)}`);
-      case "gripper": return add(`HAND 1 ${step.closed ? "ON" : "OFF"}`);
-      case "set": return add(this.set(step));
-      case "wait-for": return add(`WAIT ${this.condition(step.when)}`);
-      case "message": return add(`MSG "${commentText(step.text.replace(/"/g, "'"))}"`);
-      case "stop": return add("ABORT");
-      case "comment": return add(`'* ${commentText(step.text, 29)}`);
+      case "move":
+        return this.move(step, next, before);
+      case "wait":
+        return add(`TIMER T=${fixed(Math.max(0.01, step.s), 2)}`);
+      case "gripper":
+        return add(`HAND 1 ${step.closed ? "ON" : "OFF"}`);
+      case "set":
+        return add(this.set(step));
+      case "wait-for":
+        return add(`WAIT ${this.condition(step.when)}`);
+      case "message":
+        return add(`MSG "${commentText(step.text.replace(/"/g, "'"))}"`);
+      case "stop":
+        return add("ABORT");
+      case "comment":
+        return add(`'* ${commentText(step.text, 29)}`);
       case "call":
         this.shiftOff(step.id);
         add(`CALL JOB:${this.setting.jobs.get(step.routine)!}`);
         this.arrival = undefined;
         return;
-      case "repeat": return this.repeat(step.id, step.times, step.steps);
+      case "repeat":
+        return this.repeat(step.id, step.times, step.steps);
       case "if":
-        this.block(step.id, `IFTHENEXP ${this.condition(step.when)}`, step.then, next, step.else === undefined ? "ENDIF" : "");
+        this.block(
+          step.id,
+          `IFTHENEXP ${this.condition(step.when)}`,
+          step.then,
+          next,
+          step.else === undefined ? "ENDIF" : "",
+        );
         if (step.else !== undefined) this.block(step.id, "ELSE", step.else, next, "ENDIF");
         return;
-      case "pallet": return this.pallet(step);
+      case "pallet":
+        return this.pallet(step);
       // Refused before.
-      case "payload": return;
+      case "payload":
+        return;
     }
   }
 
@@ -125,9 +160,12 @@ export class JobWriter {
   }
 
   private pallet(step: PalletStep): void {
-    const { controller, place } = this.setting, pallet = place.program.pallets[step.pallet]!;
+    const { controller, place } = this.setting;
+    const pallet = place.program.pallets[step.pallet]!;
     this.shiftOff(step.id);
-    const loop = new PalletLoop(step, pallet, controller, place.vendorFromWorld, (line, id) => { this.out.add(line, id); });
+    const loop = new PalletLoop(step, pallet, controller, place.vendorFromWorld, (line, id) => {
+      this.out.add(line, id);
+    });
     this.variables.push(loop.shift);
     loop.begin();
     this.pallets.set(step.pallet, loop);
@@ -140,7 +178,10 @@ export class JobWriter {
   }
 
   private title(step: Step): void {
-    const group = step.group === undefined ? "" : commentText(this.setting.place.program.groups[step.group]?.name ?? step.group, 28);
+    const group =
+      step.group === undefined
+        ? ""
+        : commentText(this.setting.place.program.groups[step.group]?.name ?? step.group, 28);
     if (group !== this.group) this.out.add(`'== ${group}`.trimEnd());
     this.group = group;
     const name = commentText(step.name ?? "");
@@ -150,7 +191,9 @@ export class JobWriter {
   private set({ signal, to, pulse_s }: SetStep): string {
     const { address } = this.setting.place.program.signals[signal]!;
     if (typeof to === "number") return `AOUT AO#(${address}) ${fixed(to, 2)}`;
-    return pulse_s === undefined ? `DOUT OT#(${address}) ${to ? "ON" : "OFF"}` : `PULSE OT#(${address}) T=${fixed(Math.max(0.01, pulse_s), 2)}`;
+    return pulse_s === undefined
+      ? `DOUT OT#(${address}) ${to ? "ON" : "OFF"}`
+      : `PULSE OT#(${address}) T=${fixed(Math.max(0.01, pulse_s), 2)}`;
   }
 
   private condition(when: Condition, opposite = false): string {
@@ -161,16 +204,26 @@ export class JobWriter {
   // Motion --------------------------------------------------------------------------------------------------------------
 
   private move(step: MoveStep, next: Step | undefined, before: Step | undefined): void {
-    const { place, postures } = this.setting, add = (line: string): void => { this.out.add(line, step.id); };
-    const { q_rad, via_rad } = postures.get(step.id)!, { target, frame, loop } = this.taught(step.target);
+    const { place, postures } = this.setting;
+    const add = (line: string): void => {
+      this.out.add(line, step.id);
+    };
+    const { q_rad, via_rad } = postures.get(step.id)!;
+    const { target, frame, loop } = this.taught(step.target);
     // Joint angles are reached with any tool; the one in force stays.
     const tool = step.target.tool ?? (step.path === "ptp" ? this.arrival?.written?.tool : undefined) ?? "flange";
     this.shiftFor(loop, step.id);
-    const speed = speedText(step, place.robot.maxTcpSpeed_mps), acceleration = accelerationText(step);
-    const corner_m = step.until === undefined && this.goesOn(next) ? this.corner(step, before, next) : 0, corner = cornerText(step.path, corner_m);
-    if (step.path === "circ" || (step.path === "spline" && !(before?.type === "move" && before.path === "spline" && this.arrival !== undefined))) {
+    const speed = speedText(step, place.robot.maxTcpSpeed_mps);
+    const acceleration = accelerationText(step);
+    const corner_m = step.until === undefined && this.goesOn(next) ? this.corner(step, before, next) : 0;
+    const corner = cornerText(step.path, corner_m);
+    if (
+      step.path === "circ" ||
+      (step.path === "spline" && !(before?.type === "move" && before.path === "spline" && this.arrival !== undefined))
+    ) {
       const word = step.path === "circ" ? "MOVC" : "MOVS";
-      if (this.arrival !== undefined) add(`${word} ${this.points.repeat(step, this.arrival, frame, tool)} ${speed} PL=0`);
+      if (this.arrival !== undefined)
+        add(`${word} ${this.points.repeat(step, this.arrival, frame, tool)} ${speed} PL=0`);
       else {
         // Reached from several sides: the robot is asked where it stands.
         this.here ??= this.setting.controller.variable("P");
@@ -184,19 +237,33 @@ export class JobWriter {
     }
     const { name, arrival } = this.points.add(step, target, frame, tool, q_rad);
     const word = step.path === "ptp" ? "MOVJ" : step.path === "lin" ? "MOVL" : step.path === "circ" ? "MOVC" : "MOVS";
-    add(`${word} ${name} ${speed}${corner}${acceleration}${step.path === "circ" ? " FPT" : ""}${step.until === undefined ? "" : ` UNTIL ${this.condition(step.until.when)}`}`);
+    add(
+      `${word} ${name} ${speed}${corner}${acceleration}${step.path === "circ" ? " FPT" : ""}${step.until === undefined ? "" : ` UNTIL ${this.condition(step.until.when)}`}`,
+    );
     if (step.until?.missing === "fault") add(`ABORT IF ${this.condition(step.until.when, true)}`);
     this.arrival = loop === undefined && step.until === undefined ? arrival : undefined;
   }
 
   /** A target as it is taught: at the first place, when it is on a pallet. */
-  private taught(target: Target): { readonly target: Target; readonly frame: string; readonly loop: PalletLoop | undefined } {
+  private taught(target: Target): {
+    readonly target: Target;
+    readonly frame: string;
+    readonly loop: PalletLoop | undefined;
+  } {
     const { frames, pallets } = this.setting.place.program;
     if ("q" in target) return { target, frame: "world", loop: undefined };
     const loop = this.pallets.get(target.frame);
     if (loop !== undefined) {
       const { frame, origin } = pallets[target.frame]!;
-      return { target: { ...target, frame, pose: compose(origin as Pose as Pose<"frame", "place">, target.pose as Pose as Pose<"place", "tcp">) }, frame, loop };
+      return {
+        target: {
+          ...target,
+          frame,
+          pose: compose(origin as Pose as Pose<"frame", "place">, target.pose as Pose as Pose<"place", "tcp">),
+        },
+        frame,
+        loop,
+      };
     }
     return { target, frame: Object.hasOwn(frames, target.frame) ? target.frame : "world", loop: undefined };
   }
@@ -215,23 +282,32 @@ export class JobWriter {
   }
 
   private goesOn(next: Step | undefined): boolean {
-    const inside = (steps: readonly Step[] | undefined): boolean => this.goesOn(steps?.find(({ type }) => type !== "comment"));
+    const inside = (steps: readonly Step[] | undefined): boolean =>
+      this.goesOn(steps?.find(({ type }) => type !== "comment"));
     switch (next?.type) {
-      case undefined: return !this.isMain;
-      case "move": return true;
-      case "repeat": case "pallet": return inside(next.steps);
-      case "call": return inside(this.setting.place.program.routines[next.routine]);
-      default: return false;
+      case undefined:
+        return !this.isMain;
+      case "move":
+        return true;
+      case "repeat":
+      case "pallet":
+        return inside(next.steps);
+      case "call":
+        return inside(this.setting.place.program.routines[next.routine]);
+      default:
+        return false;
     }
   }
 
   /** Where the corner begins. A share is turned into a distance by the chords to the points before and behind. */
   private corner(step: MoveStep, before: Step | undefined, next: Step | undefined): number {
-    const { blend_m, blend_ratio = 0 } = step, { place } = this.setting;
+    const { blend_m, blend_ratio = 0 } = step;
+    const { place } = this.setting;
     if (!(blend_ratio > 0)) return blend_m;
-    const at = (each: MoveStep) => place.worldFromTarget(each.target, each.target.tool ?? "flange").position, chords: number[] = [];
+    const at = (each: MoveStep) => place.worldFromTarget(each.target, each.target.tool ?? "flange").position;
+    const chords: number[] = [];
     if (before?.type === "move") chords.push(distance(at(before), at(step)));
     if (next?.type === "move") chords.push(distance(at(step), at(next)));
-    return chords.length === 0 ? 0 : blend_ratio * Math.min(...chords) / 2;
+    return chords.length === 0 ? 0 : (blend_ratio * Math.min(...chords)) / 2;
   }
 }

@@ -1,4 +1,13 @@
-import { branchOf, degrees, millimetres, pose, toYaskawaRxyz, fromYaskawaRxyz, type Pose, type Robot } from "@twincell/core";
+import {
+  branchOf,
+  degrees,
+  millimetres,
+  pose,
+  toYaskawaRxyz,
+  fromYaskawaRxyz,
+  type Pose,
+  type Robot,
+} from "@twincell/core";
 import type { AxisConvention } from "../robots.ts";
 
 /** A number with a fixed count of decimals and no minus before zero. */
@@ -9,7 +18,10 @@ export const fixed = (value: number, decimals: number): string => {
 
 /** `X,Y,Z,Rx,Ry,Rz` in mm with three and degrees with four decimals. */
 export function rectanText({ position, quaternion }: Pose): string {
-  return [...position.map(value => fixed(millimetres(value), 3)), ...toYaskawaRxyz(quaternion).map(value => fixed(value, 4))].join(",");
+  return [
+    ...position.map(value => fixed(millimetres(value), 3)),
+    ...toYaskawaRxyz(quaternion).map(value => fixed(value, 4)),
+  ].join(",");
 }
 
 /** The pose that a text says: what is left of a pose when it is written down. */
@@ -32,8 +44,15 @@ const FLAGS = 24;
  * from half a turn on.
  */
 export function rconfText(robot: Robot, q_rad: ArrayLike<number>, axes_deg: readonly number[]): string {
-  const branch = branchOf(robot, q_rad), [s, , , r, , t] = axes_deg as [number, number, number, number, number, number];
-  const within = Math.abs(r) % 360, isFlip = within <= 90 || within >= 270;
-  const flags = [isFlip ? 0 : 1, branch?.elbow === "down" ? 1 : 0, branch?.shoulder === "back" ? 1 : 0, ...[r, t, s].map(value => Math.abs(value) >= 180 ? 1 : 0)];
+  const branch = branchOf(robot, q_rad);
+  const [s, , , r, , t] = axes_deg as [number, number, number, number, number, number];
+  const within = Math.abs(r) % 360;
+  const isFlip = within <= 90 || within >= 270;
+  const flags = [
+    isFlip ? 0 : 1,
+    branch?.elbow === "down" ? 1 : 0,
+    branch?.shoulder === "back" ? 1 : 0,
+    ...[r, t, s].map(value => (Math.abs(value) >= 180 ? 1 : 0)),
+  ];
   return [...flags, ...Array<number>(FLAGS - flags.length).fill(0)].join(",");
 }

@@ -14,26 +14,46 @@ export class PalletLoop {
   private readonly frame: string;
   private readonly pitch: { readonly column: Vector3; readonly row: Vector3; readonly layer: Vector3 };
   private readonly i: { readonly layer: string; readonly line: string; readonly along: string; readonly last: string };
-  private readonly d: { readonly row: string; readonly column: string; readonly odd: string; readonly sum: string; readonly part: string };
+  private readonly d: {
+    readonly row: string;
+    readonly column: string;
+    readonly odd: string;
+    readonly sum: string;
+    readonly part: string;
+  };
   private readonly ends: string[] = [];
 
   /** @param vendorFromWorld  shifts along the world are given along the axes of the robot. */
-  constructor({ id }: PalletStep, pallet: Pallet, controller: Controller, vendorFromWorld: Pose, add: (line: string, step: string) => void) {
+  constructor(
+    { id }: PalletStep,
+    pallet: Pallet,
+    controller: Controller,
+    vendorFromWorld: Pose,
+    add: (line: string, step: string) => void,
+  ) {
     this.pallet = pallet;
     this.step = id;
     this.add = add;
-    const pitch = palletPitch(pallet), isWorld = pallet.frame === "world", along = (by: Vector3): Vector3 => isWorld ? rotate(vendorFromWorld.quaternion, by) : by;
+    const pitch = palletPitch(pallet);
+    const isWorld = pallet.frame === "world";
+    const along = (by: Vector3): Vector3 => (isWorld ? rotate(vendorFromWorld.quaternion, by) : by);
     this.pitch = { column: along(pitch.column), row: along(pitch.row), layer: along(pitch.layer) };
     this.frame = isWorld ? "BF" : `UF#(${controller.user(pallet.frame)})`;
     this.shift = controller.variable("P");
-    const i = (): string => controller.variable("I"), d = (): string => controller.variable("D");
+    const i = (): string => controller.variable("I");
+    const d = (): string => controller.variable("D");
     this.i = { layer: i(), line: i(), along: i(), last: i() };
     this.d = { row: d(), column: d(), odd: d(), sum: d(), part: d() };
   }
 
   begin(): void {
-    const { pallet, i, d } = this, order = pallet.order ?? "rows", byRows = order.startsWith("rows"), isZigzag = order.endsWith("zigzag"), isShifted = pallet.interleave === "odd-rows-shifted";
-    const line = byRows ? d.row : d.column, within = byRows ? d.column : d.row;
+    const { pallet, i, d } = this;
+    const order = pallet.order ?? "rows";
+    const byRows = order.startsWith("rows");
+    const isZigzag = order.endsWith("zigzag");
+    const isShifted = pallet.interleave === "odd-rows-shifted";
+    const line = byRows ? d.row : d.column;
+    const within = byRows ? d.column : d.row;
     this.open(`FOR ${i.layer} START= 0 TO ${pallet.layers - 1}`, `NEXT ${i.layer}`);
     this.open(`FOR ${i.line} START= 0 TO ${(byRows ? pallet.rows : pallet.columns) - 1}`, `NEXT ${i.line}`);
     this.say(`SET ${line} ${i.line}`);
@@ -47,7 +67,13 @@ export class PalletLoop {
     if (isZigzag) {
       // In every second line the count runs backwards: along + odd · (last - 2 · along).
       this.odd(line);
-      this.say(`SET ${d.part} ${i.last}`, `SUB ${d.part} ${i.along}`, `SUB ${d.part} ${i.along}`, `MUL ${d.part} ${d.odd}`, `ADD ${within} ${d.part}`);
+      this.say(
+        `SET ${d.part} ${i.last}`,
+        `SUB ${d.part} ${i.along}`,
+        `SUB ${d.part} ${i.along}`,
+        `MUL ${d.part} ${d.odd}`,
+        `ADD ${within} ${d.part}`,
+      );
     }
     if (isShifted) {
       this.odd(d.row);
@@ -60,18 +86,23 @@ export class PalletLoop {
     for (const n of [0, 1, 2]) this.element(n, isShifted);
   }
 
-  end(): void { for (const line of this.ends.reverse()) this.say(line); }
+  end(): void {
+    for (const line of this.ends.reverse()) this.say(line);
+  }
 
-  on(): string { return `SFTON ${this.shift} ${this.frame}`; }
+  on(): string {
+    return `SFTON ${this.shift} ${this.frame}`;
+  }
 
   private element(n: number, isShifted: boolean): void {
-    const { d, i, pitch } = this, by = (vector: Vector3): number => Math.round(vector[n]! * PER_M);
+    const { d, i, pitch } = this;
+    const by = (vector: Vector3): number => Math.round(vector[n]! * PER_M);
     this.say(`SET ${d.sum} 0`);
     const share = (counter: string, each: number): void => {
       if (each !== 0) this.say(`SET ${d.part} ${each}`, `MUL ${d.part} ${counter}`, `ADD ${d.sum} ${d.part}`);
     };
     share(d.column, by(pitch.column));
-    if (isShifted) share(d.odd, Math.round(pitch.column[n]! * PER_M / 2));
+    if (isShifted) share(d.odd, Math.round((pitch.column[n]! * PER_M) / 2));
     share(d.row, by(pitch.row));
     share(i.layer, by(pitch.layer));
     this.say(`SETE ${this.shift} (${n + 1}) ${d.sum}`);
@@ -88,5 +119,7 @@ export class PalletLoop {
     this.ends.push(end);
   }
 
-  private say(...lines: string[]): void { for (const line of lines) this.add(line, this.step); }
+  private say(...lines: string[]): void {
+    for (const line of lines) this.add(line, this.step);
+  }
 }

@@ -1,4 +1,13 @@
-import { branchOf, compose, inverse, solveAll, type MoveStep, type Pose, type Robot, type Target } from "@twincell/core";
+import {
+  branchOf,
+  compose,
+  inverse,
+  solveAll,
+  type MoveStep,
+  type Pose,
+  type Robot,
+  type Target,
+} from "@twincell/core";
 import type { AxisConvention, PulseData } from "../robots.ts";
 import type { Controller } from "./controller.ts";
 import { axisValues, pulseText, rconfText, rectanPose, rectanText } from "./location.ts";
@@ -35,8 +44,15 @@ export class Points {
   }
 
   /** Adds a point and returns its name and where the robot is then. */
-  add({ id }: MoveStep, target: Target, frame: string, tool: string, q_rad: ArrayLike<number>): { readonly name: string; readonly arrival: Arrival } {
-    if (this.pulses !== undefined) return { name: this.pulsePoint(id, tool, q_rad), arrival: { q_rad, written: undefined } };
+  add(
+    { id }: MoveStep,
+    target: Target,
+    frame: string,
+    tool: string,
+    q_rad: ArrayLike<number>,
+  ): { readonly name: string; readonly arrival: Arrival } {
+    if (this.pulses !== undefined)
+      return { name: this.pulsePoint(id, tool, q_rad), arrival: { q_rad, written: undefined } };
     const text = rectanText(this.inFrame(target, frame, tool));
     return { name: this.rectanPoint(id, frame, tool, text, q_rad), arrival: { q_rad, written: { frame, tool, text } } };
   }
@@ -45,9 +61,14 @@ export class Points {
   repeat({ id }: MoveStep, arrival: Arrival, frame: string, tool: string): string {
     const { q_rad, written } = arrival;
     if (this.pulses !== undefined) return this.pulsePoint(id, tool, q_rad);
-    if (written?.frame === frame && written.tool === tool) return this.rectanPoint(id, frame, tool, written.text, q_rad);
-    const { frame: before, tool: by, text } = written!, worldFromFlange = this.worldFromFlange(before, by, text);
-    const tip = compose(inverse(this.worldFrom(frame)), compose(worldFromFlange, rectanPose<"flange", "tcp">(rectanText(this.place.tool(tool)))));
+    if (written?.frame === frame && written.tool === tool)
+      return this.rectanPoint(id, frame, tool, written.text, q_rad);
+    const { frame: before, tool: by, text } = written!;
+    const worldFromFlange = this.worldFromFlange(before, by, text);
+    const tip = compose(
+      inverse(this.worldFrom(frame)),
+      compose(worldFromFlange, rectanPose<"flange", "tcp">(rectanText(this.place.tool(tool)))),
+    );
     return this.rectanPoint(id, frame, tool, rectanText(tip), q_rad);
   }
 
@@ -60,18 +81,28 @@ export class Points {
   private inFrame(target: Target, frame: string, tool: string): Pose {
     if ("pose" in target && target.frame === frame && frame !== "world") return target.pose;
     const worldFromTcp = this.place.worldFromTarget(target, tool);
-    return frame === "world" ? compose(this.place.vendorFromWorld, worldFromTcp) : compose(inverse(this.place.worldFromFrame(frame)), worldFromTcp);
+    return frame === "world"
+      ? compose(this.place.vendorFromWorld, worldFromTcp)
+      : compose(inverse(this.place.worldFromFrame(frame)), worldFromTcp);
   }
 
   /** A frame as the text has it. */
   private worldFrom(frame: string): Pose<"world", "frame"> {
     const worldFromVendor = inverse(this.place.vendorFromWorld);
-    return frame === "world" ? worldFromVendor as Pose as Pose<"world", "frame"> : compose(worldFromVendor, rectanPose<"vendor-world", "frame">(rectanText(this.controller.vendorFromFrame(frame))));
+    return frame === "world"
+      ? (worldFromVendor as Pose as Pose<"world", "frame">)
+      : compose(
+          worldFromVendor,
+          rectanPose<"vendor-world", "frame">(rectanText(this.controller.vendorFromFrame(frame))),
+        );
   }
 
   /** Where the flange is when the text is taken at its word: frames, tools and points are rounded each for itself. */
   private worldFromFlange(frame: string, tool: string, text: string): Pose<"world", "flange"> {
-    return compose(compose(this.worldFrom(frame), rectanPose<"frame", "tcp">(text)), inverse(rectanPose<"flange", "tcp">(rectanText(this.place.tool(tool)))));
+    return compose(
+      compose(this.worldFrom(frame), rectanPose<"frame", "tcp">(text)),
+      inverse(rectanPose<"flange", "tcp">(rectanText(this.place.tool(tool)))),
+    );
   }
 
   /**
@@ -79,8 +110,13 @@ export class Points {
    * last digit turns S and R by whole degrees: flags of the angles that were meant could name another posture.
    */
   private reachedByText(frame: string, tool: string, text: string, q_rad: ArrayLike<number>): ArrayLike<number> {
-    const branch = branchOf(this.robot, q_rad), baseFromFlange = compose(inverse(this.place.worldFromBase), this.worldFromFlange(frame, tool, text));
-    const reach = solveAll(this.robot, baseFromFlange, branch === undefined ? { near: q_rad } : { near: q_rad, branch });
+    const branch = branchOf(this.robot, q_rad);
+    const baseFromFlange = compose(inverse(this.place.worldFromBase), this.worldFromFlange(frame, tool, text));
+    const reach = solveAll(
+      this.robot,
+      baseFromFlange,
+      branch === undefined ? { near: q_rad } : { near: q_rad, branch },
+    );
     // At the very end of the reach the last digit can lie outside: then the angles that were meant are the best there is.
     return reach.kind === "reached" ? reach.solutions[0]!.q_rad : q_rad;
   }
@@ -92,14 +128,16 @@ export class Points {
 
   private rectanPoint(id: string, frame: string, tool: string, text: string, q_rad: ArrayLike<number>): string {
     this.settings(frame === "world" ? "" : frame, tool, frame === "world" ? "BASE" : "USER");
-    const rounded_rad = this.reachedByText(frame, tool, text, q_rad), rconf = rconfText(this.robot, rounded_rad, axisValues(rounded_rad, this.convention));
+    const rounded_rad = this.reachedByText(frame, tool, text, q_rad);
+    const rconf = rconfText(this.robot, rounded_rad, axisValues(rounded_rad, this.convention));
     if (rconf !== this.rconf) this.out.add(`///RCONF ${rconf}`);
     this.rconf = rconf;
     return this.point(id, text);
   }
 
   private settings(frame: string, tool: string, type: string): void {
-    const user = frame === "" || frame === "world" ? this.user : `///USER ${this.controller.user(frame)}`, toolLine = `///TOOL ${this.controller.tool(tool)}`;
+    const user = frame === "" || frame === "world" ? this.user : `///USER ${this.controller.user(frame)}`;
+    const toolLine = `///TOOL ${this.controller.tool(tool)}`;
     if (user !== this.user) this.out.add(user);
     if (toolLine !== this.tool) this.out.add(toolLine);
     if (type !== this.type) {

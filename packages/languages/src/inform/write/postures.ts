@@ -4,7 +4,10 @@ import type { AxisConvention } from "../robots.ts";
 import { axisValues, rconfText } from "./location.ts";
 
 /** The joint angles in which a point is reached first, and the point on the way to it. */
-export interface Posture { readonly q_rad: ArrayLike<number>; readonly via_rad: ArrayLike<number> | undefined }
+export interface Posture {
+  readonly q_rad: ArrayLike<number>;
+  readonly via_rad: ArrayLike<number> | undefined;
+}
 /** By step id. */
 export type PostureMap = ReadonlyMap<string, Posture>;
 export type Postures = { readonly kind: "postures"; readonly of: PostureMap } | Cannot;
@@ -17,9 +20,13 @@ export type Postures = { readonly kind: "postures"; readonly of: PostureMap } | 
  * @param inPulses  points on the way of arcs are written as joint angles too, so they must be reached.
  */
 export function posturesOf(place: WalkedPlace, convention: AxisConvention, inPulses: boolean): Postures {
-  const found = new Map<string, Posture>(), typeOf = (q_rad: ArrayLike<number>): string => rconfText(place.robot, q_rad, axisValues(q_rad, convention));
+  const found = new Map<string, Posture>();
+  const typeOf = (q_rad: ArrayLike<number>): string => rconfText(place.robot, q_rad, axisValues(q_rad, convention));
   const flaw = walkMoves(place, (step: MoveStep, near) => {
-    const via = step.via === undefined || !inPulses ? undefined : reached(place, step, { ...step.via, tool: step.target.tool ?? "flange" }, near);
+    const via =
+      step.via === undefined || !inPulses
+        ? undefined
+        : reached(place, step, { ...step.via, tool: step.target.tool ?? "flange" }, near);
     if (via?.kind === "cannot") return via;
     const answer = reached(place, step, step.target, near);
     if (answer.kind === "cannot") return answer;
@@ -30,7 +37,9 @@ export function posturesOf(place: WalkedPlace, convention: AxisConvention, inPul
     // The points of a pallet are shifted with the type that is written for its first place.
     else if (place.visited.size > 0 && typeOf(first) !== typeOf(answer.q_rad)) {
       return {
-        kind: "cannot", step: step.id, sentence: `${called(step)} reaches a place of the pallet with another manipulator type (RCONF) than its first place; INFORM shifts a point and keeps its type.`,
+        kind: "cannot",
+        step: step.id,
+        sentence: `${called(step)} reaches a place of the pallet with another manipulator type (RCONF) than its first place; INFORM shifts a point and keeps its type.`,
         hint: "Turn the tool or move the pallet, so that one posture reaches all places, or teach the places one by one.",
       };
     }

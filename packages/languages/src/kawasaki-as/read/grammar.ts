@@ -1,22 +1,114 @@
 import type { TextFault, TextPlace } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
-import { ForgivingReader, readExpression, type Argument, type Block, type Expression, type ExpressionRules, type Lexicon, type Parameter, type Routine, type Statement, type TokenCursor } from "../../text/structured/index.ts";
+import {
+  ForgivingReader,
+  readExpression,
+  type Argument,
+  type Block,
+  type Expression,
+  type ExpressionRules,
+  type Lexicon,
+  type Parameter,
+  type Routine,
+  type Statement,
+  type TokenCursor,
+} from "../../text/structured/index.ts";
 import { INSTRUCTIONS, MOTIONS, SHORT, SPEED_UNITS, UNSAYABLE } from "./words.ts";
 
 const LEXICON: Lexicon = {
-  comment: ";", quotes: "\"", doubled: false, lineEnds: true,
-  signs: ["==", "<>", "<=", ">=", "=<", "=>", "(", ")", "[", "]", ",", ":", "=", "<", ">", "+", "-", "*", "/", "^", "#", "@", "?", "&", "!"],
+  comment: ";",
+  quotes: '"',
+  doubled: false,
+  lineEnds: true,
+  signs: [
+    "==",
+    "<>",
+    "<=",
+    ">=",
+    "=<",
+    "=>",
+    "(",
+    ")",
+    "[",
+    "]",
+    ",",
+    ":",
+    "=",
+    "<",
+    ">",
+    "+",
+    "-",
+    "*",
+    "/",
+    "^",
+    "#",
+    "@",
+    "?",
+    "&",
+    "!",
+  ],
   word: /[#$.]*[A-Za-z_][A-Za-z0-9_.]*/y,
 };
 const RESERVED: ReadonlySet<string> = new Set([
-  "and", "or", "not", "xor", "mod", "if", "then", "else", "elseif", "end", "while", "do", "until", "for", "to", "step", "case", "of", "value", "any", "by",
-  "goto", "call", "return", "point", ".program", ".end", ".trans", ".joints", ".reals", ".strings",
+  "and",
+  "or",
+  "not",
+  "xor",
+  "mod",
+  "if",
+  "then",
+  "else",
+  "elseif",
+  "end",
+  "while",
+  "do",
+  "until",
+  "for",
+  "to",
+  "step",
+  "case",
+  "of",
+  "value",
+  "any",
+  "by",
+  "goto",
+  "call",
+  "return",
+  "point",
+  ".program",
+  ".end",
+  ".trans",
+  ".joints",
+  ".reals",
+  ".strings",
 ]);
 const RULES: ExpressionRules = {
-  binary: { or: 1, xor: 1, and: 2, "==": 4, "<>": 4, "<": 4, ">": 4, "<=": 4, ">=": 4, "=<": 4, "=>": 4, "+": 5, "-": 5, "*": 6, "/": 6, mod: 6, "^": 8 },
+  binary: {
+    or: 1,
+    xor: 1,
+    and: 2,
+    "==": 4,
+    "<>": 4,
+    "<": 4,
+    ">": 4,
+    "<=": 4,
+    ">=": 4,
+    "=<": 4,
+    "=>": 4,
+    "+": 5,
+    "-": 5,
+    "*": 6,
+    "/": 6,
+    mod: 6,
+    "^": 8,
+  },
   prefix: { not: 3, "-": 7, "+": 7, "#": 9 },
   constants: { true: true, on: true, false: false, off: false },
-  tags: [], index: "[", components: false, reserved: RESERVED, args: readArguments,
+  tags: [],
+  index: "[",
+  components: false,
+  reserved: RESERVED,
+  args: readArguments,
 };
 /** Deepest nesting of blocks: more than anybody writes, less than the stack holds. */
 
@@ -24,8 +116,14 @@ const RULES: ExpressionRules = {
  * A text that was read: what a person called it, the program that is started, and those that it calls, under the name `call x`. The
  * lists of locations come first in it.
  */
-export interface Source { readonly title: string; readonly routines: ReadonlyMap<string, Routine>; readonly main: Block }
-export type SourceAnswer = { readonly kind: "source"; readonly source: Source } | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
+export interface Source {
+  readonly title: string;
+  readonly routines: ReadonlyMap<string, Routine>;
+  readonly main: Block;
+}
+export type SourceAnswer =
+  | { readonly kind: "source"; readonly source: Source }
+  | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 /** Reads AS. Names are lower case. Goes on after a fault, so that all of them are told at once. */
 export const readSource = (text: string): SourceAnswer => new Reader(text).source();
@@ -36,7 +134,9 @@ class Reader extends ForgivingReader {
   private readonly lists: Statement[] = [];
   private readonly words = new Map<string, string>();
 
-  constructor(text: string) { super(text, LEXICON); }
+  constructor(text: string) {
+    super(text, LEXICON);
+  }
 
   /** Capitals count for nothing. The words of a long text are few. */
   protected override folded(word: string): string {
@@ -49,55 +149,93 @@ class Reader extends ForgivingReader {
 
   source(): SourceAnswer {
     const { cursor, routines } = this;
-    this.guard(() => { cursor.advance(); });
+    this.guard(() => {
+      cursor.advance();
+    });
     while (!cursor.done && !this.hasEnough) {
-      if (cursor.isAt("line-end")) { this.guard(() => { cursor.advance(); }); continue; }
-      this.guard(() => { this.part(); });
+      if (cursor.isAt("line-end")) {
+        this.guard(() => {
+          cursor.advance();
+        });
+        continue;
+      }
+      this.guard(() => {
+        this.part();
+      });
     }
     const first = [...routines.values()].find(({ name }) => !this.called.has(name)) ?? [...routines.values()][0];
-    if (first === undefined && this.faults.length === 0) this.faults.push(new TextError(cursor.here, ".PROGRAM", "The text holds no program.").fault);
+    if (first === undefined && this.faults.length === 0)
+      this.faults.push(new TextError(cursor.here, ".PROGRAM", "The text holds no program.").fault);
     if (this.faults.length > 0 || first === undefined) return { kind: "not-understood", faults: this.faults };
     routines.delete(`call ${first.name}`);
-    return { kind: "source", source: { title: titleOf(first.body) ?? first.name, routines, main: [...this.lists, ...first.body] } };
+    return {
+      kind: "source",
+      source: { title: titleOf(first.body) ?? first.name, routines, main: [...this.lists, ...first.body] },
+    };
   }
 
-  protected override closes(word: string): boolean { return word === ".end"; }
+  protected override closes(word: string): boolean {
+    return word === ".end";
+  }
 
   /** `.PROGRAM … .END`, `.TRANS … .END` and their like. What else a file of a controller holds means nothing here. */
   private part(): void {
-    const { cursor } = this, at = cursor.here, word = cursor.next;
+    const { cursor } = this;
+    const at = cursor.here;
+    const word = cursor.next;
     if (cursor.kind !== "word" || !word.startsWith(".")) throw cursor.unexpected(".PROGRAM");
     cursor.advance();
     switch (word) {
-      case ".program": this.program(at); return;
-      case ".trans": case ".joints": this.list(word, at); return;
-      case ".reals": this.reals(at); return;
-      case ".end": throw new TextError(at, ".PROGRAM", "\".END\" stands where nothing is open.");
+      case ".program":
+        this.program(at);
+        return;
+      case ".trans":
+      case ".joints":
+        this.list(word, at);
+        return;
+      case ".reals":
+        this.reals(at);
+        return;
+      case ".end":
+        throw new TextError(at, ".PROGRAM", '".END" stands where nothing is open.');
       default:
         while (!(cursor.kind === "word" && cursor.next === ".end")) {
-          if (cursor.done) throw new TextError(cursor.here, ".END", `The ${word.toUpperCase()} of line ${at.line} is not closed.`);
+          if (cursor.done)
+            throw new TextError(cursor.here, ".END", `The ${word.toUpperCase()} of line ${at.line} is not closed.`);
           this.restOfLine();
-          while (cursor.isAt("line-end")) { try { cursor.advance(); } catch (cause) { if (!(cause instanceof TextError)) throw cause; break; } }
+          while (cursor.isAt("line-end")) {
+            try {
+              cursor.advance();
+            } catch (cause) {
+              if (!(cause instanceof TextError)) throw cause;
+              break;
+            }
+          }
         }
         cursor.advance();
     }
   }
 
   private program(at: TextPlace): void {
-    const { cursor } = this, place = cursor.here, name = cursor.name("the name of the program"), parameters: Parameter[] = [];
-    if (RESERVED.has(name)) throw new TextError(place, "a name that is no word of the language", `"${name}" is a word of AS.`);
+    const { cursor } = this;
+    const place = cursor.here;
+    const name = cursor.name("the name of the program");
+    const parameters: Parameter[] = [];
+    if (RESERVED.has(name))
+      throw new TextError(place, "a name that is no word of the language", `"${name}" is a word of AS.`);
     if (cursor.accept("(")) {
       while (!cursor.accept(")")) {
         cursor.accept("&");
         parameters.push({ name: cursor.name("the name of a parameter"), type: "", optional: true });
         if (cursor.accept("[")) cursor.expect("]");
-        if (!cursor.accept(",") && cursor.next !== ")") throw cursor.unexpected("\",\" or \")\"");
+        if (!cursor.accept(",") && cursor.next !== ")") throw cursor.unexpected('"," or ")"');
       }
     }
     // Behind the name the controller keeps the date of the last change.
     if (cursor.next === "@" || cursor.next === "#") this.restOfLine();
     if (!cursor.isAt("line-end")) throw cursor.unexpected("the end of the line");
-    if (this.routines.has(`call ${name}`)) this.faults.push(new TextError(place, "a name used once", `The program ${name} is there twice.`).fault);
+    if (this.routines.has(`call ${name}`))
+      this.faults.push(new TextError(place, "a name used once", `The program ${name} is there twice.`).fault);
     const body = this.body("program", at, [".end"]);
     cursor.expect(".end");
     this.routines.set(`call ${name}`, { name, parameters, body, ...place });
@@ -106,28 +244,44 @@ class Reader extends ForgivingReader {
   /** `name x y z o a t` or `#name jt1 … jt6`, one a line. */
   private list(kind: ".trans" | ".joints", at: TextPlace): void {
     this.entries(kind, at, (to, place, numbers) => {
-      const call: Expression = { kind: "call", name: kind === ".trans" ? "trans" : "#ppoint", args: numbers.map(value => ({ value, line: value.line, column: value.column })), ...place };
+      const call: Expression = {
+        kind: "call",
+        name: kind === ".trans" ? "trans" : "#ppoint",
+        args: numbers.map(value => ({ value, line: value.line, column: value.column })),
+        ...place,
+      };
       this.lists.push({ kind: "assign", to, value: call, global: true, ...place });
     });
   }
 
   private reals(at: TextPlace): void {
     this.entries(".reals", at, (to, place, numbers) => {
-      if (numbers.length !== 1) throw new TextError(place, "one number", `${numbers.length} numbers stand where one is expected.`);
+      if (numbers.length !== 1)
+        throw new TextError(place, "one number", `${numbers.length} numbers stand where one is expected.`);
       this.lists.push({ kind: "assign", to, value: numbers[0]!, global: true, ...place });
     });
   }
 
-  private entries(kind: string, at: TextPlace, add: (to: Expression, place: TextPlace, numbers: Expression[]) => void): void {
+  private entries(
+    kind: string,
+    at: TextPlace,
+    add: (to: Expression, place: TextPlace, numbers: Expression[]) => void,
+  ): void {
     const { cursor } = this;
     for (;;) {
       while (cursor.isAt("line-end")) cursor.advance();
-      if (cursor.done) throw new TextError(cursor.here, ".END", `The ${kind.toUpperCase()} of line ${at.line} is not closed.`);
+      if (cursor.done)
+        throw new TextError(cursor.here, ".END", `The ${kind.toUpperCase()} of line ${at.line} is not closed.`);
       if (cursor.accept(".end")) return;
       this.guard(() => {
-        const place = cursor.here, to = readExpression(cursor, RULES, 0, 100), numbers: Expression[] = [];
+        const place = cursor.here;
+        const to = readExpression(cursor, RULES, 0, 100);
+        const numbers: Expression[] = [];
         cursor.accept("=");
-        while (!cursor.isAt("line-end") && !cursor.done) { numbers.push(readExpression(cursor, RULES, 0, 6)); cursor.accept(","); }
+        while (!cursor.isAt("line-end") && !cursor.done) {
+          numbers.push(readExpression(cursor, RULES, 0, 6));
+          cursor.accept(",");
+        }
         add(to, place, numbers);
       });
       if (this.hasEnough) return;
@@ -139,10 +293,16 @@ class Reader extends ForgivingReader {
     return this.nested(at, () => {
       const statements: Statement[] = [];
       for (;;) {
-        if (cursor.isAt("line-end")) { this.guard(() => { cursor.advance(); }); continue; }
+        if (cursor.isAt("line-end")) {
+          this.guard(() => {
+            cursor.advance();
+          });
+          continue;
+        }
         this.takeComments(statements);
         if (cursor.kind === "word" && ends.includes(cursor.next)) break;
-        if (cursor.done || cursor.next === ".program" || cursor.next === ".end") throw new TextError(cursor.here, ends[0]!.toUpperCase(), `The ${opened} of line ${at.line} is not closed.`);
+        if (cursor.done || cursor.next === ".program" || cursor.next === ".end")
+          throw new TextError(cursor.here, ends[0]!.toUpperCase(), `The ${opened} of line ${at.line} is not closed.`);
         if (this.hasEnough) break;
         const statement = this.guard(() => {
           const read = this.statement();
@@ -160,10 +320,13 @@ class Reader extends ForgivingReader {
     // The number of a step, which only GOTO speaks of.
     if (cursor.isAt("number")) cursor.advance();
     if (cursor.isAt("line-end")) return undefined;
-    const at = cursor.here, word = cursor.next;
+    const at = cursor.here;
+    const word = cursor.next;
     if (cursor.kind !== "word") throw cursor.unexpected("a statement");
     switch (word) {
-      case "if": cursor.advance(); return this.branches(at);
+      case "if":
+        cursor.advance();
+        return this.branches(at);
       case "while": {
         cursor.advance();
         const when = readExpression(cursor, RULES);
@@ -172,61 +335,116 @@ class Reader extends ForgivingReader {
         cursor.expect("end");
         return { kind: "while", when, body, ...at };
       }
-      case "do": cursor.advance(); return this.untilLoop(at);
-      case "for": cursor.advance(); return this.counting(at);
-      case "case": cursor.advance(); return this.choice(at);
+      case "do":
+        cursor.advance();
+        return this.untilLoop(at);
+      case "for":
+        cursor.advance();
+        return this.counting(at);
+      case "case":
+        cursor.advance();
+        return this.choice(at);
       case "call": {
         cursor.advance();
-        const place = cursor.here, name = cursor.name("the name of a program");
+        const place = cursor.here;
+        const name = cursor.name("the name of a program");
         this.called.add(name);
         const args = cursor.accept("(") ? readArguments(cursor, 0) : [];
         return { kind: "do", name: `call ${name}`, args, ...place };
       }
-      case "return": cursor.advance(); return { kind: "return", ...at };
-      case "halt": case "stop": cursor.advance(); return { kind: "halt", ...at };
-      case "point": cursor.advance(); return this.assignment(at);
+      case "return":
+        cursor.advance();
+        return { kind: "return", ...at };
+      case "halt":
+      case "stop":
+        cursor.advance();
+        return { kind: "halt", ...at };
+      case "point":
+        cursor.advance();
+        return this.assignment(at);
       case "swait": {
         cursor.advance();
         let when: Expression | undefined;
         do {
-          const value = readExpression(cursor, RULES), one: Expression = { kind: "call", name: "sig", args: [{ value, ...at }], ...at };
+          const value = readExpression(cursor, RULES);
+          const one: Expression = { kind: "call", name: "sig", args: [{ value, ...at }], ...at };
           when = when === undefined ? one : { kind: "binary", sign: "and", left: when, right: one, ...at };
         } while (cursor.accept(","));
         return { kind: "wait-until", when, ...at };
       }
-      default: break;
+      default:
+        break;
     }
     if (Object.hasOwn(UNSAYABLE, word)) throw new TextError(at, "a statement of the motion program", UNSAYABLE[word]!);
     if (RESERVED.has(word)) throw cursor.unexpected("a statement");
     const { second } = cursor;
     if (second === "=" || (second === "[" && !INSTRUCTIONS.has(word))) return this.assignment(at);
-    if (second === ":") { cursor.advance(); cursor.advance(); return undefined; }
+    if (second === ":") {
+      cursor.advance();
+      cursor.advance();
+      return undefined;
+    }
     if (second === "on" || second === "off") return this.switched(at);
-    if (!INSTRUCTIONS.has(word)) throw new TextError(at, "a statement of AS", `"${cursor.raw}" is no statement of AS that is understood here.`);
+    if (!INSTRUCTIONS.has(word))
+      throw new TextError(at, "a statement of AS", `"${cursor.raw}" is no statement of AS that is understood here.`);
     return this.instruction(at);
   }
 
   /** `CP OFF` */
   private switched(at: TextPlace): Statement {
-    const { cursor } = this, place = cursor.here, name = cursor.take(), value: Expression = { kind: "truth", value: cursor.take() === "on", ...place };
-    return { kind: "do", name: "switch", args: [{ value: { kind: "text", value: name, ...place }, ...place }, { value, ...place }], ...at };
+    const { cursor } = this;
+    const place = cursor.here;
+    const name = cursor.take();
+    const value: Expression = { kind: "truth", value: cursor.take() === "on", ...place };
+    return {
+      kind: "do",
+      name: "switch",
+      args: [
+        { value: { kind: "text", value: name, ...place }, ...place },
+        { value, ...place },
+      ],
+      ...at,
+    };
   }
 
   private instruction(at: TextPlace): Statement {
-    const { cursor } = this, word = cursor.take(), name = SHORT[word] ?? word, args: Argument[] = [];
-    const mark = (mark: string, value: string, place: TextPlace): void => { args.push({ name: mark, value: { kind: "text", value, ...place }, ...place }); };
+    const { cursor } = this;
+    const word = cursor.take();
+    const name = SHORT[word] ?? word;
+    const args: Argument[] = [];
+    const mark = (mark: string, value: string, place: TextPlace): void => {
+      args.push({ name: mark, value: { kind: "text", value, ...place }, ...place });
+    };
     if (name === "print" || name === "type") {
       // A number and a colon choose the window.
-      if (cursor.second === ":") { cursor.advance(); cursor.advance(); }
+      if (cursor.second === ":") {
+        cursor.advance();
+        cursor.advance();
+      }
     }
     while (!cursor.isAt("line-end") && !cursor.done) {
       const place = cursor.here;
-      if (cursor.next === "/" && name === "print") { cursor.advance(); cursor.advance(); cursor.accept(","); continue; }
-      args.push({ value: isLeftOut(cursor) ? { kind: "number", value: 0, ...place } : readExpression(cursor, RULES), ...place });
+      if (cursor.next === "/" && name === "print") {
+        cursor.advance();
+        cursor.advance();
+        cursor.accept(",");
+        continue;
+      }
+      args.push({
+        value: isLeftOut(cursor) ? { kind: "number", value: 0, ...place } : readExpression(cursor, RULES),
+        ...place,
+      });
       if (name === "decompose" && cursor.accept("=")) continue;
-      if (cursor.accept(",")) { if (cursor.isAt("line-end")) throw cursor.unexpected("a value"); continue; }
+      if (cursor.accept(",")) {
+        if (cursor.isAt("line-end")) throw cursor.unexpected("a value");
+        continue;
+      }
       if (name === "speed") this.unit(mark);
-      for (const said of ["always", "fine"]) if (cursor.next === said && cursor.kind === "word") { mark(said, said, cursor.here); cursor.advance(); }
+      for (const said of ["always", "fine"])
+        if (cursor.next === said && cursor.kind === "word") {
+          mark(said, said, cursor.here);
+          cursor.advance();
+        }
       break;
     }
     return { kind: "do", name, args, ...at };
@@ -234,11 +452,13 @@ class Reader extends ForgivingReader {
 
   /** `MM/S`, `MM/MIN`, `S` behind a speed. */
   private unit(mark: (mark: string, value: string, place: TextPlace) => void): void {
-    const { cursor } = this, place = cursor.here;
+    const { cursor } = this;
+    const place = cursor.here;
     if (cursor.kind !== "word" || cursor.next === "always") return;
     let unit = cursor.take();
     if (cursor.accept("/")) unit += `/${cursor.name("a unit of time")}`;
-    if (!Object.hasOwn(SPEED_UNITS, unit)) throw new TextError(place, "MM/S, MM/MIN, CM/MIN or S", `"${unit.toUpperCase()}" is no unit of a speed.`);
+    if (!Object.hasOwn(SPEED_UNITS, unit))
+      throw new TextError(place, "MM/S, MM/MIN, CM/MIN or S", `"${unit.toUpperCase()}" is no unit of a speed.`);
     mark("unit", unit, place);
   }
 
@@ -251,7 +471,8 @@ class Reader extends ForgivingReader {
   }
 
   private branches(at: TextPlace): Statement {
-    const { cursor } = this, branches: { when: Expression; body: Block }[] = [];
+    const { cursor } = this;
+    const branches: { when: Expression; body: Block }[] = [];
     for (;;) {
       const when = readExpression(cursor, RULES);
       if (cursor.next === "goto") throw new TextError(cursor.here, "THEN", UNSAYABLE["goto"]!);
@@ -266,19 +487,24 @@ class Reader extends ForgivingReader {
 
   /** DO … UNTIL goes through its body once before it asks. */
   private untilLoop(at: TextPlace): Statement {
-    const { cursor } = this, body = this.body("DO", at, ["until"]);
+    const { cursor } = this;
+    const body = this.body("DO", at, ["until"]);
     cursor.expect("until");
-    const place = cursor.here, of = readExpression(cursor, RULES);
+    const place = cursor.here;
+    const of = readExpression(cursor, RULES);
     const again: Statement = { kind: "while", when: { kind: "unary", sign: "not", of, ...place }, body, ...at };
     return { kind: "if", branches: [{ when: { kind: "truth", value: true, ...at }, body: [...body, again] }], ...at };
   }
 
   private counting(at: TextPlace): Statement {
-    const { cursor } = this, variable = cursor.name("the name of the loop variable");
+    const { cursor } = this;
+    const variable = cursor.name("the name of the loop variable");
     cursor.expect("=");
     const from = readExpression(cursor, RULES);
     cursor.expect("to");
-    const to = readExpression(cursor, RULES), one: Expression = { kind: "number", value: 1, ...at }, step = cursor.accept("step") ? readExpression(cursor, RULES) : one;
+    const to = readExpression(cursor, RULES);
+    const one: Expression = { kind: "number", value: 1, ...at };
+    const step = cursor.accept("step") ? readExpression(cursor, RULES) : one;
     const body = this.body("FOR", at, ["end"]);
     cursor.expect("end");
     return { kind: "for", variable, from, to, step, body, ...at };
@@ -286,7 +512,10 @@ class Reader extends ForgivingReader {
 
   /** CASE … OF is a chain of comparisons. */
   private choice(at: TextPlace): Statement {
-    const { cursor } = this, of = readExpression(cursor, RULES), branches: { when: Expression; body: Block }[] = [], ends = ["end", "value", "any"];
+    const { cursor } = this;
+    const of = readExpression(cursor, RULES);
+    const branches: { when: Expression; body: Block }[] = [];
+    const ends = ["end", "value", "any"];
     cursor.expect("of");
     this.body("CASE", at, ends);
     let otherwise: Block | undefined;
@@ -299,8 +528,19 @@ class Reader extends ForgivingReader {
       cursor.expect("value");
       let when: Expression | undefined;
       do {
-        const right = readExpression(cursor, RULES), equal: Expression = { kind: "binary", sign: "==", left: of, right, line: right.line, column: right.column };
-        when = when === undefined ? equal : { kind: "binary", sign: "or", left: when, right: equal, line: right.line, column: right.column };
+        const right = readExpression(cursor, RULES);
+        const equal: Expression = {
+          kind: "binary",
+          sign: "==",
+          left: of,
+          right,
+          line: right.line,
+          column: right.column,
+        };
+        when =
+          when === undefined
+            ? equal
+            : { kind: "binary", sign: "or", left: when, right: equal, line: right.line, column: right.column };
       } while (cursor.accept(","));
       cursor.accept(":");
       branches.push({ when, body: this.body("CASE", at, ends) });
@@ -316,16 +556,22 @@ function withBreaks(block: readonly Statement[]): Block {
   for (const statement of block) {
     if (statement.kind === "do" && statement.name === "break" && move >= 0) {
       const moved = marked[move]!;
-      if (moved.kind === "do") marked[move] = { ...moved, args: [...moved.args, { name: "break", line: statement.line, column: statement.column }] };
+      if (moved.kind === "do")
+        marked[move] = {
+          ...moved,
+          args: [...moved.args, { name: "break", line: statement.line, column: statement.column }],
+        };
     }
-    if (statement.kind !== "comment") move = statement.kind === "do" && MOTIONS.has(statement.name) ? marked.length : -1;
+    if (statement.kind !== "comment")
+      move = statement.kind === "do" && MOTIONS.has(statement.name) ? marked.length : -1;
     marked.push(statement);
   }
   return marked;
 }
 
 /** A value that is left out between commas is 0. */
-const isLeftOut = (cursor: TokenCursor): boolean => cursor.kind === "sign" && (cursor.next === "," || cursor.next === ")");
+const isLeftOut = (cursor: TokenCursor): boolean =>
+  cursor.kind === "sign" && (cursor.next === "," || cursor.next === ")");
 
 /** `a, b)` behind an opening bracket; SHIFT has BY in place of a comma. */
 function readArguments(cursor: TokenCursor, depth: number): readonly Argument[] {
@@ -334,7 +580,10 @@ function readArguments(cursor: TokenCursor, depth: number): readonly Argument[] 
   do {
     const at = cursor.here;
     cursor.accept("&");
-    args.push({ value: isLeftOut(cursor) ? { kind: "number", value: 0, ...at } : readExpression(cursor, RULES, depth + 1), ...at });
+    args.push({
+      value: isLeftOut(cursor) ? { kind: "number", value: 0, ...at } : readExpression(cursor, RULES, depth + 1),
+      ...at,
+    });
   } while (cursor.accept(",") || cursor.accept("by"));
   cursor.expect(")");
   return args;

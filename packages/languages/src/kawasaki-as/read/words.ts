@@ -1,11 +1,49 @@
 /** Statements that move the robot. */
 export const MOTIONS: ReadonlySet<string> = new Set([
-  "jmove", "lmove", "hmove", "c1move", "c2move", "jappro", "lappro", "jdepart", "ldepart", "draw", "tdraw", "drive",
+  "jmove",
+  "lmove",
+  "hmove",
+  "c1move",
+  "c2move",
+  "jappro",
+  "lappro",
+  "jdepart",
+  "ldepart",
+  "draw",
+  "tdraw",
+  "drive",
 ]);
 /** Statements with values behind them that are executed here. */
 export const INSTRUCTIONS: ReadonlySet<string> = new Set([
-  ...MOTIONS, "break", "speed", "accuracy", "accel", "decel", "tool", "base", "twait", "signal", "pulse", "openi", "closei", "open", "close",
-  "lefty", "righty", "above", "below", "uwrist", "dwrist", "weight", "print", "type", "ty", "sig", "here", "decompose", "mon_speed",
+  ...MOTIONS,
+  "break",
+  "speed",
+  "accuracy",
+  "accel",
+  "decel",
+  "tool",
+  "base",
+  "twait",
+  "signal",
+  "pulse",
+  "openi",
+  "closei",
+  "open",
+  "close",
+  "lefty",
+  "righty",
+  "above",
+  "below",
+  "uwrist",
+  "dwrist",
+  "weight",
+  "print",
+  "type",
+  "ty",
+  "sig",
+  "here",
+  "decompose",
+  "mon_speed",
 ]);
 /** Statements that are understood and cannot be written as steps, with what the user is told. */
 export const UNSAYABLE: Readonly<Record<string, string>> = {
@@ -22,6 +60,13 @@ export const UNSAYABLE: Readonly<Record<string, string>> = {
   scall: "SCALL chooses a program by its name at run time, which is not executed here.",
 };
 /** Millimetres a second of one unit; 0 for a duration. */
-export const SPEED_UNITS: Readonly<Record<string, number>> = { "mm/s": 1, "mm/min": 1 / 60, "cm/min": 10 / 60, "cm/s": 10, "m/s": 1000, s: 0 };
+export const SPEED_UNITS: Readonly<Record<string, number>> = {
+  "mm/s": 1,
+  "mm/min": 1 / 60,
+  "cm/min": 10 / 60,
+  "cm/s": 10,
+  "m/s": 1000,
+  s: 0,
+};
 /** Words that the controller takes in a shorter form. */
 export const SHORT: Readonly<Record<string, string>> = { sig: "signal", ty: "type" };

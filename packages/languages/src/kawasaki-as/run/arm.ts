@@ -1,11 +1,28 @@
-import { branchOf, compose, flangePose, inverse, solveAll, travel, type Branch, type Pose, type Robot } from "@twincell/core";
+import {
+  branchOf,
+  compose,
+  flangePose,
+  inverse,
+  solveAll,
+  travel,
+  type Branch,
+  type Pose,
+  type Robot,
+} from "@twincell/core";
 import { NULL, fromPose, inverted, times, toPose, type Matrix } from "./frame.ts";
 
 /** Words that name a posture of the next joint motion. */
-export interface Posture { readonly arm?: "lefty" | "righty"; readonly elbow?: "above" | "below"; readonly wrist?: "uwrist" | "dwrist" }
+export interface Posture {
+  readonly arm?: "lefty" | "righty";
+  readonly elbow?: "above" | "below";
+  readonly wrist?: "uwrist" | "dwrist";
+}
 
 /** What the controller knows of its arm: JT2 leans the upper arm forwards by its value, JT3 takes the forearm back from it. */
-interface Lengths { readonly upper_mm: number; readonly fore_mm: number }
+interface Lengths {
+  readonly upper_mm: number;
+  readonly fore_mm: number;
+}
 const LENGTHS: Readonly<Record<string, Lengths>> = { kawasaki_rs007l: { upper_mm: 455, fore_mm: 475 } };
 export const speaksAs = (robot: Robot): boolean => Object.hasOwn(LENGTHS, robot.id);
 
@@ -29,9 +46,15 @@ export class ControllerArm {
   }
 
   /** HERE: the tool in the base that programs count from. */
-  here(): Matrix { return times(inverted(this.base), times(this.flange, this.tool)); }
-  placeOf(deg: readonly number[]): Matrix { return times(inverted(this.base), times(fromPose(flangePose(this.robot.arm, radians(deg))), this.tool)); }
-  inWorld<Into extends string, From extends string>(place: Matrix): Pose<Into, From> { return toPose(times(this.worldFromBase, this.base === NULL ? place : times(this.base, place))); }
+  here(): Matrix {
+    return times(inverted(this.base), times(this.flange, this.tool));
+  }
+  placeOf(deg: readonly number[]): Matrix {
+    return times(inverted(this.base), times(fromPose(flangePose(this.robot.arm, radians(deg))), this.tool));
+  }
+  inWorld<Into extends string, From extends string>(place: Matrix): Pose<Into, From> {
+    return toPose(times(this.worldFromBase, this.base === NULL ? place : times(this.base, place)));
+  }
 
   atJoints(deg: readonly number[]): void {
     this.near = radians(deg);
@@ -46,12 +69,20 @@ export class ControllerArm {
   /** The posture that words ask for at a place; what they leave open is as near as possible to where the arm was. Undefined when there is none. */
   branchAt(place: Matrix, words: Posture): Branch | undefined {
     const flange = times(times(this.base, place), inverted(this.tool));
-    const reach = solveAll(this.robot, compose(inverse(toPose<"base", "base">(NULL)), toPose<"base", "flange">(flange)), { near: this.near });
+    const reach = solveAll(
+      this.robot,
+      compose(inverse(toPose<"base", "base">(NULL)), toPose<"base", "flange">(flange)),
+      { near: this.near },
+    );
     if (reach.kind !== "reached") return undefined;
-    let best: readonly number[] | undefined, least = Infinity;
+    let best: readonly number[] | undefined;
+    let least = Infinity;
     for (const { q_rad } of reach.solutions) {
       const way = travel(q_rad, this.near);
-      if (way < least && this.fits(q_rad, words)) { least = way; best = [...q_rad]; }
+      if (way < least && this.fits(q_rad, words)) {
+        least = way;
+        best = [...q_rad];
+      }
     }
     if (best === undefined) return undefined;
     this.near = best;
@@ -64,15 +95,28 @@ export class ControllerArm {
    *   reach = upper · sin JT2 + fore · sin(JT2 − JT3)
    */
   private fits(q: ArrayLike<number>, { arm, elbow, wrist }: Posture): boolean {
-    const { upper_mm, fore_mm } = LENGTHS[this.robot.id]!, jt2 = q[1]!, jt3 = q[2]!, jt5 = q[4]!;
-    const isFront = upper_mm * Math.sin(jt2) + fore_mm * Math.sin(jt2 - jt3) >= 0, isAbove = isFront === jt3 < 0;
-    return (arm === undefined || (arm === "righty") === isFront) && (elbow === undefined || (elbow === "above") === isAbove) && (wrist === undefined || (wrist === "uwrist") === jt5 > 0);
+    const { upper_mm, fore_mm } = LENGTHS[this.robot.id]!;
+    const jt2 = q[1]!;
+    const jt3 = q[2]!;
+    const jt5 = q[4]!;
+    const isFront = upper_mm * Math.sin(jt2) + fore_mm * Math.sin(jt2 - jt3) >= 0;
+    const isAbove = isFront === jt3 < 0;
+    return (
+      (arm === undefined || (arm === "righty") === isFront) &&
+      (elbow === undefined || (elbow === "above") === isAbove) &&
+      (wrist === undefined || (wrist === "uwrist") === jt5 > 0)
+    );
   }
 
   /** Remembers where the arm is; the answer brings it back. */
   remember(): () => void {
     const { tool, base, near, flange } = this;
-    return () => { this.tool = tool; this.base = base; this.near = near; this.flange = flange; };
+    return () => {
+      this.tool = tool;
+      this.base = base;
+      this.near = near;
+      this.flange = flange;
+    };
   }
 }
 

@@ -3,15 +3,31 @@ import { TextError } from "../../text/index.ts";
 import { inverted, times, type Matrix } from "./frame.ts";
 
 /** A place, and where it was made of a variable and a place in it: the frame that a person meant. */
-export interface PlaceValue { readonly kind: "place"; readonly at: Matrix; readonly inFrame?: { readonly frame: string; readonly of: Matrix; readonly at: Matrix } }
+export interface PlaceValue {
+  readonly kind: "place";
+  readonly at: Matrix;
+  readonly inFrame?: { readonly frame: string; readonly of: Matrix; readonly at: Matrix };
+}
 /** Joint angles [°]. */
-export interface JointsValue { readonly kind: "joints"; readonly deg: readonly number[] }
+export interface JointsValue {
+  readonly kind: "joints";
+  readonly deg: readonly number[];
+}
 /** Truth is a number: TRUE is -1, FALSE is 0. */
 export type Value = number | string | PlaceValue | JointsValue;
 
 export const kindOf = (value: Value): string =>
-  typeof value === "number" ? "a number" : typeof value === "string" ? "a text" : value.kind === "place" ? "a transformation" : "a set of joint angles";
-const stands = (value: Value, wanted: string): string => { const what = kindOf(value); return `${what.charAt(0).toUpperCase()}${what.slice(1)} stands where ${wanted} is expected.`; };
+  typeof value === "number"
+    ? "a number"
+    : typeof value === "string"
+      ? "a text"
+      : value.kind === "place"
+        ? "a transformation"
+        : "a set of joint angles";
+const stands = (value: Value, wanted: string): string => {
+  const what = kindOf(value);
+  return `${what.charAt(0).toUpperCase()}${what.slice(1)} stands where ${wanted} is expected.`;
+};
 
 export function asNumber(value: Value, at: TextPlace): number {
   if (typeof value === "number") return value;
@@ -23,7 +39,7 @@ export function asPlace(value: Value, at: TextPlace): PlaceValue {
   throw new TextError(at, "a transformation", stands(value, "a transformation"));
 }
 
-export const truth = (value: boolean): number => value ? -1 : 0;
+export const truth = (value: boolean): number => (value ? -1 : 0);
 
 export function finite(value: number, at: TextPlace): number {
   if (!Number.isFinite(value)) throw new TextError(at, "a finite result", "The result is not a number.");
@@ -33,38 +49,66 @@ export function finite(value: number, at: TextPlace): number {
 /** `+` of transformations goes on from the left one; `-` goes back by the right one. */
 export function binary(sign: string, left: Value, right: Value, frame: string | undefined, at: TextPlace): Value {
   if (typeof left === "object" && left.kind === "place" && (sign === "+" || sign === "-")) {
-    const on = asPlace(right, at), step = sign === "+" ? on.at : inverted(on.at), place = times(left.at, step);
-    if (left.inFrame !== undefined && frame === undefined) return { kind: "place", at: place, inFrame: { ...left.inFrame, at: times(left.inFrame.at, step) } };
-    return frame === undefined ? { kind: "place", at: place } : { kind: "place", at: place, inFrame: { frame, of: left.at, at: step } };
+    const on = asPlace(right, at);
+    const step = sign === "+" ? on.at : inverted(on.at);
+    const place = times(left.at, step);
+    if (left.inFrame !== undefined && frame === undefined)
+      return { kind: "place", at: place, inFrame: { ...left.inFrame, at: times(left.inFrame.at, step) } };
+    return frame === undefined
+      ? { kind: "place", at: place }
+      : { kind: "place", at: place, inFrame: { frame, of: left.at, at: step } };
   }
   if (typeof left === "string" || typeof right === "string") {
     if (typeof left === "string" && typeof right === "string") {
       if (sign === "+") return left + right;
       if (sign === "==" || sign === "<>") return truth((left === right) === (sign === "=="));
     }
-    throw new TextError(at, "two texts with +, == or <>", `"${sign}" does not join ${kindOf(left)} and ${kindOf(right)}.`);
+    throw new TextError(
+      at,
+      "two texts with +, == or <>",
+      `"${sign}" does not join ${kindOf(left)} and ${kindOf(right)}.`,
+    );
   }
   return arithmetic(sign, asNumber(left, at), asNumber(right, at), at);
 }
 
 function arithmetic(sign: string, a: number, b: number, at: TextPlace): number {
-  if ((sign === "/" || sign === "mod") && b === 0) throw new TextError(at, "a divisor other than 0", "The divisor is 0.");
+  if ((sign === "/" || sign === "mod") && b === 0)
+    throw new TextError(at, "a divisor other than 0", "The divisor is 0.");
   switch (sign) {
-    case "+": return finite(a + b, at);
-    case "-": return finite(a - b, at);
-    case "*": return finite(a * b, at);
-    case "/": return finite(a / b, at);
-    case "mod": return a % b;
-    case "^": return finite(a ** b, at);
-    case "==": return truth(a === b);
-    case "<>": return truth(a !== b);
-    case "<": return truth(a < b);
-    case ">": return truth(a > b);
-    case "<=": case "=<": return truth(a <= b);
-    case ">=": case "=>": return truth(a >= b);
-    case "and": return truth(a !== 0 && b !== 0);
-    case "or": return truth(a !== 0 || b !== 0);
-    case "xor": return truth((a !== 0) !== (b !== 0));
-    default: throw new TextError(at, "an operator", `"${sign}" is no operator.`);
+    case "+":
+      return finite(a + b, at);
+    case "-":
+      return finite(a - b, at);
+    case "*":
+      return finite(a * b, at);
+    case "/":
+      return finite(a / b, at);
+    case "mod":
+      return a % b;
+    case "^":
+      return finite(a ** b, at);
+    case "==":
+      return truth(a === b);
+    case "<>":
+      return truth(a !== b);
+    case "<":
+      return truth(a < b);
+    case ">":
+      return truth(a > b);
+    case "<=":
+    case "=<":
+      return truth(a <= b);
+    case ">=":
+    case "=>":
+      return truth(a >= b);
+    case "and":
+      return truth(a !== 0 && b !== 0);
+    case "or":
+      return truth(a !== 0 || b !== 0);
+    case "xor":
+      return truth((a !== 0) !== (b !== 0));
+    default:
+      throw new TextError(at, "an operator", `"${sign}" is no operator.`);
   }
 }

@@ -2,7 +2,8 @@ import { degrees, millimetres, type Pose } from "@twincell/core";
 import { fixed } from "../../writing/index.ts";
 
 /** A tenth of a micrometre; a hundred-thousandth of a degree. */
-const MM_DECIMALS = 4, DEG_DECIMALS = 5;
+const MM_DECIMALS = 4;
+const DEG_DECIMALS = 5;
 /** Sine of half the angle A below which O and T turn about the same axis: less than what the text can say of A. */
 const STRAIGHT = 1e-7;
 
@@ -14,14 +15,18 @@ export const num = (value: number): string => fixed(value, 6);
 
 /** O, A, T of a quaternion: Rz(O) · Ry(A) · Rz(T), A from 0° to 180°. Where O and T turn about one axis, T is 0. */
 export function oatText([x, y, z, w]: Pose["quaternion"]): string {
-  const bent = Math.hypot(x, y), straight = Math.hypot(z, w), sum = 2 * Math.atan2(z, w), difference = 2 * Math.atan2(-x, y);
+  const bent = Math.hypot(x, y);
+  const straight = Math.hypot(z, w);
+  const sum = 2 * Math.atan2(z, w);
+  const difference = 2 * Math.atan2(-x, y);
   if (bent < STRAIGHT) return `${turnText(sum)},0,0`;
   if (straight < STRAIGHT) return `${turnText(difference)},180,0`;
   return `${turnText((sum + difference) / 2)},${deg(2 * Math.atan2(bent, straight))},${turnText((sum - difference) / 2)}`;
 }
 
 /** TRANS(x, y, z, o, a, t): mm and degrees. */
-export const transText = ({ position, quaternion }: Pose): string => `TRANS(${position.map(mm).join(",")},${oatText(quaternion)})`;
+export const transText = ({ position, quaternion }: Pose): string =>
+  `TRANS(${position.map(mm).join(",")},${oatText(quaternion)})`;
 /** #[jt1, …]: degrees. */
 export const jointsText = (q_rad: readonly number[]): string => `#[${q_rad.map(deg).join(",")}]`;
 

@@ -1,8 +1,29 @@
 import {
-  branchOf, compose, identity, inverse, rotate, type Branch, type Condition, type EmittedFile, type MoveStep, type Pose, type Robot, type Step, type Target,
+  branchOf,
+  compose,
+  identity,
+  inverse,
+  rotate,
+  type Branch,
+  type Condition,
+  type EmittedFile,
+  type MoveStep,
+  type Pose,
+  type Robot,
+  type Step,
+  type Target,
 } from "@twincell/core";
 import { asciiText } from "../../text/index.ts";
-import { BlockStepWriter, CannotSay, Names, Place, called, patternOf, pitchTerm, type Pattern } from "../../writing/index.ts";
+import {
+  BlockStepWriter,
+  CannotSay,
+  Names,
+  Place,
+  called,
+  patternOf,
+  pitchTerm,
+  type Pattern,
+} from "../../writing/index.ts";
 import { LINES, type Spoken } from "../robots.ts";
 import { jointsText, mm, num, oatText, transText } from "./pose.ts";
 import { RESERVED } from "./reserved.ts";
@@ -30,17 +51,26 @@ export class ProgramWriter extends BlockStepWriter {
   }
 
   write(): EmittedFile {
-    const { program } = this.place, { out } = this, name = this.named("program", program.name);
+    const { program } = this.place;
+    const { out } = this;
+    const name = this.named("program", program.name);
     this.part(name, program.steps, () => {
       out.add(`;* ${asciiText(program.name)}`.trimEnd());
-      out.add(`;* ${asciiText(this.robot.name)}. Lengths in mm, angles in degrees, locations in the base of the robot.`);
+      out.add(
+        `;* ${asciiText(this.robot.name)}. Lengths in mm, angles in degrees, locations in the base of the robot.`,
+      );
       this.declarations();
     });
-    for (const [routine, steps] of Object.entries(program.routines)) this.part(this.named("routine", routine), steps, () => { /* nothing before the steps */ });
+    for (const [routine, steps] of Object.entries(program.routines))
+      this.part(this.named("routine", routine), steps, () => {
+        /* nothing before the steps */
+      });
     return out.file(`${name}.as`, "\r\n");
   }
 
-  private named(sort: string, name: string): string { return this.names.of(sort, name.toLowerCase()); }
+  private named(sort: string, name: string): string {
+    return this.names.of(sort, name.toLowerCase());
+  }
 
   private part(name: string, steps: readonly Step[], before: () => void): void {
     this.out.add(`.PROGRAM ${name}()`);
@@ -54,14 +84,20 @@ export class ProgramWriter extends BlockStepWriter {
 
   /** What the controller would keep from before, and tools, frames and lines under the names that they have in the program. */
   private declarations(): void {
-    const { place, out } = this, { program } = place, used = usedNames(program);
+    const { place, out } = this;
+    const { program } = place;
+    const used = usedNames(program);
     for (const line of ["BASE NULL", "CP ON", "ACCEL 100 ALWAYS", "DECEL 100 ALWAYS"]) out.add(line);
     for (const tool of used.tools) out.add(`POINT ${this.named("tool", tool)} = ${transText(place.tool(tool))}`);
-    for (const frame of used.frames) out.add(`POINT ${this.named("frame", frame)} = ${this.inBase(place.frame(frame))}`);
-    for (const [signal, step] of used.signals) out.add(`${this.named("signal", signal)} = ${this.numberOf(signal, step)}`);
+    for (const frame of used.frames)
+      out.add(`POINT ${this.named("frame", frame)} = ${this.inBase(place.frame(frame))}`);
+    for (const [signal, step] of used.signals)
+      out.add(`${this.named("signal", signal)} = ${this.numberOf(signal, step)}`);
   }
 
-  private inBase<From extends string>(pose: Pose<"world", From>): string { return transText(compose(this.place.baseFromWorld, pose)); }
+  private inBase<From extends string>(pose: Pose<"world", From>): string {
+    return transText(compose(this.place.baseFromWorld, pose));
+  }
 
   protected override begin(): void {
     super.begin();
@@ -71,100 +107,178 @@ export class ProgramWriter extends BlockStepWriter {
     this.acceleration = "";
   }
 
-  protected remark(text: string, step: string): void { this.out.add(`;${text}`, step); }
+  protected remark(text: string, step: string): void {
+    this.out.add(`;${text}`, step);
+  }
 
   protected step(step: Step, next: Step | undefined): void {
-    const add = (line: string): void => { this.out.add(line, step.id); };
+    const add = (line: string): void => {
+      this.out.add(line, step.id);
+    };
     switch (step.type) {
-      case "move": return this.move(step, next, add);
-      case "wait": return add(`TWAIT ${num(step.s)}`);
-      case "gripper": return add(step.closed ? "CLOSEI 1" : "OPENI 1");
-      case "set": return this.set(step, add);
-      case "wait-for": return add(`SWAIT ${this.line(step.when, step)}`);
-      case "payload": return add(`WEIGHT ${this.load(step)}`);
-      case "message": return add(`PRINT "${asciiText(step.text).replace(/"/g, "'")}"`);
-      case "stop": return add("HALT");
-      case "comment": return add(`;- ${asciiText(step.text)}`.trimEnd());
-      case "call": add(`CALL ${this.named("routine", step.routine)}`); return this.begin();
-      case "repeat": return this.repeat(step);
-      case "if": return this.choice(step, `IF SIG(${this.line(step.when, step)}) THEN`, "ELSE", "END");
-      case "pallet": return this.pallet(step);
+      case "move":
+        return this.move(step, next, add);
+      case "wait":
+        return add(`TWAIT ${num(step.s)}`);
+      case "gripper":
+        return add(step.closed ? "CLOSEI 1" : "OPENI 1");
+      case "set":
+        return this.set(step, add);
+      case "wait-for":
+        return add(`SWAIT ${this.line(step.when, step)}`);
+      case "payload":
+        return add(`WEIGHT ${this.load(step)}`);
+      case "message":
+        return add(`PRINT "${asciiText(step.text).replace(/"/g, "'")}"`);
+      case "stop":
+        return add("HALT");
+      case "comment":
+        return add(`;- ${asciiText(step.text)}`.trimEnd());
+      case "call":
+        add(`CALL ${this.named("routine", step.routine)}`);
+        return this.begin();
+      case "repeat":
+        return this.repeat(step);
+      case "if":
+        return this.choice(step, `IF SIG(${this.line(step.when, step)}) THEN`, "ELSE", "END");
+      case "pallet":
+        return this.pallet(step);
     }
   }
 
   private load({ id, name, mass_kg, center_m, inertia_kgm2 }: Extract<Step, { type: "payload" }>): string {
     const [ixx = 0, iyy = 0, izz = 0, ...products] = inertia_kgm2 ?? [];
-    if (products.some(product => product !== 0)) throw new CannotSay(id, `${called({ id, ...(name === undefined ? {} : { name }) })} gives products of inertia; WEIGHT takes three moments.`, "Give the load in its main axes.");
-    return [num(mass_kg), ...center_m.map(mm), ...(inertia_kgm2 === undefined ? [] : [ixx, iyy, izz].map(num))].join(",");
+    if (products.some(product => product !== 0))
+      throw new CannotSay(
+        id,
+        `${called({ id, ...(name === undefined ? {} : { name }) })} gives products of inertia; WEIGHT takes three moments.`,
+        "Give the load in its main axes.",
+      );
+    return [num(mass_kg), ...center_m.map(mm), ...(inertia_kgm2 === undefined ? [] : [ixx, iyy, izz].map(num))].join(
+      ",",
+    );
   }
 
   private repeat(step: Extract<Step, { type: "repeat" }>): void {
-    this.loop(step.times === "forever" ? "WHILE TRUE DO" : `FOR .${this.names.fresh("count")} = 1 TO ${step.times}`, "END", step);
+    this.loop(
+      step.times === "forever" ? "WHILE TRUE DO" : `FOR .${this.names.fresh("count")} = 1 TO ${step.times}`,
+      "END",
+      step,
+    );
   }
 
   /** A loop over layers, lines and places; the place is a location that changes with them. */
   private pallet(step: Extract<Step, { type: "pallet" }>): void {
     const { baseFromWorld, program } = this.place;
     // A pallet of the world is counted in the base of the robot, which turns its pitches.
-    const pattern = patternOf(step, program, (v, { frame }) => frame === "world" ? rotate(baseFromWorld.quaternion, v) : v), { pallet, lines, inLine, isShifted } = pattern;
-    const { out } = this, variable = this.named("frame", step.pallet), local = (name: string): string => `.${this.names.fresh(name)}`;
-    const layer = local("layer"), line = local("line"), along = local("along"), at = local("at");
-    const loop = (name: string, last: string, inside: () => void): void => { out.block(`FOR ${name} = 0 TO ${last}`, "END", step.id, inside); };
+    const pattern = patternOf(step, program, (v, { frame }) =>
+      frame === "world" ? rotate(baseFromWorld.quaternion, v) : v,
+    );
+    const { pallet, lines, inLine, isShifted } = pattern;
+    const { out } = this;
+    const variable = this.named("frame", step.pallet);
+    const local = (name: string): string => `.${this.names.fresh(name)}`;
+    const layer = local("layer");
+    const line = local("line");
+    const along = local("along");
+    const at = local("at");
+    const loop = (name: string, last: string, inside: () => void): void => {
+      out.block(`FOR ${name} = 0 TO ${last}`, "END", step.id, inside);
+    };
     const last = isShifted ? `${inLine - 1}-${line} MOD 2` : `${inLine - 1}`;
     const visit = (): void => {
       out.add(`${at} = ${along}`, step.id);
       if (pattern.isZigzag) {
-        out.block(`IF ${line} MOD 2 == 1 THEN`, "END", step.id, () => { out.add(`${at} = ${isShifted ? inLine - 2 : inLine - 1}-${along}`, step.id); });
+        out.block(`IF ${line} MOD 2 == 1 THEN`, "END", step.id, () => {
+          out.add(`${at} = ${isShifted ? inLine - 2 : inLine - 1}-${along}`, step.id);
+        });
       }
-      out.add(`POINT ${variable} = ${this.placeText(pattern, isShifted ? `(${at}+(${line} MOD 2)/2)` : at, line, layer)}`, step.id);
+      out.add(
+        `POINT ${variable} = ${this.placeText(pattern, isShifted ? `(${at}+(${line} MOD 2)/2)` : at, line, layer)}`,
+        step.id,
+      );
       this.begin();
       this.steps(step.steps);
     };
-    loop(layer, `${pallet.layers - 1}`, () => { loop(line, `${lines - 1}`, () => { loop(along, last, visit); }); });
+    loop(layer, `${pallet.layers - 1}`, () => {
+      loop(line, `${lines - 1}`, () => {
+        loop(along, last, visit);
+      });
+    });
     this.begin();
   }
 
   private placeText({ pallet, along_m, away_m, up_m }: Pattern, along: string, line: string, layer: string): string {
-    const inWorld = pallet.frame === "world", origin: Pose = inWorld ? compose(this.place.baseFromWorld, pallet.origin as Pose as Pose<"world", "place">) : pallet.origin;
-    const place = ([0, 1, 2] as const).map(i => `${mm(origin.position[i])}${pitchTerm(along_m[i], along, mm)}${pitchTerm(away_m[i], line, mm)}${pitchTerm(up_m[i], layer, mm)}`);
+    const inWorld = pallet.frame === "world";
+    const origin: Pose = inWorld
+      ? compose(this.place.baseFromWorld, pallet.origin as Pose as Pose<"world", "place">)
+      : pallet.origin;
+    const place = ([0, 1, 2] as const).map(
+      i =>
+        `${mm(origin.position[i])}${pitchTerm(along_m[i], along, mm)}${pitchTerm(away_m[i], line, mm)}${pitchTerm(up_m[i], layer, mm)}`,
+    );
     return `${inWorld ? "" : `${this.named("frame", pallet.frame)}+`}TRANS(${place.join(",")},${oatText(origin.quaternion)})`;
   }
 
   private set(step: Extract<Step, { type: "set" }>, add: (line: string) => void): void {
-    const { to, signal } = step, name = this.named("signal", signal);
-    if (this.place.program.signals[signal]?.kind !== "digital-out" || typeof to !== "boolean") throw new CannotSay(step.id, `${called(step)} writes ${String(to)} to the line ${signal}, which is no digital output.`, "Choose a digital output.");
+    const { to, signal } = step;
+    const name = this.named("signal", signal);
+    if (this.place.program.signals[signal]?.kind !== "digital-out" || typeof to !== "boolean")
+      throw new CannotSay(
+        step.id,
+        `${called(step)} writes ${String(to)} to the line ${signal}, which is no digital output.`,
+        "Choose a digital output.",
+      );
     if (step.pulse_s === undefined) return add(`SIGNAL ${to ? "" : "-"}${name}`);
     add(`PULSE ${to ? "" : "-"}${name},${num(step.pulse_s)}`);
   }
 
   /** The line of a condition, with a minus where it shall be off. */
   private line(when: Condition, step: Step): string {
-    if (!("is" in when)) throw new CannotSay(step.id, `${called(step)} compares the line ${when.signal} with a number.`, "Decide by a digital line.");
+    if (!("is" in when))
+      throw new CannotSay(
+        step.id,
+        `${called(step)} compares the line ${when.signal} with a number.`,
+        "Decide by a digital line.",
+      );
     return `${when.is ? "" : "-"}${this.named("signal", when.signal)}`;
   }
 
   private numberOf(signal: string, step: Step): number {
-    const { signals } = this.place.program, line = Object.hasOwn(signals, signal) ? signals[signal] : undefined;
-    if (line?.address === undefined) throw new CannotSay(step.id, `${called(step)} uses the line ${signal}, whose number is not known.`, "Give the line its number in the list of signals.");
+    const { signals } = this.place.program;
+    const line = Object.hasOwn(signals, signal) ? signals[signal] : undefined;
+    if (line?.address === undefined)
+      throw new CannotSay(
+        step.id,
+        `${called(step)} uses the line ${signal}, whose number is not known.`,
+        "Give the line its number in the list of signals.",
+      );
     const [first, last] = line.kind === "digital-in" ? LINES.inputs : LINES.outputs;
     if (Number.isInteger(line.address) && line.address >= first && line.address <= last) return line.address;
-    throw new CannotSay(step.id, `${called(step)} uses the line ${signal} with the number ${line.address}; AS counts ${line.kind === "digital-in" ? "inputs" : "outputs"} from ${first} to ${last}.`, "Give the line a number of the controller.");
+    throw new CannotSay(
+      step.id,
+      `${called(step)} uses the line ${signal} with the number ${line.address}; AS counts ${line.kind === "digital-in" ? "inputs" : "outputs"} from ${first} to ${last}.`,
+      "Give the line a number of the controller.",
+    );
   }
 
   private move(step: MoveStep, next: Step | undefined, add: (line: string) => void): void {
-    const { target } = step, tool = target.tool ?? (step.path === "ptp" && "q" in target ? undefined : "flange");
+    const { target } = step;
+    const tool = target.tool ?? (step.path === "ptp" && "q" in target ? undefined : "flange");
     if (tool !== undefined && tool !== this.tool) {
       add(tool === "flange" ? "TOOL NULL" : `TOOL ${this.named("tool", tool)}`);
       this.tool = tool;
     }
-    const posture = this.place.posture(step, target, this.near), blend = mm(this.place.blend_m(step, this.before, next));
+    const posture = this.place.posture(step, target, this.near);
+    const blend = mm(this.place.blend_m(step, this.before, next));
     this.settings(step, blend, add);
     if (step.path === "ptp") {
       if (!("q" in target)) for (const word of this.postureWords(target.branch, posture)) add(word);
       add(`JMOVE ${this.goal(target)}`);
     } else if (step.path === "lin") add(`LMOVE ${this.goal(target)}`);
     else {
-      if (step.via === undefined) throw new CannotSay(step.id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
+      if (step.via === undefined)
+        throw new CannotSay(step.id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
       add(`C1MOVE ${this.goal(step.via)}`);
       add(`C2MOVE ${this.goal(target)}`);
     }
@@ -173,21 +287,30 @@ export class ProgramWriter extends BlockStepWriter {
   }
 
   private settings(step: MoveStep, blend: string, add: (line: string) => void): void {
-    const { speed, acceleration } = step, say = (line: string, said: string): string => { if (line !== said) add(line); return line; };
+    const { speed, acceleration } = step;
+    const say = (line: string, said: string): string => {
+      if (line !== said) add(line);
+      return line;
+    };
     if (this.saysAcceleration) {
       const percent = num((acceleration?.ratio ?? 1) * 100);
-      if (percent !== this.acceleration) { add(`ACCEL ${percent} ALWAYS`); add(`DECEL ${percent} ALWAYS`); }
+      if (percent !== this.acceleration) {
+        add(`ACCEL ${percent} ALWAYS`);
+        add(`DECEL ${percent} ALWAYS`);
+      }
       this.acceleration = percent;
     }
     if (blend !== "0") this.accuracy = say(`ACCURACY ${blend} ALWAYS`, this.accuracy);
     // A duration holds for the one motion.
     if ("time_s" in speed) add(`SPEED ${num(speed.time_s)} S`);
-    else this.speed = say(`SPEED ${"mps" in speed ? `${mm(speed.mps)} MM/S` : num(speed.ratio * 100)} ALWAYS`, this.speed);
+    else
+      this.speed = say(`SPEED ${"mps" in speed ? `${mm(speed.mps)} MM/S` : num(speed.ratio * 100)} ALWAYS`, this.speed);
   }
 
   private goal(target: Target): string {
     if ("q" in target) return jointsText(target.q);
-    if (target.frame === "world") return transText(compose(inverse(this.place.worldFromBase), compose(identity<"world", "frame">(), target.pose)));
+    if (target.frame === "world")
+      return transText(compose(inverse(this.place.worldFromBase), compose(identity<"world", "frame">(), target.pose)));
     return `${this.named("frame", target.frame)}+${transText(target.pose)}`;
   }
 
@@ -195,6 +318,10 @@ export class ProgramWriter extends BlockStepWriter {
   private postureWords(branch: Branch | undefined, posture: readonly number[] | undefined): readonly string[] {
     const named = branch === undefined || posture === undefined ? undefined : branchOf(this.robot, posture);
     if (named === undefined) return [];
-    return [named.shoulder === "front" ? "RIGHTY" : "LEFTY", named.elbow === "up" ? "ABOVE" : "BELOW", named.wrist === this.spoken.upWrist ? "UWRIST" : "DWRIST"];
+    return [
+      named.shoulder === "front" ? "RIGHTY" : "LEFTY",
+      named.elbow === "up" ? "ABOVE" : "BELOW",
+      named.wrist === this.spoken.upWrist ? "UWRIST" : "DWRIST",
+    ];
   }
 }

@@ -1,15 +1,24 @@
 import type { Program, Step } from "@twincell/core";
 
 /** Tools, frames and lines in the order in which steps first use them. */
-export interface Used { readonly tools: Set<string>; readonly frames: Set<string>; readonly signals: Map<string, Step>; accelerates: boolean }
+export interface Used {
+  readonly tools: Set<string>;
+  readonly frames: Set<string>;
+  readonly signals: Map<string, Step>;
+  accelerates: boolean;
+}
 
 /** A share of the acceleration this near to all of it is all of it. */
 const ALL = 1 - 1e-8;
 
 export function usedNames(program: Program): Used {
   const used: Used = { tools: new Set(), frames: new Set(), signals: new Map(), accelerates: false };
-  const frame = (name: string): void => { if (name !== "world" && !Object.hasOwn(program.pallets, name)) used.frames.add(name); };
-  const note = (signal: string, step: Step): void => { if (!used.signals.has(signal)) used.signals.set(signal, step); };
+  const frame = (name: string): void => {
+    if (name !== "world" && !Object.hasOwn(program.pallets, name)) used.frames.add(name);
+  };
+  const note = (signal: string, step: Step): void => {
+    if (!used.signals.has(signal)) used.signals.set(signal, step);
+  };
   const look = (steps: readonly Step[]): void => {
     for (const step of steps) {
       switch (step.type) {
@@ -20,15 +29,26 @@ export function usedNames(program: Program): Used {
           }
           used.accelerates ||= (step.acceleration?.ratio ?? 1) < ALL;
           break;
-        case "set": note(step.signal, step); break;
-        case "wait-for": note(step.when.signal, step); break;
-        case "if": note(step.when.signal, step); look(step.then); look(step.else ?? []); break;
-        case "repeat": look(step.steps); break;
+        case "set":
+          note(step.signal, step);
+          break;
+        case "wait-for":
+          note(step.when.signal, step);
+          break;
+        case "if":
+          note(step.when.signal, step);
+          look(step.then);
+          look(step.else ?? []);
+          break;
+        case "repeat":
+          look(step.steps);
+          break;
         case "pallet":
           if (Object.hasOwn(program.pallets, step.pallet)) frame(program.pallets[step.pallet]!.frame);
           look(step.steps);
           break;
-        default: break;
+        default:
+          break;
       }
     }
   };

@@ -5,8 +5,21 @@ import { readExpression, readVariable } from "./expression.ts";
 import { readStatement } from "./statement.ts";
 import type { Declaration, Expression, Parameter, Routine, Statement, Variable } from "./syntax.ts";
 
-const ENDS: Readonly<Record<string, string>> = { IF: "ENDIF", LOOP: "ENDLOOP", WHILE: "ENDWHILE", REPEAT: "UNTIL", FOR: "ENDFOR", SWITCH: "ENDSWITCH" };
-const RULES: JumpRules<Cursor, Expression, Variable, Statement> = { expression: readExpression, variable: readVariable, statement: readStatement, called: "routine", endOf: word => ENDS[word]! };
+const ENDS: Readonly<Record<string, string>> = {
+  IF: "ENDIF",
+  LOOP: "ENDLOOP",
+  WHILE: "ENDWHILE",
+  REPEAT: "UNTIL",
+  FOR: "ENDFOR",
+  SWITCH: "ENDSWITCH",
+};
+const RULES: JumpRules<Cursor, Expression, Variable, Statement> = {
+  expression: readExpression,
+  variable: readVariable,
+  statement: readStatement,
+  called: "routine",
+  endOf: word => ENDS[word]!,
+};
 const SWITCH: SwitchWords = { opens: "SWITCH", ends: "ENDSWITCH", last: "DEFAULT" };
 
 /** Turns the lines of one routine into instructions with jumps. */
@@ -28,25 +41,43 @@ export class RoutineBuilder extends JumpBuilder<Cursor, Expression, Variable, St
     if (cursor.done) return;
     const at = cursor.here;
     switch (cursor.second === "=" ? "" : cursor.next) {
-      case "IF": return this.readIf(cursor, at);
-      case "ELSE": return this.readElse(cursor);
-      case "FOR": return this.readFor(cursor, at);
-      case "LOOP": return this.begin(cursor, "loop");
-      case "REPEAT": return this.begin(cursor, "until");
-      case "WHILE": return this.readWhile(cursor, at);
-      case "SWITCH": return this.readSwitch(cursor, at);
-      case "CASE": return this.readCase(cursor, SWITCH, false);
-      case "DEFAULT": return this.readLastCase(cursor, SWITCH);
-      case "UNTIL": return this.readUntil(cursor, "REPEAT");
-      case "ENDIF": case "ENDLOOP": case "ENDWHILE": case "ENDFOR": case "ENDSWITCH": return this.readEnd(cursor);
-      case "EXIT": return this.readExit(cursor, at);
+      case "IF":
+        return this.readIf(cursor, at);
+      case "ELSE":
+        return this.readElse(cursor);
+      case "FOR":
+        return this.readFor(cursor, at);
+      case "LOOP":
+        return this.begin(cursor, "loop");
+      case "REPEAT":
+        return this.begin(cursor, "until");
+      case "WHILE":
+        return this.readWhile(cursor, at);
+      case "SWITCH":
+        return this.readSwitch(cursor, at);
+      case "CASE":
+        return this.readCase(cursor, SWITCH, false);
+      case "DEFAULT":
+        return this.readLastCase(cursor, SWITCH);
+      case "UNTIL":
+        return this.readUntil(cursor, "REPEAT");
+      case "ENDIF":
+      case "ENDLOOP":
+      case "ENDWHILE":
+      case "ENDFOR":
+      case "ENDSWITCH":
+        return this.readEnd(cursor);
+      case "EXIT":
+        return this.readExit(cursor, at);
       case "GOTO": {
         cursor.take();
-        const to = cursor.here, label = cursor.name("a label");
+        const to = cursor.here;
+        const label = cursor.name("a label");
         this.goto(this.push({ kind: "jump", to: -1, at }), label, to);
         return cursor.expectEnd();
       }
-      default: this.code.push({ kind: "statement", statement: readStatement(cursor) });
+      default:
+        this.code.push({ kind: "statement", statement: readStatement(cursor) });
     }
   }
 
@@ -58,7 +89,8 @@ export class RoutineBuilder extends JumpBuilder<Cursor, Expression, Variable, St
   }
 
   private readLabel(cursor: Cursor): void {
-    const at = cursor.here, label = cursor.name();
+    const at = cursor.here;
+    const label = cursor.name();
     cursor.take();
     cursor.expectEnd();
     this.label(label, at);

@@ -20,7 +20,9 @@ const RULES: LineRules<Kind> = {
 
 /** Walks over the tokens of one line. */
 export class Cursor extends LineCursor<Kind> {
-  constructor(text: string, line: number) { super(text, line, RULES); }
+  constructor(text: string, line: number) {
+    super(text, line, RULES);
+  }
 
   /** A name in upper case, as KRL compares them. */
   name(what = "a name"): string {

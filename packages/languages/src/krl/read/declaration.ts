@@ -14,50 +14,78 @@ const QUIET = new Set(["EXT", "EXTFCT", "STRUC", "ENUM", "IMPORT"]);
 /** The declarations of a line, or undefined when it declares nothing. Goes past them. */
 export function readDeclarations(cursor: Cursor): Declaration[] | undefined {
   if (cursor.second === "=") return undefined;
-  if (QUIET.has(cursor.next)) { cursor.skip(); return []; }
+  if (QUIET.has(cursor.next)) {
+    cursor.skip();
+    return [];
+  }
   const global = cursor.next === "GLOBAL" && cursor.second !== "INTERRUPT";
   if (global) {
     cursor.take();
-    if (QUIET.has(cursor.next)) { cursor.skip(); return []; }
+    if (QUIET.has(cursor.next)) {
+      cursor.skip();
+      return [];
+    }
   }
   const spelled = cursor.accept("DECL");
   const isPlain = SIMPLE.has(cursor.next) || (STRUCTURES.has(cursor.next) && cursor.secondKind === "word");
   if (!spelled && !isPlain) return global ? [] : undefined;
   cursor.accept("GLOBAL");
   cursor.accept("CONST");
-  if (QUIET.has(cursor.next)) { cursor.skip(); return []; }
-  const type = cursor.name("a type"), list: Declaration[] = [];
-  do list.push(readDeclared(cursor, type)); while (cursor.accept(","));
+  if (QUIET.has(cursor.next)) {
+    cursor.skip();
+    return [];
+  }
+  const type = cursor.name("a type");
+  const list: Declaration[] = [];
+  do list.push(readDeclared(cursor, type));
+  while (cursor.accept(","));
   cursor.expectEnd();
   return list;
 }
 
 function readDeclared(cursor: Cursor, type: string): Declaration {
-  const { line, column } = cursor.here, name = cursor.name("the name of a variable"), index: Expression[] = [];
+  const { line, column } = cursor.here;
+  const name = cursor.name("the name of a variable");
+  const index: Expression[] = [];
   checkName(name, { line, column });
   const isArray = cursor.accept("[");
   if (isArray) {
-    if (cursor.next !== "]") do index.push(readExpression(cursor)); while (cursor.accept(","));
+    if (cursor.next !== "]")
+      do index.push(readExpression(cursor));
+      while (cursor.accept(","));
     cursor.expect("]");
   }
   const value = cursor.accept("=") ? readExpression(cursor) : undefined;
   return { type, name, isArray, index, value, line, column };
 }
 
-const LINES: Readonly<Record<string, SignalDeclaration["wire"]>> = { $IN: "in", $OUT: "out", $ANIN: "analogue-in", $ANOUT: "analogue-out" };
+const LINES: Readonly<Record<string, SignalDeclaration["wire"]>> = {
+  $IN: "in",
+  $OUT: "out",
+  $ANIN: "analogue-in",
+  $ANOUT: "analogue-out",
+};
 
 /** `SIGNAL NAME $OUT[n]`. @throws {TextError} */
 export function readSignal(cursor: Cursor): SignalDeclaration {
   cursor.take();
-  const { line, column } = cursor.here, name = cursor.name("the name of a signal");
+  const { line, column } = cursor.here;
+  const name = cursor.name("the name of a signal");
   checkName(name, { line, column });
-  const at = cursor.here, kind = LINES[cursor.name("$IN, $OUT, $ANIN or $ANOUT")];
-  if (kind === undefined) throw new TextError(at, "$IN, $OUT, $ANIN or $ANOUT", `Signal ${name} is tied to no line of the controller that is known here.`);
+  const at = cursor.here;
+  const kind = LINES[cursor.name("$IN, $OUT, $ANIN or $ANOUT")];
+  if (kind === undefined)
+    throw new TextError(
+      at,
+      "$IN, $OUT, $ANIN or $ANOUT",
+      `Signal ${name} is tied to no line of the controller that is known here.`,
+    );
   cursor.expect("[");
   const place = cursor.here;
   if (cursor.nextKind !== "number") throw cursor.unexpected("the number of a line");
   const address = Number(cursor.take());
-  if (!Number.isInteger(address) || address < 1) throw new TextError(place, "a number from 1", `The controller has no line ${address}.`);
+  if (!Number.isInteger(address) || address < 1)
+    throw new TextError(place, "a number from 1", `The controller has no line ${address}.`);
   cursor.expect("]");
   if (cursor.next === "TO") throw cursor.unexpected("one line, since groups of lines are not understood here");
   cursor.expectEnd();
@@ -65,13 +93,21 @@ export function readSignal(cursor: Cursor): SignalDeclaration {
 }
 
 /** `NAME( a :IN, b :OUT )`, with the type of the result before the name of a function. */
-export function readHeader(cursor: Cursor, isFunction: boolean): { readonly name: string; readonly place: TextPlace; readonly parameters: readonly Parameter[] } {
+export function readHeader(
+  cursor: Cursor,
+  isFunction: boolean,
+): { readonly name: string; readonly place: TextPlace; readonly parameters: readonly Parameter[] } {
   if (isFunction) {
     cursor.name("the type of the result");
     // CHAR[32]: a text of so many signs.
-    if (cursor.accept("[")) { if (cursor.nextKind === "number") cursor.take(); cursor.expect("]"); }
+    if (cursor.accept("[")) {
+      if (cursor.nextKind === "number") cursor.take();
+      cursor.expect("]");
+    }
   }
-  const place = cursor.here, name = cursor.name("the name of the routine"), parameters: Parameter[] = [];
+  const place = cursor.here;
+  const name = cursor.name("the name of the routine");
+  const parameters: Parameter[] = [];
   checkName(name, place);
   if (cursor.accept("(") && !cursor.accept(")")) {
     do {

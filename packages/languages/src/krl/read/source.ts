@@ -6,7 +6,9 @@ import { readDeclarations, readHeader, readSignal } from "./declaration.ts";
 import { readStatement } from "./statement.ts";
 import type { Declaration, Routine, SignalDeclaration, Source, Statement } from "./syntax.ts";
 
-export type SourceAnswer = { readonly kind: "source"; readonly source: Source } | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
+export type SourceAnswer =
+  | { readonly kind: "source"; readonly source: Source }
+  | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 /** More faults than this help nobody. */
 const MOST_FAULTS = 50;
@@ -21,10 +23,14 @@ export function readSource(text: string): SourceAnswer {
   const lines = textLines(text);
   for (const [i, line] of lines.entries()) {
     if (QUIET.test(line)) continue;
-    reader.guard(() => { reader.line(line, i + 1); });
+    reader.guard(() => {
+      reader.line(line, i + 1);
+    });
     if (reader.faults.length >= MOST_FAULTS) break;
   }
-  reader.guard(() => { reader.end(lines.length + 1); });
+  reader.guard(() => {
+    reader.end(lines.length + 1);
+  });
   if (reader.faults.length > 0) return { kind: "not-understood", faults: reader.faults };
   const { routines, data, elements, signals, dataLine } = reader;
   return { kind: "source", source: { routines, data, elements, signals, dataLine } };
@@ -55,11 +61,15 @@ class SourceReader {
     const cursor = new Cursor(text, line);
     if (cursor.done) return;
     const first = cursor.next === "GLOBAL" ? cursor.second : cursor.next;
-    if (cursor.second !== "=" && (first === "DEF" || first === "DEFFCT" || first === "DEFDAT")) return this.begin(cursor, first, line);
+    if (cursor.second !== "=" && (first === "DEF" || first === "DEFFCT" || first === "DEFDAT"))
+      return this.begin(cursor, first, line);
     if (this.section === "outside") throw cursor.unexpected("DEF, DEFFCT or DEFDAT");
     const end = this.section === "data" ? "ENDDAT" : this.word === "DEFFCT" ? "ENDFCT" : "END";
     if (first === end || first === "END" || first === "ENDFCT" || first === "ENDDAT") return this.close(cursor, end);
-    if (first === "SIGNAL") { this.signals.push(readSignal(cursor)); return; }
+    if (first === "SIGNAL") {
+      this.signals.push(readSignal(cursor));
+      return;
+    }
     const declared = readDeclarations(cursor);
     if (declared !== undefined) (this.section === "data" ? this.data : this.builder!.declarations).push(...declared);
     else if (this.section === "data") this.element(cursor);
@@ -68,24 +78,32 @@ class SourceReader {
 
   /** An element of an array in the data list. */
   private element(cursor: Cursor): void {
-    if (cursor.second !== "[" && cursor.second !== "=" && cursor.second !== ".") throw cursor.unexpected("a declaration");
+    if (cursor.second !== "[" && cursor.second !== "=" && cursor.second !== ".")
+      throw cursor.unexpected("a declaration");
     const statement = readStatement(cursor);
     if (statement.kind === "assign") this.elements.push(statement);
   }
 
   end(line: number): void {
     if (this.section === "outside") {
-      if (this.routines.size === 0 && this.dataLine === undefined) throw new TextError({ line: 1, column: 1 }, "DEF", "The text has no routine.");
+      if (this.routines.size === 0 && this.dataLine === undefined)
+        throw new TextError({ line: 1, column: 1 }, "DEF", "The text has no routine.");
       return;
     }
-    throw new TextError({ line, column: 1 }, this.section === "data" ? "ENDDAT" : "END", `The ${this.word} of line ${this.opened} is not closed.`);
+    throw new TextError(
+      { line, column: 1 },
+      this.section === "data" ? "ENDDAT" : "END",
+      `The ${this.word} of line ${this.opened} is not closed.`,
+    );
   }
 
   private begin(cursor: Cursor, word: string, line: number): void {
     if (this.section !== "outside") throw cursor.unexpected(`the end of the ${this.word} of line ${this.opened}`);
     this.word = word;
     this.opened = line;
-    if (cursor.accept("GLOBAL")) { /* Every routine of this text can be called here. */ }
+    if (cursor.accept("GLOBAL")) {
+      /* Every routine of this text can be called here. */
+    }
     cursor.take();
     if (word === "DEFDAT") {
       this.section = "data";
@@ -99,12 +117,14 @@ class SourceReader {
     this.builder = new RoutineBuilder("", cursor.here, word === "DEFFCT", []);
     const { name, place, parameters } = readHeader(cursor, word === "DEFFCT");
     this.builder = new RoutineBuilder(name, place, word === "DEFFCT", parameters);
-    if (this.routines.has(name)) throw new TextError(place, "a routine name used once", `Routine ${name} is in the text twice.`);
+    if (this.routines.has(name))
+      throw new TextError(place, "a routine name used once", `Routine ${name} is in the text twice.`);
   }
 
   private close(cursor: Cursor, wanted: string): void {
     if (cursor.next !== wanted) throw cursor.unexpected(wanted);
-    const place = cursor.here, builder = this.builder;
+    const place = cursor.here;
+    const builder = this.builder;
     cursor.take();
     this.section = "outside";
     this.builder = undefined;

@@ -6,7 +6,10 @@ import type { Expression, Motion, MotionKind, Statement } from "./syntax.ts";
 type Body<S> = S extends unknown ? Omit<S, "line" | "column"> : never;
 type Reader = (cursor: Cursor) => Body<Statement>;
 
-const nothing: Reader = cursor => { cursor.skip(); return { kind: "nothing" }; };
+const nothing: Reader = cursor => {
+  cursor.skip();
+  return { kind: "nothing" };
+};
 const APPROXIMATIONS = new Set(["C_PTP", "C_DIS", "C_ORI", "C_VEL", "C_SPL"]);
 
 function approximations(cursor: Cursor): string[] {
@@ -30,23 +33,42 @@ function readSettings(cursor: Cursor): Motion["settings"] {
   return settings;
 }
 
-const motion = (kind: MotionKind, { relative = false, spline = false } = {}): Reader => cursor => {
-  let via: Expression | undefined, inTool = false, target = readExpression(cursor);
-  if (kind === "CIRC") {
-    via = target;
-    cursor.expect(",");
-    target = readExpression(cursor);
-    if (cursor.next === ",") {
-      throw new TextError(cursor.here, "an arc that ends at its end point", "An arc with CA goes on beyond its end point or stops before it: that end is not written in the text.");
+const motion =
+  (kind: MotionKind, { relative = false, spline = false } = {}): Reader =>
+  cursor => {
+    let via: Expression | undefined;
+    let inTool = false;
+    let target = readExpression(cursor);
+    if (kind === "CIRC") {
+      via = target;
+      cursor.expect(",");
+      target = readExpression(cursor);
+      if (cursor.next === ",") {
+        throw new TextError(
+          cursor.here,
+          "an arc that ends at its end point",
+          "An arc with CA goes on beyond its end point or stops before it: that end is not written in the text.",
+        );
+      }
     }
-  }
-  const before = approximations(cursor), settings = readSettings(cursor);
-  // What a relative motion counts from.
-  if (relative && (cursor.next === "#TOOL" || cursor.next === "#BASE")) {
-    inTool = cursor.take().toUpperCase() === "#TOOL";
-  }
-  return { kind: "motion", motion: kind, relative, inTool, spline, target, via, approximation: [...before, ...approximations(cursor)], settings };
-};
+    const before = approximations(cursor);
+    const settings = readSettings(cursor);
+    // What a relative motion counts from.
+    if (relative && (cursor.next === "#TOOL" || cursor.next === "#BASE")) {
+      inTool = cursor.take().toUpperCase() === "#TOOL";
+    }
+    return {
+      kind: "motion",
+      motion: kind,
+      relative,
+      inTool,
+      spline,
+      target,
+      via,
+      approximation: [...before, ...approximations(cursor)],
+      settings,
+    };
+  };
 
 const call = (name: string, cursor: Cursor): Body<Statement> => {
   cursor.expect("(");
@@ -82,25 +104,42 @@ function interrupt(cursor: Cursor): Body<Statement> {
     return { kind: "interrupt", number, condition, routine };
   }
   const word = cursor.name("ON or OFF");
-  return { kind: "interrupt-switch", on: word === "ON" || word === "ENABLE", number: cursor.done ? undefined : readExpression(cursor) };
+  return {
+    kind: "interrupt-switch",
+    on: word === "ON" || word === "ENABLE",
+    number: cursor.done ? undefined : readExpression(cursor),
+  };
 }
 
 const READERS: Readonly<Record<string, Reader>> = {
-  PTP: motion("PTP"), LIN: motion("LIN"), CIRC: motion("CIRC"), SPL: motion("SPL"),
-  SPTP: motion("PTP", { spline: true }), SLIN: motion("LIN", { spline: true }), SCIRC: motion("CIRC", { spline: true }),
-  PTP_REL: motion("PTP", { relative: true }), LIN_REL: motion("LIN", { relative: true }),
-  SPTP_REL: motion("PTP", { relative: true, spline: true }), SLIN_REL: motion("LIN", { relative: true, spline: true }),
+  PTP: motion("PTP"),
+  LIN: motion("LIN"),
+  CIRC: motion("CIRC"),
+  SPL: motion("SPL"),
+  SPTP: motion("PTP", { spline: true }),
+  SLIN: motion("LIN", { spline: true }),
+  SCIRC: motion("CIRC", { spline: true }),
+  PTP_REL: motion("PTP", { relative: true }),
+  LIN_REL: motion("LIN", { relative: true }),
+  SPTP_REL: motion("PTP", { relative: true, spline: true }),
+  SLIN_REL: motion("LIN", { relative: true, spline: true }),
   SPLINE: cursor => ({ kind: "spline", settings: readSettings(cursor) }),
   ENDSPLINE: cursor => ({ kind: "end-spline", approximation: approximations(cursor) }),
   WAIT: waiting,
   PULSE: pulse,
   INTERRUPT: interrupt,
-  BRAKE: cursor => { cursor.accept("F"); return { kind: "brake" }; },
+  BRAKE: cursor => {
+    cursor.accept("F");
+    return { kind: "brake" };
+  },
   RESUME: () => ({ kind: "resume" }),
   HALT: () => ({ kind: "halt" }),
   RETURN: cursor => ({ kind: "return", value: cursor.done ? undefined : readExpression(cursor) }),
-  CONTINUE: () => ({ kind: "nothing" }), ON_ERROR_PROCEED: () => ({ kind: "nothing" }),
-  ANOUT: nothing, ANIN: nothing, IMPORT: nothing,
+  CONTINUE: () => ({ kind: "nothing" }),
+  ON_ERROR_PROCEED: () => ({ kind: "nothing" }),
+  ANOUT: nothing,
+  ANIN: nothing,
+  IMPORT: nothing,
 };
 
 /** Why a word that KRL knows is refused here. */
@@ -116,13 +155,18 @@ const REFUSED: Readonly<Record<string, string>> = {
 export function readStatement(cursor: Cursor): Statement {
   const { line, column } = cursor.here;
   if (cursor.nextKind !== "word") throw cursor.unexpected("a statement");
-  const word = cursor.next, after = cursor.second;
+  const word = cursor.next;
+  const after = cursor.second;
   // A name followed by = is assigned to, even where it is also a word of the language.
   if (after === "=" || after === "[" || after === ".") return { ...assignment(cursor), line, column };
   if (word === "GLOBAL" && after === "INTERRUPT") cursor.take();
   const reader = READERS[cursor.next];
   if (reader === undefined && after !== "(") {
-    throw new TextError({ line, column }, "a statement of KRL", REFUSED[word] ?? `"${cursor.take()}" is no statement of KRL that is understood here.`);
+    throw new TextError(
+      { line, column },
+      "a statement of KRL",
+      REFUSED[word] ?? `"${cursor.take()}" is no statement of KRL that is understood here.`,
+    );
   }
   const name = cursor.name();
   const body = reader === undefined ? call(name, cursor) : reader(cursor);

@@ -2,20 +2,28 @@ import type { TextPlace } from "@twincell/core";
 import type { JumpInstruction } from "../../text/index.ts";
 
 /** Names are upper case throughout: KRL knows no case. */
-export type Expression = TextPlace & (
-  | { readonly kind: "number"; readonly value: number; readonly whole: boolean }
-  | { readonly kind: "bool"; readonly value: boolean }
-  | { readonly kind: "text"; readonly value: string }
-  | { readonly kind: "enum"; readonly value: string }
-  /** `{E6POS: X 1,Y 2}`; the type is undefined when it is left out. */
-  | { readonly kind: "aggregate"; readonly type: string | undefined; readonly fields: readonly (readonly [name: string, value: Expression])[] }
-  | Variable
-  | { readonly kind: "call"; readonly name: string; readonly args: readonly (Expression | undefined)[] }
-  | { readonly kind: "unary"; readonly sign: string; readonly of: Expression }
-  | { readonly kind: "binary"; readonly sign: string; readonly left: Expression; readonly right: Expression }
-);
+export type Expression = TextPlace &
+  (
+    | { readonly kind: "number"; readonly value: number; readonly whole: boolean }
+    | { readonly kind: "bool"; readonly value: boolean }
+    | { readonly kind: "text"; readonly value: string }
+    | { readonly kind: "enum"; readonly value: string }
+    /** `{E6POS: X 1,Y 2}`; the type is undefined when it is left out. */
+    | {
+        readonly kind: "aggregate";
+        readonly type: string | undefined;
+        readonly fields: readonly (readonly [name: string, value: Expression])[];
+      }
+    | Variable
+    | { readonly kind: "call"; readonly name: string; readonly args: readonly (Expression | undefined)[] }
+    | { readonly kind: "unary"; readonly sign: string; readonly of: Expression }
+    | { readonly kind: "binary"; readonly sign: string; readonly left: Expression; readonly right: Expression }
+  );
 /** `NAME[i].FIELD`; further parts are members of a structure. An empty index (`P[]`) means the whole array and is left out. */
-export type Variable = TextPlace & { readonly kind: "variable"; readonly parts: readonly { readonly name: string; readonly indices: readonly Expression[] }[] };
+export type Variable = TextPlace & {
+  readonly kind: "variable";
+  readonly parts: readonly { readonly name: string; readonly indices: readonly Expression[] }[];
+};
 
 export type MotionKind = "PTP" | "LIN" | "CIRC" | "SPL";
 export interface Motion {
@@ -33,32 +41,51 @@ export interface Motion {
   readonly settings: readonly (readonly [to: Variable, value: Expression])[];
 }
 
-export type Statement = TextPlace & (
-  | { readonly kind: "assign"; readonly to: Variable; readonly value: Expression }
-  | { readonly kind: "motion" } & Motion
-  | { readonly kind: "spline"; readonly settings: Motion["settings"] }
-  | { readonly kind: "end-spline"; readonly approximation: readonly string[] }
-  | { readonly kind: "wait"; readonly time: Expression }
-  | { readonly kind: "wait-for"; readonly condition: Expression }
-  | { readonly kind: "pulse"; readonly output: Variable; readonly to: Expression; readonly time: Expression }
-  | { readonly kind: "call"; readonly name: string; readonly args: readonly (Expression | undefined)[] }
-  | { readonly kind: "interrupt"; readonly number: Expression; readonly condition: Expression; readonly routine: string }
-  | { readonly kind: "interrupt-switch"; readonly on: boolean; readonly number: Expression | undefined }
-  | { readonly kind: "return"; readonly value: Expression | undefined }
-  | { readonly kind: "brake" | "resume" | "halt" }
-  /** Read, and without effect on where the robot goes. */
-  | { readonly kind: "nothing" }
-);
+export type Statement = TextPlace &
+  (
+    | { readonly kind: "assign"; readonly to: Variable; readonly value: Expression }
+    | ({ readonly kind: "motion" } & Motion)
+    | { readonly kind: "spline"; readonly settings: Motion["settings"] }
+    | { readonly kind: "end-spline"; readonly approximation: readonly string[] }
+    | { readonly kind: "wait"; readonly time: Expression }
+    | { readonly kind: "wait-for"; readonly condition: Expression }
+    | { readonly kind: "pulse"; readonly output: Variable; readonly to: Expression; readonly time: Expression }
+    | { readonly kind: "call"; readonly name: string; readonly args: readonly (Expression | undefined)[] }
+    | {
+        readonly kind: "interrupt";
+        readonly number: Expression;
+        readonly condition: Expression;
+        readonly routine: string;
+      }
+    | { readonly kind: "interrupt-switch"; readonly on: boolean; readonly number: Expression | undefined }
+    | { readonly kind: "return"; readonly value: Expression | undefined }
+    | { readonly kind: "brake" | "resume" | "halt" }
+    /** Read, and without effect on where the robot goes. */
+    | { readonly kind: "nothing" }
+  );
 
 /** A program as a list of statements and jumps. */
 export type Instruction = JumpInstruction<Expression, Variable, Statement>;
 
 /** `DECL INT A, B[3]` or `DECL FRAME F={…}`. */
-export interface Declaration extends TextPlace { readonly type: string; readonly name: string; readonly isArray: boolean; readonly value: Expression | undefined; readonly index: readonly Expression[] }
+export interface Declaration extends TextPlace {
+  readonly type: string;
+  readonly name: string;
+  readonly isArray: boolean;
+  readonly value: Expression | undefined;
+  readonly index: readonly Expression[];
+}
 /** `SIGNAL GRIPPER $OUT[1]`. */
-export interface SignalDeclaration extends TextPlace { readonly name: string; readonly wire: "in" | "out" | "analogue-in" | "analogue-out"; readonly address: number }
+export interface SignalDeclaration extends TextPlace {
+  readonly name: string;
+  readonly wire: "in" | "out" | "analogue-in" | "analogue-out";
+  readonly address: number;
+}
 
-export interface Parameter { readonly name: string; readonly out: boolean }
+export interface Parameter {
+  readonly name: string;
+  readonly out: boolean;
+}
 export interface Routine {
   readonly name: string;
   readonly place: TextPlace;

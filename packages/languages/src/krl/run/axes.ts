@@ -4,7 +4,10 @@ import { allBranches, type Pose, type Robot } from "@twincell/core";
  * What the controller of a robot shows: A_i = shown at the library's zero + sense · angle. Written from the machine data,
  * without a look at the writer's table, so that a fault in either is seen.
  */
-interface Display { readonly atZero_deg: readonly number[]; readonly senses: readonly (1 | -1)[] }
+interface Display {
+  readonly atZero_deg: readonly number[];
+  readonly senses: readonly (1 | -1)[];
+}
 
 /** The library turns KUKA's axes by the left hand where KUKA does, and counts from KUKA's zero: arm and forearm level in front. */
 const LEVEL: Display = { atZero_deg: [0, 0, 0, 0, 0, 0], senses: [1, 1, 1, 1, 1, 1] };
@@ -40,7 +43,7 @@ export class Axes {
   }
 
   radians(axes_deg: readonly number[]): number[] {
-    return axes_deg.map((value, i) => (value - this.display.atZero_deg[i]!) * this.display.senses[i]! / DEG);
+    return axes_deg.map((value, i) => ((value - this.display.atZero_deg[i]!) * this.display.senses[i]!) / DEG);
   }
 
   degrees(q_rad: ArrayLike<number>): number[] {
@@ -49,9 +52,14 @@ export class Axes {
 
   /** Axis values that reach a pose within the limits, every turn of every axis. */
   reaching(baseFromFlange: Pose<"base", "flange">, near_deg: readonly number[]): number[][] {
-    const found: number[][] = [], { joints } = this.robot.arm;
+    const found: number[][] = [];
+    const { joints } = this.robot.arm;
     for (const q of allBranches(this.robot, baseFromFlange, this.radians(near_deg))) {
-      const choices = joints.map(({ limits }, i) => [q[i]! - 2 * Math.PI, q[i]!, q[i]! + 2 * Math.PI].filter(x => x >= limits.lower_rad - LIMIT_SLACK_RAD && x <= limits.upper_rad + LIMIT_SLACK_RAD));
+      const choices = joints.map(({ limits }, i) =>
+        [q[i]! - 2 * Math.PI, q[i]!, q[i]! + 2 * Math.PI].filter(
+          x => x >= limits.lower_rad - LIMIT_SLACK_RAD && x <= limits.upper_rad + LIMIT_SLACK_RAD,
+        ),
+      );
       let copies: number[][] = [[]];
       for (const choice of choices) copies = copies.flatMap(copy => choice.map(x => [...copy, x]));
       for (const copy of copies) found.push(this.degrees(copy));
@@ -67,11 +75,14 @@ export class Axes {
     const family = this.robot.family;
     if (family.kind !== "ortho-parallel") return true;
     const { a1_m, a2_m, c2_m, c3_m } = family;
-    const a2 = axes_deg[1]! / DEG, a3 = axes_deg[2]! / DEG, a5 = ((axes_deg[4]! + 180) % 360 + 360) % 360 - 180;
+    const a2 = axes_deg[1]! / DEG;
+    const a3 = axes_deg[2]! / DEG;
+    const a5 = ((((axes_deg[4]! + 180) % 360) + 360) % 360) - 180;
     // Level is A2 = 0; the forearm goes on from there, its wrist off to the side by a2.
     const ahead = a1_m + c2_m * Math.cos(a2) + c3_m * Math.cos(a2 + a3) - a2_m * Math.sin(a2 + a3);
     const bent = c3_m * Math.sin(a3) + a2_m * Math.cos(a3);
-    const bit = (value: number, set: boolean, n: number): boolean => Math.abs(value) < slack || set === ((status >> n) % 2 === 1);
+    const bit = (value: number, set: boolean, n: number): boolean =>
+      Math.abs(value) < slack || set === ((status >> n) % 2 === 1);
     return bit(ahead, ahead < 0, 0) && bit(bent, bent > 0, 1) && bit(a5, a5 < 0, 2);
   }
 
@@ -81,4 +92,5 @@ export class Axes {
   }
 }
 
-export const travel = (a: readonly number[], b: readonly number[]): number => a.reduce((sum, value, i) => sum + Math.abs(value - b[i]!), 0);
+export const travel = (a: readonly number[], b: readonly number[]): number =>
+  a.reduce((sum, value, i) => sum + Math.abs(value - b[i]!), 0);

@@ -17,13 +17,24 @@ export interface Frame {
 }
 
 /** Axis values as a structure. */
-export const axesOf = (axes_deg: readonly number[]): Structure => ({ kind: "structure", type: "E6AXIS", fields: new Map(axes_deg.map((value, i) => [`A${i + 1}`, real(value)])) });
+export const axesOf = (axes_deg: readonly number[]): Structure => ({
+  kind: "structure",
+  type: "E6AXIS",
+  fields: new Map(axes_deg.map((value, i) => [`A${i + 1}`, real(value)])),
+});
 
 /** A structure with one member changed, which may lie inside others. */
 export function within(structure: Structure, [name, ...rest]: readonly string[], value: Value): Structure {
   if (name === undefined) return structure;
   const inner = structure.fields.get(name);
-  const changed = rest.length === 0 ? value : within(inner?.kind === "structure" ? inner : { kind: "structure", type: undefined, fields: new Map() }, rest, value);
+  const changed =
+    rest.length === 0
+      ? value
+      : within(
+          inner?.kind === "structure" ? inner : { kind: "structure", type: undefined, fields: new Map() },
+          rest,
+          value,
+        );
   return { ...structure, fields: new Map(structure.fields).set(name, changed) };
 }
 

@@ -1,6 +1,15 @@
 import type { Executed, MoveStep, Search, Signals, Step, TextPlace } from "@twincell/core";
 import { TextError, WaitsOutside } from "../../text/index.ts";
-import type { Declaration, Expression, Instruction, Motion, Routine, Source, Statement, Variable } from "../read/syntax.ts";
+import type {
+  Declaration,
+  Expression,
+  Instruction,
+  Motion,
+  Routine,
+  Source,
+  Statement,
+  Variable,
+} from "../read/syntax.ts";
 import { BAS } from "./bas.ts";
 import { axesOf, typed, within, type Frame } from "./frame.ts";
 import { Lines } from "./signals.ts";
@@ -24,10 +33,19 @@ export class Machine implements Memory {
   private readonly types = new Map<string, string>();
   private readonly stack: Frame[] = [];
   private readonly times = new Map<number, number>();
-  private readonly interrupts = new Map<number, { readonly condition: Expression; readonly routine: string; on: boolean }>();
+  private readonly interrupts = new Map<
+    number,
+    { readonly condition: Expression; readonly routine: string; on: boolean }
+  >();
   private spline: { readonly settings: Motion["settings"]; any: boolean } | undefined;
   /** A motion of which it is not yet known whether the robot stops at its end, and what was executed since. */
-  private pending: { readonly line: number; readonly step: MoveStep; readonly passing: Partial<Pick<MoveStep, "blend_m" | "blend_ratio">> } | undefined;
+  private pending:
+    | {
+        readonly line: number;
+        readonly step: MoveStep;
+        readonly passing: Partial<Pick<MoveStep, "blend_m" | "blend_ratio">>;
+      }
+    | undefined;
   private readonly since: Executed[] = [];
   private ready: Executed[] = [];
   private idle = 0;
@@ -48,7 +66,11 @@ export class Machine implements Memory {
       this.enter(main.value, [], main.value.place);
       while (this.stack.length > 0 && !this.stopped) {
         this.instruction(this.stack.at(-1)!);
-        if (this.ready.length > 0) { const ready = this.ready; this.ready = []; yield* ready; }
+        if (this.ready.length > 0) {
+          const ready = this.ready;
+          this.ready = [];
+          yield* ready;
+        }
       }
     }
     this.settle(false);
@@ -65,22 +87,32 @@ export class Machine implements Memory {
       return this.lines.read(line);
     }
     if (key === "$AXIS_ACT") return axesOf(this.state.presentAxes_deg);
-    const frame = this.stack.at(-1), name = key.split("[", 1)[0]!;
+    const frame = this.stack.at(-1);
+    const name = key.split("[", 1)[0]!;
     if (frame?.own.has(name) === true) return frame.values.get(key);
     return this.globals.get(key) ?? this.state.system.read(key, at);
   }
 
   call(name: string, args: readonly (Expression | undefined)[], at: TextPlace): Value {
     const routine = this.source.routines.get(name);
-    if (routine?.isFunction !== true) throw new TextError(at, "a function of KRL or of this text", `"${name}" is no function that is understood here.`);
-    const depth = this.stack.length, frame = this.enter(routine, args, at), steps = (): number => this.times.size, before = steps();
+    if (routine?.isFunction !== true)
+      throw new TextError(at, "a function of KRL or of this text", `"${name}" is no function that is understood here.`);
+    const depth = this.stack.length;
+    const frame = this.enter(routine, args, at);
+    const steps = (): number => this.times.size;
+    const before = steps();
     while (this.stack.length > depth) this.instruction(this.stack.at(-1)!);
     if (steps() !== before) throw new TextError(at, "a function that computes", `Function ${name} moves the robot.`);
-    if (frame.result === undefined) throw new TextError(at, "a function with RETURN", `Function ${name} ends without a result.`);
+    if (frame.result === undefined)
+      throw new TextError(at, "a function with RETURN", `Function ${name} ends without a result.`);
     return frame.result;
   }
 
-  private define({ name, type, index, value, ...at }: Declaration, values: Map<string, Value>, types: Map<string, string>): void {
+  private define(
+    { name, type, index, value, ...at }: Declaration,
+    values: Map<string, Value>,
+    types: Map<string, string>,
+  ): void {
     if (type !== "") types.set(name, type);
     if (value === undefined) return;
     const key = index.length === 0 ? name : `${name}[${index.map(each => numberOf(each, this)).join(",")}]`;
@@ -89,18 +121,32 @@ export class Machine implements Memory {
   }
 
   private assign(to: Variable, value: Value, source: string): void {
-    const key = keyOf(to, this), [, ...members] = to.parts;
+    const key = keyOf(to, this);
+    const [, ...members] = to.parts;
     if (members.length > 0) {
       const before = this.read(key, to);
-      return this.store(key, within(before?.kind === "structure" ? before : { kind: "structure", type: undefined, fields: new Map() }, members.map(({ name }) => name), value), to, "");
+      return this.store(
+        key,
+        within(
+          before?.kind === "structure" ? before : { kind: "structure", type: undefined, fields: new Map() },
+          members.map(({ name }) => name),
+          value,
+        ),
+        to,
+        "",
+      );
     }
     this.store(key, value, to, source);
   }
 
   private store(key: string, value: Value, at: TextPlace, source: string): void {
     if (key.startsWith("$")) return this.state.system.write(key, value, at, source);
-    const frame = this.stack.at(-1), name = key.split("[", 1)[0]!;
-    if (frame?.own.has(name) === true) { frame.values.set(key, typed(value, frame.types.get(name))); return; }
+    const frame = this.stack.at(-1);
+    const name = key.split("[", 1)[0]!;
+    if (frame?.own.has(name) === true) {
+      frame.values.set(key, typed(value, frame.types.get(name)));
+      return;
+    }
     this.globals.set(key, typed(value, this.types.get(name)));
     // The system looks these up itself.
     if (/^(?:DEF_|TOOL_DATA|BASE_DATA)/.test(key)) this.state.system.write(key, value, at, source);
@@ -109,20 +155,50 @@ export class Machine implements Memory {
   // Order of execution ------------------------------------------------------------------------------------------------
 
   private enter(routine: Routine, args: readonly (Expression | undefined)[], at: TextPlace): Frame {
-    if (this.stack.length >= CALL_DEPTH) throw new TextError(at, `at most ${CALL_DEPTH} calls inside each other`, `Routine ${routine.name} is called more than ${CALL_DEPTH} deep.`);
-    if (args.length > routine.parameters.length) throw new TextError(at, `${routine.parameters.length} arguments`, `Routine ${routine.name} takes ${routine.parameters.length} arguments; ${args.length} are given.`);
-    const caller = this.stack.at(-1), values = new Map<string, Value>(), types = new Map<string, string>();
-    const own = new Set([...routine.parameters.map(({ name }) => name), ...routine.declarations.map(({ name }) => name)]);
+    if (this.stack.length >= CALL_DEPTH)
+      throw new TextError(
+        at,
+        `at most ${CALL_DEPTH} calls inside each other`,
+        `Routine ${routine.name} is called more than ${CALL_DEPTH} deep.`,
+      );
+    if (args.length > routine.parameters.length)
+      throw new TextError(
+        at,
+        `${routine.parameters.length} arguments`,
+        `Routine ${routine.name} takes ${routine.parameters.length} arguments; ${args.length} are given.`,
+      );
+    const caller = this.stack.at(-1);
+    const values = new Map<string, Value>();
+    const types = new Map<string, string>();
+    const own = new Set([
+      ...routine.parameters.map(({ name }) => name),
+      ...routine.declarations.map(({ name }) => name),
+    ]);
     const back: { from: string; to: Variable; frame: Frame | undefined }[] = [];
     for (const [i, arg] of args.entries()) {
       const { name, out } = routine.parameters[i]!;
       if (arg === undefined) continue;
-      if (!out) { values.set(name, evaluate(arg, this)); continue; }
+      if (!out) {
+        values.set(name, evaluate(arg, this));
+        continue;
+      }
       const value = arg.kind === "variable" ? this.read(keyOf(arg, this), arg) : evaluate(arg, this);
-      if (value !== undefined) values.set(name, arg.kind === "variable" && arg.parts.length > 1 ? evaluate(arg, this) : value);
+      if (value !== undefined)
+        values.set(name, arg.kind === "variable" && arg.parts.length > 1 ? evaluate(arg, this) : value);
       if (arg.kind === "variable") back.push({ from: name, to: arg, frame: caller });
     }
-    const frame: Frame = { routine, at: 0, last: [], step: [], chosen: [], own, values, types, back, result: undefined };
+    const frame: Frame = {
+      routine,
+      at: 0,
+      last: [],
+      step: [],
+      chosen: [],
+      own,
+      values,
+      types,
+      back,
+      result: undefined,
+    };
     this.stack.push(frame);
     for (const declaration of routine.declarations) this.define(declaration, values, types);
     return frame;
@@ -157,16 +233,22 @@ export class Machine implements Memory {
         this.assign(instruction.variable, whole(Math.round(numberOf(instruction.from, this))), "");
         frame.last[instruction.slot] = numberOf(instruction.last, this);
         frame.step[instruction.slot] = instruction.step === undefined ? 1 : numberOf(instruction.step, this);
-        if (frame.step[instruction.slot] === 0) throw new TextError(instruction.step!, "a step other than 0", "The loop has the step 0.");
+        if (frame.step[instruction.slot] === 0)
+          throw new TextError(instruction.step!, "a step other than 0", "The loop has the step 0.");
         return;
       case "for-check": {
-        const value = numberOf(instruction.variable, this), last = frame.last[instruction.slot]!;
+        const value = numberOf(instruction.variable, this);
+        const last = frame.last[instruction.slot]!;
         if (frame.step[instruction.slot]! > 0 ? value > last : value < last) frame.at = instruction.to;
         return;
       }
       case "for-next":
         this.spend(instruction.variable);
-        this.assign(instruction.variable, whole(numberOf(instruction.variable, this) + frame.step[instruction.slot]!), "");
+        this.assign(
+          instruction.variable,
+          whole(numberOf(instruction.variable, this) + frame.step[instruction.slot]!),
+          "",
+        );
         frame.at = instruction.to;
         return;
       case "switch":
@@ -174,7 +256,10 @@ export class Machine implements Memory {
         return;
       case "case-unless": {
         const chosen = frame.chosen[instruction.slot];
-        const hit = instruction.values.some(each => { const value = evaluate(each, this); return value.kind !== "structure" && chosen?.kind === value.kind && chosen.value === value.value; });
+        const hit = instruction.values.some(each => {
+          const value = evaluate(each, this);
+          return value.kind !== "structure" && chosen?.kind === value.kind && chosen.value === value.value;
+        });
         if (!hit) frame.at = instruction.to;
         return;
       }
@@ -184,29 +269,47 @@ export class Machine implements Memory {
   private statement(statement: Statement, frame: Frame): void {
     this.spend(statement);
     switch (statement.kind) {
-      case "assign": return this.assignment(statement);
-      case "motion": return this.motion(statement, statement);
-      case "spline": this.spline = { settings: statement.settings, any: false }; break;
-      case "end-spline": this.endSpline(statement); break;
+      case "assign":
+        return this.assignment(statement);
+      case "motion":
+        return this.motion(statement, statement);
+      case "spline":
+        this.spline = { settings: statement.settings, any: false };
+        break;
+      case "end-spline":
+        this.endSpline(statement);
+        break;
       case "wait": {
         const s = numberOf(statement.time, this);
         if (!(s >= 0)) throw new TextError(statement.time, "a time of 0 s or more", `The time is ${s} s.`);
         this.settle(false);
         return this.step(statement, { id: this.stepId(statement.line), type: "wait", s });
       }
-      case "wait-for": return this.waitFor(statement);
+      case "wait-for":
+        return this.waitFor(statement);
       case "pulse": {
-        const line = this.lines.line(keyOf(statement.output, this)), pulse_s = numberOf(statement.time, this);
-        if (line?.wire !== "out") throw new TextError(statement.output, "$OUT[n] or its name", "PULSE takes an output.");
+        const line = this.lines.line(keyOf(statement.output, this));
+        const pulse_s = numberOf(statement.time, this);
+        if (line?.wire !== "out")
+          throw new TextError(statement.output, "$OUT[n] or its name", "PULSE takes an output.");
         if (!(pulse_s > 0)) throw new TextError(statement.time, "a time above 0 s", `The time is ${pulse_s} s.`);
         this.settle(false);
         const to = boolOf(statement.to, this);
         this.lines.write(line, !to);
         return this.step(statement, { id: this.stepId(statement.line), type: "set", signal: line.name, to, pulse_s });
       }
-      case "call": return this.callRoutine(statement);
-      case "interrupt": this.interrupts.set(numberOf(statement.number, this), { condition: statement.condition, routine: statement.routine, on: false }); break;
-      case "interrupt-switch": this.switchInterrupt(statement); break;
+      case "call":
+        return this.callRoutine(statement);
+      case "interrupt":
+        this.interrupts.set(numberOf(statement.number, this), {
+          condition: statement.condition,
+          routine: statement.routine,
+          on: false,
+        });
+        break;
+      case "interrupt-switch":
+        this.switchInterrupt(statement);
+        break;
       case "return":
         if (statement.value !== undefined) frame.result = evaluate(statement.value, this);
         this.leave();
@@ -215,57 +318,81 @@ export class Machine implements Memory {
         this.settle(false);
         this.stopped = true;
         return this.step(statement, { id: this.stepId(statement.line), type: "stop" });
-      case "brake": case "resume": case "nothing": break;
+      case "brake":
+      case "resume":
+      case "nothing":
+        break;
     }
     this.note(statement);
   }
 
   private assignment(statement: Extract<Statement, { kind: "assign" }>): void {
-    const { to, value } = statement, line = to.parts.length === 1 ? this.lines.line(keyOf(to, this)) : undefined;
+    const { to, value } = statement;
+    const line = to.parts.length === 1 ? this.lines.line(keyOf(to, this)) : undefined;
     if (line === undefined) {
       if (keyOf(to, this) === "$LOAD") return this.payload(statement);
       this.assign(to, evaluate(value, this), value.kind === "variable" ? spelling(value) : "");
       return this.note(statement);
     }
-    if (line.wire === "in" || line.wire === "analogue-in") throw new TextError(to, "an output", `${line.name} is an input.`);
+    if (line.wire === "in" || line.wire === "analogue-in")
+      throw new TextError(to, "an output", `${line.name} is an input.`);
     this.settle(false);
     const set = line.wire === "out" ? boolOf(value, this) : numberOf(value, this);
     this.lines.write(line, set);
-    this.step(statement, typeof set === "boolean" && this.lines.isGripper(line)
-      ? { id: this.stepId(statement.line), type: "gripper", closed: set }
-      : { id: this.stepId(statement.line), type: "set", signal: line.name, to: set });
+    this.step(
+      statement,
+      typeof set === "boolean" && this.lines.isGripper(line)
+        ? { id: this.stepId(statement.line), type: "gripper", closed: set }
+        : { id: this.stepId(statement.line), type: "set", signal: line.name, to: set },
+    );
   }
 
   private payload(statement: Extract<Statement, { kind: "assign" }>): void {
     const load = structureOf(statement.value, this);
     this.settle(false);
-    this.step(statement, { id: this.stepId(statement.line), type: "payload", ...this.state.payload(load, statement.value) });
+    this.step(statement, {
+      id: this.stepId(statement.line),
+      type: "payload",
+      ...this.state.payload(load, statement.value),
+    });
   }
 
   private waitFor(statement: Extract<Statement, { kind: "wait-for" }>): void {
     this.settle(false);
     const { condition } = statement;
     if (condition.kind === "bool") {
-      if (!condition.value) throw new TextError(condition, "a condition that comes true", "The program waits for ever.");
+      if (!condition.value)
+        throw new TextError(condition, "a condition that comes true", "The program waits for ever.");
       return this.note(statement);
     }
-    const when = this.lines.condition(condition, variable => keyOf(variable, this), each => numberOf(each, this));
+    const when = this.lines.condition(
+      condition,
+      variable => keyOf(variable, this),
+      each => numberOf(each, this),
+    );
     this.step(statement, { id: this.stepId(statement.line), type: "wait-for", when });
   }
 
   // Motion ------------------------------------------------------------------------------------------------------------
 
   private motion(motion: Motion, at: TextPlace): void {
-    const { system } = this.state, settings = [...(this.spline?.settings ?? []), ...motion.settings];
-    if (motion.motion === "SPL" && this.spline === undefined) throw new TextError(at, "SPLINE before it", "SPL stands outside a SPLINE block.");
-    const before = settings.length === 0 ? undefined : { values: new Map(system.values), tool: system.tool, base: system.base };
+    const { system } = this.state;
+    const settings = [...(this.spline?.settings ?? []), ...motion.settings];
+    if (motion.motion === "SPL" && this.spline === undefined)
+      throw new TextError(at, "SPLINE before it", "SPL stands outside a SPLINE block.");
+    const before =
+      settings.length === 0 ? undefined : { values: new Map(system.values), tool: system.tool, base: system.base };
     for (const [to, value] of settings) this.setting(to, value);
     const via = motion.via === undefined ? undefined : structureOf(motion.via, this);
     const target = structureOf(motion.target, this);
     this.settle(true);
     const until = this.search();
     const step = this.state.move(this.stepId(at.line), motion, target, via, at);
-    this.pending = { line: at.line, step: until === undefined ? step : { ...step, until }, passing: this.passing(motion, step) };
+    this.pending = {
+      line: at.line,
+      step: until === undefined ? step : { ...step, until },
+      passing: this.passing(motion, step),
+    };
     if (this.spline !== undefined) this.spline.any = true;
     if (before !== undefined) {
       system.values.clear();
@@ -282,14 +409,19 @@ export class Machine implements Memory {
     if (this.spline !== undefined) return path === "spline" ? {} : { blend_m: system.approximation_m };
     if (approximation.length === 0) return {};
     // C_PTP counts in percent of the way, everything else by the distance.
-    return path === "ptp" && approximation[0] === "C_PTP" && !approximation.includes("C_DIS") ? { blend_ratio: Math.min(1, system.approximationRatio) } : { blend_m: system.approximation_m };
+    return path === "ptp" && approximation[0] === "C_PTP" && !approximation.includes("C_DIS")
+      ? { blend_ratio: Math.min(1, system.approximationRatio) }
+      : { blend_m: system.approximation_m };
   }
 
   private endSpline({ approximation }: Extract<Statement, { kind: "end-spline" }>): void {
     const { spline, pending } = this;
     this.spline = undefined;
     if (spline?.any !== true || pending === undefined) return;
-    this.pending = { ...pending, passing: approximation.length === 0 ? {} : { blend_m: this.state.system.approximation_m } };
+    this.pending = {
+      ...pending,
+      passing: approximation.length === 0 ? {} : { blend_m: this.state.system.approximation_m },
+    };
     // What follows a block that ends with a stop does not belong to its curve.
     if (approximation.length === 0) this.settle(false);
   }
@@ -301,14 +433,16 @@ export class Machine implements Memory {
     if (value.kind === "call" && first !== undefined) {
       if (value.name === "SVEL_CP") return system.setPart("$VEL", "CP", numberOf(first, this));
       if (value.name === "SVEL_JOINT") return system.setAxes("$VEL_AXIS", numberOf(first, this), value);
-      if (value.name === "STOOL2" || value.name === "SBASE") return this.chooseFrame(value.name === "STOOL2" ? "TOOL" : "BASE", first);
+      if (value.name === "STOOL2" || value.name === "SBASE")
+        return this.chooseFrame(value.name === "STOOL2" ? "TOOL" : "BASE", first);
       if (/^S[A-Z_0-9]+$/.test(value.name)) return;
     }
     this.assign(to, evaluate(value, this), value.kind === "variable" ? spelling(value) : "");
   }
 
   private chooseFrame(which: "TOOL" | "BASE", of: Expression): void {
-    const value = evaluate(of, this), index = value.kind === "structure" ? value.fields.get(`${which}_NO`) : value;
+    const value = evaluate(of, this);
+    const index = value.kind === "structure" ? value.fields.get(`${which}_NO`) : value;
     if (index?.kind === "number") this.state.system.choose(which, index.value, of);
   }
 
@@ -321,10 +455,18 @@ export class Machine implements Memory {
       if (!on) continue;
       const reaction = this.source.routines.get(routine)?.instructions ?? [];
       if (!reaction.some(each => each.kind === "statement" && each.statement.kind === "brake")) continue;
-      const frame = this.stack.at(-1)!, rest = frame.routine.instructions.slice(frame.at);
+      const frame = this.stack.at(-1)!;
+      const rest = frame.routine.instructions.slice(frame.at);
       const halts = rest.some(each => each.kind === "statement" && each.statement.kind === "halt");
       if (this.stack.length > 1) frame.at = frame.routine.instructions.length;
-      return { when: this.lines.condition(condition, variable => keyOf(variable, this), each => numberOf(each, this)), missing: halts && this.stack.length > 1 ? "fault" : "continue" };
+      return {
+        when: this.lines.condition(
+          condition,
+          variable => keyOf(variable, this),
+          each => numberOf(each, this),
+        ),
+        missing: halts && this.stack.length > 1 ? "fault" : "continue",
+      };
     }
     return undefined;
   }
@@ -335,17 +477,26 @@ export class Machine implements Memory {
   }
 
   private callRoutine(statement: Extract<Statement, { kind: "call" }>): void {
-    const { name, args } = statement, routine = this.source.routines.get(name);
+    const { name, args } = statement;
+    const routine = this.source.routines.get(name);
     if (routine !== undefined) {
       this.enter(routine, args, statement);
       return this.note(statement);
     }
-    if (name === "BAS") { BAS(args, this.state.system, this, statement); return this.note(statement); }
+    if (name === "BAS") {
+      BAS(args, this.state.system, this, statement);
+      return this.note(statement);
+    }
     if (name === "MSGNOTIFY") {
       const text = args[0] === undefined ? undefined : evaluate(args[0], this);
-      return this.step(statement, { id: this.stepId(statement.line), type: "message", text: text?.kind === "text" ? text.value : "" });
+      return this.step(statement, {
+        id: this.stepId(statement.line),
+        type: "message",
+        text: text?.kind === "text" ? text.value : "",
+      });
     }
-    if (!QUIET_ROUTINES.has(name)) throw new TextError(statement, "a routine of this text", `Routine ${name} is not in this text.`);
+    if (!QUIET_ROUTINES.has(name))
+      throw new TextError(statement, "a routine of this text", `Routine ${name} is not in this text.`);
     this.note(statement);
   }
 
@@ -356,16 +507,21 @@ export class Machine implements Memory {
     const { pending } = this;
     if (pending === undefined) return;
     this.pending = undefined;
-    this.ready.push({ line: pending.line, step: goesOn ? { ...pending.step, ...pending.passing } : pending.step }, ...this.since.splice(0));
+    this.ready.push(
+      { line: pending.line, step: goesOn ? { ...pending.step, ...pending.passing } : pending.step },
+      ...this.since.splice(0),
+    );
   }
 
   private note({ line }: TextPlace): void {
-    if (this.pending === undefined) this.ready.push({ line }); else this.since.push({ line });
+    if (this.pending === undefined) this.ready.push({ line });
+    else this.since.push({ line });
   }
 
   private step({ line }: TextPlace, step: Step): void {
     this.idle = 0;
-    if (this.pending === undefined) this.ready.push({ line, step }); else this.since.push({ line, step });
+    if (this.pending === undefined) this.ready.push({ line, step });
+    else this.since.push({ line, step });
   }
 
   /** L12, and L12.2 when line 12 is executed again. */
@@ -378,6 +534,10 @@ export class Machine implements Memory {
   private spend(at: TextPlace): void {
     if (++this.idle <= STATEMENTS_WITHOUT_MOTION) return;
     if (this.lines.asked) throw new WaitsOutside(at);
-    throw new TextError(at, "a motion, a wait or an end", `The program has executed ${STATEMENTS_WITHOUT_MOTION} statements without a motion: it runs on the spot for ever.`);
+    throw new TextError(
+      at,
+      "a motion, a wait or an end",
+      `The program has executed ${STATEMENTS_WITHOUT_MOTION} statements without a motion: it runs on the spot for ever.`,
+    );
   }
 }

@@ -10,9 +10,18 @@ const KEY = /^(\$(?:IN|OUT|ANIN|ANOUT))\[([0-9]+)\]$/;
 const GRIPPER = "GRIPPER";
 const CALLED: Readonly<Record<Wire, string>> = { in: "in", out: "out", "analogue-in": "anin", "analogue-out": "anout" };
 
-const KINDS: Readonly<Record<Wire, SignalLine["kind"]>> = { in: "digital-in", out: "digital-out", "analogue-in": "analogue-in", "analogue-out": "analogue-out" };
+const KINDS: Readonly<Record<Wire, SignalLine["kind"]>> = {
+  in: "digital-in",
+  out: "digital-out",
+  "analogue-in": "analogue-in",
+  "analogue-out": "analogue-out",
+};
 
-interface Line { readonly name: string; readonly wire: Wire; readonly address: number }
+interface Line {
+  readonly name: string;
+  readonly wire: Wire;
+  readonly address: number;
+}
 
 /** The lines in and out: declared with a name (`SIGNAL PART $IN[3]`), or met by their number. */
 export class Lines {
@@ -40,20 +49,28 @@ export class Lines {
     if (named !== undefined) return this.note(named);
     const match = KEY.exec(key);
     if (match === null) return undefined;
-    const wire = WIRES[match[1]!]!, address = Number(match[2]);
+    const wire = WIRES[match[1]!]!;
+    const address = Number(match[2]);
     return this.note(this.byName.get(`${wire} ${address}`) ?? { name: `${CALLED[wire]}_${address}`, wire, address });
   }
 
-  isGripper({ name }: Line): boolean { return name.toUpperCase() === GRIPPER; }
+  isGripper({ name }: Line): boolean {
+    return name.toUpperCase() === GRIPPER;
+  }
 
   read(line: Line): Value {
     const known = this.written.get(line.name);
     if (known === undefined || line.wire === "in" || line.wire === "analogue-in") this.asked = true;
-    const value = line.wire === "out" || line.wire === "analogue-out" ? known ?? this.outside?.read(line.name) : this.outside?.read(line.name);
+    const value =
+      line.wire === "out" || line.wire === "analogue-out"
+        ? (known ?? this.outside?.read(line.name))
+        : this.outside?.read(line.name);
     return line.wire.startsWith("analogue") ? real(Number(value ?? 0)) : bool(value === true);
   }
 
-  write(line: Line, value: boolean | number): void { this.written.set(line.name, value); }
+  write(line: Line, value: boolean | number): void {
+    this.written.set(line.name, value);
+  }
 
   private note(line: Line): Line {
     if (!this.isGripper(line)) this.met[line.name] ??= { kind: KINDS[line.wire], address: line.address };
@@ -62,7 +79,13 @@ export class Lines {
 
   /** What the program waits for, when it is one line: `X`, `NOT X`, `X == TRUE`, `X > 0.5`. */
   condition(of: Expression, keyOf: (variable: Variable) => string, numberOf: (of: Expression) => number): Condition {
-    const refuse = (at: TextPlace): never => { throw new TextError(at, "one line in or out, or its opposite", "The program waits for something that is not one line of the controller."); };
+    const refuse = (at: TextPlace): never => {
+      throw new TextError(
+        at,
+        "one line in or out, or its opposite",
+        "The program waits for something that is not one line of the controller.",
+      );
+    };
     const named = (variable: Expression): Line => {
       const line = variable.kind === "variable" ? this.line(keyOf(variable)) : undefined;
       return line ?? refuse(variable);
@@ -74,7 +97,8 @@ export class Lines {
     }
     if (of.kind !== "binary") return refuse(of);
     const { sign, left, right } = of;
-    if ((sign === "==" || sign === "<>") && right.kind === "bool") return { signal: named(left).name, is: right.value === (sign === "==") };
+    if ((sign === "==" || sign === "<>") && right.kind === "bool")
+      return { signal: named(left).name, is: right.value === (sign === "==") };
     if (sign === ">" || sign === ">=") return { signal: named(left).name, above: numberOf(right) };
     if (sign === "<" || sign === "<=") return { signal: named(left).name, below: numberOf(right) };
     return refuse(of);

@@ -5,18 +5,27 @@ import { NULL_FRAME, type Frame } from "./frames.ts";
 import { component, fromFrame, real, toFrame, whole, type Structure, type Value } from "./values.ts";
 
 /** $VEL_AXIS has twelve places: six of the robot, six of external axes. */
-const PLACES = 12, AXES = 6;
+const PLACES = 12;
+const AXES = 6;
 /** What $config.dat holds on delivery; a real cell may have other numbers. */
-const DELIVERED_VEL_CP = 2, DELIVERED_ACC_CP = 2.3, DELIVERED_APO_MM = 100;
+const DELIVERED_VEL_CP = 2;
+const DELIVERED_ACC_CP = 2.3;
+const DELIVERED_APO_MM = 100;
 
-const structure = (type: string, fields: Readonly<Record<string, number>>): Structure =>
-  ({ kind: "structure", type, fields: new Map(Object.entries(fields).map(([name, value]) => [name, real(value)])) });
+const structure = (type: string, fields: Readonly<Record<string, number>>): Structure => ({
+  kind: "structure",
+  type,
+  fields: new Map(Object.entries(fields).map(([name, value]) => [name, real(value)])),
+});
 
 /** Variables that a program expects to find on the controller. */
 const DELIVERED: Readonly<Record<string, Value>> = {
   XHOME: structure("E6AXIS", { A1: 0, A2: -90, A3: 90, A4: 0, A5: 0, A6: 0 }),
   $NULLFRAME: fromFrame(NULL_FRAME),
-  DEF_VEL_PTP: whole(100), DEF_ACC_PTP: whole(100), DEF_VEL_CP: real(DELIVERED_VEL_CP), DEF_ACC_CP: real(DELIVERED_ACC_CP),
+  DEF_VEL_PTP: whole(100),
+  DEF_ACC_PTP: whole(100),
+  DEF_VEL_CP: real(DELIVERED_VEL_CP),
+  DEF_ACC_CP: real(DELIVERED_ACC_CP),
   PDEFAULT: structure("PDAT", { VEL: 100, ACC: 100, APO_DIST: 100 }),
   LDEFAULT: structure("LDAT", { VEL: DELIVERED_VEL_CP, ACC: 100, APO_DIST: 100 }),
   FHOME: structure("FDAT", { TOOL_NO: 0, BASE_NO: 0 }),
@@ -24,7 +33,10 @@ const DELIVERED: Readonly<Record<string, Value>> = {
 const TABLE = /^(?:TOOL|BASE)_DATA\[([0-9]+)\]$/;
 
 /** A frame that was made current, under the name it was given by. */
-export interface Named { readonly name: string; readonly frame: Frame }
+export interface Named {
+  readonly name: string;
+  readonly frame: Frame;
+}
 
 /** The system variables that decide how and where the robot moves. */
 export class System {
@@ -35,7 +47,9 @@ export class System {
   tool: Named = { name: "", frame: NULL_FRAME };
   base: Named = { name: "", frame: NULL_FRAME };
 
-  constructor() { this.initialize(); }
+  constructor() {
+    this.initialize();
+  }
 
   /** BAS(#INITMOV,0) */
   initialize(): void {
@@ -54,8 +68,13 @@ export class System {
     const value = this.values.get(key);
     if (value !== undefined) return value;
     const table = TABLE.exec(key);
-    const delivered = Object.hasOwn(DELIVERED, key) ? DELIVERED[key] : table === null ? undefined : fromFrame(NULL_FRAME);
-    if (delivered !== undefined && key !== "$NULLFRAME" && table?.[1] !== "0" && !this.assumed.has(key)) this.assumed.set(key, at);
+    const delivered = Object.hasOwn(DELIVERED, key)
+      ? DELIVERED[key]
+      : table === null
+        ? undefined
+        : fromFrame(NULL_FRAME);
+    if (delivered !== undefined && key !== "$NULLFRAME" && table?.[1] !== "0" && !this.assumed.has(key))
+      this.assumed.set(key, at);
     return delivered;
   }
 
@@ -67,8 +86,10 @@ export class System {
   }
 
   private setAxis(key: string, index: number, value: Value, at: TextPlace): void {
-    if (!(index >= 1 && index <= PLACES)) throw new TextError(at, `an axis from 1 to ${PLACES}`, `${key} is no axis of the controller.`);
-    if (value.kind !== "number" || !(value.value >= 0.5 && value.value <= 100)) throw new TextError(at, "a number from 1 to 100", `${key} takes 1 to 100 percent.`);
+    if (!(index >= 1 && index <= PLACES))
+      throw new TextError(at, `an axis from 1 to ${PLACES}`, `${key} is no axis of the controller.`);
+    if (value.kind !== "number" || !(value.value >= 0.5 && value.value <= 100))
+      throw new TextError(at, "a number from 1 to 100", `${key} takes 1 to 100 percent.`);
     if (index > AXES) this.warned.push({ at, sentence: `${key} is an external axis: the robot has ${AXES} axes.` });
     this.values.set(key, whole(Math.round(value.value)));
   }
@@ -77,28 +98,41 @@ export class System {
     if (value.kind !== "structure") throw new TextError(at, "a frame", `${key} takes a frame.`);
     const named = { name: source, frame: toFrame(value, undefined, at) };
     this.values.set(key, value);
-    if (key === "$TOOL") this.tool = named; else this.base = named;
+    if (key === "$TOOL") this.tool = named;
+    else this.base = named;
   }
 
   /** BAS(#TOOL,n) and BAS(#BASE,n): the frame of that number; 0 and -1 are none. */
   choose(which: "TOOL" | "BASE", index: number, at: TextPlace): void {
     const key = `${which}_DATA[${index}]`;
-    if (!Number.isInteger(index) || index < -1) throw new TextError(at, "a number from 0", `${key} is no place of the table.`);
+    if (!Number.isInteger(index) || index < -1)
+      throw new TextError(at, "a number from 0", `${key} is no place of the table.`);
     const value = index <= 0 ? fromFrame(NULL_FRAME) : this.read(key, at);
     this.setFrame(`$${which}`, value!, index <= 0 ? "" : key, at);
   }
 
   /** Share of the axis speeds: that of the slowest axis. */
-  get velocityRatio(): number { return this.least("$VEL_AXIS"); }
-  get accelerationRatio(): number { return this.least("$ACC_AXIS"); }
-  get pathSpeed_mps(): number { return component(this.part("$VEL"), "CP") ?? DELIVERED_VEL_CP; }
+  get velocityRatio(): number {
+    return this.least("$VEL_AXIS");
+  }
+  get accelerationRatio(): number {
+    return this.least("$ACC_AXIS");
+  }
+  get pathSpeed_mps(): number {
+    return component(this.part("$VEL"), "CP") ?? DELIVERED_VEL_CP;
+  }
   /** Share of the acceleration that the controller's DEF_ACC_CP stands for. */
   get pathAccelerationRatio(): number {
-    const full = this.values.get("DEF_ACC_CP"), full_mps2 = full?.kind === "number" ? full.value : DELIVERED_ACC_CP;
+    const full = this.values.get("DEF_ACC_CP");
+    const full_mps2 = full?.kind === "number" ? full.value : DELIVERED_ACC_CP;
     return (component(this.part("$ACC"), "CP") ?? full_mps2) / full_mps2;
   }
-  get approximation_m(): number { return (component(this.part("$APO"), "CDIS") ?? DELIVERED_APO_MM) / 1000; }
-  get approximationRatio(): number { return (component(this.part("$APO"), "CPTP") ?? 100) / 100; }
+  get approximation_m(): number {
+    return (component(this.part("$APO"), "CDIS") ?? DELIVERED_APO_MM) / 1000;
+  }
+  get approximationRatio(): number {
+    return (component(this.part("$APO"), "CPTP") ?? 100) / 100;
+  }
 
   private least(name: string): number {
     let least = 100;
@@ -125,4 +159,10 @@ export class System {
 }
 
 /** How a variable is spelled, for the name of a tool or a base: `TOOL_DATA[1]`. */
-export const spelling = ({ parts }: Variable): string => parts.map(({ name, indices }) => `${name}${indices.map(index => index.kind === "number" ? `_${index.value}` : "").join("")}`).join("_");
+export const spelling = ({ parts }: Variable): string =>
+  parts
+    .map(
+      ({ name, indices }) =>
+        `${name}${indices.map(index => (index.kind === "number" ? `_${index.value}` : "")).join("")}`,
+    )
+    .join("_");

@@ -4,7 +4,12 @@ import { krlName } from "./names.ts";
 import { TextWriter } from "./text-writer.ts";
 
 const GRIPPER = "GRIPPER";
-const WIRES: Readonly<Record<SignalLine["kind"], string>> = { "digital-in": "$IN", "digital-out": "$OUT", "analogue-in": "$ANIN", "analogue-out": "$ANOUT" };
+const WIRES: Readonly<Record<SignalLine["kind"], string>> = {
+  "digital-in": "$IN",
+  "digital-out": "$OUT",
+  "analogue-in": "$ANIN",
+  "analogue-out": "$ANOUT",
+};
 
 /** The data list of a module: what a person may touch up on the pendant without looking at the program. */
 export class DataList {
@@ -17,7 +22,8 @@ export class DataList {
 
   /** The name under which a frame is kept; declared when it is asked for first. `key` tells frames apart that are called the same. */
   frame(prefix: "TOOL_" | "BASE_" | "ROOT_", name: string, pose: () => Pose): string {
-    const key = `${prefix}${name}`, known = this.frames.get(key);
+    const key = `${prefix}${name}`;
+    const known = this.frames.get(key);
     if (known !== undefined) return known;
     const variable = krlName(name, this.taken, prefix);
     this.frames.set(key, variable);
@@ -47,7 +53,9 @@ export class DataList {
     return variable;
   }
 
-  add(line: string, step = ""): void { this.declared.push({ line, step }); }
+  add(line: string, step = ""): void {
+    this.declared.push({ line, step });
+  }
 
   file(name: string): EmittedFile {
     const out = new TextWriter();

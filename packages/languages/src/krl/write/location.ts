@@ -16,6 +16,8 @@ export const axisValues = (q_rad: ArrayLike<number>, { signs, offsets_deg }: Axi
 
 /** `A1 1,A2 2,A3 3,A4 4,A5 5,A6 6` in degrees. */
 export const axisText = (q_rad: ArrayLike<number>, convention: AxisConvention): string =>
-  axisValues(q_rad, convention).map((value, i) => `A${i + 1} ${tidy(value)}`).join(",");
+  axisValues(q_rad, convention)
+    .map((value, i) => `A${i + 1} ${tidy(value)}`)
+    .join(",");
 
 export const lengthText = (length_m: number): string => tidy(millimetres(length_m));

@@ -46,8 +46,12 @@ export class PalletLoop {
   }
 
   begin(): void {
-    const { pallet, row, column } = this, order = pallet.order ?? "rows", byRows = order.startsWith("rows");
-    const line = byRows ? row : column, within = byRows ? column : row, isShifted = pallet.interleave === "odd-rows-shifted";
+    const { pallet, row, column } = this;
+    const order = pallet.order ?? "rows";
+    const byRows = order.startsWith("rows");
+    const line = byRows ? row : column;
+    const within = byRows ? column : row;
+    const isShifted = pallet.interleave === "odd-rows-shifted";
     this.open(`FOR ${this.layer}=0 TO ${pallet.layers - 1}`, "ENDFOR");
     this.open(`FOR ${line}=0 TO ${(byRows ? pallet.rows : pallet.columns) - 1}`, "ENDFOR");
     const last = byRows ? `${pallet.columns - 1}${isShifted ? `-(${row} B_AND 1)` : ""}` : `${pallet.rows - 1}`;
@@ -79,7 +83,10 @@ export class PalletLoop {
       return text === "0" ? "" : `+${counter}*${text.startsWith("-") ? `(${text})` : text}`;
     };
     for (const [i, axis] of AXES.entries()) {
-      const sum = share(isShifted ? `(${this.column}+0.5*(${this.row} B_AND 1))` : this.column, pitch.column, i) + share(this.row, pitch.row, i) + share(this.layer, pitch.layer, i);
+      const sum =
+        share(isShifted ? `(${this.column}+0.5*(${this.row} B_AND 1))` : this.column, pitch.column, i) +
+        share(this.row, pitch.row, i) +
+        share(this.layer, pitch.layer, i);
       if (sum !== "") this.add(`${this.place}.${axis}=${this.origin}.${axis}${sum}`);
     }
   }
@@ -90,5 +97,7 @@ export class PalletLoop {
     if (end !== "") this.ends.push(end);
   }
 
-  private add(line: string): void { this.out.add(line, this.step); }
+  private add(line: string): void {
+    this.out.add(line, this.step);
+  }
 }

@@ -5,7 +5,10 @@ import { axisValues } from "./location.ts";
 import { statusOf, turnOf } from "./status.ts";
 
 /** What Status and Turn of a point are; undefined where they differ from one visit to the next. */
-export interface Posture { readonly status: number | undefined; readonly turn: number | undefined }
+export interface Posture {
+  readonly status: number | undefined;
+  readonly turn: number | undefined;
+}
 /** By step id. */
 export type PostureMap = ReadonlyMap<string, Posture>;
 export type Postures = { readonly kind: "postures"; readonly of: PostureMap } | Cannot;
@@ -16,15 +19,22 @@ export type Postures = { readonly kind: "postures"; readonly of: PostureMap } | 
  * lies outside the limits.
  */
 export function posturesOf(place: WalkedPlace, convention: AxisConvention): Postures {
-  const found = new Map<string, Posture>(), { robot } = place;
+  const found = new Map<string, Posture>();
+  const { robot } = place;
   const flaw = walkMoves(place, (step: MoveStep, near) => {
-    const { id, target } = step, answer = reached(place, step, target, near);
+    const { id, target } = step;
+    const answer = reached(place, step, target, near);
     if (answer.kind === "cannot") return answer;
-    const { q_rad } = answer, outside = outsideLimits(place, step, q_rad, axis => `${axis + 1}`);
+    const { q_rad } = answer;
+    const outside = outsideLimits(place, step, q_rad, axis => `${axis + 1}`);
     if (outside !== undefined) return outside;
-    const branch = branchOf(robot, q_rad), status = branch === undefined ? 0 : statusOf(branch), turn = turnOf(axisValues(q_rad, convention)), before = found.get(id);
+    const branch = branchOf(robot, q_rad);
+    const status = branch === undefined ? 0 : statusOf(branch);
+    const turn = turnOf(axisValues(q_rad, convention));
+    const before = found.get(id);
     if (before === undefined) found.set(id, { status, turn });
-    else if (before.turn !== turn || before.status !== status) found.set(id, { status: before.status === status ? status : undefined, turn: undefined });
+    else if (before.turn !== turn || before.status !== status)
+      found.set(id, { status: before.status === status ? status : undefined, turn: undefined });
     return answer;
   });
   return flaw ?? { kind: "postures", of: found };

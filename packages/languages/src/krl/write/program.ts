@@ -1,5 +1,17 @@
 import {
-  compose, distance, inverse, type Condition, type EmittedFile, type MoveStep, type PalletStep, type PayloadStep, type Pose, type Program, type SetStep, type Step, type Target,
+  compose,
+  distance,
+  inverse,
+  type Condition,
+  type EmittedFile,
+  type MoveStep,
+  type PalletStep,
+  type PayloadStep,
+  type Pose,
+  type Program,
+  type SetStep,
+  type Step,
+  type Target,
 } from "@twincell/core";
 import { asciiText, singleText } from "../../text/index.ts";
 import type { AxisConvention } from "../robots.ts";
@@ -18,7 +30,11 @@ const FIRST_INTERRUPT = 21;
 
 /** Standard beginning of every module: stop messages are dealt with, speeds and frames as delivered. */
 const INI = [
-  ";FOLD INI", "GLOBAL INTERRUPT DECL 3 WHEN $STOPMESS==TRUE DO IR_STOPM( )", "INTERRUPT ON 3", "BAS(#INITMOV,0)", ";ENDFOLD (INI)",
+  ";FOLD INI",
+  "GLOBAL INTERRUPT DECL 3 WHEN $STOPMESS==TRUE DO IR_STOPM( )",
+  "INTERRUPT ON 3",
+  "BAS(#INITMOV,0)",
+  ";ENDFOLD (INI)",
 ];
 
 /** The module: a .src that says only what changes from one step to the next, and the .dat with its points. */
@@ -85,10 +101,22 @@ export class ModuleWriter {
   /** @param after  what follows the list, where that is known. */
   private steps(steps: readonly Step[], after: Step | undefined): void {
     for (let i = 0; i < steps.length; i++) {
-      const step = steps[i]!, next = steps.slice(i + 1).find(({ type }) => type !== "comment") ?? after;
-      if (step.type !== "move" || step.path !== "spline") { this.step(step, next, steps.slice(0, i).findLast(({ type }) => type !== "comment")); continue; }
+      const step = steps[i]!;
+      const next = steps.slice(i + 1).find(({ type }) => type !== "comment") ?? after;
+      if (step.type !== "move" || step.path !== "spline") {
+        this.step(
+          step,
+          next,
+          steps.slice(0, i).findLast(({ type }) => type !== "comment"),
+        );
+        continue;
+      }
       const block = [step];
-      for (let following = steps[i + 1]; following?.type === "move" && following.path === "spline" && toolName(following) === toolName(step); following = steps[i + 1]) {
+      for (
+        let following = steps[i + 1];
+        following?.type === "move" && following.path === "spline" && toolName(following) === toolName(step);
+        following = steps[i + 1]
+      ) {
         block.push(following);
         i++;
       }
@@ -97,30 +125,74 @@ export class ModuleWriter {
   }
 
   private step(step: Step, next: Step | undefined, before: Step | undefined): void {
-    const add = (line: string): void => { this.out.add(line, step.id); };
+    const add = (line: string): void => {
+      this.out.add(line, step.id);
+    };
     this.title(step);
     switch (step.type) {
-      case "move": return this.move(step, next, before);
-      case "wait": return add(`WAIT SEC ${singleText(step.s)}`);
-      case "gripper": return add(`${this.data.gripper(this.gripper)}=${step.closed ? "TRUE" : "FALSE"}`);
-      case "set": return add(this.set(step));
-      case "wait-for": return add(`WAIT FOR ${this.condition(step.when)}`);
-      case "payload": return add(payloadText(step));
-      case "message": return add(`MsgNotify("${asciiText(step.text).replace(/"/g, "'")}")`);
-      case "stop": return this.block(step.id, "LOOP", () => { add("HALT"); }, "ENDLOOP");
-      case "comment": return add(`;* ${commentText(step.text)}`);
+      case "move":
+        return this.move(step, next, before);
+      case "wait":
+        return add(`WAIT SEC ${singleText(step.s)}`);
+      case "gripper":
+        return add(`${this.data.gripper(this.gripper)}=${step.closed ? "TRUE" : "FALSE"}`);
+      case "set":
+        return add(this.set(step));
+      case "wait-for":
+        return add(`WAIT FOR ${this.condition(step.when)}`);
+      case "payload":
+        return add(payloadText(step));
+      case "message":
+        return add(`MsgNotify("${asciiText(step.text).replace(/"/g, "'")}")`);
+      case "stop":
+        return this.block(
+          step.id,
+          "LOOP",
+          () => {
+            add("HALT");
+          },
+          "ENDLOOP",
+        );
+      case "comment":
+        return add(`;* ${commentText(step.text)}`);
       case "call":
         add(`${this.routineNames.get(step.routine)!}( )`);
         return this.settings.forget();
       case "repeat": {
-        const head = step.times === "forever" ? "LOOP" : `FOR ${this.data.counter(`ROUND_${step.name ?? this.out.collected.lines.length}`)}=1 TO ${step.times}`;
-        return this.block(step.id, head, () => { this.steps(step.steps, undefined); }, step.times === "forever" ? "ENDLOOP" : "ENDFOR");
+        const head =
+          step.times === "forever"
+            ? "LOOP"
+            : `FOR ${this.data.counter(`ROUND_${step.name ?? this.out.collected.lines.length}`)}=1 TO ${step.times}`;
+        return this.block(
+          step.id,
+          head,
+          () => {
+            this.steps(step.steps, undefined);
+          },
+          step.times === "forever" ? "ENDLOOP" : "ENDFOR",
+        );
       }
       case "if":
-        this.block(step.id, `IF ${this.condition(step.when)} THEN`, () => { this.steps(step.then, next); }, step.else === undefined ? "ENDIF" : "");
-        if (step.else !== undefined) this.block(step.id, "ELSE", () => { this.steps(step.else!, next); }, "ENDIF");
+        this.block(
+          step.id,
+          `IF ${this.condition(step.when)} THEN`,
+          () => {
+            this.steps(step.then, next);
+          },
+          step.else === undefined ? "ENDIF" : "",
+        );
+        if (step.else !== undefined)
+          this.block(
+            step.id,
+            "ELSE",
+            () => {
+              this.steps(step.else!, next);
+            },
+            "ENDIF",
+          );
         return;
-      case "pallet": return this.pallet(step);
+      case "pallet":
+        return this.pallet(step);
     }
   }
 
@@ -169,11 +241,14 @@ export class ModuleWriter {
   }
 
   private set({ signal, to, pulse_s }: SetStep): string {
-    const variable = this.signal(signal), value = typeof to === "number" ? singleText(to) : to ? "TRUE" : "FALSE";
+    const variable = this.signal(signal);
+    const value = typeof to === "number" ? singleText(to) : to ? "TRUE" : "FALSE";
     return pulse_s === undefined ? `${variable}=${value}` : `PULSE(${variable},${value},${singleText(pulse_s)})`;
   }
 
-  private signal(name: string): string { return this.data.signal(name, this.program.signals[name]!); }
+  private signal(name: string): string {
+    return this.data.signal(name, this.program.signals[name]!);
+  }
 
   private condition(when: Condition): string {
     const variable = this.signal(when.signal);
@@ -184,27 +259,42 @@ export class ModuleWriter {
   // Motion --------------------------------------------------------------------------------------------------------------
 
   private move(step: MoveStep, next: Step | undefined, before: Step | undefined): void {
-    const add = (line: string): void => { this.out.add(line, step.id); };
-    const base = this.baseOf(step), tool = toolName(step) ?? "flange";
+    const add = (line: string): void => {
+      this.out.add(line, step.id);
+    };
+    const base = this.baseOf(step);
+    const tool = toolName(step) ?? "flange";
     // Joint angles are what they are with any tool and in any base.
     if (!("q" in step.target && step.path === "ptp")) this.frames(step.id, tool, base);
     else if (toolName(step) !== undefined) this.frames(step.id, tool, this.settings.base);
     for (const line of this.settings.pace(step)) add(line);
-    const goesOn = step.until === undefined && this.goesOn(next), passing = this.settings.passing(goesOn ? step : { ...step, blend_ratio: 0 }, goesOn ? this.blend(step, before, next) : 0);
+    const goesOn = step.until === undefined && this.goesOn(next);
+    const passing = this.settings.passing(
+      goesOn ? step : { ...step, blend_ratio: 0 },
+      goesOn ? this.blend(step, before, next) : 0,
+    );
     for (const line of passing.lines) add(line);
     const word = step.path === "ptp" ? "PTP" : step.path === "circ" ? "CIRC" : "LIN";
     const point = this.point(step, step.target, base, tool, "");
-    const via = step.path === "circ" && step.via !== undefined ? `${this.point(step, step.via, base, tool, "_VIA")},` : "";
+    const via =
+      step.path === "circ" && step.via !== undefined ? `${this.point(step, step.via, base, tool, "_VIA")},` : "";
     const line = `${word} ${via}${point}${passing.word}`;
-    if (step.until === undefined) add(line); else this.search(step, line);
+    if (step.until === undefined) add(line);
+    else this.search(step, line);
   }
 
   private spline(block: readonly MoveStep[], next: Step | undefined): void {
-    const [first] = block, last = block.at(-1)!, bases = new Set(block.map(step => this.baseOf(step)));
+    const [first] = block;
+    const last = block.at(-1)!;
+    const bases = new Set(block.map(step => this.baseOf(step)));
     // One block has one base.
-    const base = bases.size === 1 ? this.baseOf(first!) : "world", tool = toolName(first!) ?? "flange";
+    const base = bases.size === 1 ? this.baseOf(first!) : "world";
+    const tool = toolName(first!) ?? "flange";
     this.frames(first!.id, tool, base);
-    const passing = this.settings.passing({ ...last, blend_ratio: 0 }, this.goesOn(next) ? this.blend(last, block.at(-2), next) : 0);
+    const passing = this.settings.passing(
+      { ...last, blend_ratio: 0 },
+      this.goesOn(next) ? this.blend(last, block.at(-2), next) : 0,
+    );
     for (const line of passing.lines) this.out.add(line, last.id);
     this.title(first!);
     this.out.add("SPLINE", first!.id);
@@ -212,7 +302,10 @@ export class ModuleWriter {
     for (const [i, step] of block.entries()) {
       if (i > 0) this.title(step);
       const settings = this.settings.once(step);
-      this.out.add(`SPL ${this.point(step, step.target, base, tool, "")}${settings.length === 0 ? "" : ` WITH ${settings.join(",")}`}`, step.id);
+      this.out.add(
+        `SPL ${this.point(step, step.target, base, tool, "")}${settings.length === 0 ? "" : ` WITH ${settings.join(",")}`}`,
+        step.id,
+      );
     }
     this.out.depth--;
     this.out.add(`ENDSPLINE${passing.word === "" ? "" : " C_SPL"}`, last.id);
@@ -220,51 +313,87 @@ export class ModuleWriter {
 
   private frames(id: string, tool: string, base: string | undefined): void {
     const { settings, data, place } = this;
-    if (tool !== settings.tool) this.out.add(tool === "flange" ? "$TOOL=$NULLFRAME" : `$TOOL=${data.frame("TOOL_", tool, () => place.tool(tool))}`, id);
+    if (tool !== settings.tool)
+      this.out.add(
+        tool === "flange" ? "$TOOL=$NULLFRAME" : `$TOOL=${data.frame("TOOL_", tool, () => place.tool(tool))}`,
+        id,
+      );
     settings.tool = tool;
     if (base === undefined || base === settings.base) return;
     const pallet = this.palletBases.get(base);
-    this.out.add(base === "world" ? "$BASE=$NULLFRAME" : `$BASE=${pallet ?? data.frame("BASE_", base, () => compose(place.vendorFromWorld, place.worldFromFrame(base)))}`, id);
+    this.out.add(
+      base === "world"
+        ? "$BASE=$NULLFRAME"
+        : `$BASE=${pallet ?? data.frame("BASE_", base, () => compose(place.vendorFromWorld, place.worldFromFrame(base)))}`,
+      id,
+    );
     settings.base = base;
   }
 
   /** The frame that the points of a step are written in. Joint angles and points of the world count from the robot. */
   private baseOf({ target }: MoveStep): string {
     if ("q" in target) return "world";
-    return target.frame === "world" || (!this.palletBases.has(target.frame) && !Object.hasOwn(this.program.frames, target.frame)) ? "world" : target.frame;
+    return target.frame === "world" ||
+      (!this.palletBases.has(target.frame) && !Object.hasOwn(this.program.frames, target.frame))
+      ? "world"
+      : target.frame;
   }
 
   /** Declares a point and returns its name. */
   private point(step: MoveStep, target: Target, base: string, tool: string, suffix: string): string {
     if (suffix === "") this.points++;
-    const variable = krlName(`${step.name === undefined ? `P${this.points}` : commentText(step.name)}${suffix}`, this.data.taken, "X");
+    const variable = krlName(
+      `${step.name === undefined ? `P${this.points}` : commentText(step.name)}${suffix}`,
+      this.data.taken,
+      "X",
+    );
     if ("q" in target && step.path === "ptp") {
       this.data.add(`DECL E6AXIS ${variable}={${axisText(target.q, this.convention)}}`, step.id);
       return variable;
     }
-    const pose = frameText(this.inBase(target, base, tool)), posture = suffix === "" ? this.postures.get(step.id) : undefined;
-    const status = posture?.status === undefined ? "" : `,S ${posture.status}`, turn = posture?.turn === undefined || step.path !== "ptp" ? "" : `,T ${posture.turn}`;
+    const pose = frameText(this.inBase(target, base, tool));
+    const posture = suffix === "" ? this.postures.get(step.id) : undefined;
+    const status = posture?.status === undefined ? "" : `,S ${posture.status}`;
+    const turn = posture?.turn === undefined || step.path !== "ptp" ? "" : `,T ${posture.turn}`;
     this.data.add(`DECL E6POS ${variable}={${pose}${status}${turn}}`, step.id);
     return variable;
   }
 
   private inBase(target: Target, base: string, tool: string): Pose {
     if ("pose" in target && target.frame === base && base !== "world") return target.pose;
-    const { place } = this, rootFromTcp: Pose = compose(place.vendorFromWorld, place.worldFromTarget(target, tool));
+    const { place } = this;
+    const rootFromTcp: Pose = compose(place.vendorFromWorld, place.worldFromTarget(target, tool));
     if (base === "world") return rootFromTcp;
     return compose(inverse(place.worldFromFrame(base)) as Pose, place.worldFromTarget(target, tool) as Pose);
   }
 
   /** A motion in a routine of its own, which an interrupt leaves as soon as the signal is met. */
   private search(step: MoveStep, line: string): void {
-    const { taken } = this.data, n = FIRST_INTERRUPT + this.searches++, name = krlName(`SEARCH_${this.searches}`, taken), met = krlName(`MET_${this.searches}`, taken);
-    const add = (text: string): void => { this.out.add(text, step.id); };
+    const { taken } = this.data;
+    const n = FIRST_INTERRUPT + this.searches++;
+    const name = krlName(`SEARCH_${this.searches}`, taken);
+    const met = krlName(`MET_${this.searches}`, taken);
+    const add = (text: string): void => {
+      this.out.add(text, step.id);
+    };
     add(`INTERRUPT DECL ${n} WHEN ${this.condition(step.until!.when)} DO ${met}( )`);
     add(`INTERRUPT ON ${n}`);
     add(`${name}( )`);
     add(`INTERRUPT OFF ${n}`);
     const { behind } = this;
-    const body = [`DEF ${name}( )`, `  ${line}`, "  WAIT SEC 0", ...(step.until!.missing === "fault" ? ["  LOOP", "    HALT", "  ENDLOOP"] : []), "END", "", `DEF ${met}( )`, `  INTERRUPT OFF ${n}`, "  BRAKE", "  RESUME", "END"];
+    const body = [
+      `DEF ${name}( )`,
+      `  ${line}`,
+      "  WAIT SEC 0",
+      ...(step.until!.missing === "fault" ? ["  LOOP", "    HALT", "  ENDLOOP"] : []),
+      "END",
+      "",
+      `DEF ${met}( )`,
+      `  INTERRUPT OFF ${n}`,
+      "  BRAKE",
+      "  RESUME",
+      "END",
+    ];
     behind.add("");
     for (const text of body) behind.add(text, step.id);
     // Wherever the search ended, what follows starts from there.
@@ -273,11 +402,17 @@ export class ModuleWriter {
   /** Whether the robot goes from a motion into what follows without a stop. */
   private goesOn(next: Step | undefined): boolean {
     switch (next?.type) {
-      case undefined: return !this.isMain;
-      case "move": return true;
-      case "repeat": case "pallet": return this.goesOn(next.steps.find(({ type }) => type !== "comment"));
-      case "call": return this.goesOn(this.program.routines[next.routine]?.find(({ type }) => type !== "comment"));
-      default: return false;
+      case undefined:
+        return !this.isMain;
+      case "move":
+        return true;
+      case "repeat":
+      case "pallet":
+        return this.goesOn(next.steps.find(({ type }) => type !== "comment"));
+      case "call":
+        return this.goesOn(this.program.routines[next.routine]?.find(({ type }) => type !== "comment"));
+      default:
+        return false;
     }
   }
 
@@ -285,10 +420,11 @@ export class ModuleWriter {
   private blend(step: MoveStep, before: Step | undefined, next: Step | undefined): number {
     const { blend_m, blend_ratio = 0 } = step;
     if (!(blend_ratio > 0)) return blend_m;
-    const at = (each: MoveStep) => this.place.worldFromTarget(each.target, each.target.tool ?? "flange").position, chords: number[] = [];
+    const at = (each: MoveStep) => this.place.worldFromTarget(each.target, each.target.tool ?? "flange").position;
+    const chords: number[] = [];
     if (before?.type === "move") chords.push(distance(at(before), at(step)));
     if (next?.type === "move") chords.push(distance(at(step), at(next)));
-    return chords.length === 0 ? 0 : blend_ratio * Math.min(...chords) / 2;
+    return chords.length === 0 ? 0 : (blend_ratio * Math.min(...chords)) / 2;
   }
 }
 
@@ -298,7 +434,9 @@ function toolName({ path, target }: MoveStep): string | undefined {
 }
 
 function payloadText({ mass_kg, center_m, inertia_kgm2 }: PayloadStep): string {
-  const [x, y, z] = center_m.map(lengthText), main = principal(inertia_kgm2 ?? [0, 0, 0, 0, 0, 0]);
-  const [a, b, c] = main.abc_deg.map(singleText), [jx, jy, jz] = main.moments.map(singleText);
+  const [x, y, z] = center_m.map(lengthText);
+  const main = principal(inertia_kgm2 ?? [0, 0, 0, 0, 0, 0]);
+  const [a, b, c] = main.abc_deg.map(singleText);
+  const [jx, jy, jz] = main.moments.map(singleText);
   return `$LOAD={M ${singleText(mass_kg)},CM {X ${x},Y ${y},Z ${z},A ${a},B ${b},C ${c}},J {X ${jx},Y ${jy},Z ${jz}}}`;
 }

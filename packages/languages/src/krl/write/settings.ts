@@ -42,12 +42,19 @@ export class Settings {
 
   forget(): void {
     this.tool = this.base = undefined;
-    this.ptpVelocity = this.ptpAcceleration = this.pathVelocity = this.pathAcceleration = this.distance = this.percent = "";
+    this.ptpVelocity =
+      this.ptpAcceleration =
+      this.pathVelocity =
+      this.pathAcceleration =
+      this.distance =
+      this.percent =
+        "";
   }
 
   /** The lines that must stand before the motion, its speed and acceleration. */
   pace({ path, speed, acceleration }: MoveStep): string[] {
-    const lines: string[] = [], share = Math.max(1, Math.round((acceleration?.ratio ?? 1) * 100));
+    const lines: string[] = [];
+    const share = Math.max(1, Math.round((acceleration?.ratio ?? 1) * 100));
     if (path === "ptp") {
       const velocity = String(percentOf(speed, this.maxTcpSpeed_mps));
       if (velocity !== this.ptpVelocity) lines.push(`BAS(#VEL_PTP,${velocity})`);
@@ -66,20 +73,26 @@ export class Settings {
 
   /** The same for one motion only: what the controller keeps stays as it is. */
   once(step: MoveStep): string[] {
-    const { ptpVelocity, ptpAcceleration, pathVelocity, pathAcceleration } = this, lines = this.pace(step);
+    const { ptpVelocity, ptpAcceleration, pathVelocity, pathAcceleration } = this;
+    const lines = this.pace(step);
     Object.assign(this, { ptpVelocity, ptpAcceleration, pathVelocity, pathAcceleration });
     return lines;
   }
 
   /** How the point is passed: the lines before the motion, and what stands behind its target. */
-  passing({ path, blend_ratio = 0 }: MoveStep, blend_m: number): { readonly lines: readonly string[]; readonly word: string } {
+  passing(
+    { path, blend_ratio = 0 }: MoveStep,
+    blend_m: number,
+  ): { readonly lines: readonly string[]; readonly word: string } {
     if (path === "ptp" && blend_ratio > 0) {
-      const percent = String(Math.min(100, Math.max(1, Math.round(blend_ratio * 100)))), lines = percent === this.percent ? [] : [`$APO.CPTP=${percent}`];
+      const percent = String(Math.min(100, Math.max(1, Math.round(blend_ratio * 100))));
+      const lines = percent === this.percent ? [] : [`$APO.CPTP=${percent}`];
       this.percent = percent;
       return { lines, word: " C_PTP" };
     }
     if (!(blend_m > 0)) return { lines: [], word: "" };
-    const distance = lengthText(blend_m), lines = distance === this.distance ? [] : [`$APO.CDIS=${distance}`];
+    const distance = lengthText(blend_m);
+    const lines = distance === this.distance ? [] : [`$APO.CDIS=${distance}`];
     this.distance = distance;
     return { lines, word: " C_DIS" };
   }

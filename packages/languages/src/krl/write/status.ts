@@ -8,4 +8,5 @@ export function statusOf({ shoulder, elbow, wrist }: Branch): number {
 }
 
 /** Turn: bit i - 1 is set when axis i is negative. */
-export const turnOf = (axes_deg: readonly number[]): number => axes_deg.reduce((bits, value, i) => bits + (value < 0 ? 2 ** i : 0), 0);
+export const turnOf = (axes_deg: readonly number[]): number =>
+  axes_deg.reduce((bits, value, i) => bits + (value < 0 ? 2 ** i : 0), 0);

@@ -19,7 +19,9 @@ export class TextWriter {
     for (const [i, line] of lines.entries()) this.add(line, steps[i]!);
   }
 
-  get collected(): { readonly lines: readonly string[]; readonly steps: readonly string[] } { return { lines: this.lines, steps: this.steps }; }
+  get collected(): { readonly lines: readonly string[]; readonly steps: readonly string[] } {
+    return { lines: this.lines, steps: this.steps };
+  }
 
   file(name: string): EmittedFile {
     return { name, text: this.lines.map(line => line + LINE_END).join(""), lines: this.steps };

@@ -1,7 +1,10 @@
 import type { Group, Pose, Step } from "@twincell/core";
 
 /** A pose that the list names. */
-export interface NamedPose { readonly worldFromTcp: Pose<"world", "tcp">; readonly line: number }
+export interface NamedPose {
+  readonly worldFromTcp: Pose<"world", "tcp">;
+  readonly line: number;
+}
 
 /** A list as it was read. Names are as they stand in the text. */
 export interface PoseList {

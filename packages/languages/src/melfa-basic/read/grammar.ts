@@ -1,30 +1,137 @@
 import type { TextPlace } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
 import { BasicReader, readPlainArguments, type BasicAnswer, type BasicGrammar } from "../../text/basic/index.ts";
-import type { Argument, Expression, ExpressionRules, Routine, Statement, TokenCursor } from "../../text/structured/index.ts";
+import type {
+  Argument,
+  Expression,
+  ExpressionRules,
+  Routine,
+  Statement,
+  TokenCursor,
+} from "../../text/structured/index.ts";
 
 const RULES: ExpressionRules = {
-  binary: { or: 1, xor: 1, and: 2, "=": 3, "<>": 3, "><": 3, "<": 3, ">": 3, "<=": 3, ">=": 3, "=<": 3, "=>": 3, "+": 4, "-": 4, "*": 5, "/": 5, mod: 5, "^": 7 },
+  binary: {
+    or: 1,
+    xor: 1,
+    and: 2,
+    "=": 3,
+    "<>": 3,
+    "><": 3,
+    "<": 3,
+    ">": 3,
+    "<=": 3,
+    ">=": 3,
+    "=<": 3,
+    "=>": 3,
+    "+": 4,
+    "-": 4,
+    "*": 5,
+    "/": 5,
+    mod: 5,
+    "^": 7,
+  },
   prefix: { not: 2, "-": 6, "+": 6 },
   constants: { on: true, off: false },
-  tags: [], index: "[", components: true,
-  reserved: new Set(["end if", "else", "elseif", "next", "wend", "end select", "case", "default", "then", "to", "step", "return"]),
+  tags: [],
+  index: "[",
+  components: true,
+  reserved: new Set([
+    "end if",
+    "else",
+    "elseif",
+    "next",
+    "wend",
+    "end select",
+    "case",
+    "default",
+    "then",
+    "to",
+    "step",
+    "return",
+  ]),
   args: (cursor, depth) => readPlainArguments(cursor, depth, RULES),
 };
 const elsewhere = (what: string): string => `${what}, which is not executed here.`;
-const SIGNS = ["<=", ">=", "<>", "><", "=<", "=>", "(", ")", "[", "]", ",", ":", "=", "<", ">", "+", "-", "*", "/", "^", "&", ".", "#", "@", "?"];
+const SIGNS = [
+  "<=",
+  ">=",
+  "<>",
+  "><",
+  "=<",
+  "=>",
+  "(",
+  ")",
+  "[",
+  "]",
+  ",",
+  ":",
+  "=",
+  "<",
+  ">",
+  "+",
+  "-",
+  "*",
+  "/",
+  "^",
+  "&",
+  ".",
+  "#",
+  "@",
+  "?",
+];
 const GRAMMAR: BasicGrammar = {
-  lexicon: { comment: "'", quotes: "\"", doubled: false, lineEnds: true, signs: SIGNS, word: /end[ \t]+select\b|[A-Za-z_][A-Za-z0-9_]*[%!$&#]?/iy },
+  lexicon: {
+    comment: "'",
+    quotes: '"',
+    doubled: false,
+    lineEnds: true,
+    signs: SIGNS,
+    word: /end[ \t]+select\b|[A-Za-z_][A-Za-z0-9_]*[%!$&#]?/iy,
+  },
   expression: RULES,
   alike: { endif: "end if" },
   unsayable: {
-    goto: elsewhere("GoTo jumps"), callp: elsewhere("CallP starts a program of another file"), act: elsewhere("Act belongs to interrupts"), mva: elsewhere("Mva moves along an arch of the controller"), mvc: elsewhere("Mvc goes round a whole circle"),
-    mvr2: elsewhere("Mvr2 draws an arc beside a point"), mvr3: elsewhere("Mvr3 draws an arc around a centre"), mvspl: elsewhere("MvSpl keeps its path in a file"), jrc: elsewhere("JRC counts turns of a joint anew"), mxt: elsewhere("Mxt follows positions from outside"),
-    xrun: elsewhere("XRun starts another task"), trk: elsewhere("Trk follows a conveyor"), cmp: elsewhere("Cmp makes axes yield"), skip: elsewhere("Skip ends a motion by an appended condition"),
+    goto: elsewhere("GoTo jumps"),
+    callp: elsewhere("CallP starts a program of another file"),
+    act: elsewhere("Act belongs to interrupts"),
+    mva: elsewhere("Mva moves along an arch of the controller"),
+    mvc: elsewhere("Mvc goes round a whole circle"),
+    mvr2: elsewhere("Mvr2 draws an arc beside a point"),
+    mvr3: elsewhere("Mvr3 draws an arc around a centre"),
+    mvspl: elsewhere("MvSpl keeps its path in a file"),
+    jrc: elsewhere("JRC counts turns of a joint anew"),
+    mxt: elsewhere("Mxt follows positions from outside"),
+    xrun: elsewhere("XRun starts another task"),
+    trk: elsewhere("Trk follows a conveyor"),
+    cmp: elsewhere("Cmp makes axes yield"),
+    skip: elsewhere("Skip ends a motion by an appended condition"),
   },
 };
 /** Instructions about the controller, of which a motion program keeps nothing. */
-const OF_THE_CONTROLLER: ReadonlySet<string> = new Set(["servo", "def", "dim", "fine", "prec", "loadset", "oadl", "colchk", "collvl", "getm", "relm", "clr", "open", "close", "print", "input", "torq", "rem", "fprm", "error", "cnt0"]);
+const OF_THE_CONTROLLER: ReadonlySet<string> = new Set([
+  "servo",
+  "def",
+  "dim",
+  "fine",
+  "prec",
+  "loadset",
+  "oadl",
+  "colchk",
+  "collvl",
+  "getm",
+  "relm",
+  "clr",
+  "open",
+  "close",
+  "print",
+  "input",
+  "torq",
+  "rem",
+  "fprm",
+  "error",
+  "cnt0",
+]);
 const INSTRUCTIONS: ReadonlySet<string> = new Set(["ovrd", "jovrd", "spd", "accel", "cnt", "dly", "hopen", "hclose"]);
 const MOTIONS: ReadonlySet<string> = new Set(["mov", "mvs", "mvr"]);
 
@@ -42,11 +149,16 @@ class MelfaReader extends BasicReader {
     this.labels = new Set(Array.from(text.matchAll(/\bgosub\s*\*\s*(\w+)/gi), found => found[1]!.toLowerCase()));
   }
 
-  protected override closes(word: string): boolean { return word === "return"; }
-  protected started(): Routine | undefined { return this.main; }
+  protected override closes(word: string): boolean {
+    return word === "return";
+  }
+  protected started(): Routine | undefined {
+    return this.main;
+  }
 
   protected part(): void {
-    const { cursor } = this, at = cursor.here;
+    const { cursor } = this;
+    const at = cursor.here;
     if (this.main === undefined) {
       const body = this.body("program", at, ["end", ""]);
       cursor.accept("end");
@@ -56,8 +168,10 @@ class MelfaReader extends BasicReader {
     if (cursor.isAt("number")) return cursor.advance();
     if (cursor.next === "*") return this.routineAt(at);
     // The list of positions, as the controller keeps it.
-    const listed = cursor.kind === "word" && (cursor.second === "=" || cursor.second === "(") ? this.assigned(at) : undefined;
-    if (listed === undefined) throw new TextError(at, "a label or a position", `"${cursor.raw}" stands behind the end of the program.`);
+    const listed =
+      cursor.kind === "word" && (cursor.second === "=" || cursor.second === "(") ? this.assigned(at) : undefined;
+    if (listed === undefined)
+      throw new TextError(at, "a label or a position", `"${cursor.raw}" stands behind the end of the program.`);
     if (!this.atEnd) throw cursor.unexpected("the end of the line");
     this.before.push(listed);
   }
@@ -67,7 +181,8 @@ class MelfaReader extends BasicReader {
     cursor.advance();
     const name = cursor.name("a label");
     cursor.accept(":");
-    if (this.routines.has(`*${name}`)) this.faults.push(new TextError(at, "a label used once", `The label ${name} is there twice.`).fault);
+    if (this.routines.has(`*${name}`))
+      this.faults.push(new TextError(at, "a label used once", `The label ${name} is there twice.`).fault);
     const body = this.body("routine", at, ["return"]);
     cursor.expect("return");
     if (cursor.isAt("number")) cursor.advance();
@@ -75,20 +190,35 @@ class MelfaReader extends BasicReader {
   }
 
   protected instruction(at: TextPlace): Statement | undefined {
-    const { cursor } = this, word = cursor.next, given = (args: readonly Argument[]): Statement => ({ kind: "do", name: word, args, ...at });
+    const { cursor } = this;
+    const word = cursor.next;
+    const given = (args: readonly Argument[]): Statement => ({ kind: "do", name: word, args, ...at });
     if (cursor.accept("*")) {
-      const place = cursor.here, name = cursor.name("a label");
+      const place = cursor.here;
+      const name = cursor.name("a label");
       cursor.accept(":");
-      if (this.labels.has(name)) throw new TextError(place, "End before it", `The program runs into the routine ${name}.`);
+      if (this.labels.has(name))
+        throw new TextError(place, "End before it", `The program runs into the routine ${name}.`);
       return undefined;
     }
     if (cursor.kind !== "word") throw cursor.unexpected("a statement");
-    if (MOTIONS.has(word)) { cursor.advance(); return this.motion(word, at); }
+    if (MOTIONS.has(word)) {
+      cursor.advance();
+      return this.motion(word, at);
+    }
     if (cursor.second === "=" || cursor.second === ".") return this.assigned(at);
-    if (OF_THE_CONTROLLER.has(word)) { cursor.advance(); this.restOfLine(); return undefined; }
-    if (INSTRUCTIONS.has(word)) { cursor.advance(); return given(this.values()); }
+    if (OF_THE_CONTROLLER.has(word)) {
+      cursor.advance();
+      this.restOfLine();
+      return undefined;
+    }
+    if (INSTRUCTIONS.has(word)) {
+      cursor.advance();
+      return given(this.values());
+    }
     switch (word) {
-      case "tool": case "base": {
+      case "tool":
+      case "base": {
         cursor.advance();
         const place = cursor.here;
         return given([{ value: this.position(), ...place }]);
@@ -96,46 +226,81 @@ class MelfaReader extends BasicReader {
       case "gosub": {
         cursor.advance();
         cursor.expect("*");
-        const place = cursor.here, name = cursor.name("a label");
+        const place = cursor.here;
+        const name = cursor.name("a label");
         this.isCalled(`*${name}`, place);
         return { kind: "do", name: `*${name}`, args: [], ...place };
       }
-      case "wait": cursor.advance(); return { kind: "wait-until", when: this.value(), ...at };
-      case "end": cursor.advance(); return { kind: "return", ...at };
-      case "hlt": cursor.advance(); return { kind: "halt", ...at };
+      case "wait":
+        cursor.advance();
+        return { kind: "wait-until", when: this.value(), ...at };
+      case "end":
+        cursor.advance();
+        return { kind: "return", ...at };
+      case "hlt":
+        cursor.advance();
+        return { kind: "halt", ...at };
       // It ends a case, which nothing falls out of here.
-      case "break": cursor.advance(); return undefined;
-      case "m_out": return this.output(at);
-      default: break;
+      case "break":
+        cursor.advance();
+        return undefined;
+      case "m_out":
+        return this.output(at);
+      default:
+        break;
     }
     if (cursor.second === "(") return this.assigned(at);
-    throw new TextError(at, "a statement of MELFA-BASIC", `"${cursor.raw}" is no statement of MELFA-BASIC that is understood here.`);
+    throw new TextError(
+      at,
+      "a statement of MELFA-BASIC",
+      `"${cursor.raw}" is no statement of MELFA-BASIC that is understood here.`,
+    );
   }
 
   /** `M_Out(3)=1`, with `Dly 0.5` behind it for a pulse. */
   private output(at: TextPlace): Statement {
-    const { cursor } = this, place = cursor.here, line = this.value(100);
+    const { cursor } = this;
+    const place = cursor.here;
+    const line = this.value(100);
     cursor.expect("=");
-    const to = this.value(3), args: Argument[] = [{ value: line, ...place }, { value: to, ...at }];
+    const to = this.value(3);
+    const args: Argument[] = [
+      { value: line, ...place },
+      { value: to, ...at },
+    ];
     if (cursor.accept("dly")) args.push({ value: this.value(), ...at });
     return { kind: "do", name: "m_out", args, ...at };
   }
 
   private assigned(at: TextPlace): Statement {
-    const { cursor } = this, sort = cursor.next[0];
-    return this.assignment(at, sort === "p" ? () => this.position() : sort === "j" ? () => this.position("joints") : undefined);
+    const { cursor } = this;
+    const sort = cursor.next[0];
+    return this.assignment(
+      at,
+      sort === "p" ? () => this.position() : sort === "j" ? () => this.position("joints") : undefined,
+    );
   }
 
   private motion(name: string, at: TextPlace): Statement {
-    const { cursor } = this, args: Argument[] = [];
+    const { cursor } = this;
+    const args: Argument[] = [];
     for (;;) {
       const place = cursor.here;
-      args.push(cursor.next === "," ? place : { value: args.length === 0 || name === "mvr" ? this.position() : this.value(), ...place });
+      args.push(
+        cursor.next === ","
+          ? place
+          : { value: args.length === 0 || name === "mvr" ? this.position() : this.value(), ...place },
+      );
       if (!cursor.accept(",")) break;
     }
     // How the hand turns on the way, and which way round, is left to the controller.
     if (cursor.accept("type")) this.values();
-    if (cursor.next === "wth" || cursor.next === "wthif") throw new TextError(cursor.here, "the end of the line", elsewhere("A statement appended by Wth is carried out during the motion"));
+    if (cursor.next === "wth" || cursor.next === "wthif")
+      throw new TextError(
+        cursor.here,
+        "the end of the line",
+        elsewhere("A statement appended by Wth is carried out during the motion"),
+      );
     return { kind: "do", name, args, ...at };
   }
 
@@ -144,18 +309,21 @@ class MelfaReader extends BasicReader {
     const { cursor } = this;
     let left = this.part1(sort);
     while (cursor.kind === "sign" && ["*", "/", "+", "-"].includes(cursor.next)) {
-      const { line, column } = cursor.here, sign = cursor.take();
+      const { line, column } = cursor.here;
+      const sign = cursor.take();
       left = { kind: "binary", sign, left, right: this.part1(sort), line, column };
     }
     return left;
   }
 
   private part1(sort: "position" | "joints"): Expression {
-    const { cursor } = this, { line, column } = cursor.here;
+    const { cursor } = this;
+    const { line, column } = cursor.here;
     if (cursor.kind !== "sign" || !cursor.accept("(")) return this.value(6);
     const args: Argument[] = [];
     for (;;) {
-      const at = cursor.here, isLeftOut = cursor.kind === "sign" && (cursor.next === "," || cursor.next === ")");
+      const at = cursor.here;
+      const isLeftOut = cursor.kind === "sign" && (cursor.next === "," || cursor.next === ")");
       args.push(isLeftOut ? at : { value: args.length === 0 ? this.position(sort) : this.value(), ...at });
       if (!cursor.accept(",")) break;
     }
@@ -182,8 +350,16 @@ function flags(cursor: TokenCursor): Argument[] {
 
 function flag(cursor: TokenCursor): number {
   cursor.accept("+");
-  const isCoded = cursor.accept("&"), at = cursor.here, text = cursor.take();
-  const value = !isCoded ? Number(text) : text.startsWith("h") ? Number.parseInt(text.slice(1), 16) : text.startsWith("b") ? Number.parseInt(text.slice(1), 2) : Number.NaN;
+  const isCoded = cursor.accept("&");
+  const at = cursor.here;
+  const text = cursor.take();
+  const value = !isCoded
+    ? Number(text)
+    : text.startsWith("h")
+      ? Number.parseInt(text.slice(1), 16)
+      : text.startsWith("b")
+        ? Number.parseInt(text.slice(1), 2)
+        : Number.NaN;
   if (!Number.isInteger(value)) throw new TextError(at, "a whole number", `"${text}" is no flag.`);
   return value;
 }

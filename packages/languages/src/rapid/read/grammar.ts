@@ -1,27 +1,144 @@
 import type { TextFault, TextPlace } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
-import { ForgivingReader, readExpression, type Argument, type Block, type Expression, type ExpressionRules, type Lexicon, type Parameter, type Routine, type Statement, type TokenCursor } from "../../text/structured/index.ts";
+import {
+  ForgivingReader,
+  readExpression,
+  type Argument,
+  type Block,
+  type Expression,
+  type ExpressionRules,
+  type Lexicon,
+  type Parameter,
+  type Routine,
+  type Statement,
+  type TokenCursor,
+} from "../../text/structured/index.ts";
 
 const LEXICON: Lexicon = {
-  comment: "!", quotes: "\"", doubled: true, lineEnds: false,
-  signs: [":=", "<=", ">=", "<>", "(", ")", "[", "]", "{", "}", ",", ";", ":", "=", "<", ">", "+", "-", "*", "/", ".", "\\", "%", "|", "?"],
+  comment: "!",
+  quotes: '"',
+  doubled: true,
+  lineEnds: false,
+  signs: [
+    ":=",
+    "<=",
+    ">=",
+    "<>",
+    "(",
+    ")",
+    "[",
+    "]",
+    "{",
+    "}",
+    ",",
+    ";",
+    ":",
+    "=",
+    "<",
+    ">",
+    "+",
+    "-",
+    "*",
+    "/",
+    ".",
+    "\\",
+    "%",
+    "|",
+    "?",
+  ],
 };
 const RESERVED: ReadonlySet<string> = new Set([
-  "alias", "and", "backward", "case", "connect", "const", "default", "div", "do", "else", "elseif", "endfor", "endfunc", "endif", "endmodule", "endproc",
-  "endrecord", "endtest", "endtrap", "endwhile", "error", "exit", "false", "for", "from", "func", "goto", "if", "inout", "local", "mod", "module", "not",
-  "or", "pers", "proc", "raise", "record", "retry", "return", "step", "task", "test", "then", "to", "trap", "true", "trynext", "undo", "var", "while", "with", "xor",
+  "alias",
+  "and",
+  "backward",
+  "case",
+  "connect",
+  "const",
+  "default",
+  "div",
+  "do",
+  "else",
+  "elseif",
+  "endfor",
+  "endfunc",
+  "endif",
+  "endmodule",
+  "endproc",
+  "endrecord",
+  "endtest",
+  "endtrap",
+  "endwhile",
+  "error",
+  "exit",
+  "false",
+  "for",
+  "from",
+  "func",
+  "goto",
+  "if",
+  "inout",
+  "local",
+  "mod",
+  "module",
+  "not",
+  "or",
+  "pers",
+  "proc",
+  "raise",
+  "record",
+  "retry",
+  "return",
+  "step",
+  "task",
+  "test",
+  "then",
+  "to",
+  "trap",
+  "true",
+  "trynext",
+  "undo",
+  "var",
+  "while",
+  "with",
+  "xor",
 ]);
 const RULES: ExpressionRules = {
-  binary: { or: 1, xor: 1, and: 2, "=": 4, "<>": 4, "<": 4, ">": 4, "<=": 4, ">=": 4, "+": 5, "-": 5, "*": 6, "/": 6, div: 6, mod: 6 },
+  binary: {
+    or: 1,
+    xor: 1,
+    and: 2,
+    "=": 4,
+    "<>": 4,
+    "<": 4,
+    ">": 4,
+    "<=": 4,
+    ">=": 4,
+    "+": 5,
+    "-": 5,
+    "*": 6,
+    "/": 6,
+    div: 6,
+    mod: 6,
+  },
   prefix: { not: 3, "-": 7, "+": 7 },
   constants: { true: true, false: false },
-  tags: [], index: "{", components: true, reserved: RESERVED, args: (cursor, depth) => readArguments(cursor, ")", depth),
+  tags: [],
+  index: "{",
+  components: true,
+  reserved: RESERVED,
+  args: (cursor, depth) => readArguments(cursor, ")", depth),
 };
 const NAME_LENGTH = 32;
 const STRING_LENGTH = 80;
 
 /** A datum of a module or a routine. */
-export interface Datum extends TextPlace { readonly storage: string; readonly type: string; readonly name: string; readonly sizes: readonly Expression[]; readonly value?: Expression }
+export interface Datum extends TextPlace {
+  readonly storage: string;
+  readonly type: string;
+  readonly name: string;
+  readonly sizes: readonly Expression[];
+  readonly value?: Expression;
+}
 /** What a text holds. Names are lower case; `spelling` has them as they were first written. */
 export interface Source {
   readonly title: string;
@@ -33,7 +150,9 @@ export interface Source {
   readonly forgiving: ReadonlySet<string>;
   readonly spelling: ReadonlyMap<string, string>;
 }
-export type SourceAnswer = { readonly kind: "source"; readonly source: Source } | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
+export type SourceAnswer =
+  | { readonly kind: "source"; readonly source: Source }
+  | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 /** Reads RAPID modules. Goes on after a fault, so that all of them are told at once. */
 export const readSource = (text: string): SourceAnswer => new Reader(text).source();
@@ -50,7 +169,10 @@ class Reader extends ForgivingReader {
 
   constructor(text: string) {
     // The header of old save files is no RAPID.
-    super(text.replace(/^[ \t]*%%%[\s\S]*?%%%/, header => header.replace(/[^\r\n]/g, " ")), LEXICON);
+    super(
+      text.replace(/^[ \t]*%%%[\s\S]*?%%%/, header => header.replace(/[^\r\n]/g, " ")),
+      LEXICON,
+    );
   }
 
   protected override folded(word: string): string {
@@ -61,91 +183,156 @@ class Reader extends ForgivingReader {
 
   source(): SourceAnswer {
     const { cursor } = this;
-    this.guard(() => { cursor.advance(); });
+    this.guard(() => {
+      cursor.advance();
+    });
     let modules = 0;
     while (!cursor.done && !this.hasEnough) {
-      this.guard(() => { cursor.expect("module"); modules++; this.module(); });
+      this.guard(() => {
+        cursor.expect("module");
+        modules++;
+        this.module();
+      });
     }
-    if (modules === 0 && this.faults.length === 0) this.faults.push(new TextError(cursor.here, "MODULE", "The text holds no module.").fault);
+    if (modules === 0 && this.faults.length === 0)
+      this.faults.push(new TextError(cursor.here, "MODULE", "The text holds no module.").fault);
     if (this.faults.length > 0) return { kind: "not-understood", faults: this.faults };
-    const { data, routines, local, forgiving, spelling } = this, title = this.remarks.find(remark => remark.startsWith("*"))?.slice(1).trim() ?? this.title;
+    const { data, routines, local, forgiving, spelling } = this;
+    const title =
+      this.remarks
+        .find(remark => remark.startsWith("*"))
+        ?.slice(1)
+        .trim() ?? this.title;
     return { kind: "source", source: { title, data, routines, local, forgiving, spelling } };
   }
 
   /** What was read, or undefined after a fault; data then belong again to where they did before. */
   protected override guard<T>(read: () => T): T | undefined {
-    const { current, faults: { length } } = this, got = super.guard(read);
+    const {
+      current,
+      faults: { length },
+    } = this;
+    const got = super.guard(read);
     if (this.faults.length > length) this.current = current;
     return got;
   }
   protected override restOfLine(): void {
     this.cursor.skip(cursor => cursor.next === ";" || ENDS.has(cursor.next));
-    if (this.cursor.next === ";" && !this.hasEnough) this.guard(() => { this.cursor.advance(); });
+    if (this.cursor.next === ";" && !this.hasEnough)
+      this.guard(() => {
+        this.cursor.advance();
+      });
   }
 
   private declared(expected: string): { readonly name: string; readonly at: TextPlace } {
-    const { cursor } = this, at = cursor.here, { raw } = cursor, name = cursor.name(expected);
+    const { cursor } = this;
+    const at = cursor.here;
+    const { raw } = cursor;
+    const name = cursor.name(expected);
     if (RESERVED.has(name)) throw new TextError(at, expected, `"${raw}" is a word of RAPID.`);
-    if (name.length > NAME_LENGTH) throw new TextError(at, `a name of at most ${NAME_LENGTH} characters`, `The name "${raw}" has ${name.length} characters; RAPID takes ${NAME_LENGTH}.`);
+    if (name.length > NAME_LENGTH)
+      throw new TextError(
+        at,
+        `a name of at most ${NAME_LENGTH} characters`,
+        `The name "${raw}" has ${name.length} characters; RAPID takes ${NAME_LENGTH}.`,
+      );
     return { name, at };
   }
 
   private module(): void {
-    const { cursor } = this, { raw } = cursor;
+    const { cursor } = this;
+    const { raw } = cursor;
     this.declared("the name of the module");
     if (this.title === "") this.title = raw;
-    if (cursor.accept("(")) { while (!cursor.accept(")")) { if (cursor.done) throw cursor.unexpected("\")\""); cursor.advance(); } }
+    if (cursor.accept("(")) {
+      while (!cursor.accept(")")) {
+        if (cursor.done) throw cursor.unexpected('")"');
+        cursor.advance();
+      }
+    }
     while (cursor.next !== "endmodule") {
       this.takeRemarks();
       if (cursor.done) throw cursor.unexpected("ENDMODULE");
       if (this.hasEnough) return;
       const before = cursor.here;
-      this.guard(() => { this.member(); });
+      this.guard(() => {
+        this.member();
+      });
       // What is left where a fault was is left behind.
-      if (before.line === cursor.here.line && before.column === cursor.here.column && !cursor.done) this.guard(() => { cursor.advance(); });
+      if (before.line === cursor.here.line && before.column === cursor.here.column && !cursor.done)
+        this.guard(() => {
+          cursor.advance();
+        });
     }
     this.takeRemarks();
     cursor.expect("endmodule");
   }
 
   private takeRemarks(): void {
-    for (let comment = this.cursor.comment(); comment !== undefined; comment = this.cursor.comment()) this.remarks.push(comment.text);
+    for (let comment = this.cursor.comment(); comment !== undefined; comment = this.cursor.comment())
+      this.remarks.push(comment.text);
   }
 
   private member(): void {
     const { cursor } = this;
     while (cursor.next === "local" || cursor.next === "task") cursor.advance();
     switch (cursor.next) {
-      case "const": case "pers": case "var": this.datum(this.data); return;
-      case "record": cursor.skip(each => each.next === "endrecord"); cursor.accept("endrecord"); return;
-      case "alias": cursor.skip(each => each.next === ";"); cursor.accept(";"); return;
-      case "proc": this.routine("endproc", false); return;
-      case "func": this.routine("endfunc", true); return;
-      case "trap": this.routine("endtrap", false); return;
-      default: throw cursor.unexpected("a declaration, PROC or ENDMODULE");
+      case "const":
+      case "pers":
+      case "var":
+        this.datum(this.data);
+        return;
+      case "record":
+        cursor.skip(each => each.next === "endrecord");
+        cursor.accept("endrecord");
+        return;
+      case "alias":
+        cursor.skip(each => each.next === ";");
+        cursor.accept(";");
+        return;
+      case "proc":
+        this.routine("endproc", false);
+        return;
+      case "func":
+        this.routine("endfunc", true);
+        return;
+      case "trap":
+        this.routine("endtrap", false);
+        return;
+      default:
+        throw cursor.unexpected("a declaration, PROC or ENDMODULE");
     }
   }
 
   /** `CONST robtarget p10{2} := …;` */
   private datum(into: Datum[]): void {
-    const { cursor } = this, storage = cursor.take(), type = cursor.name("the type of the datum"), { name, at } = this.declared("the name of the datum"), sizes: Expression[] = [];
+    const { cursor } = this;
+    const storage = cursor.take();
+    const type = cursor.name("the type of the datum");
+    const { name, at } = this.declared("the name of the datum");
+    const sizes: Expression[] = [];
     if (cursor.accept("{")) {
-      do sizes.push(readExpression(cursor, RULES)); while (cursor.accept(","));
+      do sizes.push(readExpression(cursor, RULES));
+      while (cursor.accept(","));
       cursor.expect("}");
     }
     const value = cursor.accept(":=") ? readExpression(cursor, RULES) : undefined;
     cursor.expect(";");
-    if (into.some(other => other.name === name)) throw new TextError(at, "a name used once", `"${name}" is declared twice.`);
+    if (into.some(other => other.name === name))
+      throw new TextError(at, "a name used once", `"${name}" is declared twice.`);
     into.push({ storage, type, name, sizes, ...(value === undefined ? {} : { value }), ...at });
   }
 
   private routine(end: string, hasType: boolean): void {
-    const { cursor } = this, opened = cursor.here;
+    const { cursor } = this;
+    const opened = cursor.here;
     cursor.advance();
     if (hasType) cursor.name("the type of the function");
-    const { name, at } = this.declared("the name of the routine"), parameters: Parameter[] = [];
+    const { name, at } = this.declared("the name of the routine");
+    const parameters: Parameter[] = [];
     if (cursor.accept("(")) this.parameters(parameters);
-    if (this.routines.has(name)) this.faults.push(new TextError(at, "a name used once", `The routine ${name} is declared twice.`).fault);
+    if (this.routines.has(name))
+      this.faults.push(new TextError(at, "a name used once", `The routine ${name} is declared twice.`).fault);
     const local: Datum[] = [];
     this.local.set(name, local);
     this.current = local;
@@ -173,14 +360,22 @@ class Reader extends ForgivingReader {
     const { cursor } = this;
     while (!cursor.accept(")")) {
       const optional = cursor.accept("\\");
-      if (cursor.accept("switch")) { into.push({ name: this.declared("the name of the parameter").name, type: "switch", optional: true }); }
-      else {
+      if (cursor.accept("switch")) {
+        into.push({ name: this.declared("the name of the parameter").name, type: "switch", optional: true });
+      } else {
         if (cursor.next === "inout" || cursor.next === "var" || cursor.next === "pers") cursor.advance();
-        const type = cursor.name("the type of the parameter"), { name } = this.declared("the name of the parameter");
-        if (cursor.accept("{")) { while (cursor.accept("*") || cursor.accept(",")) { /* an array of any size */ } cursor.expect("}"); }
+        const type = cursor.name("the type of the parameter");
+        const { name } = this.declared("the name of the parameter");
+        if (cursor.accept("{")) {
+          while (cursor.accept("*") || cursor.accept(",")) {
+            /* an array of any size */
+          }
+          cursor.expect("}");
+        }
         into.push({ name, type, ...(optional ? { optional } : {}) });
       }
-      if (!cursor.accept(",") && !cursor.accept("|") && cursor.next !== ")" && cursor.next !== "\\") throw cursor.unexpected("\",\" or \")\"");
+      if (!cursor.accept(",") && !cursor.accept("|") && cursor.next !== ")" && cursor.next !== "\\")
+        throw cursor.unexpected('"," or ")"');
     }
   }
 
@@ -191,23 +386,41 @@ class Reader extends ForgivingReader {
       for (;;) {
         this.takeComments(statements);
         if (ends.includes(cursor.next) && cursor.kind === "word") break;
-        if (cursor.done || ROUTINE_ENDS.has(cursor.next)) throw new TextError(cursor.here, ends[0]!.toUpperCase(), `The block of line ${opened.line} is not closed.`);
+        if (cursor.done || ROUTINE_ENDS.has(cursor.next))
+          throw new TextError(cursor.here, ends[0]!.toUpperCase(), `The block of line ${opened.line} is not closed.`);
         if (this.hasEnough) break;
-        const before = cursor.here, statement = this.guard(() => this.statement());
+        const before = cursor.here;
+        const statement = this.guard(() => this.statement());
         if (statement !== undefined) statements.push(statement);
-        else if (before.line === cursor.here.line && before.column === cursor.here.column && !cursor.done && !ends.includes(cursor.next)) this.guard(() => { cursor.advance(); });
+        else if (
+          before.line === cursor.here.line &&
+          before.column === cursor.here.column &&
+          !cursor.done &&
+          !ends.includes(cursor.next)
+        )
+          this.guard(() => {
+            cursor.advance();
+          });
       }
       return statements;
     });
   }
 
   private statement(): Statement | undefined {
-    const { cursor } = this, at = cursor.here, word = cursor.next;
+    const { cursor } = this;
+    const at = cursor.here;
+    const word = cursor.next;
     if (cursor.accept(";")) return undefined;
     if (cursor.kind !== "word") throw cursor.unexpected("a statement");
     switch (word) {
-      case "const": case "pers": case "var": this.datum(this.current ?? this.data); return undefined;
-      case "if": cursor.advance(); return this.decision(at);
+      case "const":
+      case "pers":
+      case "var":
+        this.datum(this.current ?? this.data);
+        return undefined;
+      case "if":
+        cursor.advance();
+        return this.decision(at);
       case "while": {
         cursor.advance();
         const when = readExpression(cursor, RULES);
@@ -216,8 +429,12 @@ class Reader extends ForgivingReader {
         cursor.expect("endwhile");
         return { kind: "while", when, body, ...at };
       }
-      case "for": cursor.advance(); return this.counting(at);
-      case "test": cursor.advance(); return this.test(at);
+      case "for":
+        cursor.advance();
+        return this.counting(at);
+      case "test":
+        cursor.advance();
+        return this.test(at);
       case "return": {
         cursor.advance();
         if (cursor.accept(";")) return { kind: "return", ...at };
@@ -225,10 +442,18 @@ class Reader extends ForgivingReader {
         cursor.expect(";");
         return { kind: "return", value, ...at };
       }
-      case "exit": cursor.advance(); cursor.expect(";"); return { kind: "halt", ...at };
-      case "goto": case "raise": case "retry": case "trynext": case "connect":
+      case "exit":
+        cursor.advance();
+        cursor.expect(";");
+        return { kind: "halt", ...at };
+      case "goto":
+      case "raise":
+      case "retry":
+      case "trynext":
+      case "connect":
         throw new TextError(at, "a statement of the motion program", `${word.toUpperCase()} is not executed here.`);
-      default: break;
+      default:
+        break;
     }
     if (RESERVED.has(word)) throw cursor.unexpected("a statement");
     const { second } = cursor;
@@ -245,7 +470,8 @@ class Reader extends ForgivingReader {
   }
 
   private decision(at: TextPlace): Statement {
-    const { cursor } = this, branches: { when: Expression; body: Block }[] = [];
+    const { cursor } = this;
+    const branches: { when: Expression; body: Block }[] = [];
     let when = readExpression(cursor, RULES);
     if (cursor.next !== "then") {
       // IF condition instruction;
@@ -264,11 +490,13 @@ class Reader extends ForgivingReader {
   }
 
   private counting(at: TextPlace): Statement {
-    const { cursor } = this, variable = cursor.name("the name of the loop variable");
+    const { cursor } = this;
+    const variable = cursor.name("the name of the loop variable");
     cursor.expect("from");
     const from = readExpression(cursor, RULES);
     cursor.expect("to");
-    const to = readExpression(cursor, RULES), step = cursor.accept("step") ? readExpression(cursor, RULES) : undefined;
+    const to = readExpression(cursor, RULES);
+    const step = cursor.accept("step") ? readExpression(cursor, RULES) : undefined;
     cursor.expect("do");
     const body = this.body(at, ["endfor"]);
     cursor.expect("endfor");
@@ -277,7 +505,9 @@ class Reader extends ForgivingReader {
 
   /** TEST … CASE is a chain of comparisons. */
   private test(at: TextPlace): Statement {
-    const { cursor } = this, of = readExpression(cursor, RULES), branches: { when: Expression; body: Block }[] = [];
+    const { cursor } = this;
+    const of = readExpression(cursor, RULES);
+    const branches: { when: Expression; body: Block }[] = [];
     let otherwise: Block | undefined;
     while (!cursor.accept("endtest")) {
       if (cursor.accept("default")) {
@@ -288,8 +518,19 @@ class Reader extends ForgivingReader {
       cursor.expect("case");
       let when: Expression | undefined;
       do {
-        const right = readExpression(cursor, RULES), equal: Expression = { kind: "binary", sign: "=", left: of, right, line: right.line, column: right.column };
-        when = when === undefined ? equal : { kind: "binary", sign: "or", left: when, right: equal, line: right.line, column: right.column };
+        const right = readExpression(cursor, RULES);
+        const equal: Expression = {
+          kind: "binary",
+          sign: "=",
+          left: of,
+          right,
+          line: right.line,
+          column: right.column,
+        };
+        when =
+          when === undefined
+            ? equal
+            : { kind: "binary", sign: "or", left: when, right: equal, line: right.line, column: right.column };
       } while (cursor.accept(","));
       cursor.expect(":");
       branches.push({ when, body: this.body(at, ["endtest", "case", "default"]) });
@@ -299,7 +540,19 @@ class Reader extends ForgivingReader {
 }
 
 const ROUTINE_ENDS = new Set(["endproc", "endfunc", "endtrap", "endmodule", "proc", "func", "trap"]);
-const ENDS = new Set([...ROUTINE_ENDS, "endif", "endwhile", "endfor", "endtest", "else", "elseif", "error", "local", "const", "pers"]);
+const ENDS = new Set([
+  ...ROUTINE_ENDS,
+  "endif",
+  "endwhile",
+  "endfor",
+  "endtest",
+  "else",
+  "elseif",
+  "error",
+  "local",
+  "const",
+  "pers",
+]);
 
 /** `a,b\Opt:=c\Switch` up to and with the sign that ends it. A comma before a backslash is at will. */
 function readArguments(cursor: TokenCursor, end: string, depth: number): readonly Argument[] {
@@ -311,12 +564,18 @@ function readArguments(cursor: TokenCursor, end: string, depth: number): readonl
     if (cursor.accept("\\")) {
       const name = cursor.name("the name of an optional argument");
       if (cursor.accept(":=")) args.push({ name, value: readExpression(cursor, RULES, depth + 1), ...at });
-      else if (cursor.next === "?") throw new TextError(cursor.here, "an argument", "Conditional arguments are not executed here.");
+      else if (cursor.next === "?")
+        throw new TextError(cursor.here, "an argument", "Conditional arguments are not executed here.");
       else args.push({ name, ...at });
       continue;
     }
     const value = readExpression(cursor, RULES, depth + 1);
-    if (value.kind === "text" && value.value.length > STRING_LENGTH) throw new TextError(value, `a text of at most ${STRING_LENGTH} characters`, `The text has ${value.value.length} characters; RAPID takes ${STRING_LENGTH}.`);
+    if (value.kind === "text" && value.value.length > STRING_LENGTH)
+      throw new TextError(
+        value,
+        `a text of at most ${STRING_LENGTH} characters`,
+        `The text has ${value.value.length} characters; RAPID takes ${STRING_LENGTH}.`,
+      );
     args.push({ value, ...at });
   }
   return args;

@@ -15,7 +15,9 @@ export class Arguments {
   constructor(name: string, args: readonly Argument[], at: TextPlace, evaluate: (expression: Expression) => Value) {
     this.name = name;
     this.args = args;
-    this.free = args.flatMap(argument => argument.name === undefined && argument.value !== undefined ? [argument.value] : []);
+    this.free = args.flatMap(argument =>
+      argument.name === undefined && argument.value !== undefined ? [argument.value] : [],
+    );
     this.at = at;
     this.evaluate = evaluate;
   }
@@ -27,8 +29,12 @@ export class Arguments {
     return found;
   }
 
-  value(place: number, what: string): Value { return this.evaluate(this.given(place, what)); }
-  number(place: number, what: string): number { return asNumber(this.value(place, what), this.given(place, what)); }
+  value(place: number, what: string): Value {
+    return this.evaluate(this.given(place, what));
+  }
+  number(place: number, what: string): number {
+    return asNumber(this.value(place, what), this.given(place, what));
+  }
 
   /** The name of a line, a tool or a work object. */
   nameOf(place: number, what: string): string {
@@ -37,14 +43,28 @@ export class Arguments {
     return found.name;
   }
 
-  has(name: string): boolean { return this.args.some(argument => argument.name === name); }
-  optionGiven(name: string): Expression | undefined { return this.args.find(argument => argument.name === name)?.value; }
+  has(name: string): boolean {
+    return this.args.some(argument => argument.name === name);
+  }
+  optionGiven(name: string): Expression | undefined {
+    return this.args.find(argument => argument.name === name)?.value;
+  }
   option(name: string): number | undefined {
     const found = this.optionGiven(name);
     return found === undefined ? undefined : asNumber(this.evaluate(found), found);
   }
 
-  get count(): number { return this.free.length; }
-  values(): Value[] { return this.free.map(each => this.evaluate(each)); }
-  options(): Options { return new Map(this.args.flatMap(({ name, value }): [string, Value | true][] => name === undefined ? [] : [[name, value === undefined ? true : this.evaluate(value)]])); }
+  get count(): number {
+    return this.free.length;
+  }
+  values(): Value[] {
+    return this.free.map(each => this.evaluate(each));
+  }
+  options(): Options {
+    return new Map(
+      this.args.flatMap(({ name, value }): [string, Value | true][] =>
+        name === undefined ? [] : [[name, value === undefined ? true : this.evaluate(value)]],
+      ),
+    );
+  }
 }

@@ -15,13 +15,24 @@ export class ControllerArm {
   constructor(robot: Robot, worldFromBase: Pose<"world", "base">) {
     this.robot = robot;
     this.worldFromBase = fromPose(worldFromBase);
-    this.joints_deg = robot.home_rad.map(angle => angle / Math.PI * 180);
+    this.joints_deg = robot.home_rad.map(angle => (angle / Math.PI) * 180);
   }
 
-  get flange(): Frame { return this.known ??= this.flangeAt(this.joints_deg!); }
+  get flange(): Frame {
+    return (this.known ??= this.flangeAt(this.joints_deg!));
+  }
 
-  world<Into extends string, From extends string>(base: Frame): Pose<Into, From> { return toPose(times(this.worldFromBase, base)); }
-  flangeAt(joints_deg: readonly number[]): Frame { return fromPose(flangePose(this.robot.arm, joints_deg.map(angle => angle / 180 * Math.PI))); }
+  world<Into extends string, From extends string>(base: Frame): Pose<Into, From> {
+    return toPose(times(this.worldFromBase, base));
+  }
+  flangeAt(joints_deg: readonly number[]): Frame {
+    return fromPose(
+      flangePose(
+        this.robot.arm,
+        joints_deg.map(angle => (angle / 180) * Math.PI),
+      ),
+    );
+  }
 
   atJoints(joints_deg: readonly number[]): void {
     this.joints_deg = joints_deg;
@@ -30,9 +41,10 @@ export class ControllerArm {
 
   /** The flange is there, in the configuration that is asked for or else in the nearest posture. Answers with the branch, where it has a name. */
   atFlange(flange: Frame, conf: Confdata | undefined): Branch | undefined {
-    const near = this.joints_deg?.map(angle => angle / 180 * Math.PI), q = solved(this.robot, toPose(flange), near, conf);
+    const near = this.joints_deg?.map(angle => (angle / 180) * Math.PI);
+    const q = solved(this.robot, toPose(flange), near, conf);
     this.known = flange;
-    this.joints_deg = q?.map(angle => angle / Math.PI * 180);
+    this.joints_deg = q?.map(angle => (angle / Math.PI) * 180);
     return q === undefined ? undefined : branchOf(this.robot, q);
   }
 
@@ -40,12 +52,24 @@ export class ControllerArm {
     const { joints_deg } = this;
     if (joints_deg === undefined) return [0, 0, 0, 0];
     const quarter = (joint: number): number => Math.floor(joints_deg[joint]! / 90);
-    return [quarter(0), quarter(3), quarter(5), octant(this.robot, joints_deg.map(angle => angle / 180 * Math.PI))];
+    return [
+      quarter(0),
+      quarter(3),
+      quarter(5),
+      octant(
+        this.robot,
+        joints_deg.map(angle => (angle / 180) * Math.PI),
+      ),
+    ];
   }
 
   /** Remembers where the arm is; the answer brings it back. */
   remember(): () => void {
     const { known, tool, joints_deg } = this;
-    return () => { this.known = known; this.tool = tool; this.joints_deg = joints_deg; };
+    return () => {
+      this.known = known;
+      this.tool = tool;
+      this.joints_deg = joints_deg;
+    };
   }
 }

@@ -4,7 +4,11 @@ import type { Value } from "./values.ts";
 
 /** Functions that read a line, with the kind of line each reads. */
 export const KIND_OF_FUNCTION: Readonly<Record<string, SignalLine["kind"]>> = {
-  testdi: "digital-in", dinput: "digital-in", doutput: "digital-out", ainput: "analogue-in", aoutput: "analogue-out",
+  testdi: "digital-in",
+  dinput: "digital-in",
+  doutput: "digital-out",
+  ainput: "analogue-in",
+  aoutput: "analogue-out",
 };
 
 /** The lines of the controller. They are names of its configuration, so a program only shows by its use what they are. */
@@ -19,7 +23,12 @@ export class Lines {
    * @param table   lines by name; filled as they are met.
    * @param isFree  whether a name is that of no datum.
    */
-  constructor(table: Record<string, SignalLine>, signals: Signals | undefined, spelt: (name: string) => string, isFree: (name: string) => boolean) {
+  constructor(
+    table: Record<string, SignalLine>,
+    signals: Signals | undefined,
+    spelt: (name: string) => string,
+    isFree: (name: string) => boolean,
+  ) {
     this.table = table;
     this.signals = signals;
     this.spelt = spelt;
@@ -46,8 +55,12 @@ export class Lines {
     return value === true || (typeof value === "number" && value !== 0);
   }
 
-  write(line: string, value: boolean | number): void { this.outputs.set(line, value); }
-  holds(when: Condition): boolean { return holds(when, this); }
+  write(line: string, value: boolean | number): void {
+    this.outputs.set(line, value);
+  }
+  holds(when: Condition): boolean {
+    return holds(when, this);
+  }
 
   /** The condition of one line that an expression is: `di1=1`, `NOT TestDI(di1)`, `AInput(ai1)>5`. */
   condition(expression: Expression, evaluate: (of: Expression) => Value): Condition | undefined {
@@ -62,8 +75,13 @@ export class Lines {
     if (expression.kind !== "binary" || !["=", "<>", "<", ">"].includes(expression.sign)) return undefined;
     const { sign, left, right } = expression;
     // A bare name is a line when it is nothing else and is compared with a number.
-    if (left.kind === "variable" && (!this.isFree(left.name) || (right.kind !== "number" && (right.kind !== "variable" || this.isFree(right.name))))) return undefined;
-    const signal = this.lineOf(left), value = right.kind === "number" || right.kind === "variable" ? evaluate(right) : undefined;
+    if (
+      left.kind === "variable" &&
+      (!this.isFree(left.name) || (right.kind !== "number" && (right.kind !== "variable" || this.isFree(right.name))))
+    )
+      return undefined;
+    const signal = this.lineOf(left);
+    const value = right.kind === "number" || right.kind === "variable" ? evaluate(right) : undefined;
     if (signal === undefined || typeof value !== "number") return undefined;
     if (sign === ">" || sign === "<") return sign === ">" ? { signal, above: value } : { signal, below: value };
     return value === 0 || value === 1 ? { signal, is: (value === 1) === (sign === "=") } : undefined;

@@ -1,6 +1,25 @@
-import type { Condition, Executed, MoveStep, Pose, Robot, Signals, Speed, Step, Target, TextPlace } from "@twincell/core";
+import type {
+  Condition,
+  Executed,
+  MoveStep,
+  Pose,
+  Robot,
+  Signals,
+  Speed,
+  Step,
+  Target,
+  TextPlace,
+} from "@twincell/core";
 import { TextError, nameIn, type Surroundings } from "../../text/index.ts";
-import { BlockMachine, type Block, type Do, type Expression, type Flow, type Routine, type WaitUntil } from "../../text/structured/index.ts";
+import {
+  BlockMachine,
+  type Block,
+  type Do,
+  type Expression,
+  type Flow,
+  type Routine,
+  type WaitUntil,
+} from "../../text/structured/index.ts";
 import type { Datum, Source } from "../read/grammar.ts";
 import { ControllerArm } from "./arm.ts";
 import { Arguments } from "./arguments.ts";
@@ -16,8 +35,24 @@ import { asFrame, asNumber, asNumbers, asRecord, asTruth, binary, fromFrame, pla
 const GRIPPER = "dogripper";
 /** Instructions that change nothing of where the robot goes. */
 const SILENT = new Set([
-  "singarea", "tperase", "confl", "pathaccset", "worldaccset", "motionsup", "actunit", "deactunit", "clkreset", "clkstart", "clkstop",
-  "cirpathmode", "pathresol", "tunereset", "softdeact", "pdispoff", "eoffsoff", "waitrob",
+  "singarea",
+  "tperase",
+  "confl",
+  "pathaccset",
+  "worldaccset",
+  "motionsup",
+  "actunit",
+  "deactunit",
+  "clkreset",
+  "clkstart",
+  "clkstop",
+  "cirpathmode",
+  "pathresol",
+  "tunereset",
+  "softdeact",
+  "pdispoff",
+  "eoffsoff",
+  "waitrob",
 ]);
 /** Instructions at which the robot stays until somebody starts it again. */
 const HALTS = new Set(["stop", "break", "systemstopaction"]);
@@ -25,7 +60,13 @@ const HALTS = new Set(["stop", "break", "systemstopaction"]);
 const UNSET = new Set(["num", "dnum", "bool", "string", "byte", "clock", "intnum"]);
 const MOST_ITEMS = 100_000;
 
-interface Motion { readonly goal: Expression; readonly via?: Expression; readonly speed: Expression; readonly zone?: Expression; readonly tool: Expression }
+interface Motion {
+  readonly goal: Expression;
+  readonly via?: Expression;
+  readonly speed: Expression;
+  readonly zone?: Expression;
+  readonly tool: Expression;
+}
 
 /** Executes RAPID statement by statement. */
 export class Machine extends BlockMachine<Value> {
@@ -44,14 +85,26 @@ export class Machine extends BlockMachine<Value> {
   private tool: Frame;
 
   /** @param changing  data that get a value while the program runs. */
-  constructor(source: Source, changing: ReadonlySet<string>, robot: Robot, worldFromBase: Pose<"world", "base">, surroundings: Surroundings, signals?: Signals) {
+  constructor(
+    source: Source,
+    changing: ReadonlySet<string>,
+    robot: Robot,
+    worldFromBase: Pose<"world", "base">,
+    surroundings: Surroundings,
+    signals?: Signals,
+  ) {
     super(source.routines);
     this.source = source;
     this.known = predefined(robot.maxTcpSpeed_mps);
     this.changing = changing;
     this.arm = new ControllerArm(robot, worldFromBase);
     this.surroundings = surroundings;
-    this.lines = new Lines(surroundings.signals, signals, name => this.spelt(name), name => this.variable(name) === undefined);
+    this.lines = new Lines(
+      surroundings.signals,
+      signals,
+      name => this.spelt(name),
+      name => this.variable(name) === undefined,
+    );
     this.tool = { mm: [0, 0, 0], wxyz: [1, 0, 0, 0] };
     for (const datum of source.data) this.make(datum, this.globals);
   }
@@ -66,9 +119,14 @@ export class Machine extends BlockMachine<Value> {
   }
 
   private empty(sizes: readonly Expression[], type: string): Value {
-    const [size, ...rest] = sizes, length = this.numberOf(size!);
-    if (!Number.isInteger(length) || length < 1 || length > MOST_ITEMS) throw new TextError(size!, `a size from 1 to ${MOST_ITEMS}`, `An array of ${length} items cannot be made.`);
-    return Array.from({ length }, (): Value => rest.length > 0 ? this.empty(rest, type) : type === "bool" ? false : type === "string" ? "" : 0);
+    const [size, ...rest] = sizes;
+    const length = this.numberOf(size!);
+    if (!Number.isInteger(length) || length < 1 || length > MOST_ITEMS)
+      throw new TextError(size!, `a size from 1 to ${MOST_ITEMS}`, `An array of ${length} items cannot be made.`);
+    return Array.from(
+      { length },
+      (): Value => (rest.length > 0 ? this.empty(rest, type) : type === "bool" ? false : type === "string" ? "" : 0),
+    );
   }
 
   protected override prepare(routine: Routine, names: Map<string, Value>): void {
@@ -82,7 +140,10 @@ export class Machine extends BlockMachine<Value> {
 
   /** PROC main, or the only routine there is. */
   entry(): Routine | undefined {
-    return this.source.routines.get("main") ?? (this.source.routines.size === 1 ? [...this.source.routines.values()][0] : undefined);
+    return (
+      this.source.routines.get("main") ??
+      (this.source.routines.size === 1 ? [...this.source.routines.values()][0] : undefined)
+    );
   }
 
   /** The body of the entry with its data made, to be written down. */
@@ -101,27 +162,47 @@ export class Machine extends BlockMachine<Value> {
 
   evaluate(expression: Expression): Value {
     switch (expression.kind) {
-      case "number": case "truth": case "text": return expression.value;
+      case "number":
+      case "truth":
+      case "text":
+        return expression.value;
       case "variable": {
         const value = this.variable(expression.name) ?? this.lines.level(expression.name);
-        if (value === undefined) throw new TextError(expression, "a datum that has a value", `"${this.spelt(expression.name)}" has no value here.`);
+        if (value === undefined)
+          throw new TextError(
+            expression,
+            "a datum that has a value",
+            `"${this.spelt(expression.name)}" has no value here.`,
+          );
         return value;
       }
-      case "list": return expression.items.map(item => this.evaluate(item));
-      case "index": return expression.indices.reduce<Value>((value, index) => {
-        const i = this.numberOf(index), item = typeof value === "object" && Number.isInteger(i) ? value[i - 1] : undefined;
-        if (item === undefined) throw new TextError(index, "an item of the array", `The array has no item ${i}.`);
-        return item;
-      }, this.evaluate(expression.of));
+      case "list":
+        return expression.items.map(item => this.evaluate(item));
+      case "index":
+        return expression.indices.reduce<Value>((value, index) => {
+          const i = this.numberOf(index);
+          const item = typeof value === "object" && Number.isInteger(i) ? value[i - 1] : undefined;
+          if (item === undefined) throw new TextError(index, "an item of the array", `The array has no item ${i}.`);
+          return item;
+        }, this.evaluate(expression.of));
       case "component": {
-        const record = this.evaluate(expression.of), place = typeof record === "object" ? placeOf(record, expression.name) : undefined;
+        const record = this.evaluate(expression.of);
+        const place = typeof record === "object" ? placeOf(record, expression.name) : undefined;
         const value = typeof record === "object" && place !== undefined ? record[place] : undefined;
-        if (value === undefined) throw new TextError(expression, "a component of the record", `There is no component "${expression.name}" here.`);
+        if (value === undefined)
+          throw new TextError(
+            expression,
+            "a component of the record",
+            `There is no component "${expression.name}" here.`,
+          );
         return value;
       }
-      case "unary": return expression.sign === "not" ? !this.isTrue(expression.of) : -this.numberOf(expression.of);
-      case "binary": return binary(expression.sign, this.evaluate(expression.left), this.evaluate(expression.right), expression);
-      case "call": return this.function(expression);
+      case "unary":
+        return expression.sign === "not" ? !this.isTrue(expression.of) : -this.numberOf(expression.of);
+      case "binary":
+        return binary(expression.sign, this.evaluate(expression.left), this.evaluate(expression.right), expression);
+      case "call":
+        return this.function(expression);
     }
   }
 
@@ -129,33 +210,48 @@ export class Machine extends BlockMachine<Value> {
     const when = this.condition(expression);
     return when === undefined ? asTruth(this.evaluate(expression), expression) : this.lines.holds(when);
   }
-  numberOf(expression: Expression): number { return asNumber(this.evaluate(expression), expression); }
-  fromNumber(value: number): Value { return value; }
+  numberOf(expression: Expression): number {
+    return asNumber(this.evaluate(expression), expression);
+  }
+  fromNumber(value: number): Value {
+    return value;
+  }
 
   protected store(to: Expression, value: Value): void {
     if (to.kind === "variable") {
-      const scope = this.scopes.at(-1), declares = (data: readonly Datum[] | undefined): boolean => data?.some(({ name }) => name === to.name) === true;
-      if (scope !== undefined && (scope.names.has(to.name) || declares(this.source.local.get(scope.routine)))) scope.names.set(to.name, value);
+      const scope = this.scopes.at(-1);
+      const declares = (data: readonly Datum[] | undefined): boolean =>
+        data?.some(({ name }) => name === to.name) === true;
+      if (scope !== undefined && (scope.names.has(to.name) || declares(this.source.local.get(scope.routine))))
+        scope.names.set(to.name, value);
       else if (this.globals.has(to.name) || declares(this.source.data)) this.globals.set(to.name, value);
       else throw new TextError(to, "a datum that is declared", `"${this.spelt(to.name)}" is not declared.`);
       return;
     }
     if (to.kind === "component") {
-      const record = this.evaluate(to.of), place = typeof record === "object" ? placeOf(record, to.name) : undefined;
-      if (typeof record !== "object" || place === undefined || place >= record.length) throw new TextError(to, "a component of the record", `There is no component "${to.name}" here.`);
+      const record = this.evaluate(to.of);
+      const place = typeof record === "object" ? placeOf(record, to.name) : undefined;
+      if (typeof record !== "object" || place === undefined || place >= record.length)
+        throw new TextError(to, "a component of the record", `There is no component "${to.name}" here.`);
       return this.store(to.of, record.with(place, value));
     }
     if (to.kind === "index") {
-      const [index, ...rest] = to.indices, array = this.evaluate(to.of), i = this.numberOf(index!);
-      if (typeof array !== "object" || !Number.isInteger(i) || i < 1 || i > array.length) throw new TextError(index!, "an item of the array", `The array has no item ${i}.`);
+      const [index, ...rest] = to.indices;
+      const array = this.evaluate(to.of);
+      const i = this.numberOf(index!);
+      if (typeof array !== "object" || !Number.isInteger(i) || i < 1 || i > array.length)
+        throw new TextError(index!, "an item of the array", `The array has no item ${i}.`);
       const inner: Expression = { kind: "index", of: to.of, indices: [index!], line: to.line, column: to.column };
-      return rest.length > 0 ? this.store({ kind: "index", of: inner, indices: rest, line: to.line, column: to.column }, value) : this.store(to.of, array.with(i - 1, value));
+      return rest.length > 0
+        ? this.store({ kind: "index", of: inner, indices: rest, line: to.line, column: to.column }, value)
+        : this.store(to.of, array.with(i - 1, value));
     }
     throw new TextError(to, "a datum", "Only a datum can be given a value.");
   }
 
   private function(expression: Extract<Expression, { kind: "call" }>): Value {
-    const { name, args: given } = expression, routine = this.routine(name);
+    const { name, args: given } = expression;
+    const routine = this.routine(name);
     if (routine !== undefined) return this.answer(routine, given, expression);
     const args = new Arguments(name, given, expression, each => this.evaluate(each));
     switch (name) {
@@ -163,39 +259,83 @@ export class Machine extends BlockMachine<Value> {
         const base = times(this.arm.flange, this.tool);
         return [...asRecord(fromFrame(base), expression, 2, "a pose"), [...this.arm.configuration()], NO_AXES];
       }
-      case "cjointt": return [this.jointsNow(expression), NO_AXES];
-      case "cpos": return [...times(this.arm.flange, this.tool).mm];
-      case "calcrobt": return [...asRecord(fromFrame(times(this.arm.flangeAt(jointsOf(args.value(0, "a jointtarget"), expression)), toolFrameOf(args.value(1, "a tool"), expression))), expression, 2, "a pose"), [0, 0, 0, 0], NO_AXES];
-      case "testdi": case "dinput": case "doutput": case "ainput": case "aoutput": {
+      case "cjointt":
+        return [this.jointsNow(expression), NO_AXES];
+      case "cpos":
+        return [...times(this.arm.flange, this.tool).mm];
+      case "calcrobt":
+        return [
+          ...asRecord(
+            fromFrame(
+              times(
+                this.arm.flangeAt(jointsOf(args.value(0, "a jointtarget"), expression)),
+                toolFrameOf(args.value(1, "a tool"), expression),
+              ),
+            ),
+            expression,
+            2,
+            "a pose",
+          ),
+          [0, 0, 0, 0],
+          NO_AXES,
+        ];
+      case "testdi":
+      case "dinput":
+      case "doutput":
+      case "ainput":
+      case "aoutput": {
         const value = this.lines.read(this.lines.line(args.nameOf(0, "a line"), KIND_OF_FUNCTION[name]!));
         return name === "testdi" ? value === true : Number(value);
       }
-      case "isfile": case "present": return false;
-      default: break;
+      case "isfile":
+      case "present":
+        return false;
+      default:
+        break;
     }
     const known = Object.hasOwn(FUNCTIONS, name) ? FUNCTIONS[name] : undefined;
-    if (known === undefined) throw new TextError(expression, "a function of RAPID", `"${name}" is no function that is understood here.`);
+    if (known === undefined)
+      throw new TextError(expression, "a function of RAPID", `"${name}" is no function that is understood here.`);
     const [count, run] = known;
-    if (args.count !== count) throw new TextError(expression, `${count} argument${count === 1 ? "" : "s"}`, `${name} takes ${count} argument${count === 1 ? "" : "s"}; ${args.count} are given.`);
+    if (args.count !== count)
+      throw new TextError(
+        expression,
+        `${count} argument${count === 1 ? "" : "s"}`,
+        `${name} takes ${count} argument${count === 1 ? "" : "s"}; ${args.count} are given.`,
+      );
     return run(args.values(), args.options(), expression);
   }
 
   private jointsNow(at: TextPlace): Value {
     const { joints_deg } = this.arm;
-    if (joints_deg === undefined) throw new TextError(at, "a MoveAbsJ before it", "The joint angles are the controller's choice here, and are not known.");
+    if (joints_deg === undefined)
+      throw new TextError(
+        at,
+        "a MoveAbsJ before it",
+        "The joint angles are the controller's choice here, and are not known.",
+      );
     return [...joints_deg];
   }
 
-  spelt(name: string): string { return this.source.spelling.get(name) ?? name; }
+  spelt(name: string): string {
+    return this.source.spelling.get(name) ?? name;
+  }
 
-  condition(expression: Expression): Condition | undefined { return this.lines.condition(expression, of => this.evaluate(of)); }
+  condition(expression: Expression): Condition | undefined {
+    return this.lines.condition(expression, of => this.evaluate(of));
+  }
 
   // --- waits ------------------------------------------------------------------------------------------------------
 
   protected *waitUntil(statement: WaitUntil): Generator<Executed, void> {
     const when = this.condition(statement.when);
     if (when === undefined) {
-      if (!asTruth(this.evaluate(statement.when), statement.when)) throw new TextError(statement.when, "a condition that comes true", "The program waits for a condition that nothing here makes true.");
+      if (!asTruth(this.evaluate(statement.when), statement.when))
+        throw new TextError(
+          statement.when,
+          "a condition that comes true",
+          "The program waits for a condition that nothing here makes true.",
+        );
       yield { line: statement.line };
       return;
     }
@@ -203,13 +343,19 @@ export class Machine extends BlockMachine<Value> {
   }
 
   private waitFor(at: TextPlace, when: Condition, timeout_s: number | undefined): Executed {
-    return this.done(at, { id: this.stepId(at), type: "wait-for", when, ...(timeout_s === undefined ? {} : { timeout_s }) });
+    return this.done(at, {
+      id: this.stepId(at),
+      type: "wait-for",
+      when,
+      ...(timeout_s === undefined ? {} : { timeout_s }),
+    });
   }
 
   // --- instructions -----------------------------------------------------------------------------------------------
 
   protected *instruction(statement: Do): Generator<Executed, Flow | undefined> {
-    const { name } = statement, args = new Arguments(this.spelt(name), statement.args, statement, each => this.evaluate(each));
+    const { name } = statement;
+    const args = new Arguments(this.spelt(name), statement.args, statement, each => this.evaluate(each));
     if (HALTS.has(name)) {
       yield this.done(statement, { id: this.stepId(statement), type: "stop" });
       return "halt";
@@ -222,48 +368,90 @@ export class Machine extends BlockMachine<Value> {
   private step(name: string, args: Arguments, at: TextPlace): Step | undefined {
     const id = (): string => this.stepId(at);
     switch (name) {
-      case "moveabsj": case "movej": case "movel": case "movec": return this.move(name, args, id());
-      case "searchl": case "searchc": return this.search(name, args, id());
+      case "moveabsj":
+      case "movej":
+      case "movel":
+      case "movec":
+        return this.move(name, args, id());
+      case "searchl":
+      case "searchc":
+        return this.search(name, args, id());
       case "waittime": {
         const s = args.number(0, "a time");
         if (!(s >= 0)) throw new TextError(at, "a time of 0 s or more", `The time is ${s} s.`);
         return { id: id(), type: "wait", s };
       }
-      case "waitdi": case "waitdo": case "waitai": case "waitao": case "waituntil": return this.wait(name, args, at);
-      case "set": case "reset": return this.write(args.nameOf(0, "a line"), name === "set", at);
-      case "setdo": return this.write(args.nameOf(0, "a line"), args.number(1, "a value") !== 0, at);
-      case "setao": return this.write(args.nameOf(0, "a line"), args.number(1, "a value"), at);
+      case "waitdi":
+      case "waitdo":
+      case "waitai":
+      case "waitao":
+      case "waituntil":
+        return this.wait(name, args, at);
+      case "set":
+      case "reset":
+        return this.write(args.nameOf(0, "a line"), name === "set", at);
+      case "setdo":
+        return this.write(args.nameOf(0, "a line"), args.number(1, "a value") !== 0, at);
+      case "setao":
+        return this.write(args.nameOf(0, "a line"), args.number(1, "a value"), at);
       case "pulsedo": {
-        const pulse_s = args.option("plength") ?? 0.2, signal = this.lines.line(args.nameOf(0, "a line"), "digital-out");
+        const pulse_s = args.option("plength") ?? 0.2;
+        const signal = this.lines.line(args.nameOf(0, "a line"), "digital-out");
         return { id: id(), type: "set", signal, to: true, pulse_s };
       }
-      case "gripload": return { id: this.stepId(at), type: "payload", ...loadOf(args.value(0, "a load"), this.tool, at) };
+      case "gripload":
+        return { id: this.stepId(at), type: "payload", ...loadOf(args.value(0, "a load"), this.tool, at) };
       case "tpwrite": {
         const text = args.value(0, "a text");
         if (typeof text !== "string") throw new TextError(at, "a text", "TPWrite writes a text.");
         const number = args.option("num");
         return { id: id(), type: "message", text: number === undefined ? text : `${text}${number}` };
       }
-      case "accset": this.acceleration = Math.min(1, Math.max(0.2, args.number(0, "a percentage") / 100)); return undefined;
-      case "velset": this.override = Math.min(1, Math.max(0.01, args.number(0, "a percentage") / 100)); this.fastest_mmps = args.number(1, "a speed"); return undefined;
-      case "confj": this.asksConfiguration = !args.has("off"); return undefined;
+      case "accset":
+        this.acceleration = Math.min(1, Math.max(0.2, args.number(0, "a percentage") / 100));
+        return undefined;
+      case "velset":
+        this.override = Math.min(1, Math.max(0.01, args.number(0, "a percentage") / 100));
+        this.fastest_mmps = args.number(1, "a speed");
+        return undefined;
+      case "confj":
+        this.asksConfiguration = !args.has("off");
+        return undefined;
       default:
         if (SILENT.has(name)) return undefined;
-        throw new TextError(at, "an instruction of RAPID", REFUSED[name] ?? `"${this.spelt(name)}" is no instruction of RAPID that is understood here.`);
+        throw new TextError(
+          at,
+          "an instruction of RAPID",
+          REFUSED[name] ?? `"${this.spelt(name)}" is no instruction of RAPID that is understood here.`,
+        );
     }
   }
 
   private wait(name: string, args: Arguments, at: TextPlace): Step {
-    const timeout = args.option("maxtime"), limit = timeout === undefined ? {} : { timeout_s: timeout };
+    const timeout = args.option("maxtime");
+    const limit = timeout === undefined ? {} : { timeout_s: timeout };
     const when = name === "waituntil" ? this.condition(args.given(0, "a condition")) : this.waited(name, args);
     if (when !== undefined) return { id: this.stepId(at), type: "wait-for", when, ...limit };
-    if (!this.isTrue(args.given(0, "a condition"))) throw new TextError(at, "a condition that comes true", "The program waits for a condition that nothing here makes true.");
+    if (!this.isTrue(args.given(0, "a condition")))
+      throw new TextError(
+        at,
+        "a condition that comes true",
+        "The program waits for a condition that nothing here makes true.",
+      );
     return { id: this.stepId(at), type: "wait", s: 0 };
   }
 
   private waited(name: string, args: Arguments): Condition {
-    const kind = name === "waitdi" ? "digital-in" : name === "waitdo" ? "digital-out" : name === "waitai" ? "analogue-in" : "analogue-out";
-    const signal = this.lines.line(args.nameOf(0, "a line"), kind), value = args.number(1, "a value");
+    const kind =
+      name === "waitdi"
+        ? "digital-in"
+        : name === "waitdo"
+          ? "digital-out"
+          : name === "waitai"
+            ? "analogue-in"
+            : "analogue-out";
+    const signal = this.lines.line(args.nameOf(0, "a line"), kind);
+    const value = args.number(1, "a value");
     if (kind.startsWith("digital")) return { signal, is: value !== 0 };
     if (args.has("gt")) return { signal, above: value };
     if (args.has("lt")) return { signal, below: value };
@@ -282,33 +470,54 @@ export class Machine extends BlockMachine<Value> {
   private move(name: "moveabsj" | "movej" | "movel" | "movec", args: Arguments, id: string): MoveStep {
     const shift = name === "movec" ? 1 : 0;
     const motion: Motion = {
-      goal: args.given(shift, "a target"), speed: args.given(shift + 1, "a speed"), zone: args.given(shift + 2, "a zone"), tool: args.given(shift + 3, "a tool"),
+      goal: args.given(shift, "a target"),
+      speed: args.given(shift + 1, "a speed"),
+      zone: args.given(shift + 2, "a zone"),
+      tool: args.given(shift + 3, "a tool"),
       ...(shift === 0 ? {} : { via: args.given(0, "a point on the arc") }),
     };
     return this.motion(name, motion, args, id);
   }
 
   private search(name: "searchl" | "searchc", args: Arguments, id: string): MoveStep {
-    const signal = this.lines.line(args.nameOf(0, "a line"), "digital-in"), shift = name === "searchc" ? 1 : 0;
-    if (args.has("flanks")) throw new TextError(args.at, "\\PosFlank or \\NegFlank", "A search for either edge is not executed here.");
+    const signal = this.lines.line(args.nameOf(0, "a line"), "digital-in");
+    const shift = name === "searchc" ? 1 : 0;
+    if (args.has("flanks"))
+      throw new TextError(args.at, "\\PosFlank or \\NegFlank", "A search for either edge is not executed here.");
     const motion: Motion = {
-      goal: args.given(2 + shift, "a target"), speed: args.given(3 + shift, "a speed"), tool: args.given(4 + shift, "a tool"),
+      goal: args.given(2 + shift, "a target"),
+      speed: args.given(3 + shift, "a speed"),
+      tool: args.given(4 + shift, "a tool"),
       ...(shift === 0 ? {} : { via: args.given(2, "a point on the arc") }),
     };
-    const routine = this.scopes.at(-1)?.routine ?? "", is = !args.has("negflank") && !args.has("lowlevel");
-    return { ...this.motion(name === "searchl" ? "movel" : "movec", motion, args, id), until: { when: { signal, is }, missing: this.source.forgiving.has(routine) ? "continue" : "fault" } };
+    const routine = this.scopes.at(-1)?.routine ?? "";
+    const is = !args.has("negflank") && !args.has("lowlevel");
+    return {
+      ...this.motion(name === "searchl" ? "movel" : "movec", motion, args, id),
+      until: { when: { signal, is }, missing: this.source.forgiving.has(routine) ? "continue" : "fault" },
+    };
   }
 
-  private motion(name: "moveabsj" | "movej" | "movel" | "movec", motion: Motion, args: Arguments, id: string): MoveStep {
-    const { goal, via } = motion, tool = this.useTool(motion.tool), object = args.optionGiven("wobj"), speed = this.speed(motion.speed, args);
-    const blend_m = motion.zone === undefined ? 0 : zoneOf(this.evaluate(motion.zone), args.option("z"), motion.zone), acceleration = this.acceleration < 1 ? { acceleration: { ratio: this.acceleration } } : {};
+  private motion(
+    name: "moveabsj" | "movej" | "movel" | "movec",
+    motion: Motion,
+    args: Arguments,
+    id: string,
+  ): MoveStep {
+    const { goal, via } = motion;
+    const tool = this.useTool(motion.tool);
+    const object = args.optionGiven("wobj");
+    const speed = this.speed(motion.speed, args);
+    const blend_m = motion.zone === undefined ? 0 : zoneOf(this.evaluate(motion.zone), args.option("z"), motion.zone);
+    const acceleration = this.acceleration < 1 ? { acceleration: { ratio: this.acceleration } } : {};
     const common = { id, type: "move", speed, ...acceleration, blend_m } as const;
     if (name === "moveabsj") {
       const joints = jointsOf(this.evaluate(goal), goal);
       this.arm.atJoints(joints);
-      return { ...common, path: "ptp", target: { q: joints.map(angle => angle / 180 * Math.PI), tool } };
+      return { ...common, path: "ptp", target: { q: joints.map(angle => (angle / 180) * Math.PI), tool } };
     }
-    const frame = this.workObject(object), target = this.target(goal, frame, tool, name === "movej", true);
+    const frame = this.workObject(object);
+    const target = this.target(goal, frame, tool, name === "movej", true);
     const passing = via === undefined ? {} : { via: this.target(via, frame, tool, false, false) };
     return { ...common, path: name === "movej" ? "ptp" : name === "movel" ? "lin" : "circ", target, ...passing };
   }
@@ -317,37 +526,62 @@ export class Machine extends BlockMachine<Value> {
     this.tool = toolFrameOf(this.evaluate(tool), tool);
     this.arm.tool = this.tool;
     if (tool.kind === "variable" && tool.name === "tool0") return "flange";
-    return nameIn(this.surroundings.tools, toPose<"flange", "tcp">(this.tool), tool.kind === "variable" ? this.spelt(tool.name) : "tool", "_");
+    return nameIn(
+      this.surroundings.tools,
+      toPose<"flange", "tcp">(this.tool),
+      tool.kind === "variable" ? this.spelt(tool.name) : "tool",
+      "_",
+    );
   }
 
   /** A work object: where it is in the base of the robot, and which frame it is for the steps. */
   private workObject(object: Expression | undefined): { readonly name: string; readonly base: Frame } {
-    if (object === undefined || (object.kind === "variable" && object.name === "wobj0")) return { name: "world", base: { mm: [0, 0, 0], wxyz: [1, 0, 0, 0] } };
+    if (object === undefined || (object.kind === "variable" && object.name === "wobj0"))
+      return { name: "world", base: { mm: [0, 0, 0], wxyz: [1, 0, 0, 0] } };
     const [holds, , , user, own] = asRecord(this.evaluate(object), object, 5, "a work object");
-    if (holds !== false) throw new TextError(object, "a work object that stands still", "Work objects that the robot holds are not executed here.");
+    if (holds !== false)
+      throw new TextError(
+        object,
+        "a work object that stands still",
+        "Work objects that the robot holds are not executed here.",
+      );
     const base = times(asFrame(user, object), asFrame(own, object));
     if (object.kind !== "variable") return { name: "world", base };
-    const { name } = object, spelt = this.spelt(name);
+    const { name } = object;
+    const spelt = this.spelt(name);
     if (this.places.has(spelt)) return { name: spelt, base };
     if (this.changing.has(name)) return { name: "world", base };
     this.surroundings.frames[spelt] ??= this.arm.world(base);
     return { name: spelt, base };
   }
 
-  private target(expression: Expression, frame: { readonly name: string; readonly base: Frame }, tool: string, choosesPosture: boolean, isEnd: boolean): Target {
+  private target(
+    expression: Expression,
+    frame: { readonly name: string; readonly base: Frame },
+    tool: string,
+    choosesPosture: boolean,
+    isEnd: boolean,
+  ): Target {
     const [trans, rot, conf] = asRecord(this.evaluate(expression), expression, 4, "a robtarget [[…],[…],[…],[…]]");
-    const inFrame = asFrame([trans!, rot!], expression), tip = times(frame.base, inFrame), [cf1, cf4, cf6, cfx] = asNumbers(conf, expression, 4, "a configuration [cf1,cf4,cf6,cfx]");
-    const isNamed = frame.name !== "world", pose = isNamed ? toPose<"frame", "tcp">(inFrame) : this.arm.world<"frame", "tcp">(tip);
+    const inFrame = asFrame([trans!, rot!], expression);
+    const tip = times(frame.base, inFrame);
+    const [cf1, cf4, cf6, cfx] = asNumbers(conf, expression, 4, "a configuration [cf1,cf4,cf6,cfx]");
+    const isNamed = frame.name !== "world";
+    const pose = isNamed ? toPose<"frame", "tcp">(inFrame) : this.arm.world<"frame", "tcp">(tip);
     if (!isEnd) return { pose, frame: frame.name, tool };
     const asked: Confdata | undefined = this.asksConfiguration ? [cf1!, cf4!, cf6!, cfx!] : undefined;
-    const branch = this.arm.atFlange(times(tip, inverted(this.tool)), choosesPosture || this.asksConfiguration ? asked : undefined);
+    const branch = this.arm.atFlange(
+      times(tip, inverted(this.tool)),
+      choosesPosture || this.asksConfiguration ? asked : undefined,
+    );
     return { pose, frame: frame.name, tool, ...(branch === undefined || !this.asksConfiguration ? {} : { branch }) };
   }
 
   private speed(expression: Expression, args: Arguments): Speed {
     const time = args.option("t");
     if (time !== undefined && time > 0) return { time_s: time };
-    const [tcp] = asNumbers(this.evaluate(expression), expression, 4, "a speed [v_tcp,v_ori,v_leax,v_reax]"), v_mmps = Math.min((args.option("v") ?? tcp!) * this.override, this.fastest_mmps);
+    const [tcp] = asNumbers(this.evaluate(expression), expression, 4, "a speed [v_tcp,v_ori,v_leax,v_reax]");
+    const v_mmps = Math.min((args.option("v") ?? tcp!) * this.override, this.fastest_mmps);
     if (!(v_mmps > 0)) throw new TextError(expression, "a speed above 0", `The speed is ${v_mmps} mm/s.`);
     return { mps: v_mmps / 1000 };
   }
@@ -358,18 +592,32 @@ export class Machine extends BlockMachine<Value> {
   placeIn(variable: string): { readonly frame: string; readonly pose: Pose<"frame", "place"> } | undefined {
     const value = this.variable(variable);
     if (typeof value !== "object" || value.length !== 5 || !this.changing.has(variable)) return undefined;
-    const at = { line: 1, column: 1 }, user = asFrame(value[3], at), own = asFrame(value[4], at);
-    const like = this.source.data.find(({ type, name }) => type === "wobjdata" && name !== variable && !this.changing.has(name) && JSON.stringify(asRecord(this.globals.get(name), at, 5, "a work object")[3]) === JSON.stringify(value[3]));
+    const at = { line: 1, column: 1 };
+    const user = asFrame(value[3], at);
+    const own = asFrame(value[4], at);
+    const like = this.source.data.find(
+      ({ type, name }) =>
+        type === "wobjdata" &&
+        name !== variable &&
+        !this.changing.has(name) &&
+        JSON.stringify(asRecord(this.globals.get(name), at, 5, "a work object")[3]) === JSON.stringify(value[3]),
+    );
     if (like === undefined) return { frame: "world", pose: this.arm.world(times(user, own)) };
-    const shared = asFrame(asRecord(this.globals.get(like.name), at, 5, "a work object")[4], at), spelt = this.spelt(like.name);
+    const shared = asFrame(asRecord(this.globals.get(like.name), at, 5, "a work object")[4], at);
+    const spelt = this.spelt(like.name);
     this.surroundings.frames[spelt] ??= this.arm.world(times(user, shared));
     return { frame: spelt, pose: toPose(times(inverted(shared), own)) };
   }
 
-  edge(): void { /* every move says everything */ }
+  edge(): void {
+    /* every move says everything */
+  }
 
   override remember(): () => void {
-    const values = super.remember(), arm = this.arm.remember(), { acceleration, override, fastest_mmps, asksConfiguration, tool } = this, lines = this.lines.remember();
+    const values = super.remember();
+    const arm = this.arm.remember();
+    const { acceleration, override, fastest_mmps, asksConfiguration, tool } = this;
+    const lines = this.lines.remember();
     return () => {
       values();
       arm();
@@ -385,7 +633,9 @@ export class Machine extends BlockMachine<Value> {
 
 const NO_AXES: Value = [9e9, 9e9, 9e9, 9e9, 9e9, 9e9];
 const REFUSED: Readonly<Record<string, string>> = {
-  triggl: "Events on the way of a move are not executed here.", triggj: "Events on the way of a move are not executed here.",
-  pdispset: "Program displacement is not executed here: put it into the work object.", pdispon: "Program displacement is not executed here: put it into the work object.",
+  triggl: "Events on the way of a move are not executed here.",
+  triggj: "Events on the way of a move are not executed here.",
+  pdispset: "Program displacement is not executed here: put it into the work object.",
+  pdispon: "Program displacement is not executed here: put it into the work object.",
   eoffsset: "Offsets of external axes are not executed here.",
 };

@@ -10,8 +10,12 @@ export class Declarations {
   readonly names = new Names({ most: LONGEST_NAME, reserved: WORDS, first: "n_", foldsCase: true });
   private readonly lines = new Map<string, { readonly line: string; readonly step: string }>();
 
-  add(key: string, line: string, step = ""): void { if (!this.lines.has(key)) this.lines.set(key, { line, step }); }
-  get all(): readonly { readonly line: string; readonly step: string }[] { return [...this.lines.values()]; }
+  add(key: string, line: string, step = ""): void {
+    if (!this.lines.has(key)) this.lines.set(key, { line, step });
+  }
+  get all(): readonly { readonly line: string; readonly step: string }[] {
+    return [...this.lines.values()];
+  }
 
   /** A predefined speed, or one of its own: v12_5 for 12.5 mm/s. */
   speed(v_mmps: string): string {

@@ -12,7 +12,11 @@ export interface BasicLanguage {
 }
 
 /** The two doors through which text of a BASIC comes in. */
-export const basicDoors = ({ machine, ...language }: BasicLanguage): Pick<Dialect, "parse" | "interpret"> => blockDoors({
-  ...language,
-  script: (source, robot, worldFromBase) => mainScript(source, (surroundings, signals) => machine({ source, robot, worldFromBase, surroundings, ...(signals === undefined ? {} : { signals }) })),
-});
+export const basicDoors = ({ machine, ...language }: BasicLanguage): Pick<Dialect, "parse" | "interpret"> =>
+  blockDoors({
+    ...language,
+    script: (source, robot, worldFromBase) =>
+      mainScript(source, (surroundings, signals) =>
+        machine({ source, robot, worldFromBase, surroundings, ...(signals === undefined ? {} : { signals }) }),
+      ),
+  });

@@ -38,22 +38,33 @@ export class UprightArm {
   }
 
   /** The tool, from the base. */
-  here(): Rigid { return on(this.flange, this.tool); }
-  atAngles(deg: readonly number[]): Rigid { return on(ofPose(flangePose(this.robot.arm, inRadians(deg))), this.tool); }
-  inWorld<Into extends string, From extends string>(place: Rigid): Pose<Into, From> { return asPose(on(this.worldFromBase, place)); }
+  here(): Rigid {
+    return on(this.flange, this.tool);
+  }
+  atAngles(deg: readonly number[]): Rigid {
+    return on(ofPose(flangePose(this.robot.arm, inRadians(deg))), this.tool);
+  }
+  inWorld<Into extends string, From extends string>(place: Rigid): Pose<Into, From> {
+    return asPose(on(this.worldFromBase, place));
+  }
 
   goneToAngles(deg: readonly number[]): void {
     this.near = inRadians(deg);
     this.flange = ofPose(flangePose(this.robot.arm, this.near));
   }
 
-  goneTo(place: Rigid): void { this.flange = on(place, back(this.tool)); }
+  goneTo(place: Rigid): void {
+    this.flange = on(place, back(this.tool));
+  }
 
   /** The posture at a place; what is left open is as near as possible to where the arm was. Undefined when there is none. */
   branchAt(place: Rigid, posture: Posture): Branch | undefined {
     const reach = solveAll(this.robot, asPose<"base", "flange">(on(place, back(this.tool))), { near: this.near });
     if (reach.kind !== "reached") return undefined;
-    const found = reach.solutions.map(({ q_rad }) => [...q_rad]).filter(q => this.fits(q, posture)).sort((a, b) => travel(a, this.near) - travel(b, this.near))[0];
+    const found = reach.solutions
+      .map(({ q_rad }) => [...q_rad])
+      .filter(q => this.fits(q, posture))
+      .sort((a, b) => travel(a, this.near) - travel(b, this.near))[0];
     if (found === undefined) return undefined;
     this.near = found;
     return branchOf(this.robot, found);
@@ -64,16 +75,28 @@ export class UprightArm {
    *   bend  = fold + atan2(offset, fore)
    */
   private fits(q_rad: readonly number[], { front, up, bent, wrist }: Posture): boolean {
-    const { ahead_mm, upper_mm, fore_mm, offset_mm, lean, fold } = this.upright, deg = q_rad.map(angle => angle / DEG);
-    const upperArm = lean(deg) * DEG, forearm = upperArm + fold(deg) * DEG;
-    const isFront = ahead_mm + upper_mm * Math.sin(upperArm) + fore_mm * Math.sin(forearm) + offset_mm * Math.cos(forearm) >= 0;
+    const { ahead_mm, upper_mm, fore_mm, offset_mm, lean, fold } = this.upright;
+    const deg = q_rad.map(angle => angle / DEG);
+    const upperArm = lean(deg) * DEG;
+    const forearm = upperArm + fold(deg) * DEG;
+    const isFront =
+      ahead_mm + upper_mm * Math.sin(upperArm) + fore_mm * Math.sin(forearm) + offset_mm * Math.cos(forearm) >= 0;
     const isBent = Math.sin(fold(deg) * DEG + Math.atan2(offset_mm, fore_mm)) > 0;
-    return (front === undefined || front === isFront) && (bent === undefined || bent === isBent) && (up === undefined || up === (isFront === isBent)) && (wrist === undefined || wrist === deg[4]! > 0);
+    return (
+      (front === undefined || front === isFront) &&
+      (bent === undefined || bent === isBent) &&
+      (up === undefined || up === (isFront === isBent)) &&
+      (wrist === undefined || wrist === deg[4]! > 0)
+    );
   }
 
   /** Remembers where the arm is; the answer brings it back. */
   remember(): () => void {
     const { tool, near, flange } = this;
-    return () => { this.tool = tool; this.near = near; this.flange = flange; };
+    return () => {
+      this.tool = tool;
+      this.near = near;
+      this.flange = flange;
+    };
   }
 }

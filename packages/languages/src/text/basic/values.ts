@@ -22,17 +22,29 @@ export interface PlaceValue {
   readonly within?: { readonly variable: string; readonly of: Rigid; readonly at: Rigid };
 }
 /** Joint angles [°]. */
-export interface JointsValue { readonly kind: "joints"; readonly deg: readonly number[] }
+export interface JointsValue {
+  readonly kind: "joints";
+  readonly deg: readonly number[];
+}
 /** A step from a place: along the axes that it is given in, or along its own. */
-export interface ShiftValue { readonly kind: "shift"; readonly by: Six; readonly isOwn: boolean }
+export interface ShiftValue {
+  readonly kind: "shift";
+  readonly by: Six;
+  readonly isOwn: boolean;
+}
 /** Truth is a number: 0 is false. */
 export type Value = number | string | PlaceValue | JointsValue | ShiftValue;
 
 const SORTS = { place: "a place", joints: "a set of joint angles", shift: "a step from a place" } as const;
-export const sortOf = (value: Value): string => typeof value === "number" ? "a number" : typeof value === "string" ? "a text" : SORTS[value.kind];
+export const sortOf = (value: Value): string =>
+  typeof value === "number" ? "a number" : typeof value === "string" ? "a text" : SORTS[value.kind];
 
 const instead = (value: Value, wanted: string, at: TextPlace): TextError =>
-  new TextError(at, wanted, `${sortOf(value).replace(/^./, letter => letter.toUpperCase())} stands where ${wanted} is expected.`);
+  new TextError(
+    at,
+    wanted,
+    `${sortOf(value).replace(/^./, letter => letter.toUpperCase())} stands where ${wanted} is expected.`,
+  );
 
 export function numberIn(value: Value, at: TextPlace): number {
   if (typeof value !== "number") throw instead(value, "a number", at);
@@ -47,18 +59,30 @@ export function placeIn(value: Value, at: TextPlace): PlaceValue {
 /** A number between these, or a fault at its place. */
 export function between(value: number, least: number, most: number, what: string, at: TextPlace): number {
   if (value >= least && value <= most) return value;
-  throw new TextError(at, `${what} from ${least} to ${most}`, `${what.replace(/^./, letter => letter.toUpperCase())} is ${value}.`);
+  throw new TextError(
+    at,
+    `${what} from ${least} to ${most}`,
+    `${what.replace(/^./, letter => letter.toUpperCase())} is ${value}.`,
+  );
 }
 
 /** Signs between two numbers, or two texts. */
-export function arithmetic(sign: string, left: Value, right: Value, truth: (is: boolean) => number, at: TextPlace): Value {
+export function arithmetic(
+  sign: string,
+  left: Value,
+  right: Value,
+  truth: (is: boolean) => number,
+  at: TextPlace,
+): Value {
   if (typeof left === "string" && typeof right === "string") {
     if (sign === "+") return left + right;
     if (sign === "=" || sign === "<>") return truth((left === right) === (sign === "="));
     throw new TextError(at, "+, = or <>", `"${sign}" does not join two texts.`);
   }
-  const a = numberIn(left, at), b = numberIn(right, at);
-  if ((sign === "/" || sign === "mod") && b === 0) throw new TextError(at, "a divisor other than 0", "The divisor is 0.");
+  const a = numberIn(left, at);
+  const b = numberIn(right, at);
+  if ((sign === "/" || sign === "mod") && b === 0)
+    throw new TextError(at, "a divisor other than 0", "The divisor is 0.");
   const value = NUMBERS[sign]?.(a, b);
   if (value === undefined) throw new TextError(at, "an operator", `"${sign}" is no operator.`);
   if (typeof value === "boolean") return truth(value);
@@ -66,7 +90,21 @@ export function arithmetic(sign: string, left: Value, right: Value, truth: (is: 
   return value;
 }
 const NUMBERS: Readonly<Record<string, (a: number, b: number) => number | boolean>> = {
-  "+": (a, b) => a + b, "-": (a, b) => a - b, "*": (a, b) => a * b, "/": (a, b) => a / b, "^": (a, b) => a ** b, mod: (a, b) => a % b,
-  "=": (a, b) => a === b, "==": (a, b) => a === b, "<>": (a, b) => a !== b, "><": (a, b) => a !== b, "<": (a, b) => a < b, ">": (a, b) => a > b, "<=": (a, b) => a <= b, ">=": (a, b) => a >= b,
-  and: (a, b) => a !== 0 && b !== 0, or: (a, b) => a !== 0 || b !== 0, xor: (a, b) => (a !== 0) !== (b !== 0),
+  "+": (a, b) => a + b,
+  "-": (a, b) => a - b,
+  "*": (a, b) => a * b,
+  "/": (a, b) => a / b,
+  "^": (a, b) => a ** b,
+  mod: (a, b) => a % b,
+  "=": (a, b) => a === b,
+  "==": (a, b) => a === b,
+  "<>": (a, b) => a !== b,
+  "><": (a, b) => a !== b,
+  "<": (a, b) => a < b,
+  ">": (a, b) => a > b,
+  "<=": (a, b) => a <= b,
+  ">=": (a, b) => a >= b,
+  and: (a, b) => a !== 0 && b !== 0,
+  or: (a, b) => a !== 0 || b !== 0,
+  xor: (a, b) => (a !== 0) !== (b !== 0),
 };

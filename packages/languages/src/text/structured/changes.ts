@@ -20,8 +20,12 @@ function note(block: Block, into: Set<string>): void {
         for (const { body } of statement.branches) note(body, into);
         if (statement.otherwise !== undefined) note(statement.otherwise, into);
         break;
-      case "while": case "for": note(statement.body, into); break;
-      default: break;
+      case "while":
+      case "for":
+        note(statement.body, into);
+        break;
+      default:
+        break;
     }
   }
 }

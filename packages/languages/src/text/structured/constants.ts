@@ -2,12 +2,18 @@ import type { Block, Routine } from "./tree.ts";
 
 /** Variables that are given a value once, outside every loop and branch: they mean the same wherever they stand. */
 export function constantsOf(main: Block, routines: Iterable<Routine>): ReadonlySet<string> {
-  const once = new Set<string>(), more = new Set<string>();
+  const once = new Set<string>();
+  const more = new Set<string>();
   const look = (block: Block, isTop: boolean): void => {
     for (const statement of block) {
       switch (statement.kind) {
         case "assign": {
-          const name = statement.to.kind === "variable" ? statement.to.name : statement.to.kind === "index" && statement.to.of.kind === "variable" ? statement.to.of.name : "";
+          const name =
+            statement.to.kind === "variable"
+              ? statement.to.name
+              : statement.to.kind === "index" && statement.to.of.kind === "variable"
+                ? statement.to.of.name
+                : "";
           if (!isTop || once.has(name) || statement.to.kind !== "variable") more.add(name);
           once.add(name);
           break;
@@ -16,9 +22,15 @@ export function constantsOf(main: Block, routines: Iterable<Routine>): ReadonlyS
           for (const { body } of statement.branches) look(body, false);
           if (statement.otherwise !== undefined) look(statement.otherwise, false);
           break;
-        case "while": look(statement.body, false); break;
-        case "for": more.add(statement.variable); look(statement.body, false); break;
-        default: break;
+        case "while":
+          look(statement.body, false);
+          break;
+        case "for":
+          more.add(statement.variable);
+          look(statement.body, false);
+          break;
+        default:
+          break;
       }
     }
   };

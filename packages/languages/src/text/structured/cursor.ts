@@ -20,9 +20,15 @@ export class TokenCursor {
   }
 
   /** Where the next token stands. */
-  get here(): TextPlace { return { line: this.line, column: this.column }; }
-  get done(): boolean { return this.kind === "end"; }
-  isAt(kind: TokenKind): boolean { return this.kind === kind; }
+  get here(): TextPlace {
+    return { line: this.line, column: this.column };
+  }
+  get done(): boolean {
+    return this.kind === "end";
+  }
+  isAt(kind: TokenKind): boolean {
+    return this.kind === kind;
+  }
 
   /** The token after the next. */
   get second(): string {
@@ -32,7 +38,9 @@ export class TokenCursor {
   }
 
   /** Takes the first comment in the lines before the next token. */
-  comment(): Comment | undefined { return this.scanner.commentBefore(this.line); }
+  comment(): Comment | undefined {
+    return this.scanner.commentBefore(this.line);
+  }
 
   /** Goes on by one token. @throws {TextError} at a character without a meaning. */
   advance(): void {

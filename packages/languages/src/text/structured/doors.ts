@@ -1,4 +1,16 @@
-import { emptyProgram, identity, type Dialect, type Executed, type Interpreted, type Parsed, type Pose, type Robot, type Signals, type Step, type TextFault } from "@twincell/core";
+import {
+  emptyProgram,
+  identity,
+  type Dialect,
+  type Executed,
+  type Interpreted,
+  type Parsed,
+  type Pose,
+  type Robot,
+  type Signals,
+  type Step,
+  type TextFault,
+} from "@twincell/core";
 import { TextError, textFault } from "../faults.ts";
 import { rehearse } from "../rehearse.ts";
 import { newSurroundings, type Surroundings } from "../surroundings.ts";
@@ -21,11 +33,15 @@ export interface Script<M> {
   readonly warnings?: (machine: M) => readonly TextFault[];
 }
 /** A text whose program stands in it as statements, outside of routines. */
-export const mainScript = <M extends { block(block: Block): Generator<Executed, unknown> }>({ title, main }: { readonly title: string; readonly main: Block }, machine: Script<M>["machine"]): Script<M> =>
-  ({ title, machine, run: started => started.block(main), block: () => main });
+export const mainScript = <M extends { block(block: Block): Generator<Executed, unknown> }>(
+  { title, main }: { readonly title: string; readonly main: Block },
+  machine: Script<M>["machine"],
+): Script<M> => ({ title, machine, run: started => started.block(main), block: () => main });
 /** A text whose program is a routine that its machine finds. */
-export const routineScript = <M extends { main(): Generator<Executed, unknown>; open(): Block }>(title: string, machine: Script<M>["machine"]): Script<M> =>
-  ({ title, machine, run: started => started.main(), block: started => started.open() });
+export const routineScript = <M extends { main(): Generator<Executed, unknown>; open(): Block }>(
+  title: string,
+  machine: Script<M>["machine"],
+): Script<M> => ({ title, machine, run: started => started.main(), block: started => started.open() });
 
 /** A language of blocks: who speaks it, and how a text of it is read. */
 export interface BlockLanguage<S, M> {
@@ -34,36 +50,66 @@ export interface BlockLanguage<S, M> {
   readonly read: (text: string) => { readonly kind: "source"; readonly source: S } | NotUnderstood;
   readonly script: (source: S, robot: Robot, worldFromBase: Pose<"world", "base">) => Script<M>;
 }
-interface NotUnderstood { readonly kind: "not-understood"; readonly faults: readonly TextFault[] }
+interface NotUnderstood {
+  readonly kind: "not-understood";
+  readonly faults: readonly TextFault[];
+}
 
 /**
  * The two doors through which text of a language of blocks comes in. Read as a program, loops that do the same each time stay
  * loops, nests of loops over a pattern of places become pallets, decisions by one line and calls stay what they are, and
  * everything else comes out as what it does.
  */
-export function blockDoors<S, V, M extends OutlineMachine<V> & { spelt?(name: string): string }>({ name, speaks, read, script }: BlockLanguage<S, M>): Pick<Dialect, "parse" | "interpret"> {
-  function open(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): { readonly kind: "open"; readonly script: Script<M> } | NotUnderstood {
-    if (!speaks(robot)) return refusal(textFault({ line: 1, column: 1 }, `a robot whose controller speaks ${name}`, `The controller of the ${robot.name} does not speak ${name}.`));
+export function blockDoors<S, V, M extends OutlineMachine<V> & { spelt?(name: string): string }>({
+  name,
+  speaks,
+  read,
+  script,
+}: BlockLanguage<S, M>): Pick<Dialect, "parse" | "interpret"> {
+  function open(
+    text: string,
+    robot: Robot,
+    worldFromBase: Pose<"world", "base">,
+  ): { readonly kind: "open"; readonly script: Script<M> } | NotUnderstood {
+    if (!speaks(robot))
+      return refusal(
+        textFault(
+          { line: 1, column: 1 },
+          `a robot whose controller speaks ${name}`,
+          `The controller of the ${robot.name} does not speak ${name}.`,
+        ),
+      );
     const answer = read(text);
-    return answer.kind === "not-understood" ? answer : { kind: "open", script: script(answer.source, robot, worldFromBase) };
+    return answer.kind === "not-understood"
+      ? answer
+      : { kind: "open", script: script(answer.source, robot, worldFromBase) };
   }
   return {
     interpret(text, robot, worldFromBase = identity()): Interpreted {
       const opened = open(text, robot, worldFromBase);
       if (opened.kind === "not-understood") return opened;
       const surroundings = newSurroundings();
-      const run = function* (signals?: Signals): Generator<Executed, void> { yield* opened.script.run(opened.script.machine(surroundings, signals)); };
+      const run = function* (signals?: Signals): Generator<Executed, void> {
+        yield* opened.script.run(opened.script.machine(surroundings, signals));
+      };
       const fault = rehearse(run());
       return fault === undefined ? { kind: "ready", run, context: surroundings } : refusal(fault);
     },
     parse(text, robot, worldFromBase = identity()): Parsed {
       const opened = open(text, robot, worldFromBase);
       if (opened.kind === "not-understood") return opened;
-      const { title, machine: start, writer = start, block, unrolled, warnings } = opened.script, surroundings = newSurroundings();
+      const { title, machine: start, writer = start, block, unrolled, warnings } = opened.script;
+      const surroundings = newSurroundings();
       try {
-        const machine = writer(surroundings), outline = new Outline(machine, called => machine.spelt?.(called) ?? called);
-        const steps = unrolled === undefined ? outline.steps(block(machine)) : unrolled(machine), { groups, routines, pallets } = outline;
-        return { kind: "parsed", warnings: [...outline.warnings, ...warnings?.(machine) ?? []], program: { ...emptyProgram(robot.id, title), ...surroundings, groups, pallets, routines, steps } };
+        const machine = writer(surroundings);
+        const outline = new Outline(machine, called => machine.spelt?.(called) ?? called);
+        const steps = unrolled === undefined ? outline.steps(block(machine)) : unrolled(machine);
+        const { groups, routines, pallets } = outline;
+        return {
+          kind: "parsed",
+          warnings: [...outline.warnings, ...(warnings?.(machine) ?? [])],
+          program: { ...emptyProgram(robot.id, title), ...surroundings, groups, pallets, routines, steps },
+        };
       } catch (cause) {
         if (!(cause instanceof TextError)) throw cause;
         return refusal(cause.fault);

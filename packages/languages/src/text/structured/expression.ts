@@ -25,7 +25,8 @@ const DEPTH = 40;
 
 /** @throws {TextError} where no expression of the language stands. */
 export function readExpression(cursor: TokenCursor, rules: ExpressionRules, depth = 0, least = 0): Expression {
-  if (depth > DEPTH) throw new TextError(cursor.here, "a simpler expression", `The expression is nested more than ${DEPTH} deep.`);
+  if (depth > DEPTH)
+    throw new TextError(cursor.here, "a simpler expression", `The expression is nested more than ${DEPTH} deep.`);
   let left = readPrefix(cursor, rules, depth);
   for (;;) {
     const sign = cursor.next;
@@ -41,7 +42,8 @@ export function readExpression(cursor: TokenCursor, rules: ExpressionRules, dept
 function readPrefix(cursor: TokenCursor, rules: ExpressionRules, depth: number): Expression {
   const sign = cursor.next;
   if (cursor.kind !== "text" && cursor.kind !== "number" && Object.hasOwn(rules.prefix, sign)) {
-    const { line, column } = cursor.here, strength = rules.prefix[sign]!;
+    const { line, column } = cursor.here;
+    const strength = rules.prefix[sign]!;
     cursor.advance();
     const of = readExpression(cursor, rules, depth + 1, strength);
     // A number with its minus is a number.
@@ -56,7 +58,8 @@ function readPrimary(cursor: TokenCursor, rules: ExpressionRules, depth: number)
   switch (cursor.kind) {
     case "number": {
       const value = Number(cursor.raw);
-      if (!Number.isFinite(value)) throw new TextError(cursor.here, "a number that can be held", `${cursor.raw} is too large.`);
+      if (!Number.isFinite(value))
+        throw new TextError(cursor.here, "a number that can be held", `${cursor.raw} is too large.`);
       cursor.advance();
       return { kind: "number", value, line, column };
     }
@@ -65,9 +68,13 @@ function readPrimary(cursor: TokenCursor, rules: ExpressionRules, depth: number)
       cursor.advance();
       return { kind: "text", value, line, column };
     }
-    case "word": return readWord(cursor, rules, depth);
-    case "sign": break;
-    case "line-end": case "end": throw cursor.unexpected("a value");
+    case "word":
+      return readWord(cursor, rules, depth);
+    case "sign":
+      break;
+    case "line-end":
+    case "end":
+      throw cursor.unexpected("a value");
   }
   if (cursor.accept("(")) {
     const value = readExpression(cursor, rules, depth + 1);
@@ -79,7 +86,8 @@ function readPrimary(cursor: TokenCursor, rules: ExpressionRules, depth: number)
 }
 
 function readWord(cursor: TokenCursor, rules: ExpressionRules, depth: number): Expression {
-  const { line, column } = cursor.here, name = cursor.next;
+  const { line, column } = cursor.here;
+  const name = cursor.next;
   if (rules.tags.includes(name) && cursor.second === "[") {
     cursor.advance();
     return { ...readList(cursor, rules, depth, name), line, column };
@@ -100,7 +108,8 @@ function readList(cursor: TokenCursor, rules: ExpressionRules, depth: number, ta
   cursor.expect("[");
   const items: Expression[] = [];
   if (!cursor.accept("]")) {
-    do items.push(readExpression(cursor, rules, depth + 1)); while (cursor.accept(","));
+    do items.push(readExpression(cursor, rules, depth + 1));
+    while (cursor.accept(","));
     cursor.expect("]");
   }
   return { kind: "list", tag, items, line, column };

@@ -12,7 +12,10 @@ const STATEMENTS_WITHOUT_MOTION = 100_000;
 const CALL_DEPTH = 40;
 
 /** The variables of one call. */
-export interface Scope<V> { readonly routine: string; readonly names: Map<string, V> }
+export interface Scope<V> {
+  readonly routine: string;
+  readonly names: Map<string, V>;
+}
 
 /**
  * Executes blocks, loops and calls of a language whose values are V. What an expression is worth and what an instruction
@@ -27,7 +30,9 @@ export abstract class BlockMachine<V> {
   private depth = 0;
   private returned: V | undefined;
 
-  constructor(routines: ReadonlyMap<string, Routine>) { this.routines = routines; }
+  constructor(routines: ReadonlyMap<string, Routine>) {
+    this.routines = routines;
+  }
 
   abstract evaluate(expression: Expression): V;
   abstract isTrue(expression: Expression): boolean;
@@ -38,7 +43,9 @@ export abstract class BlockMachine<V> {
   protected abstract instruction(statement: Do): Generator<Executed, Flow | undefined>;
   protected abstract waitUntil(statement: WaitUntil): Generator<Executed, void>;
 
-  routine(name: string): Routine | undefined { return this.routines.get(name); }
+  routine(name: string): Routine | undefined {
+    return this.routines.get(name);
+  }
 
   *block(block: Block): Generator<Executed, Flow> {
     for (const statement of block) {
@@ -82,13 +89,18 @@ export abstract class BlockMachine<V> {
           if (flow === "return" || flow === "halt") return flow;
         }
         return "next";
-      case "for": return yield* this.loop(statement);
-      case "wait-until": yield* this.waitUntil(statement); return "next";
+      case "for":
+        return yield* this.loop(statement);
+      case "wait-until":
+        yield* this.waitUntil(statement);
+        return "next";
       case "return":
         this.returned = statement.value === undefined ? undefined : this.evaluate(statement.value);
         return "return";
-      case "break": return "break";
-      case "continue": return "continue";
+      case "break":
+        return "break";
+      case "continue":
+        return "continue";
       case "halt":
         yield this.done(statement, { id: this.stepId(statement), type: "stop" });
         return "halt";
@@ -96,18 +108,28 @@ export abstract class BlockMachine<V> {
   }
 
   /** From, last and step of a counting loop. */
-  counting({ from, to, step }: Extract<Statement, { kind: "for" }>): readonly [from: number, last: number, step: number] {
-    const first = this.numberOf(from), last = this.numberOf(to);
+  counting({
+    from,
+    to,
+    step,
+  }: Extract<Statement, { kind: "for" }>): readonly [from: number, last: number, step: number] {
+    const first = this.numberOf(from);
+    const last = this.numberOf(to);
     return [first, last, step === undefined ? (last < first ? -1 : 1) : this.numberOf(step)];
   }
 
   /** Gives the variable of a counting loop its value. */
   setCount(name: string, value: number): void {
-    const holder = this.scopes.findLast(({ names }) => names.has(name))?.names ?? (this.globals.has(name) ? this.globals : undefined);
-    if (holder !== undefined) holder.set(name, this.fromNumber(value)); else this.count(name, value);
+    const holder =
+      this.scopes.findLast(({ names }) => names.has(name))?.names ??
+      (this.globals.has(name) ? this.globals : undefined);
+    if (holder !== undefined) holder.set(name, this.fromNumber(value));
+    else this.count(name, value);
   }
 
-  private count(name: string, value: number): void { (this.scopes.at(-1)?.names ?? this.globals).set(name, this.fromNumber(value)); }
+  private count(name: string, value: number): void {
+    (this.scopes.at(-1)?.names ?? this.globals).set(name, this.fromNumber(value));
+  }
 
   private *loop(statement: Extract<Statement, { kind: "for" }>): Generator<Executed, Flow> {
     const [from, last, step] = this.counting(statement);
@@ -124,54 +146,86 @@ export abstract class BlockMachine<V> {
   }
 
   /** Makes the variables that a routine has from its beginning. */
-  protected prepare(_routine: Routine, _names: Map<string, V>): void { /* most languages have none */ }
+  protected prepare(_routine: Routine, _names: Map<string, V>): void {
+    /* most languages have none */
+  }
 
   *call(routine: Routine, args: readonly Argument[], at: TextPlace): Generator<Executed, Flow> {
     this.enter(routine, args, at);
     try {
       return (yield* this.block(routine.body)) === "halt" ? "halt" : "next";
-    } finally { this.leave(); }
+    } finally {
+      this.leave();
+    }
   }
 
   /** Does something in the variables of a routine that takes no arguments. */
   inside<T>(routine: Routine, act: () => T): T {
     this.enter(routine, [], routine);
-    try { return act(); } finally { this.leave(); }
+    try {
+      return act();
+    } finally {
+      this.leave();
+    }
   }
 
   /** What a routine answers inside an expression; it must not move. */
   protected answer(routine: Routine, args: readonly Argument[], at: Expression): V {
     for (const { step } of this.call(routine, args, at)) {
-      if (step !== undefined) throw new TextError(at, "a call as a statement of its own", `${routine.name} moves or waits: call it as a statement, not inside an expression.`);
+      if (step !== undefined)
+        throw new TextError(
+          at,
+          "a call as a statement of its own",
+          `${routine.name} moves or waits: call it as a statement, not inside an expression.`,
+        );
     }
     return this.result(at);
   }
 
   private result(at: TextPlace): V {
     const { returned } = this;
-    if (returned === undefined) throw new TextError(at, "a routine that returns a value", "The routine ends without a value.");
+    if (returned === undefined)
+      throw new TextError(at, "a routine that returns a value", "The routine ends without a value.");
     return returned;
   }
 
   /** Remembers variables and counts; the answer brings them back. */
   remember(): () => void {
-    const globals = new Map(this.globals), scopes = this.scopes.map(({ routine, names }) => ({ routine, names: new Map(names) })), { idle } = this;
+    const globals = new Map(this.globals);
+    const scopes = this.scopes.map(({ routine, names }) => ({ routine, names: new Map(names) }));
+    const { idle } = this;
     return () => {
       this.globals.clear();
       for (const [name, value] of globals) this.globals.set(name, value);
-      this.scopes.splice(0, this.scopes.length, ...scopes.map(({ routine, names }) => ({ routine, names: new Map(names) })));
+      this.scopes.splice(
+        0,
+        this.scopes.length,
+        ...scopes.map(({ routine, names }) => ({ routine, names: new Map(names) })),
+      );
       this.idle = idle;
     };
   }
 
   private enter(routine: Routine, args: readonly Argument[], at: TextPlace): void {
-    if (++this.depth > CALL_DEPTH) throw new TextError(at, `at most ${CALL_DEPTH} calls inside each other`, `${routine.name} is called more than ${CALL_DEPTH} deep.`);
-    const names = new Map<string, V>(), free = args.filter(({ name }) => name === undefined);
-    if (free.length > routine.parameters.length) throw new TextError(at, `${routine.parameters.length} arguments`, `${routine.name} takes ${routine.parameters.length} arguments; ${free.length} are given.`);
+    if (++this.depth > CALL_DEPTH)
+      throw new TextError(
+        at,
+        `at most ${CALL_DEPTH} calls inside each other`,
+        `${routine.name} is called more than ${CALL_DEPTH} deep.`,
+      );
+    const names = new Map<string, V>();
+    const free = args.filter(({ name }) => name === undefined);
+    if (free.length > routine.parameters.length)
+      throw new TextError(
+        at,
+        `${routine.parameters.length} arguments`,
+        `${routine.name} takes ${routine.parameters.length} arguments; ${free.length} are given.`,
+      );
     for (const [i, { name, value, optional }] of routine.parameters.entries()) {
       const given = args.find(argument => argument.name === name)?.value ?? free[i]?.value ?? value;
       if (given !== undefined) names.set(name, this.evaluate(given));
-      else if (optional !== true) throw new TextError(at, `a value for ${name}`, `${routine.name} is called without its argument ${name}.`);
+      else if (optional !== true)
+        throw new TextError(at, `a value for ${name}`, `${routine.name} is called without its argument ${name}.`);
     }
     this.scopes.push({ routine: routine.name, names });
     this.prepare(routine, names);
@@ -197,7 +251,11 @@ export abstract class BlockMachine<V> {
 
   protected spend(at: TextPlace): void {
     if (++this.idle > STATEMENTS_WITHOUT_MOTION) {
-      throw new TextError(at, "a motion, a wait or an end", `The program has executed ${STATEMENTS_WITHOUT_MOTION} statements without a motion: it runs on the spot for ever.`);
+      throw new TextError(
+        at,
+        "a motion, a wait or an end",
+        `The program has executed ${STATEMENTS_WITHOUT_MOTION} statements without a motion: it runs on the spot for ever.`,
+      );
     }
   }
 }

@@ -26,7 +26,13 @@ const MOST_LOOKS = 50;
 
 type Loop = Extract<Statement, { kind: "while" | "for" }>;
 /** A loop that counts: its variable, how it runs, and its body without the counting. */
-interface Counter { readonly name: string; readonly from: number; readonly step: number; readonly times: number; readonly body: Block }
+interface Counter {
+  readonly name: string;
+  readonly from: number;
+  readonly step: number;
+  readonly times: number;
+  readonly body: Block;
+}
 
 /** Writes a program down as steps that keep its loops, decisions and calls. Loops that do something else each time are written out. */
 export class Outline<V> {
@@ -67,24 +73,38 @@ export class Outline<V> {
   private statement(statement: Statement, out: Step[]): Flow {
     const { machine } = this;
     switch (statement.kind) {
-      case "comment": this.comment(statement.text, out); return "next";
-      case "if": return this.decision(statement, out);
-      case "while": case "for": return this.loop(statement, out);
+      case "comment":
+        this.comment(statement.text, out);
+        return "next";
+      case "if":
+        return this.decision(statement, out);
+      case "while":
+      case "for":
+        return this.loop(statement, out);
       case "do": {
         const routine = machine.routine(statement.name);
-        if (routine === undefined || statement.args.length > 0 || routine.parameters.length > 0) return this.run(machine.statement(statement), out);
-        const name = this.spelt(routine.name), step = this.dress();
+        if (routine === undefined || statement.args.length > 0 || routine.parameters.length > 0)
+          return this.run(machine.statement(statement), out);
+        const name = this.spelt(routine.name);
+        const step = this.dress();
         if (!Object.hasOwn(this.routines, name)) {
           this.routines[name] = [];
           const inside: Step[] = [];
-          if (this.fresh(() => { this.group = undefined; return machine.inside(routine, () => this.block(routine.body, inside)); }) === "halt") this.endsAll.add(name);
+          if (
+            this.fresh(() => {
+              this.group = undefined;
+              return machine.inside(routine, () => this.block(routine.body, inside));
+            }) === "halt"
+          )
+            this.endsAll.add(name);
           this.routines[name] = inside;
         }
         machine.edge();
         this.add(out, { ...step, type: "call", routine: name }, statement);
         return this.endsAll.has(name) ? "halt" : "next";
       }
-      default: return this.run(machine.statement(statement), out);
+      default:
+        return this.run(machine.statement(statement), out);
     }
   }
 
@@ -98,7 +118,12 @@ export class Outline<V> {
   }
 
   private add(out: Step[], step: Step, at: TextPlace): void {
-    if (out.length >= MOST_STEPS) throw new TextError(at, "a program that ends", `The program has more than ${MOST_STEPS} steps: it repeats itself for ever.`);
+    if (out.length >= MOST_STEPS)
+      throw new TextError(
+        at,
+        "a program that ends",
+        `The program has more than ${MOST_STEPS} steps: it repeats itself for ever.`,
+      );
     out.push(step);
   }
 
@@ -106,7 +131,11 @@ export class Outline<V> {
   private dress(): { readonly id: string; readonly name?: string; readonly group?: string } {
     const { name, group } = this;
     this.name = undefined;
-    return { id: `s${++this.count}`, ...(name === undefined ? {} : { name }), ...(group === undefined ? {} : { group }) };
+    return {
+      id: `s${++this.count}`,
+      ...(name === undefined ? {} : { name }),
+      ...(group === undefined ? {} : { group }),
+    };
   }
 
   /** A name before a step, `== name` before a group of steps, `- text` for a remark, `*` for neither. */
@@ -115,7 +144,13 @@ export class Outline<V> {
       const title = text.replace(/^=+\s*/, "");
       this.group = title === "" ? undefined : `g${++this.groupCount}`;
       if (this.group !== undefined) this.groups[this.group] = { name: title };
-    } else if (text.startsWith("-")) out.push({ id: `s${++this.count}`, type: "comment", text: text.slice(1).trim(), ...(this.group === undefined ? {} : { group: this.group }) });
+    } else if (text.startsWith("-"))
+      out.push({
+        id: `s${++this.count}`,
+        type: "comment",
+        text: text.slice(1).trim(),
+        ...(this.group === undefined ? {} : { group: this.group }),
+      });
     else if (text !== "" && !text.startsWith("*")) this.name = text;
   }
 
@@ -132,36 +167,60 @@ export class Outline<V> {
   }
 
   private decision(statement: Extract<Statement, { kind: "if" }>, out: Step[]): Flow {
-    const { machine } = this, [first, ...others] = statement.branches;
+    const { machine } = this;
+    const [first, ...others] = statement.branches;
     const when = machine.condition(first!.when);
     if (when === undefined) {
       for (const { when: each, body } of statement.branches) if (machine.isTrue(each)) return this.block(body, out);
       return statement.otherwise === undefined ? "next" : this.block(statement.otherwise, out);
     }
-    const step = this.dress(), then: Step[] = [], otherwise: Step[] = [], back = machine.remember();
+    const step = this.dress();
+    const then: Step[] = [];
+    const otherwise: Step[] = [];
+    const back = machine.remember();
     const flows = [this.fresh(() => this.block(first!.body, then))];
-    const rest: Block = others.length > 0
-      ? [{ ...statement, branches: others }]
-      : statement.otherwise ?? [];
+    const rest: Block = others.length > 0 ? [{ ...statement, branches: others }] : (statement.otherwise ?? []);
     const after = machine.remember();
     back();
     flows.push(this.fresh(() => this.block(rest, otherwise)));
     after();
-    if (flows.some(flow => flow !== "next" && flow !== "halt")) throw new TextError(statement, "a decision that goes on behind its end", "The decision leaves its block, which steps cannot.");
-    this.add(out, { ...step, type: "if", when, then, ...(otherwise.length === 0 && others.length === 0 && statement.otherwise === undefined ? {} : { else: otherwise }) }, statement);
+    if (flows.some(flow => flow !== "next" && flow !== "halt"))
+      throw new TextError(
+        statement,
+        "a decision that goes on behind its end",
+        "The decision leaves its block, which steps cannot.",
+      );
+    this.add(
+      out,
+      {
+        ...step,
+        type: "if",
+        when,
+        then,
+        ...(otherwise.length === 0 && others.length === 0 && statement.otherwise === undefined
+          ? {}
+          : { else: otherwise }),
+      },
+      statement,
+    );
     return "next";
   }
 
   private loop(statement: Loop, out: Step[]): Flow {
     const { machine } = this;
-    if (statement.kind === "while" && isForever(statement)) return this.repeat(statement, "forever", statement.body, out);
+    if (statement.kind === "while" && isForever(statement))
+      return this.repeat(statement, "forever", statement.body, out);
     const counter = this.counter(statement);
     if (counter !== undefined && counter.times > 0) {
       if (this.pallet(statement, counter, out)) return "next";
-      const back = machine.remember(), { count, groupCount, name, group } = this;
+      const back = machine.remember();
+      const { count, groupCount, name, group } = this;
       const isSame = this.isSame(counter);
       back();
-      this.count = count; this.groupCount = groupCount; this.name = name; this.group = group;
+      this.count = count;
+      this.groupCount = groupCount;
+      this.name = name;
+      this.group = group;
       if (isSame) {
         machine.setCount(counter.name, counter.from);
         const flow = this.repeat(statement, counter.times, counter.body, out);
@@ -171,14 +230,27 @@ export class Outline<V> {
     }
     const before = out.length;
     const flow = this.run(machine.statement(statement), out);
-    if (out.length > before) this.warnings.push(textFault(statement, "a loop that does the same each time", `The loop of line ${statement.line} was written out: it became ${out.length - before} steps.`));
+    if (out.length > before)
+      this.warnings.push(
+        textFault(
+          statement,
+          "a loop that does the same each time",
+          `The loop of line ${statement.line} was written out: it became ${out.length - before} steps.`,
+        ),
+      );
     return flow;
   }
 
   private repeat(statement: Loop, times: number | "forever", body: Block, out: Step[]): Flow {
-    const step = this.dress(), steps: Step[] = [];
+    const step = this.dress();
+    const steps: Step[] = [];
     const flow = this.fresh(() => this.block(body, steps));
-    if (flow !== "next" && flow !== "halt") throw new TextError(statement, "a loop that runs to its end", "The loop is left from inside, which steps cannot.");
+    if (flow !== "next" && flow !== "halt")
+      throw new TextError(
+        statement,
+        "a loop that runs to its end",
+        "The loop is left from inside, which steps cannot.",
+      );
     this.add(out, { ...step, type: "repeat", times, steps }, statement);
     return "next";
   }
@@ -199,7 +271,9 @@ export class Outline<V> {
 
   /** The steps of a body as one text to compare; undefined when it leaves the loop. */
   private trial(body: Block): string | undefined {
-    const steps: Step[] = [], { warnings, count, groupCount } = this, kept = warnings.length;
+    const steps: Step[] = [];
+    const { warnings, count, groupCount } = this;
+    const kept = warnings.length;
     const flow = this.fresh(() => this.block(body, steps));
     warnings.length = kept;
     this.count = count;
@@ -212,16 +286,44 @@ export class Outline<V> {
     const { machine } = this;
     if (statement.kind === "for") {
       const [from, last, step] = machine.counting(statement);
-      return step === 0 ? undefined : { name: statement.variable, from, step, times: Math.max(0, Math.floor((last - from) / step + 1e-9) + 1), body: statement.body };
+      return step === 0
+        ? undefined
+        : {
+            name: statement.variable,
+            from,
+            step,
+            times: Math.max(0, Math.floor((last - from) / step + 1e-9) + 1),
+            body: statement.body,
+          };
     }
-    const { when, body } = statement, end = body.findLast(({ kind }) => kind !== "comment");
-    if (when.kind !== "binary" || when.left.kind !== "variable" || (when.sign !== "<" && when.sign !== "<=") || end?.kind !== "assign") return undefined;
-    const { name } = when.left, { to, value } = end;
-    if (to.kind !== "variable" || to.name !== name || value.kind !== "binary" || value.sign !== "+" || value.left.kind !== "variable" || value.left.name !== name || value.right.kind !== "number") return undefined;
-    const step = value.right.value, rest = body.filter(each => each !== end);
+    const { when, body } = statement;
+    const end = body.findLast(({ kind }) => kind !== "comment");
+    if (
+      when.kind !== "binary" ||
+      when.left.kind !== "variable" ||
+      (when.sign !== "<" && when.sign !== "<=") ||
+      end?.kind !== "assign"
+    )
+      return undefined;
+    const { name } = when.left;
+    const { to, value } = end;
+    if (
+      to.kind !== "variable" ||
+      to.name !== name ||
+      value.kind !== "binary" ||
+      value.sign !== "+" ||
+      value.left.kind !== "variable" ||
+      value.left.name !== name ||
+      value.right.kind !== "number"
+    )
+      return undefined;
+    const step = value.right.value;
+    const rest = body.filter(each => each !== end);
     if (!(step > 0) || assigns(rest, name)) return undefined;
-    const from = machine.numberOf(when.left), limit = machine.numberOf(when.right);
-    const times = when.sign === "<" ? Math.ceil((limit - from) / step - 1e-9) : Math.floor((limit - from) / step + 1e-9) + 1;
+    const from = machine.numberOf(when.left);
+    const limit = machine.numberOf(when.right);
+    const times =
+      when.sign === "<" ? Math.ceil((limit - from) / step - 1e-9) : Math.floor((limit - from) / step + 1e-9) + 1;
     return { name, from, step, times: Math.max(0, times), body: rest };
   }
 
@@ -229,11 +331,21 @@ export class Outline<V> {
   private pallet(statement: Loop, outer: Counter, out: Step[]): boolean {
     const found = this.nest(outer);
     if (found === undefined) return false;
-    const { machine } = this, { place, body, counts } = found, variable = this.spelt(found.variable), back = machine.remember();
-    const wasPlace = machine.places.has(variable), places: Pose<"frame", "place">[] = [], visits: string[] = [];
-    let frame: string | undefined, same = true, visit: Step[] = [];
+    const { machine } = this;
+    const { place, body, counts } = found;
+    const variable = this.spelt(found.variable);
+    const back = machine.remember();
+    const wasPlace = machine.places.has(variable);
+    const places: Pose<"frame", "place">[] = [];
+    const visits: string[] = [];
+    let frame: string | undefined;
+    let same = true;
+    let visit: Step[] = [];
     machine.places.add(variable);
-    const close = (): void => { if (places.length > 0) visits.push(JSON.stringify(visit.map(step => ({ ...step, id: "" })))); visit = []; };
+    const close = (): void => {
+      if (places.length > 0) visits.push(JSON.stringify(visit.map(step => ({ ...step, id: "" }))));
+      visit = [];
+    };
     try {
       for (const { line, step } of machine.statement(statement)) {
         if (step !== undefined) visit.push(step);
@@ -241,21 +353,33 @@ export class Outline<V> {
           close();
           const now = machine.placeIn(found.variable);
           same &&= now !== undefined && (frame === undefined || frame === now.frame);
-          if (now !== undefined) { frame = now.frame; places.push(now.pose); }
+          if (now !== undefined) {
+            frame = now.frame;
+            places.push(now.pose);
+          }
           if (places.length > MOST_STEPS) same = false;
         }
         if (!same) break;
       }
-    } finally { back(); }
+    } finally {
+      back();
+    }
     close();
     const [layers, lines, inLine] = [1, 1, 1, ...counts].slice(-3);
-    const pallet = same && counts.length <= 3 && visits.every(each => each === visits[0]) ? fitPallet(places, frame ?? "world", layers!, lines!, inLine!) : undefined;
-    if (pallet === undefined || (Object.hasOwn(this.pallets, variable) && JSON.stringify(this.pallets[variable]) !== JSON.stringify(pallet))) {
+    const pallet =
+      same && counts.length <= 3 && visits.every(each => each === visits[0])
+        ? fitPallet(places, frame ?? "world", layers!, lines!, inLine!)
+        : undefined;
+    if (
+      pallet === undefined ||
+      (Object.hasOwn(this.pallets, variable) && JSON.stringify(this.pallets[variable]) !== JSON.stringify(pallet))
+    ) {
       if (!wasPlace) machine.places.delete(variable);
       return false;
     }
     this.pallets[variable] = pallet;
-    const step = this.dress(), steps: Step[] = [];
+    const step = this.dress();
+    const steps: Step[] = [];
     for (const { name, from } of found.counters) machine.setCount(name, from);
     for (const each of found.before) this.silently(each);
     this.fresh(() => this.block(body, steps));
@@ -269,14 +393,22 @@ export class Outline<V> {
     while (doing.next().done !== true);
   }
 
-  private nest(outer: Counter): { variable: string; place: TextPlace; before: Block; body: Block; counts: number[]; counters: Counter[] } | undefined {
-    const counts: number[] = [], counters: Counter[] = [], { machine } = this, back = machine.remember();
+  private nest(
+    outer: Counter,
+  ):
+    | { variable: string; place: TextPlace; before: Block; body: Block; counts: number[]; counters: Counter[] }
+    | undefined {
+    const counts: number[] = [];
+    const counters: Counter[] = [];
+    const { machine } = this;
+    const back = machine.remember();
     try {
-      for (let counter: Counter | undefined = outer; counter !== undefined;) {
+      for (let counter: Counter | undefined = outer; counter !== undefined; ) {
         counts.push(counter.times);
         counters.push(counter);
         machine.setCount(counter.name, counter.from);
-        const body: Block = counter.body.filter(({ kind }) => kind !== "comment"), loops = body.filter((each): each is Loop => each.kind === "while" || each.kind === "for");
+        const body: Block = counter.body.filter(({ kind }) => kind !== "comment");
+        const loops = body.filter((each): each is Loop => each.kind === "while" || each.kind === "for");
         if (loops.length === 1 && !body.some(({ kind }) => kind === "do" || kind === "wait-until")) {
           for (const each of body) if (each.kind === "assign") this.silently(each); // the start of the inner counter
           counter = this.counter(loops[0]!);
@@ -288,13 +420,22 @@ export class Outline<V> {
           this.silently(each);
           const variable = each.kind === "assign" ? holder(each.to) : undefined;
           if (variable !== undefined && machine.placeIn(variable) !== undefined) {
-            return { variable, place: each, before: counter.body.slice(0, i + 1), body: counter.body.slice(i + 1), counts, counters };
+            return {
+              variable,
+              place: each,
+              before: counter.body.slice(0, i + 1),
+              body: counter.body.slice(i + 1),
+              counts,
+              counters,
+            };
           }
         }
         return undefined;
       }
       return undefined;
-    } finally { back(); }
+    } finally {
+      back();
+    }
   }
 }
 
@@ -310,10 +451,18 @@ const isForever = ({ when }: Extract<Statement, { kind: "while" }>): boolean => 
 function assigns(block: Block, name: string): boolean {
   return block.some(statement => {
     switch (statement.kind) {
-      case "assign": return holder(statement.to) === name;
-      case "if": return statement.branches.some(({ body }) => assigns(body, name)) || (statement.otherwise !== undefined && assigns(statement.otherwise, name));
-      case "while": case "for": return assigns(statement.body, name);
-      default: return false;
+      case "assign":
+        return holder(statement.to) === name;
+      case "if":
+        return (
+          statement.branches.some(({ body }) => assigns(body, name)) ||
+          (statement.otherwise !== undefined && assigns(statement.otherwise, name))
+        );
+      case "while":
+      case "for":
+        return assigns(statement.body, name);
+      default:
+        return false;
     }
   });
 }

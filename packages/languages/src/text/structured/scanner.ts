@@ -4,7 +4,9 @@ import { plainText } from "../lines.ts";
 
 export type TokenKind = "word" | "number" | "text" | "sign" | "line-end" | "end";
 /** What a comment says, without its sign. */
-export interface Comment extends TextPlace { readonly text: string }
+export interface Comment extends TextPlace {
+  readonly text: string;
+}
 
 /** What tells one language from another before its grammar begins. */
 export interface Lexicon {
@@ -24,7 +26,11 @@ export interface Lexicon {
 /** A line longer than this is nobody's program; it also bounds how much a statement can hold. */
 const LINE_LENGTH = 4096;
 const NUMBER = /(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[Ee][+-]?[0-9]+)?/y;
-const BLANK = 32, DOT = 46, LETTER = 1, DIGIT = 2, LINE_END = 3;
+const BLANK = 32;
+const DOT = 46;
+const LETTER = 1;
+const DIGIT = 2;
+const LINE_END = 3;
 /** The sort of each ASCII character: a large text is looked at by numbers, not by patterns. */
 const SORTS = Uint8Array.from({ length: 128 }, (_, code) => {
   const letter = String.fromCharCode(code);
@@ -56,7 +62,9 @@ export class Scanner {
   }
 
   /** Forgets open brackets, so that reading can go on behind a fault. */
-  recover(): void { this.depth = 0; }
+  recover(): void {
+    this.depth = 0;
+  }
 
   /** Takes the first comment that stands before that line. */
   commentBefore(line: number): Comment | undefined {
@@ -66,19 +74,33 @@ export class Scanner {
 
   /** @throws {TextError} at a character that has no meaning in the language; the character is then behind. */
   next(): void {
-    const { text, lexicon } = this, { length } = text;
+    const { text, lexicon } = this;
+    const { length } = text;
     for (;;) {
       while (this.at < length && text.charCodeAt(this.at) === BLANK) this.at++;
-      const from = this.at, column = from - this.lineStart + 1, { line } = this;
+      const from = this.at;
+      const column = from - this.lineStart + 1;
+      const { line } = this;
       this.tokenLine = line;
       this.tokenColumn = column;
       if (from >= length) return this.found("end", "");
-      const code = text.charCodeAt(from), sort = code < 128 ? SORTS[code]! : 0;
-      if (column > LINE_LENGTH && sort !== LINE_END) { this.skipLine(); throw new TextError({ line, column }, `a line of at most ${LINE_LENGTH} characters`, `Line ${line} has more than ${LINE_LENGTH} characters.`); }
+      const code = text.charCodeAt(from);
+      const sort = code < 128 ? SORTS[code]! : 0;
+      if (column > LINE_LENGTH && sort !== LINE_END) {
+        this.skipLine();
+        throw new TextError(
+          { line, column },
+          `a line of at most ${LINE_LENGTH} characters`,
+          `Line ${line} has more than ${LINE_LENGTH} characters.`,
+        );
+      }
       if (lexicon.word !== undefined && sort !== DIGIT && sort !== LINE_END) {
         lexicon.word.lastIndex = from;
         const word = lexicon.word.exec(text)?.[0];
-        if (word !== undefined) { this.at += word.length; return this.found("word", word); }
+        if (word !== undefined) {
+          this.at += word.length;
+          return this.found("word", word);
+        }
       }
       if (sort === LETTER) {
         while (this.at < length && isWordCode(text.charCodeAt(this.at))) this.at++;
@@ -112,12 +134,20 @@ export class Scanner {
   }
 
   private sign(letter: string, line: number, column: number): void {
-    const { text } = this, choice = this.signs.get(letter);
-    const sign = choice === undefined || choice.length === 1 && choice[0]!.length === 1 ? choice?.[0] : choice.find(each => text.startsWith(each, this.at));
+    const { text } = this;
+    const choice = this.signs.get(letter);
+    const sign =
+      choice === undefined || (choice.length === 1 && choice[0]!.length === 1)
+        ? choice?.[0]
+        : choice.find(each => text.startsWith(each, this.at));
     if (sign === undefined) {
       const whole = String.fromCodePoint(text.codePointAt(this.at)!);
       this.at += whole.length;
-      throw new TextError({ line, column }, "a name, a number or a sign of the language", `The character "${whole}" has no meaning here.`);
+      throw new TextError(
+        { line, column },
+        "a name, a number or a sign of the language",
+        `The character "${whole}" has no meaning here.`,
+      );
     }
     this.at += sign.length;
     if (sign === "(" || sign === "[" || sign === "{") this.depth++;
@@ -137,12 +167,17 @@ export class Scanner {
 
   private quoted(quote: string, place: TextPlace): string {
     const { text } = this;
-    let value = "", at = this.at + 1;
+    let value = "";
+    let at = this.at + 1;
     for (;;) {
       const letter = text[at];
       if (letter === undefined || letter === "\n" || letter === "\r") {
         this.at = at;
-        throw new TextError(place, `a ${quote} at the end of the text`, `The text that begins in column ${place.column} is not closed in its line.`);
+        throw new TextError(
+          place,
+          `a ${quote} at the end of the text`,
+          `The text that begins in column ${place.column} is not closed in its line.`,
+        );
       }
       if (letter === quote && !(this.lexicon.doubled && text[at + 1] === quote)) break;
       if (letter === quote) at++;

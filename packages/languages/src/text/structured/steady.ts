@@ -44,19 +44,34 @@ class Walk {
         given.add(to.name);
         return;
       }
-      case "do": this.args(statement.args, given); this.call(statement.name, given); return;
+      case "do":
+        this.args(statement.args, given);
+        this.call(statement.name, given);
+        return;
       case "if":
-        for (const { when, body } of statement.branches) { this.read(when, given); this.block(body, new Set(given)); }
+        for (const { when, body } of statement.branches) {
+          this.read(when, given);
+          this.block(body, new Set(given));
+        }
         if (statement.otherwise !== undefined) this.block(statement.otherwise, new Set(given));
         return;
-      case "while": this.read(statement.when, given); this.block(statement.body, new Set(given)); return;
+      case "while":
+        this.read(statement.when, given);
+        this.block(statement.body, new Set(given));
+        return;
       case "for":
-        for (const each of [statement.from, statement.to, statement.step]) if (each !== undefined) this.read(each, given);
+        for (const each of [statement.from, statement.to, statement.step])
+          if (each !== undefined) this.read(each, given);
         this.block(statement.body, new Set(given).add(statement.variable));
         return;
-      case "wait-until": this.read(statement.when, given); return;
-      case "return": if (statement.value !== undefined) this.read(statement.value, given); return;
-      default: return;
+      case "wait-until":
+        this.read(statement.when, given);
+        return;
+      case "return":
+        if (statement.value !== undefined) this.read(statement.value, given);
+        return;
+      default:
+        return;
     }
   }
 
@@ -78,12 +93,27 @@ class Walk {
         if (expression.name === this.counter) this.readsCounter = true;
         if (!given.has(expression.name)) this.readFirst.add(expression.name);
         return;
-      case "list": for (const item of expression.items) this.read(item, given); return;
-      case "index": this.read(expression.of, given); for (const index of expression.indices) this.read(index, given); return;
-      case "component": case "unary": this.read(expression.of, given); return;
-      case "call": this.args(expression.args, given); this.call(expression.name, given); return;
-      case "binary": this.read(expression.left, given); this.read(expression.right, given); return;
-      default: return;
+      case "list":
+        for (const item of expression.items) this.read(item, given);
+        return;
+      case "index":
+        this.read(expression.of, given);
+        for (const index of expression.indices) this.read(index, given);
+        return;
+      case "component":
+      case "unary":
+        this.read(expression.of, given);
+        return;
+      case "call":
+        this.args(expression.args, given);
+        this.call(expression.name, given);
+        return;
+      case "binary":
+        this.read(expression.left, given);
+        this.read(expression.right, given);
+        return;
+      default:
+        return;
     }
   }
 }

@@ -1,25 +1,112 @@
 import type { TextFault, TextPlace } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
-import { ForgivingReader, readExpression, type Argument, type Block, type Expression, type ExpressionRules, type Lexicon, type Parameter, type Routine, type Statement, type TokenCursor } from "../../text/structured/index.ts";
+import {
+  ForgivingReader,
+  readExpression,
+  type Argument,
+  type Block,
+  type Expression,
+  type ExpressionRules,
+  type Lexicon,
+  type Parameter,
+  type Routine,
+  type Statement,
+  type TokenCursor,
+} from "../../text/structured/index.ts";
 
 const LEXICON: Lexicon = {
-  comment: "#", quotes: "\"'", doubled: false, lineEnds: true,
-  signs: ["==", "!=", "<=", ">=", "(", ")", "[", "]", ",", ":", "=", "<", ">", "+", "-", "*", "/", "%", ".", "$", "@", ";"],
+  comment: "#",
+  quotes: "\"'",
+  doubled: false,
+  lineEnds: true,
+  signs: [
+    "==",
+    "!=",
+    "<=",
+    ">=",
+    "(",
+    ")",
+    "[",
+    "]",
+    ",",
+    ":",
+    "=",
+    "<",
+    ">",
+    "+",
+    "-",
+    "*",
+    "/",
+    "%",
+    ".",
+    "$",
+    "@",
+    ";",
+  ],
 };
 export const RESERVED: ReadonlySet<string> = new Set([
-  "and", "or", "not", "xor", "if", "elif", "else", "while", "def", "thread", "end", "return", "break", "continue", "global", "local", "halt",
-  "run", "kill", "join", "sec", "enter_critical", "exit_critical", "True", "False", "pass",
+  "and",
+  "or",
+  "not",
+  "xor",
+  "if",
+  "elif",
+  "else",
+  "while",
+  "def",
+  "thread",
+  "end",
+  "return",
+  "break",
+  "continue",
+  "global",
+  "local",
+  "halt",
+  "run",
+  "kill",
+  "join",
+  "sec",
+  "enter_critical",
+  "exit_critical",
+  "True",
+  "False",
+  "pass",
 ]);
 const RULES: ExpressionRules = {
-  binary: { or: 1, xor: 1, and: 2, "==": 4, "!=": 4, "<": 4, ">": 4, "<=": 4, ">=": 4, "+": 5, "-": 5, "*": 6, "/": 6, "%": 6 },
+  binary: {
+    or: 1,
+    xor: 1,
+    and: 2,
+    "==": 4,
+    "!=": 4,
+    "<": 4,
+    ">": 4,
+    "<=": 4,
+    ">=": 4,
+    "+": 5,
+    "-": 5,
+    "*": 6,
+    "/": 6,
+    "%": 6,
+  },
   prefix: { not: 3, "-": 7, "+": 7 },
   constants: { True: true, False: false },
-  tags: ["p"], index: "[", components: false, reserved: RESERVED, args: readArguments,
+  tags: ["p"],
+  index: "[",
+  components: false,
+  reserved: RESERVED,
+  args: readArguments,
 };
 
 /** A text that was read: what a person called it, routines by name, and what stands in the program itself or, for a bare script, outside all of them. */
-export interface Source { readonly title: string; readonly routines: ReadonlyMap<string, Routine>; readonly main: Block }
-export type SourceAnswer = { readonly kind: "source"; readonly source: Source } | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
+export interface Source {
+  readonly title: string;
+  readonly routines: ReadonlyMap<string, Routine>;
+  readonly main: Block;
+}
+export type SourceAnswer =
+  | { readonly kind: "source"; readonly source: Source }
+  | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 /** Reads URScript. Goes on after a fault, so that all of them are told at once. */
 export const readSource = (text: string): SourceAnswer => new Reader(text).source();
@@ -27,36 +114,60 @@ export const readSource = (text: string): SourceAnswer => new Reader(text).sourc
 class Reader extends ForgivingReader {
   private readonly routines = new Map<string, Routine>();
 
-  constructor(text: string) { super(text, LEXICON); }
+  constructor(text: string) {
+    super(text, LEXICON);
+  }
 
-  protected override folded(word: string): string { return word; }
+  protected override folded(word: string): string {
+    return word;
+  }
 
   source(): SourceAnswer {
-    const loose: Statement[] = [], defined: Routine[] = [];
-    this.guard(() => { this.cursor.advance(); });
+    const loose: Statement[] = [];
+    const defined: Routine[] = [];
+    this.guard(() => {
+      this.cursor.advance();
+    });
     while (!this.cursor.done && !this.hasEnough) {
       this.takeComments(loose);
-      const first = this.routines.size, statement = this.line();
+      const first = this.routines.size;
+      const statement = this.line();
       if (statement !== undefined) loose.push(statement);
       if (this.routines.size > first) defined.push([...this.routines.values()].at(-1)!);
     }
     if (this.faults.length > 0) return { kind: "not-understood", faults: this.faults };
     // What stands outside runs; otherwise the program is the one definition, which the controller starts by itself.
     const entry = defined.at(-1);
-    if (loose.some(({ kind }) => kind !== "comment") || entry === undefined) return { kind: "source", source: { title: titleOf(loose) ?? entry?.name ?? "Program", routines: this.routines, main: loose } };
+    if (loose.some(({ kind }) => kind !== "comment") || entry === undefined)
+      return {
+        kind: "source",
+        source: { title: titleOf(loose) ?? entry?.name ?? "Program", routines: this.routines, main: loose },
+      };
     this.routines.delete(entry.name);
-    return { kind: "source", source: { title: titleOf(entry.body) ?? entry.name, routines: this.routines, main: entry.body } };
+    return {
+      kind: "source",
+      source: { title: titleOf(entry.body) ?? entry.name, routines: this.routines, main: entry.body },
+    };
   }
 
   /** One statement with the end of its line; undefined for an empty line, a label, a definition and a fault. */
   private line(): Statement | undefined {
     const { cursor } = this;
     return this.guard(() => {
-      if (cursor.kind === "line-end" || cursor.next === ";") { cursor.advance(); return undefined; }
+      if (cursor.kind === "line-end" || cursor.next === ";") {
+        cursor.advance();
+        return undefined;
+      }
       // `$ 5 "A"` names the node of the pendant's program; `@` marks belong to its tools.
-      if (cursor.next === "$" || cursor.next === "@") { cursor.skip(each => each.kind === "line-end"); return undefined; }
+      if (cursor.next === "$" || cursor.next === "@") {
+        cursor.skip(each => each.kind === "line-end");
+        return undefined;
+      }
       const statement = this.statement();
-      if (!cursor.isAt("end") && cursor.next !== ";") { if (!cursor.isAt("line-end")) throw cursor.unexpected("the end of the statement"); cursor.advance(); }
+      if (!cursor.isAt("end") && cursor.next !== ";") {
+        if (!cursor.isAt("line-end")) throw cursor.unexpected("the end of the statement");
+        cursor.advance();
+      }
       return statement;
     });
   }
@@ -66,7 +177,8 @@ class Reader extends ForgivingReader {
     return this.nested(at, () => {
       const statements: Statement[] = [];
       while (!ends.includes(cursor.next)) {
-        if (cursor.done || this.hasEnough) throw new TextError(cursor.here, "end", `The ${opened} of line ${at.line} is not closed.`);
+        if (cursor.done || this.hasEnough)
+          throw new TextError(cursor.here, "end", `The ${opened} of line ${at.line} is not closed.`);
         this.takeComments(statements);
         if (ends.includes(cursor.next)) break;
         const statement = this.line();
@@ -78,11 +190,18 @@ class Reader extends ForgivingReader {
   }
 
   private statement(): Statement | undefined {
-    const { cursor } = this, at = cursor.here, word = cursor.next;
+    const { cursor } = this;
+    const at = cursor.here;
+    const word = cursor.next;
     if (cursor.kind !== "word") throw cursor.unexpected("a statement");
     switch (word) {
-      case "def": cursor.advance(); this.definition(at); return undefined;
-      case "if": cursor.advance(); return this.branches(at);
+      case "def":
+        cursor.advance();
+        this.definition(at);
+        return undefined;
+      case "if":
+        cursor.advance();
+        return this.branches(at);
       case "while": {
         cursor.advance();
         const when = readExpression(cursor, RULES);
@@ -93,16 +212,39 @@ class Reader extends ForgivingReader {
       }
       case "return": {
         cursor.advance();
-        return cursor.isAt("line-end") || cursor.done ? { kind: "return", ...at } : { kind: "return", value: readExpression(cursor, RULES), ...at };
+        return cursor.isAt("line-end") || cursor.done
+          ? { kind: "return", ...at }
+          : { kind: "return", value: readExpression(cursor, RULES), ...at };
       }
-      case "break": case "continue": case "halt": cursor.advance(); return { kind: word, ...at };
-      case "pass": cursor.advance(); return undefined;
-      case "global": case "local": cursor.advance(); return this.assignment(at, word === "global");
-      case "thread": case "run": case "kill": case "join": case "sec": case "enter_critical": case "exit_critical":
-        throw new TextError(at, "a statement of one task", `"${word}" belongs to threads, which are not executed here.`);
-      default: break;
+      case "break":
+      case "continue":
+      case "halt":
+        cursor.advance();
+        return { kind: word, ...at };
+      case "pass":
+        cursor.advance();
+        return undefined;
+      case "global":
+      case "local":
+        cursor.advance();
+        return this.assignment(at, word === "global");
+      case "thread":
+      case "run":
+      case "kill":
+      case "join":
+      case "sec":
+      case "enter_critical":
+      case "exit_critical":
+        throw new TextError(
+          at,
+          "a statement of one task",
+          `"${word}" belongs to threads, which are not executed here.`,
+        );
+      default:
+        break;
     }
-    if (RESERVED.has(word)) throw cursor.unexpected(word === "end" ? "a statement, since no block is open" : "a statement");
+    if (RESERVED.has(word))
+      throw cursor.unexpected(word === "end" ? "a statement, since no block is open" : "a statement");
     if (cursor.second !== "(") return this.assignment(at, false);
     cursor.advance();
     cursor.advance();
@@ -110,11 +252,16 @@ class Reader extends ForgivingReader {
   }
 
   private assignment(at: TextPlace, global: boolean): Statement {
-    const { cursor } = this, word = cursor.raw;
+    const { cursor } = this;
+    const word = cursor.raw;
     if (cursor.kind !== "word" || RESERVED.has(cursor.next)) throw cursor.unexpected("the name of a variable");
     const second = cursor.second;
     if (second !== "=" && second !== "[") {
-      throw new TextError(at, "a statement of URScript", `"${word}" is no statement of URScript that is understood here.`);
+      throw new TextError(
+        at,
+        "a statement of URScript",
+        `"${word}" is no statement of URScript that is understood here.`,
+      );
     }
     const to = readExpression(cursor, RULES, 0, 100);
     cursor.expect("=");
@@ -122,7 +269,8 @@ class Reader extends ForgivingReader {
   }
 
   private branches(at: TextPlace): Statement {
-    const { cursor } = this, branches: { when: Expression; body: Block }[] = [];
+    const { cursor } = this;
+    const branches: { when: Expression; body: Block }[] = [];
     for (;;) {
       const when = readExpression(cursor, RULES);
       cursor.expect(":");
@@ -139,14 +287,21 @@ class Reader extends ForgivingReader {
   }
 
   private definition(at: TextPlace): void {
-    const { cursor } = this, place = cursor.here, name = cursor.name("the name of the program");
-    if (RESERVED.has(name)) throw new TextError(place, "a name that is no word of the language", `"${name}" is a word of URScript.`);
+    const { cursor } = this;
+    const place = cursor.here;
+    const name = cursor.name("the name of the program");
+    if (RESERVED.has(name))
+      throw new TextError(place, "a name that is no word of the language", `"${name}" is a word of URScript.`);
     const parameters: Parameter[] = [];
     cursor.expect("(");
     while (!cursor.accept(")")) {
       const parameter = cursor.name("the name of a parameter");
-      parameters.push(cursor.accept("=") ? { name: parameter, type: "", value: readExpression(cursor, RULES) } : { name: parameter, type: "" });
-      if (!cursor.accept(",") && cursor.next !== ")") throw cursor.unexpected("\",\" or \")\"");
+      parameters.push(
+        cursor.accept("=")
+          ? { name: parameter, type: "", value: readExpression(cursor, RULES) }
+          : { name: parameter, type: "" },
+      );
+      if (!cursor.accept(",") && cursor.next !== ")") throw cursor.unexpected('"," or ")"');
     }
     cursor.expect(":");
     // Script files that are taken in twice define their programs anew: the last one counts.
@@ -185,15 +340,26 @@ const IDLE = new Set(["sync", "sleep"]);
 function asWait(loop: Extract<Statement, { kind: "while" }>): Statement {
   const { when, body, line, column } = loop;
   const steps = body.filter(({ kind }) => kind !== "comment");
-  if (steps.length === 0 || !steps.every(each => each.kind === "do" && IDLE.has(each.name)) || !readsInput(when)) return loop;
-  return { kind: "wait-until", when: when.kind === "unary" && when.sign === "not" ? when.of : { kind: "unary", sign: "not", of: when, line, column }, line, column };
+  if (steps.length === 0 || !steps.every(each => each.kind === "do" && IDLE.has(each.name)) || !readsInput(when))
+    return loop;
+  return {
+    kind: "wait-until",
+    when:
+      when.kind === "unary" && when.sign === "not" ? when.of : { kind: "unary", sign: "not", of: when, line, column },
+    line,
+    column,
+  };
 }
 
 function readsInput(expression: Expression): boolean {
   switch (expression.kind) {
-    case "call": return /^get_.*(digital|analog)_(in|out)$/.test(expression.name);
-    case "unary": return readsInput(expression.of);
-    case "binary": return readsInput(expression.left) || readsInput(expression.right);
-    default: return false;
+    case "call":
+      return /^get_.*(digital|analog)_(in|out)$/.test(expression.name);
+    case "unary":
+      return readsInput(expression.of);
+    case "binary":
+      return readsInput(expression.left) || readsInput(expression.right);
+    default:
+      return false;
   }
 }

@@ -26,23 +26,32 @@ export class Arguments {
   /** The argument as it is written. */
   given(place: number, name: string): Expression {
     const found = this.find(place, name);
-    if (found === undefined) throw new TextError(this.at, `the argument ${name}`, `${this.name} is called without its argument ${name}.`);
+    if (found === undefined)
+      throw new TextError(this.at, `the argument ${name}`, `${this.name} is called without its argument ${name}.`);
     return found;
   }
 
-  required(place: number, name: string): Value { return this.evaluate(this.given(place, name)); }
+  required(place: number, name: string): Value {
+    return this.evaluate(this.given(place, name));
+  }
 
   optional(place: number, name: string): Value | undefined {
     const found = this.find(place, name);
     return found === undefined ? undefined : this.evaluate(found);
   }
 
-  all(): Value[] { return this.args.flatMap(({ value }) => value === undefined ? [] : [this.evaluate(value)]); }
+  all(): Value[] {
+    return this.args.flatMap(({ value }) => (value === undefined ? [] : [this.evaluate(value)]));
+  }
 
   count(least: number, most: number): void {
     const count = this.args.length;
     if (count >= least && count <= most) return;
     const wanted = least === most ? `${most}` : `${least} to ${most}`;
-    throw new TextError(this.at, `${wanted} argument${most === 1 ? "" : "s"}`, `${this.name} takes ${wanted} argument${most === 1 ? "" : "s"}; ${count} are given.`);
+    throw new TextError(
+      this.at,
+      `${wanted} argument${most === 1 ? "" : "s"}`,
+      `${this.name} takes ${wanted} argument${most === 1 ? "" : "s"}; ${count} are given.`,
+    );
   }
 }

@@ -1,4 +1,13 @@
-import { branchOf, compose, flangePose, nearestSolution, solverScratch, type Branch, type Pose, type Robot } from "@twincell/core";
+import {
+  branchOf,
+  compose,
+  flangePose,
+  nearestSolution,
+  solverScratch,
+  type Branch,
+  type Pose,
+  type Robot,
+} from "@twincell/core";
 import { BASE_FROM_CONTROLLER, fromPose, inverted, matrixOf, sixOf, times, toPose, type Matrix } from "./frame.ts";
 import type { PoseValue } from "./values.ts";
 
@@ -19,15 +28,24 @@ export class ControllerArm {
     this.settled = robot.home_rad;
   }
 
-  flangeAt(joints: readonly number[]): Matrix { return times(inverted(BASE_FROM_CONTROLLER), fromPose(flangePose(this.robot.arm, joints))); }
+  flangeAt(joints: readonly number[]): Matrix {
+    return times(inverted(BASE_FROM_CONTROLLER), fromPose(flangePose(this.robot.arm, joints)));
+  }
   /** The tool tip where the arm is sent. */
-  tip(): Matrix { return times(this.since.at(-1) ?? this.flangeAt(this.settled!), this.tcp); }
-  tipAt(joints: readonly number[]): Matrix { return times(this.flangeAt(joints), this.tcp); }
-  world<Into extends string, From extends string>(pose: Matrix): Pose<Into, From> { return toPose(times(this.worldFromController, pose)); }
+  tip(): Matrix {
+    return times(this.since.at(-1) ?? this.flangeAt(this.settled!), this.tcp);
+  }
+  tipAt(joints: readonly number[]): Matrix {
+    return times(this.flangeAt(joints), this.tcp);
+  }
+  world<Into extends string, From extends string>(pose: Matrix): Pose<Into, From> {
+    return toPose(times(this.worldFromController, pose));
+  }
 
   /** The posture that each pose was reached in, one after the other, is worked out when somebody asks. Undefined where it cannot be. */
   get joints(): readonly number[] | undefined {
-    for (const flange of this.since) this.settled = this.settled === undefined ? undefined : this.solvedFor(flange, this.settled);
+    for (const flange of this.since)
+      this.settled = this.settled === undefined ? undefined : this.solvedFor(flange, this.settled);
     if (this.settled !== undefined) this.since = [];
     return this.settled;
   }
@@ -40,7 +58,11 @@ export class ControllerArm {
   /** The tip is at that pose; the posture is the one nearest to where the arm was, or to `near`. */
   atPose(pose: PoseValue, near?: readonly number[]): void {
     const flange = times(matrixOf(pose.six), inverted(this.tcp));
-    if (near !== undefined) { this.settled = near; this.since = [flange]; return; }
+    if (near !== undefined) {
+      this.settled = near;
+      this.since = [flange];
+      return;
+    }
     this.since.push(flange);
   }
 
@@ -51,17 +73,27 @@ export class ControllerArm {
 
   /** Remembers where the arm is; the answer brings it back. */
   remember(): () => void {
-    const { tcp, settled } = this, since = [...this.since];
-    return () => { this.tcp = tcp; this.settled = settled; this.since = [...since]; };
+    const { tcp, settled } = this;
+    const since = [...this.since];
+    return () => {
+      this.tcp = tcp;
+      this.settled = settled;
+      this.since = [...since];
+    };
   }
 
-  branch(joints: readonly number[]): Branch | undefined { return branchOf(this.robot, joints); }
+  branch(joints: readonly number[]): Branch | undefined {
+    return branchOf(this.robot, joints);
+  }
 
   private solvedFor(flange: Matrix, near: readonly number[]): readonly number[] | undefined {
-    const q = new Float64Array(near.length), baseFromFlange = compose(this.baseFromController, toPose<"controller", "flange">(flange));
+    const q = new Float64Array(near.length);
+    const baseFromFlange = compose(this.baseFromController, toPose<"controller", "flange">(flange));
     return nearestSolution(this.robot, baseFromFlange, near, q, this.scratch) ? [...q] : undefined;
   }
 
   /** Six numbers of a matrix. */
-  six(matrix: Matrix): PoseValue { return { kind: "pose", six: sixOf(matrix) }; }
+  six(matrix: Matrix): PoseValue {
+    return { kind: "pose", six: sixOf(matrix) };
+  }
 }

@@ -7,13 +7,27 @@ export type Lines = Record<string, SignalLine>;
 type Kind = SignalLine["kind"];
 
 /** What a function reads or writes: its kind of line and the number that its first line has. */
-interface Door { readonly kind: Kind; readonly first: number; readonly count: number }
+interface Door {
+  readonly kind: Kind;
+  readonly first: number;
+  readonly count: number;
+}
 const DIGITAL: readonly (readonly [name: string, first: number, count: number])[] = [
-  ["standard_digital", 0, 8], ["configurable_digital", 8, 8], ["tool_digital", 16, 2], ["digital", 0, 18],
+  ["standard_digital", 0, 8],
+  ["configurable_digital", 8, 8],
+  ["tool_digital", 16, 2],
+  ["digital", 0, 18],
 ];
-const ANALOGUE: readonly (readonly [name: string, first: number, count: number])[] = [["standard_analog", 0, 2], ["tool_analog", 2, 2], ["analog", 0, 4]];
+const ANALOGUE: readonly (readonly [name: string, first: number, count: number])[] = [
+  ["standard_analog", 0, 2],
+  ["tool_analog", 2, 2],
+  ["analog", 0, 4],
+];
 const DOORS = new Map<string, Door>();
-for (const [names, kind] of [[DIGITAL, "digital"], [ANALOGUE, "analogue"]] as const) {
+for (const [names, kind] of [
+  [DIGITAL, "digital"],
+  [ANALOGUE, "analogue"],
+] as const) {
   for (const [name, first, count] of names) {
     DOORS.set(`get_${name}_in`, { kind: `${kind}-in`, first, count });
     DOORS.set(`get_${name}_out`, { kind: `${kind}-out`, first, count });
@@ -22,12 +36,19 @@ for (const [names, kind] of [[DIGITAL, "digital"], [ANALOGUE, "analogue"]] as co
 }
 export const doorOf = (name: string): Door | undefined => DOORS.get(name);
 
-const SHORT: Readonly<Record<Kind, string>> = { "digital-in": "DI", "digital-out": "DO", "analogue-in": "AI", "analogue-out": "AO" };
+const SHORT: Readonly<Record<Kind, string>> = {
+  "digital-in": "DI",
+  "digital-out": "DO",
+  "analogue-in": "AI",
+  "analogue-out": "AO",
+};
 
 /** The line that a number means at that door, under the name of the variable that holds the number, else DO3 and its like. */
 export function lineAt(door: Door, number: number, named: string | undefined, lines: Lines, at: TextPlace): string {
-  if (!Number.isInteger(number) || number < 0 || number >= door.count) throw new TextError(at, `a line from 0 to ${door.count - 1}`, `There is no line ${number} here.`);
-  const address = door.first + number, known = Object.entries(lines).find(([, line]) => line.kind === door.kind && line.address === address);
+  if (!Number.isInteger(number) || number < 0 || number >= door.count)
+    throw new TextError(at, `a line from 0 to ${door.count - 1}`, `There is no line ${number} here.`);
+  const address = door.first + number;
+  const known = Object.entries(lines).find(([, line]) => line.kind === door.kind && line.address === address);
   if (known !== undefined) return known[0];
   const free = named !== undefined && !Object.hasOwn(lines, named) ? named : `${SHORT[door.kind]}${address}`;
   lines[free] = { kind: door.kind, address };
@@ -35,7 +56,11 @@ export function lineAt(door: Door, number: number, named: string | undefined, li
 }
 
 /** A condition of one line, as the neutral program has it; undefined for any other expression. */
-export function conditionOf(expression: Expression, lineOf: (call: Extract<Expression, { kind: "call" }>) => string | undefined, number: (of: Expression) => number | undefined): Condition | undefined {
+export function conditionOf(
+  expression: Expression,
+  lineOf: (call: Extract<Expression, { kind: "call" }>) => string | undefined,
+  number: (of: Expression) => number | undefined,
+): Condition | undefined {
   switch (expression.kind) {
     case "call": {
       const signal = lineOf(expression);
@@ -50,13 +75,15 @@ export function conditionOf(expression: Expression, lineOf: (call: Extract<Expre
       const signal = lineOf(expression.left);
       if (signal === undefined) return undefined;
       const { sign, right } = expression;
-      if (right.kind === "truth" && (sign === "==" || sign === "!=")) return { signal, is: right.value === (sign === "==") };
+      if (right.kind === "truth" && (sign === "==" || sign === "!="))
+        return { signal, is: right.value === (sign === "==") };
       const limit = number(right);
       if (limit === undefined) return undefined;
       if (sign === ">") return { signal, above: limit };
       return sign === "<" ? { signal, below: limit } : undefined;
     }
-    default: return undefined;
+    default:
+      return undefined;
   }
 }
 

@@ -1,4 +1,14 @@
-import { type Executed, type MoveStep, type Pose, type Robot, type Signals, type Speed, type Step, type Target, type TextPlace } from "@twincell/core";
+import {
+  type Executed,
+  type MoveStep,
+  type Pose,
+  type Robot,
+  type Signals,
+  type Speed,
+  type Step,
+  type Target,
+  type TextPlace,
+} from "@twincell/core";
 import { TextError, nameIn, type Surroundings } from "../../text/index.ts";
 import { BlockMachine, type Do, type Expression, type Flow, type WaitUntil } from "../../text/structured/index.ts";
 import type { Source } from "../read/grammar.ts";
@@ -10,24 +20,79 @@ import { conditionOf, doorOf, holds, lineAt } from "./lines.ts";
 import { asNumber, asNumbers, asPose, asTruth, binary, kindOf, poseOf, type PoseValue, type Value } from "./values.ts";
 
 /** Speed at which all joints can turn, and what the controller takes where a move says nothing [rad/s, m/s]. */
-const FULL_RAD_S: Readonly<Record<string, number>> = { ur10e: 120 / 180 * Math.PI };
+const FULL_RAD_S: Readonly<Record<string, number>> = { ur10e: (120 / 180) * Math.PI };
 export const speaksUrScript = (robot: Robot): boolean => Object.hasOwn(FULL_RAD_S, robot.id);
 const DEFAULT_RAD_S = 1.05;
 const DEFAULT_MPS = 0.25;
 /** Instructions that change nothing of where the robot goes. */
 const SILENT = new Set([
-  "sync", "set_gravity", "popup", "set_tool_voltage", "set_tool_communication", "set_input_actions_to_default", "set_runstate_standard_digital_output_to_value",
-  "set_standard_analog_input_domain", "set_tool_analog_input_domain", "set_analog_outputdomain", "set_safety_mode_transition_hardness", "zero_ftsensor",
-  "step_count_reset", "modbus_add_signal", "request_boolean_from_primary_client", "reset_world_model", "set_target_payload_inertia", "stopj", "stopl", "textmsg_debug",
+  "sync",
+  "set_gravity",
+  "popup",
+  "set_tool_voltage",
+  "set_tool_communication",
+  "set_input_actions_to_default",
+  "set_runstate_standard_digital_output_to_value",
+  "set_standard_analog_input_domain",
+  "set_tool_analog_input_domain",
+  "set_analog_outputdomain",
+  "set_safety_mode_transition_hardness",
+  "zero_ftsensor",
+  "step_count_reset",
+  "modbus_add_signal",
+  "request_boolean_from_primary_client",
+  "reset_world_model",
+  "set_target_payload_inertia",
+  "stopj",
+  "stopl",
+  "textmsg_debug",
   // Said to other machines and to the operator.
-  "socket_open", "socket_close", "socket_send_string", "socket_send_line", "socket_send_byte", "socket_send_int", "socket_set_var", "modbus_set_output_register", "modbus_set_output_signal",
-  "modbus_set_signal_update_frequency", "modbus_set_runstate_dependent_choice", "modbus_delete_signal", "rtde_set_watchdog", "write_output_integer_register", "write_output_float_register",
-  "write_output_boolean_register", "set_analog_inputrange", "set_standard_analog_inputrange", "set_runstate_outputs", "set_runstate_configurable_digital_output_to_value", "set_runstate_tool_digital_output_to_value",
-  "set_runstate_gp_boolean_output_to_value", "set_tool_analog_inputrange", "set_tool_digital_output_mode", "set_tool_output_mode", "set_tool_digital_input_action", "set_safety_mode_transition_hardness", "set_digital_input_action", "popup_close", "varmsg", "set_joint_limits",
+  "socket_open",
+  "socket_close",
+  "socket_send_string",
+  "socket_send_line",
+  "socket_send_byte",
+  "socket_send_int",
+  "socket_set_var",
+  "modbus_set_output_register",
+  "modbus_set_output_signal",
+  "modbus_set_signal_update_frequency",
+  "modbus_set_runstate_dependent_choice",
+  "modbus_delete_signal",
+  "rtde_set_watchdog",
+  "write_output_integer_register",
+  "write_output_float_register",
+  "write_output_boolean_register",
+  "set_analog_inputrange",
+  "set_standard_analog_inputrange",
+  "set_runstate_outputs",
+  "set_runstate_configurable_digital_output_to_value",
+  "set_runstate_tool_digital_output_to_value",
+  "set_runstate_gp_boolean_output_to_value",
+  "set_tool_analog_inputrange",
+  "set_tool_digital_output_mode",
+  "set_tool_output_mode",
+  "set_tool_digital_input_action",
+  "set_safety_mode_transition_hardness",
+  "set_digital_input_action",
+  "popup_close",
+  "varmsg",
+  "set_joint_limits",
 ]);
 const THREADED = "is followed in real time by the controller's other tasks and cannot be written as steps.";
 const REFUSED: Readonly<Record<string, string>> = Object.fromEntries(
-  ["servoj", "servoc", "servol", "speedj", "speedl", "force_mode", "freedrive_mode", "conveyor_pulse_decode", "track_conveyor_linear", "track_conveyor_circular"].map(name => [name, `${name} ${THREADED}`]),
+  [
+    "servoj",
+    "servoc",
+    "servol",
+    "speedj",
+    "speedl",
+    "force_mode",
+    "freedrive_mode",
+    "conveyor_pulse_decode",
+    "track_conveyor_linear",
+    "track_conveyor_circular",
+  ].map(name => [name, `${name} ${THREADED}`]),
 );
 
 /** Executes URScript statement by statement. */
@@ -44,7 +109,14 @@ export class Machine extends BlockMachine<Value> {
   readonly places = new Set<string>();
 
   /** @param constants  variables that get their value once: a pose in one of them is a frame of the program. */
-  constructor(source: Source, constants: ReadonlySet<string>, robot: Robot, worldFromBase: Pose<"world", "base">, surroundings: Surroundings, signals?: Signals) {
+  constructor(
+    source: Source,
+    constants: ReadonlySet<string>,
+    robot: Robot,
+    worldFromBase: Pose<"world", "base">,
+    surroundings: Surroundings,
+    signals?: Signals,
+  ) {
     super(source.routines);
     this.arm = new ControllerArm(robot, worldFromBase);
     this.surroundings = surroundings;
@@ -64,36 +136,60 @@ export class Machine extends BlockMachine<Value> {
 
   evaluate(expression: Expression): Value {
     switch (expression.kind) {
-      case "number": case "truth": case "text": return expression.value;
+      case "number":
+      case "truth":
+      case "text":
+        return expression.value;
       case "variable": {
         const value = this.variable(expression.name);
-        if (value === undefined) throw new TextError(expression, "a variable that has a value", `"${expression.name}" has no value yet.`);
+        if (value === undefined)
+          throw new TextError(expression, "a variable that has a value", `"${expression.name}" has no value yet.`);
         return value;
       }
       case "list": {
         const items = expression.items.map(item => this.evaluate(item));
-        return expression.tag === "p" ? poseOf(items.map(item => asNumber(item, expression)), expression) : { kind: "list", items };
+        return expression.tag === "p"
+          ? poseOf(
+              items.map(item => asNumber(item, expression)),
+              expression,
+            )
+          : { kind: "list", items };
       }
-      case "index": return expression.indices.reduce<Value>((value, index) => itemOf(value, this.numberOf(index), index), this.evaluate(expression.of));
-      case "component": throw new TextError(expression, "an index", "URScript has no components of that name.");
-      case "unary": return expression.sign === "not" ? !this.isTrue(expression.of) : -this.numberOf(expression.of);
+      case "index":
+        return expression.indices.reduce<Value>(
+          (value, index) => itemOf(value, this.numberOf(index), index),
+          this.evaluate(expression.of),
+        );
+      case "component":
+        throw new TextError(expression, "an index", "URScript has no components of that name.");
+      case "unary":
+        return expression.sign === "not" ? !this.isTrue(expression.of) : -this.numberOf(expression.of);
       case "binary": {
-        const { sign } = expression, left = this.evaluate(expression.left);
+        const { sign } = expression;
+        const left = this.evaluate(expression.left);
         if (sign === "and" && left === false) return false;
         return sign === "or" && left === true ? true : binary(sign, left, this.evaluate(expression.right), expression);
       }
-      case "call": return this.function(expression);
+      case "call":
+        return this.function(expression);
     }
   }
 
-  isTrue(expression: Expression): boolean { return asTruth(this.evaluate(expression), expression); }
-  numberOf(expression: Expression): number { return asNumber(this.evaluate(expression), expression); }
-  fromNumber(value: number): Value { return value; }
+  isTrue(expression: Expression): boolean {
+    return asTruth(this.evaluate(expression), expression);
+  }
+  numberOf(expression: Expression): number {
+    return asNumber(this.evaluate(expression), expression);
+  }
+  fromNumber(value: number): Value {
+    return value;
+  }
 
   protected store(to: Expression, value: Value, global: boolean): void {
     if (to.kind === "index") {
       const path = to.indices.map(index => this.numberOf(index));
-      if (to.of.kind !== "variable" || path.length !== 1) throw new TextError(to, "a variable with one index", "Only an item of a variable can be given a value.");
+      if (to.of.kind !== "variable" || path.length !== 1)
+        throw new TextError(to, "a variable with one index", "Only an item of a variable can be given a value.");
       return this.store(to.of, withItem(this.evaluate(to.of), path[0]!, value, to), global);
     }
     if (to.kind !== "variable") throw new TextError(to, "a variable", "Only a variable can be given a value.");
@@ -103,38 +199,61 @@ export class Machine extends BlockMachine<Value> {
   }
 
   private function(expression: Extract<Expression, { kind: "call" }>): Value {
-    const { name, args: given } = expression, routine = this.routine(name);
+    const { name, args: given } = expression;
+    const routine = this.routine(name);
     if (routine !== undefined) return this.answer(routine, given, expression);
     const args = new Arguments(name, given, expression, each => this.evaluate(each));
     switch (name) {
-      case "get_inverse_kin": return this.inverseKinematics(args);
+      case "get_inverse_kin":
+        return this.inverseKinematics(args);
       case "get_forward_kin": {
-        const joints = args.optional(0, "q"), tcp = args.optional(1, "tcp");
+        const joints = args.optional(0, "q");
+        const tcp = args.optional(1, "tcp");
         const q = joints === undefined ? this.jointsNow(expression) : asNumbers(joints, 6, expression);
-        return this.arm.six(tcp === undefined ? this.arm.tipAt(q) : times(this.arm.flangeAt(q), matrixOf(asPose(tcp, expression).six)));
+        return this.arm.six(
+          tcp === undefined ? this.arm.tipAt(q) : times(this.arm.flangeAt(q), matrixOf(asPose(tcp, expression).six)),
+        );
       }
-      case "get_actual_tcp_pose": case "get_target_tcp_pose": return this.arm.six(this.arm.tip());
-      case "get_tcp_offset": case "get_target_tcp_offset": return this.arm.six(this.arm.tcp);
-      case "get_actual_joint_positions": case "get_target_joint_positions": return { kind: "list", items: [...this.jointsNow(expression)] };
-      case "is_steady": return true;
-      default: break;
+      case "get_actual_tcp_pose":
+      case "get_target_tcp_pose":
+        return this.arm.six(this.arm.tip());
+      case "get_tcp_offset":
+      case "get_target_tcp_offset":
+        return this.arm.six(this.arm.tcp);
+      case "get_actual_joint_positions":
+      case "get_target_joint_positions":
+        return { kind: "list", items: [...this.jointsNow(expression)] };
+      case "is_steady":
+        return true;
+      default:
+        break;
     }
     const line = this.lineOf(expression);
     if (line !== undefined) return this.read(line);
     const known = Object.hasOwn(FUNCTIONS, name) ? FUNCTIONS[name] : undefined;
-    if (known === undefined) throw new TextError(expression, "a function of URScript", `"${name}" is no function that is understood here.`);
+    if (known === undefined)
+      throw new TextError(expression, "a function of URScript", `"${name}" is no function that is understood here.`);
     const [least, most, run] = known;
     args.count(least, most);
     const values = args.all();
-    const value = run(values, expression), frame = name === "pose_trans" ? given[0]?.value : undefined, inner = values[1];
-    if (frame?.kind === "variable" && typeof value === "object" && value.kind === "pose" && typeof inner === "object" && inner.kind === "pose") {
+    const value = run(values, expression);
+    const frame = name === "pose_trans" ? given[0]?.value : undefined;
+    const inner = values[1];
+    if (
+      frame?.kind === "variable" &&
+      typeof value === "object" &&
+      value.kind === "pose" &&
+      typeof inner === "object" &&
+      inner.kind === "pose"
+    ) {
       return { ...value, inFrame: { frame: frame.name, of: asPose(values[0]!, expression).six, six: inner.six } };
     }
     return value;
   }
 
   private inverseKinematics(args: Arguments): Value {
-    const pose = asPose(args.required(0, "x"), args.at), near = args.optional(1, "qnear");
+    const pose = asPose(args.required(0, "x"), args.at);
+    const near = args.optional(1, "qnear");
     const from = near === undefined ? this.jointsNow(args.at) : asNumbers(near, 6, args.at);
     const joints = this.arm.solve(pose, from);
     // Angles that cannot be worked out here can still be moved to: the robot reaches the pose from that posture.
@@ -143,16 +262,28 @@ export class Machine extends BlockMachine<Value> {
 
   private jointsNow(at: TextPlace): readonly number[] {
     const { joints } = this.arm;
-    if (joints === undefined) throw new TextError(at, "a joint move before it", "The joint angles are the controller's choice here, and are not known.");
+    if (joints === undefined)
+      throw new TextError(
+        at,
+        "a joint move before it",
+        "The joint angles are the controller's choice here, and are not known.",
+      );
     return joints;
   }
 
   // --- lines ------------------------------------------------------------------------------------------------------
 
   private lineOf({ name, args }: Extract<Expression, { kind: "call" }>): string | undefined {
-    const door = name.startsWith("get_") ? doorOf(name) : undefined, number = args[0]?.value;
+    const door = name.startsWith("get_") ? doorOf(name) : undefined;
+    const number = args[0]?.value;
     if (door === undefined || number === undefined) return undefined;
-    return lineAt(door, this.numberOf(number), number.kind === "variable" ? number.name : undefined, this.surroundings.signals, number);
+    return lineAt(
+      door,
+      this.numberOf(number),
+      number.kind === "variable" ? number.name : undefined,
+      this.surroundings.signals,
+      number,
+    );
   }
 
   private read(line: string): boolean | number {
@@ -162,15 +293,34 @@ export class Machine extends BlockMachine<Value> {
   }
 
   condition(expression: Expression): ReturnType<typeof conditionOf> {
-    return conditionOf(expression, call => this.lineOf(call), of => of.kind === "number" ? of.value : of.kind === "variable" && this.constants.has(of.name) ? this.numberOf(of) : undefined);
+    return conditionOf(
+      expression,
+      call => this.lineOf(call),
+      of =>
+        of.kind === "number"
+          ? of.value
+          : of.kind === "variable" && this.constants.has(of.name)
+            ? this.numberOf(of)
+            : undefined,
+    );
   }
 
   protected *waitUntil(statement: WaitUntil): Generator<Executed, void> {
     const when = this.condition(statement.when);
-    if (when === undefined) throw new TextError(statement.when, "one input that is waited for", "Only a wait for one line can be carried out.");
+    if (when === undefined)
+      throw new TextError(
+        statement.when,
+        "one input that is waited for",
+        "Only a wait for one line can be carried out.",
+      );
     // An output that the program itself has set is there already, or never comes.
     const own = this.outputs.has(when.signal) && !holds(when, { read: line => this.read(line), write: () => {} });
-    if (own) throw new TextError(statement.when, "a condition that comes true", "The program waits for an output that nothing here changes.");
+    if (own)
+      throw new TextError(
+        statement.when,
+        "a condition that comes true",
+        "The program waits for an output that nothing here changes.",
+      );
     yield this.done(statement, { id: this.stepId(statement), type: "wait-for", when });
   }
 
@@ -180,10 +330,15 @@ export class Machine extends BlockMachine<Value> {
     return this.poseTarget<"place">(value);
   }
 
-  edge(): void { this.hasTool = false; }
+  edge(): void {
+    this.hasTool = false;
+  }
 
   override remember(): () => void {
-    const values = super.remember(), arm = this.arm.remember(), { tool, hasTool } = this, outputs = new Map(this.outputs);
+    const values = super.remember();
+    const arm = this.arm.remember();
+    const { tool, hasTool } = this;
+    const outputs = new Map(this.outputs);
     return () => {
       values();
       arm();
@@ -197,28 +352,51 @@ export class Machine extends BlockMachine<Value> {
   // --- instructions -----------------------------------------------------------------------------------------------
 
   protected *instruction(statement: Do): Generator<Executed, Flow | undefined> {
-    const { name } = statement, args = new Arguments(name, statement.args, statement, each => this.evaluate(each));
+    const { name } = statement;
+    const args = new Arguments(name, statement.args, statement, each => this.evaluate(each));
     const id = (): string => this.stepId(statement);
     const say = (step: Step): Executed => this.done(statement, step);
     switch (name) {
-      case "movej": case "movel": case "movep": case "movec": yield say(this.move(name, args, id())); return undefined;
+      case "movej":
+      case "movel":
+      case "movep":
+      case "movec":
+        yield say(this.move(name, args, id()));
+        return undefined;
       case "sleep": {
         const s = asNumber(args.required(0, "t"), statement);
         if (!(s >= 0)) throw new TextError(statement, "a time of 0 s or more", `The time is ${s} s.`);
         yield say({ id: id(), type: "wait", s });
         return undefined;
       }
-      case "set_tcp": this.setTcp(args, statement); break;
-      case "set_payload": case "set_target_payload": yield say(this.payload(args, id())); return undefined;
+      case "set_tcp":
+        this.setTcp(args, statement);
+        break;
+      case "set_payload":
+      case "set_target_payload":
+        yield say(this.payload(args, id()));
+        return undefined;
       case "textmsg": {
-        const parts = statement.args.map(({ value }) => value === undefined ? "" : this.evaluate(value));
-        yield say({ id: id(), type: "message", text: parts.map(part => typeof part === "object" ? "" : String(part)).join("") });
+        const parts = statement.args.map(({ value }) => (value === undefined ? "" : this.evaluate(value)));
+        yield say({
+          id: id(),
+          type: "message",
+          text: parts.map(part => (typeof part === "object" ? "" : String(part))).join(""),
+        });
         return undefined;
       }
       default: {
         const door = name.startsWith("set_") ? doorOf(name) : undefined;
-        if (door !== undefined) { yield say(this.write(door, name, args, id())); return undefined; }
-        if (!SILENT.has(name)) throw new TextError(statement, "a statement of URScript", REFUSED[name] ?? `"${name}" is no statement of URScript that is understood here.`);
+        if (door !== undefined) {
+          yield say(this.write(door, name, args, id()));
+          return undefined;
+        }
+        if (!SILENT.has(name))
+          throw new TextError(
+            statement,
+            "a statement of URScript",
+            REFUSED[name] ?? `"${name}" is no statement of URScript that is understood here.`,
+          );
       }
     }
     yield { line: statement.line };
@@ -226,24 +404,42 @@ export class Machine extends BlockMachine<Value> {
   }
 
   private write(door: NonNullable<ReturnType<typeof doorOf>>, name: string, args: Arguments, id: string): Step {
-    const number = args.given(0, "n"), value = args.required(1, door.kind === "digital-out" ? "b" : "f");
+    const number = args.given(0, "n");
+    const value = args.required(1, door.kind === "digital-out" ? "b" : "f");
     // The first line of the tool is the gripper's.
-    if (name === "set_tool_digital_out" && number.kind === "number" && number.value === 0) return { id, type: "gripper", closed: asTruth(value, args.at) };
-    const signal = lineAt(door, this.numberOf(number), number.kind === "variable" ? number.name : undefined, this.surroundings.signals, number);
+    if (name === "set_tool_digital_out" && number.kind === "number" && number.value === 0)
+      return { id, type: "gripper", closed: asTruth(value, args.at) };
+    const signal = lineAt(
+      door,
+      this.numberOf(number),
+      number.kind === "variable" ? number.name : undefined,
+      this.surroundings.signals,
+      number,
+    );
     const to = door.kind === "digital-out" ? asTruth(value, args.at) : asNumber(value, args.at);
     this.outputs.set(signal, to);
     return { id, type: "set", signal, to };
   }
 
   private setTcp(args: Arguments, at: TextPlace): void {
-    const pose = asPose(args.required(0, "pose"), at), given = args.given(0, "pose");
+    const pose = asPose(args.required(0, "pose"), at);
+    const given = args.given(0, "pose");
     this.arm.tcp = matrixOf(pose.six);
     this.hasTool = true;
-    this.tool = pose.six.every(x => x === 0) ? "flange" : nameIn(this.surroundings.tools, toPose(this.arm.tcp), given.kind === "variable" && given.name !== "flange" ? given.name : "tool", "_");
+    this.tool = pose.six.every(x => x === 0)
+      ? "flange"
+      : nameIn(
+          this.surroundings.tools,
+          toPose(this.arm.tcp),
+          given.kind === "variable" && given.name !== "flange" ? given.name : "tool",
+          "_",
+        );
   }
 
   private payload(args: Arguments, id: string): Step {
-    const mass_kg = asNumber(args.required(0, "m"), args.at), center = args.optional(1, "cog"), inertia = args.optional(2, "inertia");
+    const mass_kg = asNumber(args.required(0, "m"), args.at);
+    const center = args.optional(1, "cog");
+    const inertia = args.optional(2, "inertia");
     const [x, y, z] = center === undefined ? [0, 0, 0] : asNumbers(center, 3, args.at);
     if (inertia === undefined) return { id, type: "payload", mass_kg, center_m: [x!, y!, z!] };
     const [a, b, c, d, e, f] = asNumbers(inertia, 6, args.at);
@@ -253,16 +449,32 @@ export class Machine extends BlockMachine<Value> {
   // --- moves ------------------------------------------------------------------------------------------------------
 
   private move(name: "movej" | "movel" | "movep" | "movec", args: Arguments, id: string): MoveStep {
-    const isArc = name === "movec", shift = isArc ? 1 : 0, goal = args.required(shift, isArc ? "pose_to" : name === "movej" ? "q" : "pose");
+    const isArc = name === "movec";
+    const shift = isArc ? 1 : 0;
+    const goal = args.required(shift, isArc ? "pose_to" : name === "movej" ? "q" : "pose");
     const takesTime = name === "movej" || name === "movel";
-    const v = args.optional(shift + 2, "v"), t = takesTime ? args.optional(shift + 3, "t") : undefined, r = args.optional(shift + (takesTime ? 4 : 3), "r");
-    const blend = r === undefined ? 0 : asNumber(r, args.at), time = t === undefined ? 0 : asNumber(t, args.at);
+    const v = args.optional(shift + 2, "v");
+    const t = takesTime ? args.optional(shift + 3, "t") : undefined;
+    const r = args.optional(shift + (takesTime ? 4 : 3), "r");
+    const blend = r === undefined ? 0 : asNumber(r, args.at);
+    const time = t === undefined ? 0 : asNumber(t, args.at);
     if (!(blend >= 0)) throw new TextError(args.at, "a radius of 0 m or more", `The blend radius is ${blend} m.`);
     const via = isArc ? { via: this.target(args.required(0, "pose_via"), args.at, false) } : {};
-    const speed = time > 0 ? { time_s: time } : this.speed(name === "movej", v === undefined ? undefined : asNumber(v, args.at), args.at);
+    const speed =
+      time > 0
+        ? { time_s: time }
+        : this.speed(name === "movej", v === undefined ? undefined : asNumber(v, args.at), args.at);
     const target = this.target(goal, args.at, name === "movej");
     this.arrive(goal, name === "movej", args.at);
-    return { id, type: "move", path: name === "movej" ? "ptp" : isArc ? "circ" : "lin", target, ...via, speed, blend_m: blend };
+    return {
+      id,
+      type: "move",
+      path: name === "movej" ? "ptp" : isArc ? "circ" : "lin",
+      target,
+      ...via,
+      speed,
+      blend_m: blend,
+    };
   }
 
   private speed(isJoint: boolean, v: number | undefined, at: TextPlace): Speed {
@@ -274,14 +486,18 @@ export class Machine extends BlockMachine<Value> {
   private target(goal: Value, at: TextPlace, choosesPosture: boolean): Target {
     const { tool } = this;
     if (typeof goal === "object" && goal.kind === "list") {
-      if (goal.solves === undefined) return { q: asNumbers(goal, 6, at), ...(choosesPosture && !this.hasTool ? {} : { tool }) };
-      const joints = goal.items.length === 6 ? asNumbers(goal, 6, at) : undefined, branch = joints === undefined || !choosesPosture ? undefined : this.arm.branch(joints);
+      if (goal.solves === undefined)
+        return { q: asNumbers(goal, 6, at), ...(choosesPosture && !this.hasTool ? {} : { tool }) };
+      const joints = goal.items.length === 6 ? asNumbers(goal, 6, at) : undefined;
+      const branch = joints === undefined || !choosesPosture ? undefined : this.arm.branch(joints);
       return { ...this.poseTarget(goal.solves.pose), tool, ...(branch === undefined ? {} : { branch }) };
     }
     return { ...this.poseTarget(asPose(goal, at)), tool };
   }
 
-  private poseTarget<From extends string = "tcp">(value: PoseValue): { readonly pose: Pose<"frame", From>; readonly frame: string } {
+  private poseTarget<From extends string = "tcp">(
+    value: PoseValue,
+  ): { readonly pose: Pose<"frame", From>; readonly frame: string } {
     const frame = value.inFrame?.frame;
     if (frame !== undefined && this.places.has(frame)) return { pose: toPose(matrixOf(value.inFrame!.six)), frame };
     if (frame !== undefined && this.constants.has(frame)) {
@@ -299,7 +515,8 @@ export class Machine extends BlockMachine<Value> {
       const joints = asNumbers(goal, 6, at);
       return isJoint ? this.arm.atJoints(joints) : this.arm.atPose(this.arm.six(this.arm.tipAt(joints)));
     }
-    if (typeof goal !== "object") throw new TextError(at, "a pose or joint angles", `${kindOf(goal)} is no place to move to.`);
+    if (typeof goal !== "object")
+      throw new TextError(at, "a pose or joint angles", `${kindOf(goal)} is no place to move to.`);
     this.arm.atPose(asPose(goal, at));
   }
 }

@@ -1,6 +1,30 @@
-import { branchOf, compose, flangeOfTcp, nearestSolution, pose, rotate, type Condition, type EmittedFile, type MoveStep, type Pose, type Robot, type SignalLine, type Step, type Target } from "@twincell/core";
+import {
+  branchOf,
+  compose,
+  flangeOfTcp,
+  nearestSolution,
+  pose,
+  rotate,
+  type Condition,
+  type EmittedFile,
+  type MoveStep,
+  type Pose,
+  type Robot,
+  type SignalLine,
+  type Step,
+  type Target,
+} from "@twincell/core";
 import { asciiText } from "../../text/index.ts";
-import { BlockStepWriter, CannotSay, Names, Place, called, patternOf, pitchTerm, type Pattern } from "../../writing/index.ts";
+import {
+  BlockStepWriter,
+  CannotSay,
+  Names,
+  Place,
+  called,
+  patternOf,
+  pitchTerm,
+  type Pattern,
+} from "../../writing/index.ts";
 import { DIGITAL_LINES, fullJointSpeed } from "../robots.ts";
 import { RESERVED, TAKEN } from "./reserved.ts";
 import { controllerFromBase, listText, num, poseText } from "./pose.ts";
@@ -12,7 +36,12 @@ const LONGEST_NAME = 40;
 export class ProgramWriter extends BlockStepWriter {
   readonly warnings = new Set<string>();
   private readonly robot: Robot;
-  private readonly names = new Names({ most: LONGEST_NAME, reserved: new Set([...RESERVED, ...TAKEN]), first: "p_", foldsCase: false });
+  private readonly names = new Names({
+    most: LONGEST_NAME,
+    reserved: new Set([...RESERVED, ...TAKEN]),
+    first: "p_",
+    foldsCase: false,
+  });
   private readonly loops = new Names({ most: LONGEST_NAME, reserved: new Set(), first: "i_", foldsCase: false });
   private tool = "";
 
@@ -22,14 +51,18 @@ export class ProgramWriter extends BlockStepWriter {
   }
 
   write(): EmittedFile {
-    const { program } = this.place, { out } = this, name = this.names.of("program", program.name);
+    const { program } = this.place;
+    const { out } = this;
+    const name = this.names.of("program", program.name);
     out.block(`def ${name}():`, "end", "", () => {
       out.add(`#* ${asciiText(program.name)}`.trimEnd());
       out.add(`#* ${asciiText(this.robot.name)}. Lengths in m, angles in rad, poses in the base of the controller.`);
       this.declarations();
       for (const [routine, steps] of Object.entries(program.routines)) {
         this.begin();
-        out.block(`def ${this.names.of("routine", routine)}():`, "end", "", () => { this.steps(steps); });
+        out.block(`def ${this.names.of("routine", routine)}():`, "end", "", () => {
+          this.steps(steps);
+        });
       }
       this.begin();
       this.steps(program.steps);
@@ -39,13 +72,24 @@ export class ProgramWriter extends BlockStepWriter {
 
   /** Tools, frames and lines under the names that they have in the program. */
   private declarations(): void {
-    const { place, out } = this, { program } = place, used = usedNames([program.steps, ...Object.values(program.routines)]);
+    const { place, out } = this;
+    const { program } = place;
+    const used = usedNames([program.steps, ...Object.values(program.routines)]);
     for (const tool of used.tools) out.add(`global ${this.names.of("tool", tool)} = ${poseText(place.tool(tool))}`);
-    for (const pallet of used.pallets) if (Object.hasOwn(program.pallets, pallet) && program.pallets[pallet]!.frame !== "world") used.frames.add(program.pallets[pallet]!.frame);
-    for (const frame of used.frames) if (!Object.hasOwn(program.pallets, frame)) out.add(`global ${this.names.of("frame", frame)} = ${this.inController(place.frame(frame))}`);
+    for (const pallet of used.pallets)
+      if (Object.hasOwn(program.pallets, pallet) && program.pallets[pallet]!.frame !== "world")
+        used.frames.add(program.pallets[pallet]!.frame);
+    for (const frame of used.frames)
+      if (!Object.hasOwn(program.pallets, frame))
+        out.add(`global ${this.names.of("frame", frame)} = ${this.inController(place.frame(frame))}`);
     for (const [signal, step] of used.signals) {
       const line = Object.hasOwn(program.signals, signal) ? program.signals[signal] : undefined;
-      if (line?.address === undefined) throw new CannotSay(step.id, `${called(step)} uses the line ${signal}, whose number is not known.`, "Give the line its number in the list of signals.");
+      if (line?.address === undefined)
+        throw new CannotSay(
+          step.id,
+          `${called(step)} uses the line ${signal}, whose number is not known.`,
+          "Give the line its number in the list of signals.",
+        );
       out.add(`global ${this.names.of("signal", signal)} = ${doorOf(line, line.address, step, signal).number}`);
     }
   }
@@ -60,33 +104,59 @@ export class ProgramWriter extends BlockStepWriter {
     this.tool = "";
   }
 
-  protected remark(text: string, step: string): void { this.out.add(`#${text}`, step); }
+  protected remark(text: string, step: string): void {
+    this.out.add(`#${text}`, step);
+  }
 
   protected step(step: Step, next: Step | undefined): void {
-    const { out } = this, add = (line: string): void => { out.add(line, step.id); };
+    const { out } = this;
+    const add = (line: string): void => {
+      out.add(line, step.id);
+    };
     switch (step.type) {
-      case "move": return this.move(step, next, add);
-      case "wait": return add(`sleep(${num(step.s)})`);
-      case "gripper": return add(`set_tool_digital_out(0, ${truth(step.closed)})`);
-      case "set": return this.set(step, add);
-      case "wait-for": return out.block(`while ${this.until(step.when, step)}:`, "end", step.id, () => { add("sync()"); });
+      case "move":
+        return this.move(step, next, add);
+      case "wait":
+        return add(`sleep(${num(step.s)})`);
+      case "gripper":
+        return add(`set_tool_digital_out(0, ${truth(step.closed)})`);
+      case "set":
+        return this.set(step, add);
+      case "wait-for":
+        return out.block(`while ${this.until(step.when, step)}:`, "end", step.id, () => {
+          add("sync()");
+        });
       case "payload": {
         const center = listText(step.center_m);
-        return add(step.inertia_kgm2 === undefined ? `set_payload(${num(step.mass_kg)}, ${center})` : `set_target_payload(${num(step.mass_kg)}, ${center}, ${listText(step.inertia_kgm2)})`);
+        return add(
+          step.inertia_kgm2 === undefined
+            ? `set_payload(${num(step.mass_kg)}, ${center})`
+            : `set_target_payload(${num(step.mass_kg)}, ${center}, ${listText(step.inertia_kgm2)})`,
+        );
       }
-      case "message": return add(`textmsg("${asciiText(step.text).replace(/"/g, "'")}")`);
-      case "stop": return add("halt");
-      case "comment": return add(`#- ${asciiText(step.text)}`.trimEnd());
-      case "call": add(`${this.names.of("routine", step.routine)}()`); return this.begin();
-      case "repeat": return this.repeat(step);
-      case "if": return this.choice(step, `if ${this.condition(step.when, step)}:`, "else:", "end");
-      case "pallet": return this.pallet(step);
+      case "message":
+        return add(`textmsg("${asciiText(step.text).replace(/"/g, "'")}")`);
+      case "stop":
+        return add("halt");
+      case "comment":
+        return add(`#- ${asciiText(step.text)}`.trimEnd());
+      case "call":
+        add(`${this.names.of("routine", step.routine)}()`);
+        return this.begin();
+      case "repeat":
+        return this.repeat(step);
+      case "if":
+        return this.choice(step, `if ${this.condition(step.when, step)}:`, "else:", "end");
+      case "pallet":
+        return this.pallet(step);
     }
   }
 
   private repeat(step: Extract<Step, { type: "repeat" }>): void {
     if (step.times === "forever") return this.loop("while True:", "end", step);
-    this.counted(this.names.fresh(this.loops.fresh("count")), `${step.times}`, step.id, () => { this.inside(step.steps, step.id); });
+    this.counted(this.names.fresh(this.loops.fresh("count")), `${step.times}`, step.id, () => {
+      this.inside(step.steps, step.id);
+    });
     this.begin();
   }
 
@@ -100,43 +170,89 @@ export class ProgramWriter extends BlockStepWriter {
 
   /** A loop over layers, lines and places; the place is a frame that changes with them. */
   private pallet(step: Extract<Step, { type: "pallet" }>): void {
-    const { program, baseFromWorld } = this.place, controllerFromWorld = compose(controllerFromBase(this.robot), baseFromWorld);
-    const pattern = patternOf(step, program, (v, { frame }) => frame === "world" ? rotate(controllerFromWorld.quaternion, v) : v), { pallet, lines, inLine, isShifted } = pattern;
-    const variable = this.names.of("frame", step.pallet), { out } = this;
-    const line = this.names.fresh(`${variable}_line`), along = this.names.fresh(`${variable}_along`), layer = this.names.fresh(`${variable}_layer`), at = this.names.fresh(`${variable}_at`);
+    const { program, baseFromWorld } = this.place;
+    const controllerFromWorld = compose(controllerFromBase(this.robot), baseFromWorld);
+    const pattern = patternOf(step, program, (v, { frame }) =>
+      frame === "world" ? rotate(controllerFromWorld.quaternion, v) : v,
+    );
+    const { pallet, lines, inLine, isShifted } = pattern;
+    const variable = this.names.of("frame", step.pallet);
+    const { out } = this;
+    const line = this.names.fresh(`${variable}_line`);
+    const along = this.names.fresh(`${variable}_along`);
+    const layer = this.names.fresh(`${variable}_layer`);
+    const at = this.names.fresh(`${variable}_at`);
     const count = isShifted ? `${inLine} - ${line} % 2` : `${inLine}`;
     const visit = (): void => {
       out.add(`${at} = ${along}`, step.id);
       if (pattern.isZigzag) {
-        out.block(`if ${line} % 2 == 1:`, "end", step.id, () => { out.add(`${at} = ${isShifted ? inLine - 2 : inLine - 1} - ${along}`, step.id); });
+        out.block(`if ${line} % 2 == 1:`, "end", step.id, () => {
+          out.add(`${at} = ${isShifted ? inLine - 2 : inLine - 1} - ${along}`, step.id);
+        });
       }
       out.add(`global ${variable} = ${this.placeText(pattern, controllerFromWorld, layer, line, at)}`, step.id);
       this.begin();
       this.steps(step.steps);
     };
-    this.counted(layer, `${pallet.layers}`, step.id, () => { this.counted(line, `${lines}`, step.id, () => { this.counted(along, count, step.id, visit); }); });
+    this.counted(layer, `${pallet.layers}`, step.id, () => {
+      this.counted(line, `${lines}`, step.id, () => {
+        this.counted(along, count, step.id, visit);
+      });
+    });
     this.begin();
   }
 
   /** Where a place is: so far along its line, so many lines and layers away, and every second line half a step further where they are packed. */
-  private placeText({ pallet, along_m, away_m, up_m, isShifted }: Pattern, controllerFromWorld: Pose<"controller", "world">, layer: string, line: string, at: string): string {
-    const isFree = pallet.frame === "world", origin = isFree ? compose(controllerFromWorld, compose(pose<"world", "frame">(), pallet.origin)) : pallet.origin;
-    const term = (pitch_m: number, factor: string): string => pitchTerm(pitch_m, factor, fine, " "), along = isShifted ? `(${at} + 0.5 * (${line} % 2))` : at;
-    const place = ([0, 1, 2] as const).map(i => `${fine(origin.position[i])}${term(along_m[i], along)}${term(away_m[i], line)}${term(up_m[i], layer)}`);
-    const turn = poseText(pose([0, 0, 0], origin.quaternion)).slice("p[0, 0, 0, ".length, -1), text = `p[${place.join(", ")}, ${turn}]`;
+  private placeText(
+    { pallet, along_m, away_m, up_m, isShifted }: Pattern,
+    controllerFromWorld: Pose<"controller", "world">,
+    layer: string,
+    line: string,
+    at: string,
+  ): string {
+    const isFree = pallet.frame === "world";
+    const origin = isFree
+      ? compose(controllerFromWorld, compose(pose<"world", "frame">(), pallet.origin))
+      : pallet.origin;
+    const term = (pitch_m: number, factor: string): string => pitchTerm(pitch_m, factor, fine, " ");
+    const along = isShifted ? `(${at} + 0.5 * (${line} % 2))` : at;
+    const place = ([0, 1, 2] as const).map(
+      i => `${fine(origin.position[i])}${term(along_m[i], along)}${term(away_m[i], line)}${term(up_m[i], layer)}`,
+    );
+    const turn = poseText(pose([0, 0, 0], origin.quaternion)).slice("p[0, 0, 0, ".length, -1);
+    const text = `p[${place.join(", ")}, ${turn}]`;
     return isFree ? text : `pose_trans(${this.names.of("frame", pallet.frame)}, ${text})`;
   }
 
   private set(step: Extract<Step, { type: "set" }>, add: (line: string) => void): void {
-    const door = this.door(step.signal, step), { to } = step;
-    if (door.isInput) throw new CannotSay(step.id, `${called(step)} writes the line ${step.signal}, which is an input.`, "Choose an output.");
-    if (door.isDigital !== (typeof to === "boolean")) throw new CannotSay(step.id, `${called(step)} writes ${String(to)} to the ${door.isDigital ? "digital" : "analogue"} line ${step.signal}.`, "Choose a value of that line.");
-    if (typeof to === "number" && !(to >= 0 && to <= 1)) throw new CannotSay(step.id, `${called(step)} writes ${to} to an analogue output; the controller takes 0 to 1.`, "Give it as a share of the full output.");
-    add(`set_${door.name}_out(${this.names.of("signal", step.signal)}, ${typeof to === "boolean" ? truth(to) : num(to)})`);
+    const door = this.door(step.signal, step);
+    const { to } = step;
+    if (door.isInput)
+      throw new CannotSay(
+        step.id,
+        `${called(step)} writes the line ${step.signal}, which is an input.`,
+        "Choose an output.",
+      );
+    if (door.isDigital !== (typeof to === "boolean"))
+      throw new CannotSay(
+        step.id,
+        `${called(step)} writes ${String(to)} to the ${door.isDigital ? "digital" : "analogue"} line ${step.signal}.`,
+        "Choose a value of that line.",
+      );
+    if (typeof to === "number" && !(to >= 0 && to <= 1))
+      throw new CannotSay(
+        step.id,
+        `${called(step)} writes ${to} to an analogue output; the controller takes 0 to 1.`,
+        "Give it as a share of the full output.",
+      );
+    add(
+      `set_${door.name}_out(${this.names.of("signal", step.signal)}, ${typeof to === "boolean" ? truth(to) : num(to)})`,
+    );
   }
 
   private condition(when: Condition, step: Step): string {
-    const door = this.door(when.signal, step), read = `get_${door.name}_${door.isInput ? "in" : "out"}(${this.names.of("signal", when.signal)})`;
+    const door = this.door(when.signal, step);
+    const read = `get_${door.name}_${door.isInput ? "in" : "out"}(${this.names.of("signal", when.signal)})`;
     if ("is" in when) return when.is ? read : `not ${read}`;
     return "above" in when ? `${read} > ${num(when.above)}` : `${read} < ${num(when.below)}`;
   }
@@ -147,23 +263,33 @@ export class ProgramWriter extends BlockStepWriter {
   }
 
   private door(signal: string, step: Step): Door {
-    const { signals } = this.place.program, line = Object.hasOwn(signals, signal) ? signals[signal] : undefined;
-    if (line?.address === undefined) throw new CannotSay(step.id, `${called(step)} uses the line ${signal}, whose number is not known.`, "Give the line its number in the list of signals.");
+    const { signals } = this.place.program;
+    const line = Object.hasOwn(signals, signal) ? signals[signal] : undefined;
+    if (line?.address === undefined)
+      throw new CannotSay(
+        step.id,
+        `${called(step)} uses the line ${signal}, whose number is not known.`,
+        "Give the line its number in the list of signals.",
+      );
     return doorOf(line, line.address, step, signal);
   }
 
   private move(step: MoveStep, next: Step | undefined, add: (line: string) => void): void {
-    const { target, path } = step, tool = target.tool ?? (path === "ptp" && "q" in target ? undefined : "flange");
+    const { target, path } = step;
+    const tool = target.tool ?? (path === "ptp" && "q" in target ? undefined : "flange");
     if (tool !== undefined && tool !== this.tool) {
       add(tool === "flange" ? "set_tcp(p[0, 0, 0, 0, 0, 0])" : `set_tcp(${this.names.of("tool", tool)})`);
       this.tool = tool;
     }
-    const posture = this.place.posture(step, path === "ptp" ? target : this.reached(target), this.near), blend = this.place.blend_m(step, this.before, next);
-    const pace = this.pace(step), radius = num(blend) === "0" ? "" : `, r=${num(blend)}`;
+    const posture = this.place.posture(step, path === "ptp" ? target : this.reached(target), this.near);
+    const blend = this.place.blend_m(step, this.before, next);
+    const pace = this.pace(step);
+    const radius = num(blend) === "0" ? "" : `, r=${num(blend)}`;
     if (path === "ptp") add(`movej(${this.jointGoal(target, posture)}, ${pace}${radius})`);
     else if (path === "lin") add(`movel(${this.goal(target)}, ${pace}${radius})`);
     else {
-      if (step.via === undefined) throw new CannotSay(step.id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
+      if (step.via === undefined)
+        throw new CannotSay(step.id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
       add(`movec(${this.goal(step.via)}, ${this.goal(target)}, ${pace}${radius})`);
     }
     this.near = posture ?? this.near;
@@ -172,15 +298,29 @@ export class ProgramWriter extends BlockStepWriter {
   /** Off a joint move the tool is led, and the arm arrives in the posture nearest to the one before. */
   private reached(target: Target): Target {
     const { place } = this;
-    return { pose: compose(compose(pose<"frame", "world">(), place.worldFromBase), place.tip(target)), frame: "world", tool: target.tool ?? "flange" };
+    return {
+      pose: compose(compose(pose<"frame", "world">(), place.worldFromBase), place.tip(target)),
+      frame: "world",
+      tool: target.tool ?? "flange",
+    };
   }
 
   /** The posture in as few decimals as still lead to it. */
   private nearest(target: Target, posture: readonly number[]): string {
-    const { place, robot } = this, baseFromFlange = flangeOfTcp(place.worldFromBase, compose(place.worldFromBase, place.tip(target)), place.tool(target.tool)), found = new Float64Array(posture.length);
+    const { place, robot } = this;
+    const baseFromFlange = flangeOfTcp(
+      place.worldFromBase,
+      compose(place.worldFromBase, place.tip(target)),
+      place.tool(target.tool),
+    );
+    const found = new Float64Array(posture.length);
     for (const decimals of [1, 2, 3, 4, 5]) {
       const near = posture.map(angle => Number(angle.toFixed(decimals)));
-      if (nearestSolution(robot, baseFromFlange, near, found) && found.every((angle, i) => Math.abs(angle - posture[i]!) < 1e-3)) return listText(near);
+      if (
+        nearestSolution(robot, baseFromFlange, near, found) &&
+        found.every((angle, i) => Math.abs(angle - posture[i]!) < 1e-3)
+      )
+        return listText(near);
     }
     return listText(posture);
   }
@@ -193,45 +333,85 @@ export class ProgramWriter extends BlockStepWriter {
 
   /** A pose alone is reached in the posture nearest to where the arm is; a branch that was taught is asked for by its angles. */
   private jointGoal(target: Target, posture: readonly number[] | undefined): string {
-    if ("q" in target || target.branch === undefined || posture === undefined || branchOf(this.robot, posture) === undefined) return this.goal(target);
+    if (
+      "q" in target ||
+      target.branch === undefined ||
+      posture === undefined ||
+      branchOf(this.robot, posture) === undefined
+    )
+      return this.goal(target);
     return `get_inverse_kin(${this.goal(target)}, ${this.nearest(target, posture)})`;
   }
 
   private pace({ id, name, path, speed }: MoveStep): string {
-    const full_rad_s = fullJointSpeed(this.robot)!, full_mps = this.robot.maxTcpSpeed_mps;
+    const full_rad_s = fullJointSpeed(this.robot)!;
+    const full_mps = this.robot.maxTcpSpeed_mps;
     if ("time_s" in speed) {
-      if (path === "circ") throw new CannotSay(id, `${called({ id, ...(name === undefined ? {} : { name }) })} is an arc of given duration; movec takes a speed.`, "Give the arc a speed.");
+      if (path === "circ")
+        throw new CannotSay(
+          id,
+          `${called({ id, ...(name === undefined ? {} : { name }) })} is an arc of given duration; movec takes a speed.`,
+          "Give the arc a speed.",
+        );
       return `t=${num(speed.time_s)}`;
     }
     if (path !== "ptp") return `v=${num("mps" in speed ? speed.mps : speed.ratio * full_mps)}`;
     if ("ratio" in speed) return `v=${num(speed.ratio * full_rad_s)}`;
-    this.warnings.add("movej takes a speed of the joints: a joint move of given tool speed gets its share of the full speed.");
+    this.warnings.add(
+      "movej takes a speed of the joints: a joint move of given tool speed gets its share of the full speed.",
+    );
     return `v=${num(Math.min(1, speed.mps / full_mps) * full_rad_s)}`;
   }
 }
 
-const truth = (value: boolean): string => value ? "True" : "False";
+const truth = (value: boolean): string => (value ? "True" : "False");
 /** A pitch is added many times over: it is written to a tenth of a micrometre. */
-const fine = (value: number): string => { const text = value.toFixed(7).replace(/\.?0+$/, ""); return text === "-0" ? "0" : text; };
+const fine = (value: number): string => {
+  const text = value.toFixed(7).replace(/\.?0+$/, "");
+  return text === "-0" ? "0" : text;
+};
 
-interface Door { readonly name: string; readonly number: number; readonly isInput: boolean; readonly isDigital: boolean }
+interface Door {
+  readonly name: string;
+  readonly number: number;
+  readonly isInput: boolean;
+  readonly isDigital: boolean;
+}
 
 /** Which function reads or writes a line, and under which number. */
 function doorOf({ kind }: SignalLine, address: number, step: Step, signal: string): Door {
-  const isInput = kind.endsWith("in"), isDigital = kind.startsWith("digital"), { standard, configurable, tool } = DIGITAL_LINES;
+  const isInput = kind.endsWith("in");
+  const isDigital = kind.startsWith("digital");
+  const { standard, configurable, tool } = DIGITAL_LINES;
   if (!isDigital) {
     if (address < 2) return { name: "standard_analog", number: address, isInput, isDigital };
     if (isInput && address < 4) return { name: "tool_analog", number: address - 2, isInput, isDigital };
   } else if (address < standard) return { name: "standard_digital", number: address, isInput, isDigital };
-  else if (address < standard + configurable) return { name: "configurable_digital", number: address - standard, isInput, isDigital };
-  else if (address < standard + configurable + tool) return { name: "tool_digital", number: address - standard - configurable, isInput, isDigital };
-  throw new CannotSay(step.id, `${called(step)} uses the line ${signal} with the number ${address}, which the controller does not have.`, "Digital lines are 0 to 17 (16 and 17 at the tool), analogue ones 0 and 1, inputs to 3.");
+  else if (address < standard + configurable)
+    return { name: "configurable_digital", number: address - standard, isInput, isDigital };
+  else if (address < standard + configurable + tool)
+    return { name: "tool_digital", number: address - standard - configurable, isInput, isDigital };
+  throw new CannotSay(
+    step.id,
+    `${called(step)} uses the line ${signal} with the number ${address}, which the controller does not have.`,
+    "Digital lines are 0 to 17 (16 and 17 at the tool), analogue ones 0 and 1, inputs to 3.",
+  );
 }
 
 /** Tools, frames and lines in the order in which steps first use them. */
-function usedNames(lists: readonly (readonly Step[])[]): { tools: Set<string>; frames: Set<string>; pallets: Set<string>; signals: Map<string, Step> } {
-  const tools = new Set<string>(), frames = new Set<string>(), pallets = new Set<string>(), signals = new Map<string, Step>();
-  const note = (signal: string, step: Step): void => { if (!signals.has(signal)) signals.set(signal, step); };
+function usedNames(lists: readonly (readonly Step[])[]): {
+  tools: Set<string>;
+  frames: Set<string>;
+  pallets: Set<string>;
+  signals: Map<string, Step>;
+} {
+  const tools = new Set<string>();
+  const frames = new Set<string>();
+  const pallets = new Set<string>();
+  const signals = new Map<string, Step>();
+  const note = (signal: string, step: Step): void => {
+    if (!signals.has(signal)) signals.set(signal, step);
+  };
   const look = (steps: readonly Step[]): void => {
     for (const step of steps) {
       switch (step.type) {
@@ -241,12 +421,26 @@ function usedNames(lists: readonly (readonly Step[])[]): { tools: Set<string>; f
             if ("pose" in target && target.frame !== "world") frames.add(target.frame);
           }
           break;
-        case "set": note(step.signal, step); break;
-        case "wait-for": note(step.when.signal, step); break;
-        case "if": note(step.when.signal, step); look(step.then); look(step.else ?? []); break;
-        case "repeat": look(step.steps); break;
-        case "pallet": pallets.add(step.pallet); look(step.steps); break;
-        default: break;
+        case "set":
+          note(step.signal, step);
+          break;
+        case "wait-for":
+          note(step.when.signal, step);
+          break;
+        case "if":
+          note(step.when.signal, step);
+          look(step.then);
+          look(step.else ?? []);
+          break;
+        case "repeat":
+          look(step.steps);
+          break;
+        case "pallet":
+          pallets.add(step.pallet);
+          look(step.steps);
+          break;
+        default:
+          break;
       }
     }
   };

@@ -5,7 +5,13 @@ import { readExpression, readVariable } from "./expression.ts";
 import { readStatement } from "./statement.ts";
 import type { Expression, Routine, Statement, Variable } from "./syntax.ts";
 
-const RULES: JumpRules<Cursor, Expression, Variable, Statement> = { expression: readExpression, variable: readVariable, statement: readStatement, called: "program", endOf: word => word === "DO" ? "UNTIL" : "END" };
+const RULES: JumpRules<Cursor, Expression, Variable, Statement> = {
+  expression: readExpression,
+  variable: readVariable,
+  statement: readStatement,
+  called: "program",
+  endOf: word => (word === "DO" ? "UNTIL" : "END"),
+};
 const CASE: SwitchWords = { opens: "CASE", ends: "END", last: "ANY" };
 
 /** Turns the lines of one program into instructions with jumps. */
@@ -24,31 +30,54 @@ export class RoutineBuilder extends JumpBuilder<Cursor, Expression, Variable, St
     if (cursor.done) return;
     const at = cursor.here;
     switch (cursor.second === "=" ? "" : cursor.next) {
-      case "IF": return this.readIf(cursor, at);
-      case "ELSE": return this.readElse(cursor);
-      case "WHILE": return this.readWhile(cursor, at, "DO");
-      case "DO": return this.readDo(cursor);
-      case "UNTIL": return this.readUntil(cursor, "DO");
-      case "FOR": return this.readFor(cursor, at);
-      case "CASE": return this.readSwitch(cursor, at, "OF");
-      case "VALUE": return this.readCase(cursor, CASE, true);
-      case "ANY": return this.readLastCase(cursor, CASE);
-      case "END": return this.readEnd(cursor);
-      case "EXIT": return this.readExit(cursor, at);
-      case "GOTO": cursor.take(); this.readGoto(this.push({ kind: "jump", to: -1, at }), cursor); return cursor.expectEnd();
-      default: this.code.push({ kind: "statement", statement: readStatement(cursor) });
+      case "IF":
+        return this.readIf(cursor, at);
+      case "ELSE":
+        return this.readElse(cursor);
+      case "WHILE":
+        return this.readWhile(cursor, at, "DO");
+      case "DO":
+        return this.readDo(cursor);
+      case "UNTIL":
+        return this.readUntil(cursor, "DO");
+      case "FOR":
+        return this.readFor(cursor, at);
+      case "CASE":
+        return this.readSwitch(cursor, at, "OF");
+      case "VALUE":
+        return this.readCase(cursor, CASE, true);
+      case "ANY":
+        return this.readLastCase(cursor, CASE);
+      case "END":
+        return this.readEnd(cursor);
+      case "EXIT":
+        return this.readExit(cursor, at);
+      case "GOTO":
+        cursor.take();
+        this.readGoto(this.push({ kind: "jump", to: -1, at }), cursor);
+        return cursor.expectEnd();
+      default:
+        this.code.push({ kind: "statement", statement: readStatement(cursor) });
     }
   }
 
   /** @throws {TextError} for a block without its end, or a GOTO to a label that is not there. */
   finish(end: TextPlace): Routine {
     this.close(end);
-    return { name: this.name, place: this.place, parameters: this.parameters, instructions: this.code, slots: this.slots };
+    return {
+      name: this.name,
+      place: this.place,
+      parameters: this.parameters,
+      instructions: this.code,
+      slots: this.slots,
+    };
   }
 
   private readLabel(cursor: Cursor): void {
-    const at = cursor.here, label = cursor.take();
-    if (!/^[0-9]+$/.test(label) || Number(label) > 65535) throw new TextError(at, "a label from 0 to 65535", `${label} is no label.`);
+    const at = cursor.here;
+    const label = cursor.take();
+    if (!/^[0-9]+$/.test(label) || Number(label) > 65535)
+      throw new TextError(at, "a label from 0 to 65535", `${label} is no label.`);
     this.label(label, at);
   }
 

@@ -16,5 +16,7 @@ const RULES: LineRules<Kind> = {
 
 /** Walks over the tokens of one line. */
 export class Cursor extends LineCursor<Kind> {
-  constructor(text: string, line: number) { super(text, line, RULES); }
+  constructor(text: string, line: number) {
+    super(text, line, RULES);
+  }
 }

@@ -14,9 +14,18 @@ const BARE = new Set(["NULL", "HERE", "DEST", "RANDOM"]);
 
 /** Or and xor bind least, then and, not, comparison, sum, product, sign, power; `:` joins locations first of all. */
 export function readExpression(cursor: Cursor, depth = 0): Expression {
-  if (depth > DEPTH) throw new TextError(cursor.here, "a simpler expression", `The expression is nested more than ${DEPTH} deep.`);
-  return chain(cursor, word => word === "OR" || word === "XOR",
-    () => chain(cursor, word => word === "AND", () => not(cursor, depth)));
+  if (depth > DEPTH)
+    throw new TextError(cursor.here, "a simpler expression", `The expression is nested more than ${DEPTH} deep.`);
+  return chain(
+    cursor,
+    word => word === "OR" || word === "XOR",
+    () =>
+      chain(
+        cursor,
+        word => word === "AND",
+        () => not(cursor, depth),
+      ),
+  );
 }
 
 function chain(cursor: Cursor, joins: (word: string) => boolean, part: () => Expression): Expression {
@@ -33,10 +42,21 @@ function not(cursor: Cursor, depth: number): Expression {
   const { line, column } = cursor.here;
   let nots = 0;
   while (cursor.accept("NOT")) nots++;
-  let value = chain(cursor, word => COMPARE.has(word),
-    () => chain(cursor, word => word === "+" || word === "-",
-      () => chain(cursor, word => word === "*" || word === "/" || word === "MOD",
-        () => signed(cursor, depth))));
+  let value = chain(
+    cursor,
+    word => COMPARE.has(word),
+    () =>
+      chain(
+        cursor,
+        word => word === "+" || word === "-",
+        () =>
+          chain(
+            cursor,
+            word => word === "*" || word === "/" || word === "MOD",
+            () => signed(cursor, depth),
+          ),
+      ),
+  );
   for (; nots > 0; nots--) value = { kind: "unary", sign: "NOT", of: value, line, column };
   return value;
 }
@@ -57,7 +77,9 @@ function signed(cursor: Cursor, depth: number): Expression {
 function power(cursor: Cursor, depth: number): Expression {
   const left = compound(cursor, depth);
   const { line, column } = cursor.here;
-  return cursor.accept("**") ? { kind: "binary", sign: "**", left, right: compound(cursor, depth), line, column } : left;
+  return cursor.accept("**")
+    ? { kind: "binary", sign: "**", left, right: compound(cursor, depth), line, column }
+    : left;
 }
 
 function compound(cursor: Cursor, depth: number): Expression {
@@ -83,11 +105,24 @@ function primary(cursor: Cursor, depth: number): Expression {
   if (cursor.nextKind !== "word") throw cursor.unexpected("a value");
   const word = cursor.next;
   const constant = CONSTANTS[word];
-  if (constant !== undefined) { cursor.take(); return { kind: "number", value: constant, line, column }; }
-  if (BARE.has(word) && cursor.second !== "[") { cursor.take(); return { kind: "call", name: word, args: [], line, column }; }
+  if (constant !== undefined) {
+    cursor.take();
+    return { kind: "number", value: constant, line, column };
+  }
+  if (BARE.has(word) && cursor.second !== "[") {
+    cursor.take();
+    return { kind: "call", name: word, args: [], line, column };
+  }
   if (cursor.second === "(") {
-    cursor.take(); cursor.take();
-    return { kind: "call", name: word, args: word === "SHIFT" ? shiftArguments(cursor, depth) : callArguments(cursor, depth), line, column };
+    cursor.take();
+    cursor.take();
+    return {
+      kind: "call",
+      name: word,
+      args: word === "SHIFT" ? shiftArguments(cursor, depth) : callArguments(cursor, depth),
+      line,
+      column,
+    };
   }
   return readVariable(cursor, depth);
 }
@@ -117,7 +152,9 @@ export function readVariable(cursor: Cursor, depth = 0): Variable {
   checkName(name.replace(/^[$#]/, ""), { line, column });
   const indices: Expression[] = [];
   if (cursor.accept("[")) {
-    if (cursor.next !== "]") do indices.push(readExpression(cursor, depth + 1)); while (cursor.accept(","));
+    if (cursor.next !== "]")
+      do indices.push(readExpression(cursor, depth + 1));
+      while (cursor.accept(","));
     cursor.expect("]");
   }
   return { kind: "variable", name, indices, line, column };
@@ -125,5 +162,10 @@ export function readVariable(cursor: Cursor, depth = 0): Variable {
 
 /** @throws {TextError} for a name that is too long. */
 export function checkName(name: string, at: { readonly line: number; readonly column: number }): void {
-  if (name.length > NAME_LENGTH) throw new TextError(at, `a name of at most ${NAME_LENGTH} characters`, `The name "${name}" has ${name.length} characters; V+ takes ${NAME_LENGTH}.`);
+  if (name.length > NAME_LENGTH)
+    throw new TextError(
+      at,
+      `a name of at most ${NAME_LENGTH} characters`,
+      `The name "${name}" has ${name.length} characters; V+ takes ${NAME_LENGTH}.`,
+    );
 }

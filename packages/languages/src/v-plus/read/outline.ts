@@ -7,7 +7,14 @@ export type Node =
   | { readonly kind: "call"; readonly line: number; readonly program: string }
   | { readonly kind: "stop"; readonly line: number }
   | { readonly kind: "repeat"; readonly line: number; readonly times: number | "forever"; readonly inside: Node[] }
-  | { readonly kind: "if"; readonly line: number; readonly signal: string; readonly is: boolean; readonly then: Node[]; else?: Node[] }
+  | {
+      readonly kind: "if";
+      readonly line: number;
+      readonly signal: string;
+      readonly is: boolean;
+      readonly then: Node[];
+      else?: Node[];
+    }
   | { readonly kind: "pallet"; readonly line: number; readonly pattern: Pattern; readonly inside: Node[] };
 
 /** A pallet as its loops say it: the first place as six components, pitches in mm along the axes of the controller. */
@@ -40,24 +47,40 @@ export interface Structure {
 
 /** Control words in shapes that have no counterpart among the steps of a program. */
 const OTHER = /^(?:FOR|WHILE|DO|UNTIL|IF|ELSE|END|CASE|VALUE|ANY|EXIT|GOTO|RETURN|CALL)\b|^[0-9]+\s|^\./i;
-const NUMBER = "(-?[0-9.]+)", FACTOR = "\\(?(-?[0-9.]+)\\)?";
+const NUMBER = "(-?[0-9.]+)";
+const FACTOR = "\\(?(-?[0-9.]+)\\)?";
 
 /** The structure of a text whose loops, calls and decisions are those of a neutral program; undefined for any other. */
 export function outlineOf(lines: readonly string[]): Structure | undefined {
-  const flat = lines.map(() => ""), programs = new Map<string, { title: string; outline: Node[] }>(), numbers = new Map<string, number>(), main: Node[] = [];
-  let list = main, started = false, plain = true;
+  const flat = lines.map(() => "");
+  const programs = new Map<string, { title: string; outline: Node[] }>();
+  const numbers = new Map<string, number>();
+  const main: Node[] = [];
+  let list = main;
+  let started = false;
+  let plain = true;
   const open: { readonly ends: number; readonly outer: Node[]; left: number; readonly node: Node }[] = [];
-  const enter = (node: Node, inside: Node[], ends = 1): void => { list.push(node); open.push({ ends, outer: list, left: ends, node }); list = inside; plain = false; };
+  const enter = (node: Node, inside: Node[], ends = 1): void => {
+    list.push(node);
+    open.push({ ends, outer: list, left: ends, node });
+    list = inside;
+    plain = false;
+  };
 
   for (let i = 0; i < lines.length; i++) {
-    const text = lines[i]!.trim(), line = i + 1;
-    if (text.startsWith(";")) { list.push(remark(text.slice(1).trim(), line)); continue; }
-    const code = text.includes("\"") ? text : text.replace(/\s*;.*$/, "");
+    const text = lines[i]!.trim();
+    const line = i + 1;
+    if (text.startsWith(";")) {
+      list.push(remark(text.slice(1).trim(), line));
+      continue;
+    }
+    const code = text.includes('"') ? text : text.replace(/\s*;.*$/, "");
     const header = /^\.PROGRAM\s+([A-Z][A-Z0-9_.]*)\s*\(\s*\)$/i.exec(code);
     if (header !== null) {
       if (open.length > 0) return undefined;
       if (started) {
-        const name = header[1]!.toLowerCase(), outline: Node[] = [];
+        const name = header[1]!.toLowerCase();
+        const outline: Node[] = [];
         programs.set(name, { title: /;(.*)$/.exec(text)?.[1]?.trim() || name, outline });
         list = outline;
         plain = false;
@@ -65,7 +88,10 @@ export function outlineOf(lines: readonly string[]): Structure | undefined {
       started = true;
       continue;
     }
-    if (/^\.END$/i.test(code)) { if (open.length > 0) return undefined; continue; }
+    if (/^\.END$/i.test(code)) {
+      if (open.length > 0) return undefined;
+      continue;
+    }
     const found = patternAt(lines, i);
     if (found !== undefined) {
       const inside: Node[] = [];
@@ -94,21 +120,34 @@ export function outlineOf(lines: readonly string[]): Structure | undefined {
     }
     if (/^END$/i.test(code)) {
       if (block === undefined) return undefined;
-      if (--block.left === 0) { open.pop(); list = block.outer; }
+      if (--block.left === 0) {
+        open.pop();
+        list = block.outer;
+      }
       continue;
     }
     // The loops of a pallet end together.
     if (block !== undefined && block.left < block.ends && code !== "") return undefined;
     const call = /^CALL\s+([A-Z][A-Z0-9_.]*)\s*(?:\(\s*\))?$/i.exec(code);
-    if (call !== null) { list.push({ kind: "call", line, program: call[1]!.toLowerCase() }); plain = false; continue; }
-    if (/^(?:HALT|STOP)$/i.test(code)) { list.push({ kind: "stop", line }); plain = false; continue; }
+    if (call !== null) {
+      list.push({ kind: "call", line, program: call[1]!.toLowerCase() });
+      plain = false;
+      continue;
+    }
+    if (/^(?:HALT|STOP)$/i.test(code)) {
+      list.push({ kind: "stop", line });
+      plain = false;
+      continue;
+    }
     if (OTHER.test(code)) return undefined;
     const given = /^([A-Z][A-Z0-9_.]*)\s*=\s*([0-9]+)$/i.exec(code);
     if (given !== null) numbers.set(given[1]!.toLowerCase(), Number(given[2]));
     flat[i] = lines[i]!;
     if (code !== "") list.push({ kind: "line", line });
   }
-  return open.length > 0 || !started ? undefined : { main, programs, numbers, flat: `${flat.join("\n")}\n.END\n`, plain };
+  return open.length > 0 || !started
+    ? undefined
+    : { main, programs, numbers, flat: `${flat.join("\n")}\n.END\n`, plain };
 }
 
 /** `;== title` begins a group, `;- text` is a comment of its own, `;* text` is for whoever reads the file, `;name` names the next step. */
@@ -119,28 +158,49 @@ function remark(text: string, line: number): Node {
 }
 
 /** The lines with which a pallet begins, if they stand here. */
-function patternAt(lines: readonly string[], at: number): { readonly pattern: Pattern; readonly lines: number } | undefined {
+function patternAt(
+  lines: readonly string[],
+  at: number,
+): { readonly pattern: Pattern; readonly lines: number } | undefined {
   let next = at;
-  const match = (pattern: string): RegExpExecArray | null => new RegExp(`^\\s*${pattern}\\s*$`, "i").exec(lines[next++] ?? "");
-  const first = match(`SET (\\w+) = TRANS\\(${Array.from({ length: 6 }, () => NUMBER).join(",")}\\)`), layers = first && match("FOR (\\w+) = 0 TO (\\d+)"), outer = layers && match("FOR (\\w+) = 0 TO (\\d+)");
+  const match = (pattern: string): RegExpExecArray | null =>
+    new RegExp(`^\\s*${pattern}\\s*$`, "i").exec(lines[next++] ?? "");
+  const first = match(`SET (\\w+) = TRANS\\(${Array.from({ length: 6 }, () => NUMBER).join(",")}\\)`);
+  const layers = first && match("FOR (\\w+) = 0 TO (\\d+)");
+  const outer = layers && match("FOR (\\w+) = 0 TO (\\d+)");
   const inner = outer && match(`FOR (\\w+) = 0 TO (\\d+)(-\\(${outer[1]!} MOD 2\\))?`);
   if (!inner) return undefined;
-  const shifted = inner[3] !== undefined, o = outer[1]!, n = inner[1]!, last = Number(inner[2]);
+  const shifted = inner[3] !== undefined;
+  const o = outer[1]!;
+  const n = inner[1]!;
+  const last = Number(inner[2]);
   const zigzag = match(`(\\w+) = ${n}\\+\\(${o} MOD 2\\)\\*\\(${last - (shifted ? 1 : 0)}-2\\*${n}\\)`);
   if (zigzag === null) next--;
   const plain = zigzag === null && shifted ? match(`(\\w+) = ${n}`) : null;
   const along = zigzag?.[1] ?? plain?.[1] ?? n;
   if (shifted && match(`${along} = ${along}\\+0\\.5\\*\\(${o} MOD 2\\)`) === null) return undefined;
-  const sum = `(\\w+)\\*${FACTOR}\\+(\\w+)\\*${FACTOR}\\+${layers[1]!}\\*${FACTOR}`, shift = match(`SET (\\w+) = SHIFT\\(${first[1]!} BY ${sum}, ${sum}, ${sum}\\)`);
+  const sum = `(\\w+)\\*${FACTOR}\\+(\\w+)\\*${FACTOR}\\+${layers[1]!}\\*${FACTOR}`;
+  const shift = match(`SET (\\w+) = SHIFT\\(${first[1]!} BY ${sum}, ${sum}, ${sum}\\)`);
   if (shift === null) return undefined;
-  const part = (k: number): number[] => [0, 1, 2].map(i => Number(shift[2 + 5 * i + k])), byRows = shift[2] === along && shift[4] === o;
+  const part = (k: number): number[] => [0, 1, 2].map(i => Number(shift[2 + 5 * i + k]));
+  const byRows = shift[2] === along && shift[4] === o;
   if (!byRows && !(shift[2] === o && shift[4] === along)) return undefined;
-  const outerCount = Number(outer[2]) + 1, innerCount = last + 1;
+  const outerCount = Number(outer[2]) + 1;
+  const innerCount = last + 1;
   return {
     lines: next - at,
     pattern: {
-      place: shift[1]!.toLowerCase(), origin: first.slice(2, 8).map(Number), layers: Number(layers[2]) + 1, byRows, zigzag: zigzag !== null, shifted,
-      rows: byRows ? outerCount : innerCount, columns: byRows ? innerCount : outerCount, column_mm: part(1), row_mm: part(3), layer_mm: part(4),
+      place: shift[1]!.toLowerCase(),
+      origin: first.slice(2, 8).map(Number),
+      layers: Number(layers[2]) + 1,
+      byRows,
+      zigzag: zigzag !== null,
+      shifted,
+      rows: byRows ? outerCount : innerCount,
+      columns: byRows ? innerCount : outerCount,
+      column_mm: part(1),
+      row_mm: part(3),
+      layer_mm: part(4),
     },
   };
 }

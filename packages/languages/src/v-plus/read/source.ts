@@ -6,7 +6,9 @@ import { checkName, readExpression, readVariable } from "./expression.ts";
 import { readStatement } from "./statement.ts";
 import type { Expression, Routine, Source, Statement } from "./syntax.ts";
 
-export type SourceAnswer = { readonly kind: "source"; readonly source: Source } | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
+export type SourceAnswer =
+  | { readonly kind: "source"; readonly source: Source }
+  | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
 /** More faults than this help nobody. */
 const MOST_FAULTS = 50;
@@ -16,10 +18,14 @@ export function readSource(text: string): SourceAnswer {
   const reader = new SourceReader();
   const lines = textLines(text);
   for (const [i, line] of lines.entries()) {
-    reader.guard(() => { reader.line(line, i + 1); });
+    reader.guard(() => {
+      reader.line(line, i + 1);
+    });
     if (reader.faults.length >= MOST_FAULTS) break;
   }
-  reader.guard(() => { reader.end(lines.length + 1); });
+  reader.guard(() => {
+    reader.end(lines.length + 1);
+  });
   if (reader.faults.length > 0) return { kind: "not-understood", faults: reader.faults };
   return { kind: "source", source: { routines: reader.routines, immediate: reader.immediate, data: reader.data } };
 }
@@ -56,7 +62,11 @@ class SourceReader {
 
   end(line: number): void {
     if (this.section === "terminal") return;
-    throw new TextError({ line, column: 1 }, ".END", `The ${this.section === "program" ? ".PROGRAM" : this.section} of line ${this.opened} has no .END.`);
+    throw new TextError(
+      { line, column: 1 },
+      ".END",
+      `The ${this.section === "program" ? ".PROGRAM" : this.section} of line ${this.opened} has no .END.`,
+    );
   }
 
   private terminalLine(cursor: Cursor): void {
@@ -77,10 +87,23 @@ class SourceReader {
       }
       return;
     }
-    if (this.section !== "terminal") throw new TextError(place, ".END", `${word} stands inside the ${this.section === "program" ? ".PROGRAM" : this.section} of line ${this.opened}.`);
+    if (this.section !== "terminal")
+      throw new TextError(
+        place,
+        ".END",
+        `${word} stands inside the ${this.section === "program" ? ".PROGRAM" : this.section} of line ${this.opened}.`,
+      );
     this.opened = line;
-    if (word === ".LOCATIONS" || word === ".REALS" || word === ".STRINGS") { this.section = word; return; }
-    if (word !== ".PROGRAM") throw new TextError(place, ".PROGRAM, .LOCATIONS, .REALS or .STRINGS", `"${word}" opens no section of a V+ file.`);
+    if (word === ".LOCATIONS" || word === ".REALS" || word === ".STRINGS") {
+      this.section = word;
+      return;
+    }
+    if (word !== ".PROGRAM")
+      throw new TextError(
+        place,
+        ".PROGRAM, .LOCATIONS, .REALS or .STRINGS",
+        `"${word}" opens no section of a V+ file.`,
+      );
     this.section = "program";
     this.header(new Cursor(" ".repeat(at) + text.slice(at), line));
   }
@@ -93,11 +116,14 @@ class SourceReader {
     this.builder = new RoutineBuilder(name, place, parameters);
     checkName(name, place);
     if (cursor.accept("(")) {
-      if (cursor.next !== ")") do parameters.push(readVariable(cursor).name); while (cursor.accept(","));
+      if (cursor.next !== ")")
+        do parameters.push(readVariable(cursor).name);
+        while (cursor.accept(","));
       cursor.expect(")");
     }
     cursor.expectEnd();
-    if (this.routines.has(name)) throw new TextError(place, "a program name used once", `Program ${name} is in the file twice.`);
+    if (this.routines.has(name))
+      throw new TextError(place, "a program name used once", `Program ${name} is in the file twice.`);
   }
 }
 
@@ -115,7 +141,8 @@ function dataLine(cursor: Cursor, section: Section): Statement {
     cursor.accept(",");
   }
   if (section === ".REALS") {
-    if (values.length !== 1) throw new TextError({ line, column }, "one number", `A real has one value; "${to.name}" has ${values.length}.`);
+    if (values.length !== 1)
+      throw new TextError({ line, column }, "one number", `A real has one value; "${to.name}" has ${values.length}.`);
     return { kind: "assign", to, value: values[0]!, line, column };
   }
   const name = to.name.startsWith("#") ? "#PPOINT" : "TRANS";

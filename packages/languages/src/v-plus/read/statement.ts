@@ -11,11 +11,23 @@ const expressions = (cursor: Cursor): Expression[] => {
   while (cursor.accept(",")) list.push(readExpression(cursor));
   return list;
 };
-const optional = (cursor: Cursor): Expression | undefined => cursor.done || cursor.next === "," ? undefined : readExpression(cursor);
+const optional = (cursor: Cursor): Expression | undefined =>
+  cursor.done || cursor.next === "," ? undefined : readExpression(cursor);
 
-const config: Reader = (cursor, word) => ({ kind: "config", word: word as ConfigWord, always: cursor.accept("ALWAYS") });
-const gripper: Reader = (_, word) => ({ kind: "gripper", closed: word.startsWith("CLOSE"), immediate: word.endsWith("I") });
-const without: Reader = cursor => { while (!cursor.done) cursor.take(); return { kind: "nothing" }; };
+const config: Reader = (cursor, word) => ({
+  kind: "config",
+  word: word as ConfigWord,
+  always: cursor.accept("ALWAYS"),
+});
+const gripper: Reader = (_, word) => ({
+  kind: "gripper",
+  closed: word.startsWith("CLOSE"),
+  immediate: word.endsWith("I"),
+});
+const without: Reader = cursor => {
+  while (!cursor.done) cursor.take();
+  return { kind: "nothing" };
+};
 /** `FINE 50 ALWAYS` and its like: a tolerance that does not move the target. */
 const accuracy: Reader = cursor => {
   if (!cursor.done && cursor.next !== "ALWAYS") readExpression(cursor);
@@ -76,7 +88,8 @@ const READERS: Readonly<Record<string, Reader>> = {
   HERE: cursor => ({ kind: "here", to: readVariable(cursor) }),
   DECOMPOSE: cursor => {
     const to = readVariable(cursor);
-    if (to.indices.length === 0) throw new TextError(to, "an array element such as a[0]", `DECOMPOSE fills an array; "${to.name}" has no index.`);
+    if (to.indices.length === 0)
+      throw new TextError(to, "an array element such as a[0]", `DECOMPOSE fills an array; "${to.name}" has no index.`);
     cursor.expect("=");
     return { kind: "decompose", to, location: readExpression(cursor) };
   },
@@ -106,25 +119,60 @@ const READERS: Readonly<Record<string, Reader>> = {
   },
   BASE: cursor => {
     const values: (Expression | undefined)[] = [];
-    if (!cursor.done) do values.push(optional(cursor)); while (cursor.accept(","));
+    if (!cursor.done)
+      do values.push(optional(cursor));
+      while (cursor.accept(","));
     return { kind: "base", values };
   },
-  LEFTY: config, RIGHTY: config, ABOVE: config, BELOW: config, FLIP: config, NOFLIP: config,
+  LEFTY: config,
+  RIGHTY: config,
+  ABOVE: config,
+  BELOW: config,
+  FLIP: config,
+  NOFLIP: config,
   BREAK: () => ({ kind: "break" }),
-  CPON: cursor => { cursor.accept("ALWAYS"); return { kind: "path", continuous: true }; },
-  CPOFF: cursor => { cursor.accept("ALWAYS"); return { kind: "path", continuous: false }; },
-  ENABLE: switches, DISABLE: switches,
+  CPON: cursor => {
+    cursor.accept("ALWAYS");
+    return { kind: "path", continuous: true };
+  },
+  CPOFF: cursor => {
+    cursor.accept("ALWAYS");
+    return { kind: "path", continuous: false };
+  },
+  ENABLE: switches,
+  DISABLE: switches,
   DELAY: cursor => ({ kind: "delay", time: readExpression(cursor) }),
-  WAIT: waiting, "WAIT.EVENT": waiting,
-  OPEN: gripper, OPENI: gripper, CLOSE: gripper, CLOSEI: gripper, RELAX: gripper, RELAXI: gripper,
+  WAIT: waiting,
+  "WAIT.EVENT": waiting,
+  OPEN: gripper,
+  OPENI: gripper,
+  CLOSE: gripper,
+  CLOSEI: gripper,
+  RELAX: gripper,
+  RELAXI: gripper,
   SIGNAL: cursor => ({ kind: "signal", signals: expressions(cursor) }),
   CALL: call,
   RETURN: () => ({ kind: "return" }),
-  STOP: () => ({ kind: "stop" }), HALT: () => ({ kind: "stop" }),
-  FINE: accuracy, COARSE: accuracy, NULL: accuracy, NONULL: accuracy, OVERLAP: accuracy, NOOVERLAP: accuracy, SINGLE: accuracy, MULTIPLE: accuracy,
+  STOP: () => ({ kind: "stop" }),
+  HALT: () => ({ kind: "stop" }),
+  FINE: accuracy,
+  COARSE: accuracy,
+  NULL: accuracy,
+  NONULL: accuracy,
+  OVERLAP: accuracy,
+  NOOVERLAP: accuracy,
+  SINGLE: accuracy,
+  MULTIPLE: accuracy,
   ACCEL: cursor => ({ kind: "accel", percent: expressions(cursor)[0]! }),
   PAUSE: () => ({ kind: "nothing" }),
-  TYPE: message, PARAMETER: without, ATTACH: without, DETACH: without, GLOBAL: without, LOCAL: without, AUTO: without, TIMER: without,
+  TYPE: message,
+  PARAMETER: without,
+  ATTACH: without,
+  DETACH: without,
+  GLOBAL: without,
+  LOCAL: without,
+  AUTO: without,
+  TIMER: without,
 };
 
 function handMove(cursor: Cursor, straight: boolean): Body<Statement> {
@@ -158,7 +206,11 @@ export function readStatement(cursor: Cursor): Statement {
     if (reader === undefined || cursor.second === "=") return { ...assignment(cursor), line, column };
   }
   if (reader === undefined) {
-    throw new TextError({ line, column }, "a statement of V+", REFUSED[word] ?? `"${cursor.take()}" is no statement of V+ that is understood here.`);
+    throw new TextError(
+      { line, column },
+      "a statement of V+",
+      REFUSED[word] ?? `"${cursor.take()}" is no statement of V+ that is understood here.`,
+    );
   }
   cursor.take();
   const body = reader(cursor, word);

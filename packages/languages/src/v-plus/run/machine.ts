@@ -1,4 +1,13 @@
-import { SignalTable, type Executed, type MoveStep, type Pose, type Robot, type Signals, type Step, type TextPlace } from "@twincell/core";
+import {
+  SignalTable,
+  type Executed,
+  type MoveStep,
+  type Pose,
+  type Robot,
+  type Signals,
+  type Step,
+  type TextPlace,
+} from "@twincell/core";
 import { TextError } from "../../text/index.ts";
 import type { Expression, Instruction, Routine, Source, Statement } from "../read/syntax.ts";
 import type { JointConvention } from "../robots.ts";
@@ -31,11 +40,20 @@ export class Machine {
   private readonly times = new Map<number, number>();
   private idle = 0;
 
-  constructor(source: Source, robot: Robot, convention: JointConvention, worldFromBase: Pose<"world", "base">, met: Met, signals: Signals = new SignalTable()) {
+  constructor(
+    source: Source,
+    robot: Robot,
+    convention: JointConvention,
+    worldFromBase: Pose<"world", "base">,
+    met: Met,
+    signals: Signals = new SignalTable(),
+  ) {
     this.source = source;
     this.state = new ControllerState(robot, convention, worldFromBase, met, signals);
     // A program that looks at a line waits for something outside: it does not run on the spot.
-    this.state.onRead = () => { this.idle = 0; };
+    this.state.onRead = () => {
+      this.idle = 0;
+    };
     this.continuousPath_m = step => continuousPath(robot, step);
   }
 
@@ -55,7 +73,10 @@ export class Machine {
     let frame: Frame | undefined;
     while ((frame = stack.at(-1)) !== undefined) {
       const instruction = frame.routine.instructions[frame.at++];
-      if (instruction === undefined) { stack.pop(); continue; }
+      if (instruction === undefined) {
+        stack.pop();
+        continue;
+      }
       if (instruction.kind === "statement") yield* this.statement(instruction.statement, stack);
       else this.control(instruction, frame);
     }
@@ -76,23 +97,29 @@ export class Machine {
         state.write(keyOf(instruction.variable, state), number(instruction.from, state));
         frame.last[instruction.slot] = number(instruction.last, state);
         frame.step[instruction.slot] = instruction.step === undefined ? 1 : number(instruction.step, state);
-        if (frame.step[instruction.slot] === 0) throw new TextError(instruction.step!, "a step other than 0", "The loop has the step 0.");
+        if (frame.step[instruction.slot] === 0)
+          throw new TextError(instruction.step!, "a step other than 0", "The loop has the step 0.");
         return;
       case "for-check": {
-        const value = number(instruction.variable, state), last = frame.last[instruction.slot]!;
+        const value = number(instruction.variable, state);
+        const last = frame.last[instruction.slot]!;
         if (frame.step[instruction.slot]! > 0 ? value > last : value < last) frame.at = instruction.to;
         return;
       }
       case "for-next":
         this.spend(instruction.variable);
-        state.write(keyOf(instruction.variable, state), Math.fround(number(instruction.variable, state) + frame.step[instruction.slot]!));
+        state.write(
+          keyOf(instruction.variable, state),
+          Math.fround(number(instruction.variable, state) + frame.step[instruction.slot]!),
+        );
         frame.at = instruction.to;
         return;
       case "switch":
         frame.chosen[instruction.slot] = evaluate(instruction.value, state);
         return;
       case "case-unless":
-        if (!instruction.values.some(value => evaluate(value, state) === frame.chosen[instruction.slot])) frame.at = instruction.to;
+        if (!instruction.values.some(value => evaluate(value, state) === frame.chosen[instruction.slot]))
+          frame.at = instruction.to;
         return;
     }
   }
@@ -103,18 +130,31 @@ export class Machine {
     switch (statement.kind) {
       case "assign": {
         const value = evaluate(statement.value, state);
-        if (typeof value === "object") throw new TextError(statement.value, "a number or a string", "A location is given to a variable with SET.");
-        if ((typeof value === "string") !== statement.to.name.startsWith("$")) throw new TextError(statement.value, "a value of the variable's sort", `"${statement.to.name}" takes ${statement.to.name.startsWith("$") ? "a string" : "a number"}.`);
+        if (typeof value === "object")
+          throw new TextError(statement.value, "a number or a string", "A location is given to a variable with SET.");
+        if ((typeof value === "string") !== statement.to.name.startsWith("$"))
+          throw new TextError(
+            statement.value,
+            "a value of the variable's sort",
+            `"${statement.to.name}" takes ${statement.to.name.startsWith("$") ? "a string" : "a number"}.`,
+          );
         state.write(keyOf(statement.to, state), value);
         break;
       }
       case "set": {
         const value = location(statement.value, state);
-        if ((value.kind === "precision") !== statement.to.name.startsWith("#")) throw new TextError(statement.value, "a location of the variable's sort", `"${statement.to.name}" takes a ${statement.to.name.startsWith("#") ? "precision point" : "transformation"}.`);
+        if ((value.kind === "precision") !== statement.to.name.startsWith("#"))
+          throw new TextError(
+            statement.value,
+            "a location of the variable's sort",
+            `"${statement.to.name}" takes a ${statement.to.name.startsWith("#") ? "precision point" : "transformation"}.`,
+          );
         state.write(keyOf(statement.to, state), value);
         break;
       }
-      case "here": state.write(keyOf(statement.to, state), state.here()); break;
+      case "here":
+        state.write(keyOf(statement.to, state), state.here());
+        break;
       case "decompose":
         for (const [i, component] of state.decomposed(location(statement.location, state)).entries()) {
           state.write(keyOf(statement.to, state, i), Math.fround(component));
@@ -123,54 +163,95 @@ export class Machine {
       case "tool": {
         yield* this.settle(0);
         const named = statement.location?.kind === "variable" ? statement.location.name : undefined;
-        state.setTool(statement.location === undefined ? fromTrans(0, 0, 0, 0, 0, 0) : transform(statement.location, state), named);
+        state.setTool(
+          statement.location === undefined ? fromTrans(0, 0, 0, 0, 0, 0) : transform(statement.location, state),
+          named,
+        );
         break;
       }
       case "base": {
         yield* this.settle(0);
-        const [x, y, z, turn] = [0, 1, 2, 3].map(i => statement.values[i] === undefined ? 0 : number(statement.values[i], state));
+        const [x, y, z, turn] = [0, 1, 2, 3].map(i =>
+          statement.values[i] === undefined ? 0 : number(statement.values[i], state),
+        );
         state.setBase(x!, y!, z!, turn!);
         break;
       }
-      case "config": state.configure(statement.word); break;
-      case "speed": state.setSpeed(number(statement.value, state), statement.unit, statement.always, statement); break;
-      case "duration": state.setDuration(number(statement.value, state), statement.always); break;
-      case "path": state.continuous = statement.continuous; break;
-      case "break": yield* this.settle(0); break;
-      case "signal": return yield* this.set(statement);
+      case "config":
+        state.configure(statement.word);
+        break;
+      case "speed":
+        state.setSpeed(number(statement.value, state), statement.unit, statement.always, statement);
+        break;
+      case "duration":
+        state.setDuration(number(statement.value, state), statement.always);
+        break;
+      case "path":
+        state.continuous = statement.continuous;
+        break;
+      case "break":
+        yield* this.settle(0);
+        break;
+      case "signal":
+        return yield* this.set(statement);
       case "accel": {
         const percent = number(statement.percent, state);
-        if (!(percent > 0)) throw new TextError(statement.percent, "a percentage above 0", `The acceleration is ${percent} %.`);
+        if (!(percent > 0))
+          throw new TextError(statement.percent, "a percentage above 0", `The acceleration is ${percent} %.`);
         state.accelerate(percent);
         break;
       }
-      case "type": yield* this.settle(state.continuous ? "continuous" : 0); return yield this.done(statement, { id: this.stepId(statement.line), type: "message", text: statement.text });
+      case "type":
+        yield* this.settle(state.continuous ? "continuous" : 0);
+        return yield this.done(statement, { id: this.stepId(statement.line), type: "message", text: statement.text });
       case "wait":
-        if (statement.condition !== undefined && isOneSignal(statement.condition)) return yield* this.waitFor(statement, statement.condition.args[0]);
+        if (statement.condition !== undefined && isOneSignal(statement.condition))
+          return yield* this.waitFor(statement, statement.condition.args[0]);
         if (statement.condition !== undefined && number(statement.condition, state) === 0) {
-          throw new TextError(statement.condition, "a condition that comes true", "The program waits for a condition that nothing here makes true.");
+          throw new TextError(
+            statement.condition,
+            "a condition that comes true",
+            "The program waits for a condition that nothing here makes true.",
+          );
         }
         break;
-      case "delay": return yield* this.delay(statement, number(statement.time, state));
-      case "gripper": return yield* this.gripper(statement);
-      case "move": case "approach": case "depart": case "drive": return yield* this.motion(statement);
-      case "call": this.call(statement, stack); break;
-      case "return": stack.pop(); break;
+      case "delay":
+        return yield* this.delay(statement, number(statement.time, state));
+      case "gripper":
+        return yield* this.gripper(statement);
+      case "move":
+      case "approach":
+      case "depart":
+      case "drive":
+        return yield* this.motion(statement);
+      case "call":
+        this.call(statement, stack);
+        break;
+      case "return":
+        stack.pop();
+        break;
       case "stop":
         stack.length = 0;
         yield* this.settle(0);
         return yield this.done(statement, { id: this.stepId(statement.line), type: "stop" });
-      case "nothing": break;
+      case "nothing":
+        break;
     }
     yield* this.note({ line: statement.line });
   }
 
-  private *motion(statement: Extract<Statement, { kind: "move" | "approach" | "depart" | "drive" }>): Generator<Executed, void> {
+  private *motion(
+    statement: Extract<Statement, { kind: "move" | "approach" | "depart" | "drive" }>,
+  ): Generator<Executed, void> {
     const { state } = this;
     yield* this.settle(state.continuous ? "continuous" : 0);
     if (statement.kind === "move" && statement.hand !== undefined) {
       // The hand moves while the arm does: before the motion is the nearest that a list of steps can say.
-      yield this.done(statement, { id: this.stepId(statement.line), type: "gripper", closed: number(statement.hand, state) <= 0 });
+      yield this.done(statement, {
+        id: this.stepId(statement.line),
+        type: "gripper",
+        closed: number(statement.hand, state) <= 0,
+      });
     }
     if (statement.kind === "drive") state.setSpeed(number(statement.speed, state), "percent", false, statement.speed);
     const straight = statement.kind !== "drive" && statement.straight;
@@ -179,13 +260,19 @@ export class Machine {
     this.idle = 0;
   }
 
-  private goal(statement: Extract<Statement, { kind: "move" | "approach" | "depart" | "drive" }>): Transform | Precision {
+  private goal(
+    statement: Extract<Statement, { kind: "move" | "approach" | "depart" | "drive" }>,
+  ): Transform | Precision {
     const { state } = this;
-    const back = (from: Transform, distance_mm: number): Transform => times(from, fromTrans(0, 0, -distance_mm, 0, 0, 0));
+    const back = (from: Transform, distance_mm: number): Transform =>
+      times(from, fromTrans(0, 0, -distance_mm, 0, 0, 0));
     switch (statement.kind) {
-      case "move": return location(statement.location, state);
-      case "drive": return state.driven(number(statement.joint, state), number(statement.change, state), statement);
-      case "depart": return back(state.here(), number(statement.distance, state));
+      case "move":
+        return location(statement.location, state);
+      case "drive":
+        return state.driven(number(statement.joint, state), number(statement.change, state), statement);
+      case "depart":
+        return back(state.here(), number(statement.distance, state));
       case "approach": {
         const target = location(statement.location, state);
         return back(target.kind === "precision" ? state.reached(target) : target, number(statement.distance, state));
@@ -205,7 +292,8 @@ export class Machine {
     for (const expression of statement.signals) {
       const signed = Math.trunc(number(expression, this.state));
       if (signed === 0) throw new TextError(expression, "a signal from 1", "There is no signal 0.");
-      const signal = this.state.line(Math.abs(signed), signalName(expression)), to = signed > 0;
+      const signal = this.state.line(Math.abs(signed), signalName(expression));
+      const to = signed > 0;
       this.state.wrote(signal, to);
       yield this.done(statement, { id: this.stepId(statement.line), type: "set", signal, to });
     }
@@ -213,7 +301,8 @@ export class Machine {
 
   private *waitFor(statement: Statement, expression: Expression): Generator<Executed, void> {
     yield* this.settle(0);
-    const signed = Math.trunc(number(expression, this.state)), signal = this.state.line(Math.abs(signed), signalName(expression));
+    const signed = Math.trunc(number(expression, this.state));
+    const signal = this.state.line(Math.abs(signed), signalName(expression));
     yield this.done(statement, { id: this.stepId(statement.line), type: "wait-for", when: { signal, is: signed > 0 } });
   }
 
@@ -224,9 +313,20 @@ export class Machine {
 
   private call(statement: Extract<Statement, { kind: "call" }>, stack: Frame[]): void {
     const routine = this.source.routines.get(statement.program);
-    if (routine === undefined) throw new TextError(statement, "a program of this file", `Program ${statement.program} is not in this file.`);
-    if (stack.length >= CALL_DEPTH) throw new TextError(statement, `at most ${CALL_DEPTH} calls inside each other`, `Program ${statement.program} is called more than ${CALL_DEPTH} deep.`);
-    if (statement.args.length > routine.parameters.length) throw new TextError(statement, `${routine.parameters.length} arguments`, `Program ${statement.program} takes ${routine.parameters.length} arguments; ${statement.args.length} are given.`);
+    if (routine === undefined)
+      throw new TextError(statement, "a program of this file", `Program ${statement.program} is not in this file.`);
+    if (stack.length >= CALL_DEPTH)
+      throw new TextError(
+        statement,
+        `at most ${CALL_DEPTH} calls inside each other`,
+        `Program ${statement.program} is called more than ${CALL_DEPTH} deep.`,
+      );
+    if (statement.args.length > routine.parameters.length)
+      throw new TextError(
+        statement,
+        `${routine.parameters.length} arguments`,
+        `Program ${statement.program} takes ${routine.parameters.length} arguments; ${statement.args.length} are given.`,
+      );
     const values = statement.args.map(arg => evaluate(arg, this.state));
     for (const [i, value] of values.entries()) this.state.write(routine.parameters[i]!, value);
     stack.push(newFrame(routine));
@@ -261,13 +361,22 @@ export class Machine {
 
   private spend(at: TextPlace): void {
     if (++this.idle > STATEMENTS_WITHOUT_MOTION) {
-      throw new TextError(at, "a motion, a wait or an end", `The program has executed ${STATEMENTS_WITHOUT_MOTION} statements without a motion: it runs on the spot for ever.`);
+      throw new TextError(
+        at,
+        "a motion, a wait or an end",
+        `The program has executed ${STATEMENTS_WITHOUT_MOTION} statements without a motion: it runs on the spot for ever.`,
+      );
     }
   }
 }
 
-const isOneSignal = (condition: Expression): condition is Extract<Expression, { kind: "call" }> & { readonly args: readonly [Expression] } =>
-  condition.kind === "call" && condition.name === "SIG" && condition.args.length === 1 && condition.args[0] !== undefined;
+const isOneSignal = (
+  condition: Expression,
+): condition is Extract<Expression, { kind: "call" }> & { readonly args: readonly [Expression] } =>
+  condition.kind === "call" &&
+  condition.name === "SIG" &&
+  condition.args.length === 1 &&
+  condition.args[0] !== undefined;
 
 const newFrame = (routine: Routine): Frame => ({ routine, at: 0, last: [], step: [], chosen: [] });
 
@@ -277,8 +386,9 @@ const newFrame = (routine: Routine): Frame => ({ routine, at: 0, last: [], step:
  */
 function continuousPath(robot: Robot, { speed }: MoveStep): number {
   const ramp_s = Math.max(...robot.arm.joints.map(({ limits }) => limits.speed_rad_s / limits.acceleration_rad_s2));
-  const full_mps = robot.maxTcpSpeed_mps, speed_mps = "mps" in speed ? speed.mps : "ratio" in speed ? speed.ratio * full_mps : SLOW_MPS;
-  return Math.min(speed_mps ** 2 * ramp_s / (2 * full_mps), LARGEST_CORNER_M);
+  const full_mps = robot.maxTcpSpeed_mps;
+  const speed_mps = "mps" in speed ? speed.mps : "ratio" in speed ? speed.ratio * full_mps : SLOW_MPS;
+  return Math.min((speed_mps ** 2 * ramp_s) / (2 * full_mps), LARGEST_CORNER_M);
 }
 /** A motion of given duration says nothing of its speed: it is taken for a slow one. */
 const SLOW_MPS = 0.25;

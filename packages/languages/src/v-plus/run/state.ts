@@ -1,29 +1,59 @@
 import {
-  compose, degrees, flangePose, identity, inverse, radians, type Branch, type MoveStep, type Pose, type Robot, type SignalLine, type Signals, type Speed, type Target, type TextPlace,
+  compose,
+  degrees,
+  flangePose,
+  identity,
+  inverse,
+  radians,
+  type Branch,
+  type MoveStep,
+  type Pose,
+  type Robot,
+  type SignalLine,
+  type Signals,
+  type Speed,
+  type Target,
+  type TextPlace,
 } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
 import type { ConfigWord } from "../read/syntax.ts";
 import type { JointConvention } from "../robots.ts";
-import { NULL_TRANSFORM, components, fromPose, fromTrans, inverted, times, toPose, type Transform } from "./transform.ts";
+import {
+  NULL_TRANSFORM,
+  components,
+  fromPose,
+  fromTrans,
+  inverted,
+  times,
+  toPose,
+  type Transform,
+} from "./transform.ts";
 import type { Memory, Precision, Value } from "./values.ts";
 
 const INCH_MM = 25.4;
 
 /** What the words of the controller mean in the words of a person, one for each part of the branch. */
 const CONFIG: Readonly<Record<ConfigWord, Partial<Branch>>> = {
-  RIGHTY: { shoulder: "front" }, LEFTY: { shoulder: "back" },
-  ABOVE: { elbow: "up" }, BELOW: { elbow: "down" },
-  NOFLIP: { wrist: "positive" }, FLIP: { wrist: "negative" },
+  RIGHTY: { shoulder: "front" },
+  LEFTY: { shoulder: "back" },
+  ABOVE: { elbow: "up" },
+  BELOW: { elbow: "down" },
+  NOFLIP: { wrist: "positive" },
+  FLIP: { wrist: "negative" },
 };
 
 /** Tools by the name under which the steps know them. */
 export type Tools = Record<string, Pose<"flange", "tcp">>;
 export type Lines = Record<string, SignalLine>;
 /** What the text was found to refer to; grows while it runs. */
-export interface Met { readonly tools: Tools; readonly lines: Lines }
+export interface Met {
+  readonly tools: Tools;
+  readonly lines: Lines;
+}
 
 /** Outputs count from 1, inputs from 1001, soft signals, which are both, from 2001. */
-const FIRST_INPUT = 1001, FIRST_SOFT = 2001;
+const FIRST_INPUT = 1001;
+const FIRST_SOFT = 2001;
 
 /** The controller while a program runs: variables, signals, tool, speed, and where the arm has been sent. */
 export class ControllerState implements Memory {
@@ -42,7 +72,10 @@ export class ControllerState implements Memory {
   onRead: () => void = () => undefined;
   private acceleration: MoveStep["acceleration"];
   private readonly tools: Tools;
-  private tool: { readonly name: string; readonly flangeFromTcp: Transform } = { name: "flange", flangeFromTcp: NULL_TRANSFORM };
+  private tool: { readonly name: string; readonly flangeFromTcp: Transform } = {
+    name: "flange",
+    flangeFromTcp: NULL_TRANSFORM,
+  };
   private base: Transform = NULL_TRANSFORM;
   private speed: Speed = { ratio: 1 };
   private onceSpeed: Speed | undefined;
@@ -54,7 +87,13 @@ export class ControllerState implements Memory {
   /** The joints there; unknown after a move to a transformation, whose joints the controller chooses. */
   private joints_deg: readonly number[] | undefined;
 
-  constructor(robot: Robot, convention: JointConvention, worldFromBase: Pose<"world", "base">, { tools, lines }: Met, signals: Signals) {
+  constructor(
+    robot: Robot,
+    convention: JointConvention,
+    worldFromBase: Pose<"world", "base">,
+    { tools, lines }: Met,
+    signals: Signals,
+  ) {
     this.robot = robot;
     this.lines = lines;
     this.signals = signals;
@@ -68,20 +107,28 @@ export class ControllerState implements Memory {
     this.flange = this.flangeAt(this.joints_deg);
   }
 
-  read(key: string): Value | undefined { return this.variables.get(key); }
-  write(key: string, value: Value): void { this.variables.set(key, value); }
+  read(key: string): Value | undefined {
+    return this.variables.get(key);
+  }
+  write(key: string, value: Value): void {
+    this.variables.set(key, value);
+  }
   signal(number: number, name: string | undefined): boolean {
     this.onRead();
-    const line = this.line(number, name), value = this.written.get(line) ?? this.signals.read(line);
+    const line = this.line(number, name);
+    const value = this.written.get(line) ?? this.signals.read(line);
     return typeof value === "number" ? value !== 0 : value;
   }
 
   /** The steps write the line when they are executed; the text, which is ahead of them, reads what it wrote. */
-  wrote(line: string, value: boolean): void { this.written.set(line, value); }
+  wrote(line: string, value: boolean): void {
+    this.written.set(line, value);
+  }
 
   /** The name under which the steps know a line: that of its variable, or its number. */
   line(number: number, name: string | undefined): string {
-    const isInput = number >= FIRST_INPUT && number < FIRST_SOFT, called = name ?? `${isInput ? "in" : "out"}_${number}`;
+    const isInput = number >= FIRST_INPUT && number < FIRST_SOFT;
+    const called = name ?? `${isInput ? "in" : "out"}_${number}`;
     this.lines[called] ??= { kind: isInput ? "digital-in" : "digital-out", address: number };
     return called;
   }
@@ -91,8 +138,12 @@ export class ControllerState implements Memory {
     this.acceleration = ratio < 1 ? { ratio } : undefined;
   }
 
-  here(): Transform { return times(times(inverted(this.base), this.flange), this.tool.flangeFromTcp); }
-  reached(precision: Precision): Transform { return times(times(inverted(this.base), this.flangeAt(precision.joints_deg)), this.tool.flangeFromTcp); }
+  here(): Transform {
+    return times(times(inverted(this.base), this.flange), this.tool.flangeFromTcp);
+  }
+  reached(precision: Precision): Transform {
+    return times(times(inverted(this.base), this.flangeAt(precision.joints_deg)), this.tool.flangeFromTcp);
+  }
 
   /** The six numbers of a location, as DECOMPOSE writes them. */
   decomposed(location: Transform | Precision): readonly number[] {
@@ -108,18 +159,29 @@ export class ControllerState implements Memory {
     this.base = fromTrans(x_mm, y_mm, z_mm, turn_deg, 0, 0);
   }
 
-  configure(word: ConfigWord): void { this.branch = { ...this.branch, ...CONFIG[word] }; }
+  configure(word: ConfigWord): void {
+    this.branch = { ...this.branch, ...CONFIG[word] };
+  }
 
   setSpeed(value: number, unit: "percent" | "mmps" | "ips", always: boolean, at: TextPlace): void {
     if (!(value > 0)) throw new TextError(at, "a speed above 0", `The speed is ${value}.`);
-    const speed: Speed = unit === "percent" ? { ratio: Math.min(1, value / 100) } : { mps: value * (unit === "ips" ? INCH_MM : 1) / 1000 };
-    if (always) { this.speed = speed; this.onceSpeed = undefined; } else this.onceSpeed = speed;
+    const speed: Speed =
+      unit === "percent"
+        ? { ratio: Math.min(1, value / 100) }
+        : { mps: (value * (unit === "ips" ? INCH_MM : 1)) / 1000 };
+    if (always) {
+      this.speed = speed;
+      this.onceSpeed = undefined;
+    } else this.onceSpeed = speed;
   }
 
   /** The least time of a motion [s]; 0 takes the demand back. */
   setDuration(time_s: number, always: boolean): void {
     const duration = time_s > 0 ? { time_s } : undefined;
-    if (always) { this.duration = duration; this.onceDuration = undefined; } else this.onceDuration = duration;
+    if (always) {
+      this.duration = duration;
+      this.onceDuration = undefined;
+    } else this.onceDuration = duration;
   }
 
   /** The neutral step of a motion to that location; from now on the arm is there. */
@@ -127,14 +189,31 @@ export class ControllerState implements Memory {
     const target = location.kind === "precision" ? this.toJoints(location) : this.toTransform(location);
     const speed = this.onceDuration ?? this.duration ?? this.onceSpeed ?? this.speed;
     this.onceDuration = this.onceSpeed = undefined;
-    return { id, type: "move", path: straight ? "lin" : "ptp", target, speed, ...(this.acceleration === undefined ? {} : { acceleration: this.acceleration }), blend_m: 0 };
+    return {
+      id,
+      type: "move",
+      path: straight ? "lin" : "ptp",
+      target,
+      speed,
+      ...(this.acceleration === undefined ? {} : { acceleration: this.acceleration }),
+      blend_m: 0,
+    };
   }
 
   /** DRIVE: one joint, counted from 1, by an angle. */
   driven(joint: number, change_deg: number, at: TextPlace): Precision {
-    if (!(joint >= 1 && joint <= this.joints)) throw new TextError(at, `a joint from 1 to ${this.joints}`, `The robot has no joint ${joint}.`);
-    if (this.joints_deg === undefined) throw new TextError(at, "a motion to a precision point before it", "DRIVE turns a joint from where it is, and after a motion to a transformation the joint values are the controller's choice.");
-    return { kind: "precision", joints_deg: this.joints_deg.map((value, i) => i === joint - 1 ? value + change_deg : value) };
+    if (!(joint >= 1 && joint <= this.joints))
+      throw new TextError(at, `a joint from 1 to ${this.joints}`, `The robot has no joint ${joint}.`);
+    if (this.joints_deg === undefined)
+      throw new TextError(
+        at,
+        "a motion to a precision point before it",
+        "DRIVE turns a joint from where it is, and after a motion to a transformation the joint values are the controller's choice.",
+      );
+    return {
+      kind: "precision",
+      joints_deg: this.joints_deg.map((value, i) => (i === joint - 1 ? value + change_deg : value)),
+    };
   }
 
   private toJoints({ joints_deg }: Precision): Target {
@@ -151,7 +230,10 @@ export class ControllerState implements Memory {
     this.flange = times(vendorFromTcp, inverted(this.tool.flangeFromTcp));
     const pose = compose(this.worldFromVendor, toPose<"vendor-world", "tcp">(vendorFromTcp));
     const { shoulder, elbow, wrist } = this.branch;
-    const branch = shoulder !== undefined && elbow !== undefined && wrist !== undefined ? { branch: { shoulder, elbow, wrist } } : {};
+    const branch =
+      shoulder !== undefined && elbow !== undefined && wrist !== undefined
+        ? { branch: { shoulder, elbow, wrist } }
+        : {};
     return { pose, frame: "world", tool: this.tool.name, ...branch };
   }
 

@@ -3,7 +3,10 @@ import type { Expression, Variable } from "../read/syntax.ts";
 import { NULL_TRANSFORM, about, frameOf, fromTrans, inverted, shifted, times, type Transform } from "./transform.ts";
 
 /** Joint values in V+ degrees. */
-export interface Precision { readonly kind: "precision"; readonly joints_deg: readonly number[] }
+export interface Precision {
+  readonly kind: "precision";
+  readonly joints_deg: readonly number[];
+}
 export type Value = number | string | Transform | Precision;
 
 /** Where values come from while a program runs. */
@@ -19,27 +22,33 @@ export interface Memory {
 }
 
 const TRUE = -1;
-const truth = (yes: boolean): number => yes ? TRUE : 0;
+const truth = (yes: boolean): number => (yes ? TRUE : 0);
 
 /** Reals of the controller are single precision. */
 const real = Math.fround;
 
 export function evaluate(expression: Expression, memory: Memory): Value {
   switch (expression.kind) {
-    case "number": return real(expression.value);
-    case "text": return expression.value;
+    case "number":
+      return real(expression.value);
+    case "text":
+      return expression.value;
     case "variable": {
       const value = memory.read(keyOf(expression, memory));
-      if (value === undefined) throw new TextError(expression, "a variable that has a value", `"${expression.name}" has no value yet.`);
+      if (value === undefined)
+        throw new TextError(expression, "a variable that has a value", `"${expression.name}" has no value yet.`);
       return value;
     }
     case "unary": {
       const value = number(expression.of, memory);
       return expression.sign === "NOT" ? truth(value === 0) : expression.sign === "-" ? -value : value;
     }
-    case "binary": return binary(expression, memory);
-    case "compound": return expression.parts.map(part => transform(part, memory)).reduce(times);
-    case "call": return call(expression, memory);
+    case "binary":
+      return binary(expression, memory);
+    case "compound":
+      return expression.parts.map(part => transform(part, memory)).reduce(times);
+    case "call":
+      return call(expression, memory);
   }
 }
 
@@ -49,20 +58,30 @@ export function keyOf(variable: Variable, memory: Memory, plus = 0): string {
   const indices = variable.indices.map(index => Math.trunc(number(index, memory)));
   indices[indices.length - 1]! += plus;
   const odd = indices.findIndex(index => index < 0 || index > 32767);
-  if (odd >= 0) throw new TextError(variable, "an index from 0 to 32767", `Index ${indices[odd]} of "${variable.name}" is outside 0 to 32767.`);
+  if (odd >= 0)
+    throw new TextError(
+      variable,
+      "an index from 0 to 32767",
+      `Index ${indices[odd]} of "${variable.name}" is outside 0 to 32767.`,
+    );
   return `${variable.name}[${indices.join(",")}]`;
 }
 
 export function number(expression: Expression, memory: Memory): number {
   const value = evaluate(expression, memory);
-  if (typeof value !== "number") throw new TextError(expression, "a number", `A ${kindOf(value)} stands where a number is expected.`);
+  if (typeof value !== "number")
+    throw new TextError(expression, "a number", `A ${kindOf(value)} stands where a number is expected.`);
   return value;
 }
 
 export function transform(expression: Expression, memory: Memory): Transform {
   const value = evaluate(expression, memory);
   if (typeof value === "number" || typeof value === "string" || value.kind === "precision") {
-    throw new TextError(expression, "a transformation", `A ${kindOf(value)} stands where a transformation is expected.`);
+    throw new TextError(
+      expression,
+      "a transformation",
+      `A ${kindOf(value)} stands where a transformation is expected.`,
+    );
   }
   return value;
 }
@@ -76,36 +95,62 @@ export function location(expression: Expression, memory: Memory): Transform | Pr
 }
 
 const kindOf = (value: Value): string =>
-  typeof value === "number" ? "number" : typeof value === "string" ? "string" : value.kind === "precision" ? "precision point" : "transformation";
+  typeof value === "number"
+    ? "number"
+    : typeof value === "string"
+      ? "string"
+      : value.kind === "precision"
+        ? "precision point"
+        : "transformation";
 
 function binary(expression: Extract<Expression, { kind: "binary" }>, memory: Memory): Value {
   const { sign } = expression;
-  const left = evaluate(expression.left, memory), right = evaluate(expression.right, memory);
+  const left = evaluate(expression.left, memory);
+  const right = evaluate(expression.right, memory);
   if (typeof left === "string" && typeof right === "string") {
     if (sign === "==" || sign === "<>") return truth((left === right) === (sign === "=="));
     if (sign === "+") return left + right;
   }
   if (typeof left !== "number" || typeof right !== "number") {
-    throw new TextError(expression, "two numbers", `"${sign}" joins numbers, not a ${kindOf(left)} and a ${kindOf(right)}.`);
+    throw new TextError(
+      expression,
+      "two numbers",
+      `"${sign}" joins numbers, not a ${kindOf(left)} and a ${kindOf(right)}.`,
+    );
   }
   switch (sign) {
-    case "+": return real(left + right);
-    case "-": return real(left - right);
-    case "*": return real(left * right);
-    case "**": return finite(real(left ** right), expression);
-    case "/": case "MOD":
+    case "+":
+      return real(left + right);
+    case "-":
+      return real(left - right);
+    case "*":
+      return real(left * right);
+    case "**":
+      return finite(real(left ** right), expression);
+    case "/":
+    case "MOD":
       if (right === 0) throw new TextError(expression.right, "a divisor other than 0", "The divisor is 0.");
       return real(sign === "/" ? left / right : left % right);
-    case "==": return truth(left === right);
-    case "<>": return truth(left !== right);
-    case "<": return truth(left < right);
-    case ">": return truth(left > right);
-    case "<=": return truth(left <= right);
-    case ">=": return truth(left >= right);
-    case "AND": return truth(left !== 0 && right !== 0);
-    case "OR": return truth(left !== 0 || right !== 0);
-    case "XOR": return truth((left !== 0) !== (right !== 0));
-    default: throw new TextError(expression, "an operator", `"${sign}" is no operator.`);
+    case "==":
+      return truth(left === right);
+    case "<>":
+      return truth(left !== right);
+    case "<":
+      return truth(left < right);
+    case ">":
+      return truth(left > right);
+    case "<=":
+      return truth(left <= right);
+    case ">=":
+      return truth(left >= right);
+    case "AND":
+      return truth(left !== 0 && right !== 0);
+    case "OR":
+      return truth(left !== 0 || right !== 0);
+    case "XOR":
+      return truth((left !== 0) !== (right !== 0));
+    default:
+      throw new TextError(expression, "an operator", `"${sign}" is no operator.`);
   }
 }
 
@@ -118,11 +163,20 @@ export function signalName(expression: Expression): string | undefined {
 type Call = Extract<Expression, { kind: "call" }>;
 type Evaluate = (args: readonly Expression[], memory: Memory, call: Call) => Value;
 
-const degrees = (angle: number): number => angle / Math.PI * 180;
-const radians = (angle: number): number => angle / 180 * Math.PI;
-const ofNumber = (f: (x: number) => number): Evaluate => ([x], memory, at) => finite(real(f(number(x!, memory))), at);
-const ofLocation = (f: (t: Transform) => number): Evaluate => ([a], memory) => real(f(transform(a!, memory)));
-const extreme = (f: (...x: number[]) => number): Evaluate => (args, memory) => f(...args.map(arg => number(arg, memory)));
+const degrees = (angle: number): number => (angle / Math.PI) * 180;
+const radians = (angle: number): number => (angle / 180) * Math.PI;
+const ofNumber =
+  (f: (x: number) => number): Evaluate =>
+  ([x], memory, at) =>
+    finite(real(f(number(x!, memory))), at);
+const ofLocation =
+  (f: (t: Transform) => number): Evaluate =>
+  ([a], memory) =>
+    real(f(transform(a!, memory)));
+const extreme =
+  (f: (...x: number[]) => number): Evaluate =>
+  (args, memory) =>
+    f(...args.map(arg => number(arg, memory)));
 
 /** Functions with the number of arguments that each takes. */
 const FUNCTIONS: Readonly<Record<string, readonly [least: number, most: number, evaluate: Evaluate]>> = {
@@ -135,29 +189,51 @@ const FUNCTIONS: Readonly<Record<string, readonly [least: number, most: number, 
   ABS: [1, 1, ofNumber(Math.abs)],
   INT: [1, 1, ofNumber(Math.trunc)],
   FRACT: [1, 1, ofNumber(x => x - Math.trunc(x))],
-  SIGN: [1, 1, ofNumber(x => x < 0 ? -1 : 1)],
+  SIGN: [1, 1, ofNumber(x => (x < 0 ? -1 : 1))],
   MIN: [1, 15, extreme(Math.min)],
   MAX: [1, 15, extreme(Math.max)],
   DX: [1, 1, ofLocation(t => t.p_mm[0])],
   DY: [1, 1, ofLocation(t => t.p_mm[1])],
   DZ: [1, 1, ofLocation(t => t.p_mm[2])],
-  DISTANCE: [2, 2, ([a, b], memory) => {
-    const p = transform(a!, memory).p_mm, q = transform(b!, memory).p_mm;
-    return real(Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
-  }],
-  SIG: [1, 15, (args, memory) => truth(args.every(arg => {
-    const signal = Math.trunc(number(arg, memory));
-    return memory.signal(Math.abs(signal), signalName(arg)) === signal > 0;
-  }))],
+  DISTANCE: [
+    2,
+    2,
+    ([a, b], memory) => {
+      const p = transform(a!, memory).p_mm;
+      const q = transform(b!, memory).p_mm;
+      return real(Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+    },
+  ],
+  SIG: [
+    1,
+    15,
+    (args, memory) =>
+      truth(
+        args.every(arg => {
+          const signal = Math.trunc(number(arg, memory));
+          return memory.signal(Math.abs(signal), signalName(arg)) === signal > 0;
+        }),
+      ),
+  ],
   INVERSE: [1, 1, ([a], memory) => inverted(transform(a!, memory))],
   RX: [1, 1, ([angle], memory) => about("x", number(angle!, memory))],
   RY: [1, 1, ([angle], memory) => about("y", number(angle!, memory))],
   RZ: [1, 1, ([angle], memory) => about("z", number(angle!, memory))],
-  FRAME: [4, 4, ([o, x, xy, at], memory, call) => {
-    const frame = frameOf(transform(o!, memory), transform(x!, memory), transform(xy!, memory), transform(at!, memory));
-    if (frame === undefined) throw new TextError(call, "three points that are not on a line", "The three points of FRAME lie on one line.");
-    return frame;
-  }],
+  FRAME: [
+    4,
+    4,
+    ([o, x, xy, at], memory, call) => {
+      const frame = frameOf(
+        transform(o!, memory),
+        transform(x!, memory),
+        transform(xy!, memory),
+        transform(at!, memory),
+      );
+      if (frame === undefined)
+        throw new TextError(call, "three points that are not on a line", "The three points of FRAME lie on one line.");
+      return frame;
+    },
+  ],
   NULL: [0, 0, () => NULL_TRANSFORM],
   HERE: [0, 0, (_, memory) => memory.here()],
   DEST: [0, 0, (_, memory) => memory.here()],
@@ -165,7 +241,7 @@ const FUNCTIONS: Readonly<Record<string, readonly [least: number, most: number, 
 
 function call(expression: Call, memory: Memory): Value {
   const { name, args } = expression;
-  const component = (i: number): number => args[i] === undefined ? 0 : number(args[i], memory);
+  const component = (i: number): number => (args[i] === undefined ? 0 : number(args[i], memory));
   if (name === "TRANS") {
     count(expression, 0, 6);
     return fromTrans(component(0), component(1), component(2), component(3), component(4), component(5));
@@ -181,7 +257,8 @@ function call(expression: Call, memory: Memory): Value {
     return shifted(transform(from, memory), component(1), component(2), component(3));
   }
   const known = FUNCTIONS[name];
-  if (known === undefined) throw new TextError(expression, "a function of V+", `"${name}" is no function that is understood here.`);
+  if (known === undefined)
+    throw new TextError(expression, "a function of V+", `"${name}" is no function that is understood here.`);
   const [least, most, run] = known;
   count(expression, least, most);
   const given = args.filter(arg => arg !== undefined);
@@ -192,7 +269,11 @@ function call(expression: Call, memory: Memory): Value {
 function count({ name, args, line, column }: Call, least: number, most: number): void {
   if (args.length >= least && args.length <= most) return;
   const wanted = least === most ? `${most}` : `${least} to ${most}`;
-  throw new TextError({ line, column }, `${wanted} argument${most === 1 ? "" : "s"}`, `${name} takes ${wanted} argument${most === 1 ? "" : "s"}; ${args.length} are given.`);
+  throw new TextError(
+    { line, column },
+    `${wanted} argument${most === 1 ? "" : "s"}`,
+    `${name} takes ${wanted} argument${most === 1 ? "" : "s"}; ${args.length} are given.`,
+  );
 }
 
 function finite(value: number, at: Expression): number {

@@ -17,8 +17,14 @@ export function ppointText(q_rad: ArrayLike<number>, { signs, offsets_deg }: Joi
 const tidy = (value: number): string => singleText(Math.abs(value) < 1e-6 ? 0 : value);
 
 /** The first joint, from 1, outside its limits; undefined when all are inside. */
-export function jointOutside(robot: Robot, q_rad: ArrayLike<number>): { readonly joint: number; readonly limits: JointLimits } | undefined {
-  const i = robot.arm.joints.findIndex(({ limits }, k) => !(q_rad[k]! >= limits.lower_rad - LIMIT_SLACK_RAD && q_rad[k]! <= limits.upper_rad + LIMIT_SLACK_RAD));
+export function jointOutside(
+  robot: Robot,
+  q_rad: ArrayLike<number>,
+): { readonly joint: number; readonly limits: JointLimits } | undefined {
+  const i = robot.arm.joints.findIndex(
+    ({ limits }, k) =>
+      !(q_rad[k]! >= limits.lower_rad - LIMIT_SLACK_RAD && q_rad[k]! <= limits.upper_rad + LIMIT_SLACK_RAD),
+  );
   return i < 0 ? undefined : { joint: i + 1, limits: robot.arm.joints[i]!.limits };
 }
 const LIMIT_SLACK_RAD = 1e-9;

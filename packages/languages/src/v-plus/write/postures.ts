@@ -1,5 +1,20 @@
 import {
-  branchOf, compose, degrees, explainReach, flangeOfTcp, flow, identity, solveAll, withLists, type Branch, type MoveStep, type Pose, type Program, type Robot, type Step, type Target,
+  branchOf,
+  compose,
+  degrees,
+  explainReach,
+  flangeOfTcp,
+  flow,
+  identity,
+  solveAll,
+  withLists,
+  type Branch,
+  type MoveStep,
+  type Pose,
+  type Program,
+  type Robot,
+  type Step,
+  type Target,
 } from "@twincell/core";
 import { jointOutside } from "./location.ts";
 
@@ -17,7 +32,8 @@ export type Postures =
   | { readonly kind: "postures"; readonly q_rad: PostureMap }
   | { readonly kind: "cannot"; readonly step: string; readonly sentence: string; readonly hint: string };
 
-export const toolOf = ({ tools }: Place, name: string): Pose<"flange", "tcp"> => Object.hasOwn(tools, name) ? tools[name]! : identity();
+export const toolOf = ({ tools }: Place, name: string): Pose<"flange", "tcp"> =>
+  Object.hasOwn(tools, name) ? tools[name]! : identity();
 
 export function worldFromTarget({ frames }: Place, { pose, frame }: PoseTarget): Pose<"world", "tcp"> {
   return compose(Object.hasOwn(frames, frame) ? frames[frame]! : identity<"world", "frame">(), pose);
@@ -34,12 +50,34 @@ export function posturesOf(program: Program, place: Place): Postures {
   let near: ArrayLike<number> = place.robot.home_rad;
   // Routines that nobody calls are written all the same.
   for (const steps of [program.steps, ...Object.values(program.routines)]) {
-    for (const happening of flow({ ...program, steps: once(steps), routines: Object.fromEntries(Object.entries(program.routines).map(([name, list]) => [name, once(list)])) }, { rounds: 1 })) {
+    for (const happening of flow(
+      {
+        ...program,
+        steps: once(steps),
+        routines: Object.fromEntries(Object.entries(program.routines).map(([name, list]) => [name, once(list)])),
+      },
+      { rounds: 1 },
+    )) {
       if (happening.kind !== "step" || happening.step.type !== "move") continue;
-      const { step, visits } = happening, known = q_rad.get(step.id);
-      if (known !== undefined && visits.length === 0) { near = known; continue; }
-      const posture = postureOf(step, place, known ?? near, known === undefined ? undefined : branchOf(place.robot, known));
-      if (posture.kind === "cannot") return visits.length === 0 ? posture : { ...posture, sentence: `Place ${visits.map(({ number, of }) => `${number} of ${of}`).join(", ")}: ${posture.sentence}` };
+      const { step, visits } = happening;
+      const known = q_rad.get(step.id);
+      if (known !== undefined && visits.length === 0) {
+        near = known;
+        continue;
+      }
+      const posture = postureOf(
+        step,
+        place,
+        known ?? near,
+        known === undefined ? undefined : branchOf(place.robot, known),
+      );
+      if (posture.kind === "cannot")
+        return visits.length === 0
+          ? posture
+          : {
+              ...posture,
+              sentence: `Place ${visits.map(({ number, of }) => `${number} of ${of}`).join(", ")}: ${posture.sentence}`,
+            };
       near = posture.q_rad;
       if (known === undefined) q_rad.set(step.id, near);
     }
@@ -48,23 +86,40 @@ export function posturesOf(program: Program, place: Place): Postures {
 }
 
 /** Loops go round once: every round goes to the same points. */
-const once = (steps: readonly Step[]): readonly Step[] => steps.map(step => withLists(step.type === "repeat" ? { ...step, times: 1 } : step, once));
+const once = (steps: readonly Step[]): readonly Step[] =>
+  steps.map(step => withLists(step.type === "repeat" ? { ...step, times: 1 } : step, once));
 
 /** @param inBranch  the posture that the text has said already. */
-function postureOf({ id, name, target }: MoveStep, place: Place, near: ArrayLike<number>, inBranch: Branch | undefined):
-  { readonly kind: "posture"; readonly q_rad: ArrayLike<number> } | Extract<Postures, { kind: "cannot" }> {
-  const { robot, worldFromBase } = place, called = `Step ${name ?? id}`;
+function postureOf(
+  { id, name, target }: MoveStep,
+  place: Place,
+  near: ArrayLike<number>,
+  inBranch: Branch | undefined,
+): { readonly kind: "posture"; readonly q_rad: ArrayLike<number> } | Extract<Postures, { kind: "cannot" }> {
+  const { robot, worldFromBase } = place;
+  const called = `Step ${name ?? id}`;
   let q_rad: ArrayLike<number>;
   if ("q" in target) {
     if (target.q.length !== robot.arm.joints.length) {
-      return { kind: "cannot", step: id, sentence: `${called} holds ${target.q.length} joint angles; the ${robot.name} has ${robot.arm.joints.length} joints.`, hint: "Teach the step again on this robot." };
+      return {
+        kind: "cannot",
+        step: id,
+        sentence: `${called} holds ${target.q.length} joint angles; the ${robot.name} has ${robot.arm.joints.length} joints.`,
+        hint: "Teach the step again on this robot.",
+      };
     }
     q_rad = target.q;
   } else {
-    const branch = target.branch ?? inBranch, baseFromFlange = flangeOfTcp(worldFromBase, worldFromTarget(place, target), toolOf(place, target.tool));
+    const branch = target.branch ?? inBranch;
+    const baseFromFlange = flangeOfTcp(worldFromBase, worldFromTarget(place, target), toolOf(place, target.tool));
     const reach = solveAll(robot, baseFromFlange, branch === undefined ? { near } : { near, branch });
     if (reach.kind !== "reached") {
-      return { kind: "cannot", step: id, sentence: `${called} cannot be reached. ${explainReach(reach)}`, hint: "Check the program: it says what would bring the step into reach." };
+      return {
+        kind: "cannot",
+        step: id,
+        sentence: `${called} cannot be reached. ${explainReach(reach)}`,
+        hint: "Check the program: it says what would bring the step into reach.",
+      };
     }
     q_rad = reach.solutions[0]!.q_rad;
   }
@@ -72,7 +127,8 @@ function postureOf({ id, name, target }: MoveStep, place: Place, near: ArrayLike
   if (outside === undefined) return { kind: "posture", q_rad };
   const { joint, limits } = outside;
   return {
-    kind: "cannot", step: id,
+    kind: "cannot",
+    step: id,
     sentence: `${called} turns joint ${joint} to ${degrees(q_rad[joint - 1]!).toFixed(2)}°; it may turn from ${degrees(limits.lower_rad).toFixed(1)}° to ${degrees(limits.upper_rad).toFixed(1)}°.`,
     hint: "Move the point, or choose another branch for it.",
   };

@@ -1,5 +1,18 @@
 import {
-  branchOf, capabilitiesUsed, compose, everyStep, inverse, millimetres, type Branch, type Condition, type EmittedFile, type MoveStep, type Program, type Speed, type Step, type Target,
+  branchOf,
+  capabilitiesUsed,
+  compose,
+  everyStep,
+  inverse,
+  millimetres,
+  type Branch,
+  type Condition,
+  type EmittedFile,
+  type MoveStep,
+  type Program,
+  type Speed,
+  type Step,
+  type Target,
 } from "@twincell/core";
 import { asciiText, singleText } from "../../text/index.ts";
 import type { JointConvention } from "../robots.ts";
@@ -10,8 +23,11 @@ import { toolOf, worldFromTarget, type Place, type PostureMap } from "./postures
 import { TextWriter } from "./text-writer.ts";
 
 /** The words of the controller for a branch: shoulder, elbow, wrist. */
-const words = ({ shoulder, elbow, wrist }: Branch): string[] =>
-  [shoulder === "front" ? "RIGHTY" : "LEFTY", elbow === "up" ? "ABOVE" : "BELOW", wrist === "positive" ? "NOFLIP" : "FLIP"];
+const words = ({ shoulder, elbow, wrist }: Branch): string[] => [
+  shoulder === "front" ? "RIGHTY" : "LEFTY",
+  elbow === "up" ? "ABOVE" : "BELOW",
+  wrist === "positive" ? "NOFLIP" : "FLIP",
+];
 
 /** The runnable program (E-08): says only what changes from one step to the next. */
 export class ProgramWriter {
@@ -44,7 +60,9 @@ export class ProgramWriter {
   }
 
   write(): EmittedFile {
-    const { program, out, place } = this, name = vPlusName(program.name), programs = new Set([name]);
+    const { program, out, place } = this;
+    const name = vPlusName(program.name);
+    const programs = new Set([name]);
     for (const routine of Object.keys(program.routines)) {
       const called = vPlusName(routine, programs);
       programs.add(called);
@@ -52,8 +70,10 @@ export class ProgramWriter {
     }
     out.add(`.PROGRAM ${name}() ;${asciiText(program.name)}`);
     out.add(`  ;* ${asciiText(place.robot.name)}. Lengths in mm, angles in degrees, the world at the shoulder.`);
-    for (const tool of this.toolsUsed()) out.add(`  SET ${this.named(this.toolNames, tool)} = ${transText(toolOf(place, tool))}`);
-    for (const signal of signalsUsed(program)) out.add(`  ${this.named(this.signalNames, signal)} = ${program.signals[signal]!.address!}`);
+    for (const tool of this.toolsUsed())
+      out.add(`  SET ${this.named(this.toolNames, tool)} = ${transText(toolOf(place, tool))}`);
+    for (const signal of signalsUsed(program))
+      out.add(`  ${this.named(this.signalNames, signal)} = ${program.signals[signal]!.address!}`);
     this.list(program.steps);
     out.add(".END");
     for (const [routine, steps] of Object.entries(program.routines)) {
@@ -67,7 +87,9 @@ export class ProgramWriter {
   }
 
   private toolsUsed(): Set<string> {
-    const names = Array.from(everyStep(this.program)).flatMap(step => step.type === "move" ? [toolName(step) ?? "flange"] : []);
+    const names = Array.from(everyStep(this.program)).flatMap(step =>
+      step.type === "move" ? [toolName(step) ?? "flange"] : [],
+    );
     return new Set(names.filter(name => name !== "flange"));
   }
 
@@ -86,34 +108,61 @@ export class ProgramWriter {
   }
 
   private list(steps: readonly Step[]): void {
-    for (const [i, step] of steps.entries()) this.step(step, steps.slice(i + 1).find(next => next.type !== "comment"));
+    for (const [i, step] of steps.entries())
+      this.step(
+        step,
+        steps.slice(i + 1).find(next => next.type !== "comment"),
+      );
   }
 
   private step(step: Step, next: Step | undefined): void {
-    const add = (line: string): void => { this.out.add(`${this.indent}${line}`, step.id); };
+    const add = (line: string): void => {
+      this.out.add(`${this.indent}${line}`, step.id);
+    };
     const group = step.group === undefined ? "" : commentText(this.program.groups[step.group]?.name ?? step.group);
     if (group !== this.group) add(`;== ${group}`.trimEnd());
     this.group = group;
     const name = commentText(step.name ?? "");
     if (name !== "") add(`;${name}`);
     switch (step.type) {
-      case "wait": return add(`DELAY ${singleText(step.s)}`);
-      case "gripper": return add(step.closed ? "CLOSEI" : "OPENI");
-      case "move": return this.move(step, next, add);
-      case "set": return add(`SIGNAL ${step.to === true ? "" : "-"}${this.signalNames.get(step.signal)!}`);
-      case "wait-for": return add(`WAIT ${this.condition(step.when)}`);
-      case "message": return add(`TYPE "${asciiText(step.text).replaceAll("\"", "'")}"`);
-      case "stop": return add("HALT");
-      case "comment": return add(`;- ${asciiText(step.text).trim()}`.trimEnd());
-      case "call": add(`CALL ${this.routineNames.get(step.routine)!}()`); return this.forget();
-      case "repeat": return this.block(step.times === "forever" ? ["WHILE TRUE DO"] : [`FOR ${this.counter()} = 1 TO ${step.times}`], step.steps, add);
-      case "pallet": return this.block(palletLines(this.program.pallets[step.pallet]!, this.pallet(step.pallet), this.place), step.steps, add);
+      case "wait":
+        return add(`DELAY ${singleText(step.s)}`);
+      case "gripper":
+        return add(step.closed ? "CLOSEI" : "OPENI");
+      case "move":
+        return this.move(step, next, add);
+      case "set":
+        return add(`SIGNAL ${step.to === true ? "" : "-"}${this.signalNames.get(step.signal)!}`);
+      case "wait-for":
+        return add(`WAIT ${this.condition(step.when)}`);
+      case "message":
+        return add(`TYPE "${asciiText(step.text).replaceAll('"', "'")}"`);
+      case "stop":
+        return add("HALT");
+      case "comment":
+        return add(`;- ${asciiText(step.text).trim()}`.trimEnd());
+      case "call":
+        add(`CALL ${this.routineNames.get(step.routine)!}()`);
+        return this.forget();
+      case "repeat":
+        return this.block(
+          step.times === "forever" ? ["WHILE TRUE DO"] : [`FOR ${this.counter()} = 1 TO ${step.times}`],
+          step.steps,
+          add,
+        );
+      case "pallet":
+        return this.block(
+          palletLines(this.program.pallets[step.pallet]!, this.pallet(step.pallet), this.place),
+          step.steps,
+          add,
+        );
       case "if":
         this.block([`IF ${this.condition(step.when)} THEN`], step.then, add, step.else !== undefined);
         if (step.else !== undefined) this.block(["ELSE"], step.else, add);
         return;
       // Neither gets here: the export stops before.
-      case "payload": return;
+      case "payload":
+        return;
     }
   }
 
@@ -143,17 +192,28 @@ export class ProgramWriter {
     this.speed = this.branch = this.acceleration = "";
   }
 
-  private counter(): string { return this.variable(`n_${++this.counters}`); }
+  private counter(): string {
+    return this.variable(`n_${++this.counters}`);
+  }
 
   private pallet(name: string): PalletNames {
     const known = this.palletNames.get(name);
     if (known !== undefined) return known;
-    const made: PalletNames = { place: this.variable(name), first: this.variable(`${name}_0`), layer: this.counter(), outer: this.counter(), inner: this.counter(), along: this.counter() };
+    const made: PalletNames = {
+      place: this.variable(name),
+      first: this.variable(`${name}_0`),
+      layer: this.counter(),
+      outer: this.counter(),
+      inner: this.counter(),
+      along: this.counter(),
+    };
     this.palletNames.set(name, made);
     return made;
   }
 
-  private condition(when: Condition): string { return `SIG(${"is" in when && when.is ? "" : "-"}${this.signalNames.get(when.signal)!})`; }
+  private condition(when: Condition): string {
+    return `SIG(${"is" in when && when.is ? "" : "-"}${this.signalNames.get(when.signal)!})`;
+  }
 
   private move(step: MoveStep, next: Step | undefined, add: (line: string) => void): void {
     // Joint angles do not mind the tool; what was set on another way to here is set anew all the same.
@@ -165,7 +225,8 @@ export class ProgramWriter {
     this.speed = speed;
     if ("time_s" in step.speed) add(`DURATION ${singleText(step.speed.time_s)}`);
     if (this.accelerates) {
-      const percent = singleText((step.acceleration?.ratio ?? 1) * 100), line = `ACCEL ${percent}, ${percent}`;
+      const percent = singleText((step.acceleration?.ratio ?? 1) * 100);
+      const line = `ACCEL ${percent}, ${percent}`;
       if (line !== this.acceleration) add(line);
       this.acceleration = line;
     }
@@ -197,7 +258,11 @@ export class ProgramWriter {
 
   /** The path goes on without a stop only into another motion with the same tool. */
   private stops(step: MoveStep, next: Step | undefined): boolean {
-    return !(step.blend_m > 0 || (step.blend_ratio ?? 0) > 0) || next?.type !== "move" || (toolName(next) ?? this.tool) !== this.tool;
+    return (
+      !(step.blend_m > 0 || (step.blend_ratio ?? 0) > 0) ||
+      next?.type !== "move" ||
+      (toolName(next) ?? this.tool) !== this.tool
+    );
   }
 }
 

@@ -1,27 +1,118 @@
 import type { TextFault, TextPlace } from "@twincell/core";
 import { TextError } from "../../text/index.ts";
-import { ForgivingReader, readExpression, type Argument, type Block, type Expression, type ExpressionRules, type Lexicon, type Statement, type TokenCursor } from "../../text/structured/index.ts";
+import {
+  ForgivingReader,
+  readExpression,
+  type Argument,
+  type Block,
+  type Expression,
+  type ExpressionRules,
+  type Lexicon,
+  type Statement,
+  type TokenCursor,
+} from "../../text/structured/index.ts";
 
 /** Stands for the two slashes of a remark, which are no single sign. */
 export const REMARK = "\u0002";
 const LEXICON: Lexicon = {
-  comment: REMARK, quotes: "\"", doubled: false, lineEnds: true,
-  signs: ["==", "!=", "<=", ">=", "(", ")", "[", "]", "{", "}", ",", "=", "<", ">", "+", "-", "*", "/", "%", ".", "!", "&", ":"],
+  comment: REMARK,
+  quotes: '"',
+  doubled: false,
+  lineEnds: true,
+  signs: [
+    "==",
+    "!=",
+    "<=",
+    ">=",
+    "(",
+    ")",
+    "[",
+    "]",
+    "{",
+    "}",
+    ",",
+    "=",
+    "<",
+    ">",
+    "+",
+    "-",
+    "*",
+    "/",
+    "%",
+    ".",
+    "!",
+    "&",
+    ":",
+  ],
 };
-const RESERVED: ReadonlySet<string> = new Set(["begin", "end", "if", "elseif", "else", "endif", "while", "endwhile", "for", "to", "step", "endfor", "do", "until", "switch", "case", "default", "break", "endswitch", "call", "return", "and", "or", "xor"]);
+const RESERVED: ReadonlySet<string> = new Set([
+  "begin",
+  "end",
+  "if",
+  "elseif",
+  "else",
+  "endif",
+  "while",
+  "endwhile",
+  "for",
+  "to",
+  "step",
+  "endfor",
+  "do",
+  "until",
+  "switch",
+  "case",
+  "default",
+  "break",
+  "endswitch",
+  "call",
+  "return",
+  "and",
+  "or",
+  "xor",
+]);
 const RULES: ExpressionRules = {
-  binary: { or: 1, xor: 1, and: 2, "==": 4, "!=": 4, "<": 4, ">": 4, "<=": 4, ">=": 4, "+": 5, "-": 5, "*": 6, "/": 6, "%": 6 },
+  binary: {
+    or: 1,
+    xor: 1,
+    and: 2,
+    "==": 4,
+    "!=": 4,
+    "<": 4,
+    ">": 4,
+    "<=": 4,
+    ">=": 4,
+    "+": 5,
+    "-": 5,
+    "*": 6,
+    "/": 6,
+    "%": 6,
+  },
   prefix: { "!": 7, "-": 7, "+": 7 },
   constants: { true: true, false: false },
-  tags: [], index: "[", components: true, reserved: RESERVED, args: cursor => readArguments(cursor),
+  tags: [],
+  index: "[",
+  components: true,
+  reserved: RESERVED,
+  args: cursor => readArguments(cursor),
 };
-const CLOSES: ReadonlySet<string> = new Set(["end", "endif", "endwhile", "endfor", "endswitch", "until", "else", "elseif"]);
+const CLOSES: ReadonlySet<string> = new Set([
+  "end",
+  "endif",
+  "endwhile",
+  "endfor",
+  "endswitch",
+  "until",
+  "else",
+  "elseif",
+]);
 
 /** `{…}` is a list as `[…]` is elsewhere: `trsf` literals are told by their braces. */
 function readArguments(cursor: TokenCursor): readonly Argument[] {
   const args: Argument[] = [];
   if (cursor.accept(")")) return args;
-  do args.push({ value: readValue(cursor), ...cursor.here }); while (cursor.accept(","));
+  do args.push({ value: readValue(cursor), ...cursor.here });
+  while (cursor.accept(","));
   cursor.expect(")");
   return args;
 }
@@ -30,13 +121,19 @@ function readValue(cursor: TokenCursor): Expression {
   const { line, column } = cursor.here;
   if (!cursor.accept("{")) return readExpression(cursor, RULES);
   const items: Expression[] = [];
-  do items.push(readExpression(cursor, RULES)); while (cursor.accept(","));
+  do items.push(readExpression(cursor, RULES));
+  while (cursor.accept(","));
   cursor.expect("}");
   return { kind: "list", tag: "", items, line, column };
 }
 
 /** @param isMain  `return` ends the whole program. */
-export function readCode(code: string, isMain: boolean): { readonly block: Block; readonly faults: readonly TextFault[] } { return new CodeReader(code, isMain).read(); }
+export function readCode(
+  code: string,
+  isMain: boolean,
+): { readonly block: Block; readonly faults: readonly TextFault[] } {
+  return new CodeReader(code, isMain).read();
+}
 
 class CodeReader extends ForgivingReader {
   private readonly isMain: boolean;
@@ -54,8 +151,13 @@ class CodeReader extends ForgivingReader {
 
   read(): { readonly block: Block; readonly faults: readonly TextFault[] } {
     const { cursor } = this;
-    this.guard(() => { cursor.advance(); });
-    while (cursor.isAt("line-end")) this.guard(() => { cursor.advance(); });
+    this.guard(() => {
+      cursor.advance();
+    });
+    while (cursor.isAt("line-end"))
+      this.guard(() => {
+        cursor.advance();
+      });
     const block = this.guard(() => {
       const at = cursor.here;
       cursor.expect("begin");
@@ -72,10 +174,12 @@ class CodeReader extends ForgivingReader {
       const statements: Statement[] = [];
       for (;;) {
         this.toNextLine(statements);
-        if (cursor.done || this.hasEnough) throw new TextError(cursor.here, ends[0]!, `The block of line ${opened.line} is not closed.`);
+        if (cursor.done || this.hasEnough)
+          throw new TextError(cursor.here, ends[0]!, `The block of line ${opened.line} is not closed.`);
         if (cursor.isAt("word") && ends.includes(cursor.next)) break;
         if (cursor.isAt("line-end")) continue;
-        if (cursor.isAt("word") && CLOSES.has(cursor.next)) throw new TextError(cursor.here, ends[0]!, `The block of line ${opened.line} is not closed.`);
+        if (cursor.isAt("word") && CLOSES.has(cursor.next))
+          throw new TextError(cursor.here, ends[0]!, `The block of line ${opened.line} is not closed.`);
         const statement = this.guard(() => {
           const read = this.statement();
           if (!cursor.isAt("line-end") && !cursor.done) throw cursor.unexpected("the end of the line");
@@ -87,20 +191,30 @@ class CodeReader extends ForgivingReader {
     });
   }
 
-  private value(): Expression { return readValue(this.cursor); }
+  private value(): Expression {
+    return readValue(this.cursor);
+  }
 
   private statement(): Statement {
-    const { cursor } = this, at = cursor.here, word = cursor.next;
+    const { cursor } = this;
+    const at = cursor.here;
+    const word = cursor.next;
     if (!cursor.isAt("word")) throw cursor.unexpected("a statement");
     if (!RESERVED.has(word) && !(word in KEYWORDS)) {
-      if (cursor.second === "(") { cursor.advance(); cursor.advance(); return { kind: "do", name: word, args: readArguments(cursor), ...at }; }
+      if (cursor.second === "(") {
+        cursor.advance();
+        cursor.advance();
+        return { kind: "do", name: word, args: readArguments(cursor), ...at };
+      }
       return this.assignment(at);
     }
     cursor.advance();
     switch (word) {
-      case "if": return this.decision(at);
+      case "if":
+        return this.decision(at);
       case "while": {
-        const when = this.value(), body = this.block(["endwhile"], at);
+        const when = this.value();
+        const body = this.block(["endwhile"], at);
         cursor.expect("endwhile");
         return { kind: "while", when, body, ...at };
       }
@@ -109,40 +223,68 @@ class CodeReader extends ForgivingReader {
         const body = this.block(["until"], at);
         cursor.expect("until");
         const when = this.value();
-        return { kind: "while", when: { kind: "truth", value: true, ...at }, body: [...body, { kind: "if", branches: [{ when, body: [{ kind: "break", ...at }] }], ...at }], ...at };
+        return {
+          kind: "while",
+          when: { kind: "truth", value: true, ...at },
+          body: [...body, { kind: "if", branches: [{ when, body: [{ kind: "break", ...at }] }], ...at }],
+          ...at,
+        };
       }
-      case "for": return this.counting(at);
-      case "switch": return this.choice(at);
+      case "for":
+        return this.counting(at);
+      case "switch":
+        return this.choice(at);
       case "call": {
         const name = cursor.name("the name of a program");
         cursor.expect("(");
         return { kind: "do", name: `call ${name}`, args: readArguments(cursor), ...at };
       }
-      case "return": return this.isMain ? { kind: "halt", ...at } : { kind: "return", ...at };
-      case "break": return { kind: "break", ...at };
+      case "return":
+        return this.isMain ? { kind: "halt", ...at } : { kind: "return", ...at };
+      case "break":
+        return { kind: "break", ...at };
       case "wait": {
         cursor.expect("(");
         const when = this.value();
         cursor.expect(")");
         return { kind: "wait-until", when, ...at };
       }
-      default: throw new TextError(at, "a statement", `"${word}" begins no statement.`);
+      default:
+        throw new TextError(at, "a statement", `"${word}" begins no statement.`);
     }
   }
 
   private assignment(at: TextPlace): Statement {
-    const { cursor } = this, to = readExpression(cursor, RULES, 0, 100);
+    const { cursor } = this;
+    const to = readExpression(cursor, RULES, 0, 100);
     cursor.expect("=");
     const value = this.value();
     // The whole frame changes with its place.
-    if (to.kind === "component" && to.name === "trsf") return { kind: "assign", to: to.of, value: { kind: "call", name: "placed", args: [{ value: to.of, ...at }, { value, ...at }], ...at }, global: true, ...at };
+    if (to.kind === "component" && to.name === "trsf")
+      return {
+        kind: "assign",
+        to: to.of,
+        value: {
+          kind: "call",
+          name: "placed",
+          args: [
+            { value: to.of, ...at },
+            { value, ...at },
+          ],
+          ...at,
+        },
+        global: true,
+        ...at,
+      };
     return { kind: "assign", to, value, global: true, ...at };
   }
 
   private decision(at: TextPlace): Statement {
-    const { cursor } = this, branches: { when: Expression; body: Block }[] = [];
+    const { cursor } = this;
+    const branches: { when: Expression; body: Block }[] = [];
     let otherwise: Block | undefined;
-    do branches.push({ when: this.value(), body: this.block(["endif", "elseif", "else"], at) }); while (cursor.accept("elseif"));
+    do branches.push({ when: this.value(), body: this.block(["endif", "elseif", "else"], at) });
+    while (cursor.accept("elseif"));
     if (cursor.accept("else")) otherwise = this.block(["endif"], at);
     cursor.expect("endif");
     const watched = branches.length === 1 && otherwise === undefined ? this.watched(branches[0]!) : undefined;
@@ -151,25 +293,49 @@ class CodeReader extends ForgivingReader {
   }
 
   /** `if !watch(condition, s)` that ends the program is a wait with a longest time. */
-  private watched({ when, body }: { readonly when: Expression; readonly body: Block }): { readonly when: Expression; readonly timeout: Expression } | undefined {
-    const inner = when.kind === "unary" && when.sign === "!" ? when.of : when.kind === "binary" && when.sign === "==" && when.right.kind === "truth" && !when.right.value ? when.left : undefined;
-    if (inner?.kind !== "call" || inner.name !== "watch" || body.filter(({ kind }) => kind !== "comment").map(({ kind }) => kind).join() !== "halt") return undefined;
+  private watched({
+    when,
+    body,
+  }: {
+    readonly when: Expression;
+    readonly body: Block;
+  }): { readonly when: Expression; readonly timeout: Expression } | undefined {
+    const inner =
+      when.kind === "unary" && when.sign === "!"
+        ? when.of
+        : when.kind === "binary" && when.sign === "==" && when.right.kind === "truth" && !when.right.value
+          ? when.left
+          : undefined;
+    if (
+      inner?.kind !== "call" ||
+      inner.name !== "watch" ||
+      body
+        .filter(({ kind }) => kind !== "comment")
+        .map(({ kind }) => kind)
+        .join() !== "halt"
+    )
+      return undefined;
     const [condition, timeout] = inner.args.map(({ value }) => value);
     return condition === undefined || timeout === undefined ? undefined : { when: condition, timeout };
   }
 
   private counting(at: TextPlace): Statement {
-    const { cursor } = this, variable = cursor.name("the name of the loop variable");
+    const { cursor } = this;
+    const variable = cursor.name("the name of the loop variable");
     cursor.expect("=");
     const from = this.value();
     cursor.expect("to");
-    const to = this.value(), step: Expression = cursor.accept("step") ? this.value() : { kind: "number", value: 1, ...at }, body = this.block(["endfor"], at);
+    const to = this.value();
+    const step: Expression = cursor.accept("step") ? this.value() : { kind: "number", value: 1, ...at };
+    const body = this.block(["endfor"], at);
     cursor.expect("endfor");
     return { kind: "for", variable, from, to, step, body, ...at };
   }
 
   private choice(at: TextPlace): Statement {
-    const { cursor } = this, of = this.value(), branches: { when: Expression; body: Block }[] = [];
+    const { cursor } = this;
+    const of = this.value();
+    const branches: { when: Expression; body: Block }[] = [];
     let otherwise: Block | undefined;
     while (cursor.isAt("line-end")) cursor.advance();
     while (!cursor.accept("endswitch")) {
@@ -178,8 +344,19 @@ class CodeReader extends ForgivingReader {
         cursor.expect("case");
         let when: Expression | undefined;
         do {
-          const right = this.value(), equal: Expression = { kind: "binary", sign: "==", left: of, right, line: right.line, column: right.column };
-          when = when === undefined ? equal : { kind: "binary", sign: "or", left: when, right: equal, line: right.line, column: right.column };
+          const right = this.value();
+          const equal: Expression = {
+            kind: "binary",
+            sign: "==",
+            left: of,
+            right,
+            line: right.line,
+            column: right.column,
+          };
+          when =
+            when === undefined
+              ? equal
+              : { kind: "binary", sign: "or", left: when, right: equal, line: right.line, column: right.column };
         } while (cursor.accept(","));
         branches.push({ when, body: this.block(["break", "case", "default", "endswitch"], at) });
       }
@@ -190,4 +367,7 @@ class CodeReader extends ForgivingReader {
   }
 }
 
-const KEYWORDS: Readonly<Record<string, true>> = Object.assign(Object.create(null) as Record<string, true>, Object.fromEntries([...RESERVED, "wait", "true", "false"].map(word => [word, true])));
+const KEYWORDS: Readonly<Record<string, true>> = Object.assign(
+  Object.create(null) as Record<string, true>,
+  Object.fromEntries([...RESERVED, "wait", "true", "false"].map(word => [word, true])),
+);

@@ -2,13 +2,18 @@ import { branchOf, identity, linkPoses, solveAll, type Branch, type Pose, type R
 import { fromPose, times, toPose, type Trsf } from "./trsf.ts";
 
 /** Configuration words of a point. */
-export interface Config { readonly shoulder: string; readonly elbow: string; readonly wrist: string }
+export interface Config {
+  readonly shoulder: string;
+  readonly elbow: string;
+  readonly wrist: string;
+}
 
 /** Where the controllers of these robots count from: the height of axis 2. Their joints are degrees from upright, as here. */
 const WORLDS: Readonly<Record<string, Trsf>> = { staubli_rx160: { mm: [0, 0, 550], wxyz: [1, 0, 0, 0] } };
 export const hasWorld = (robot: Robot): boolean => Object.hasOwn(WORLDS, robot.id);
 
-const BORDER_MM = 0.01, BORDER_RAD = 1e-5;
+const BORDER_MM = 0.01;
+const BORDER_RAD = 1e-5;
 
 export class ControllerArm {
   readonly robot: Robot;
@@ -24,13 +29,21 @@ export class ControllerArm {
   }
 
   /** A pose of the controller's world in the cell. */
-  cell<Into extends string, From extends string>(trsf: Trsf): Pose<Into, From> { return toPose(times(this.cellFromWorld, trsf)); }
+  cell<Into extends string, From extends string>(trsf: Trsf): Pose<Into, From> {
+    return toPose(times(this.cellFromWorld, trsf));
+  }
 
   /** The flange is there, as the words ask for it; where no posture does, in the nearest, and `fits` says so. */
   atFlange(flange: Trsf, config: Config): { readonly branch: Branch | undefined; readonly fits: boolean } {
-    const { robot, joints_rad: near } = this, reach = solveAll(robot, toPose(times(this.baseFromWorld, flange)), near === undefined ? {} : { near });
-    if (reach.kind !== "reached") { this.joints_rad = undefined; return { branch: undefined, fits: true }; }
-    const all = reach.solutions.map(({ q_rad }) => [...q_rad]), fitting = all.find(each => this.fits(each, config)), q = fitting ?? all[0]!;
+    const { robot, joints_rad: near } = this;
+    const reach = solveAll(robot, toPose(times(this.baseFromWorld, flange)), near === undefined ? {} : { near });
+    if (reach.kind !== "reached") {
+      this.joints_rad = undefined;
+      return { branch: undefined, fits: true };
+    }
+    const all = reach.solutions.map(({ q_rad }) => [...q_rad]);
+    const fitting = all.find(each => this.fits(each, config));
+    const q = fitting ?? all[0]!;
     this.joints_rad = q;
     return { branch: branchOf(robot, q), fits: fitting !== undefined };
   }
@@ -38,13 +51,21 @@ export class ControllerArm {
   private fits(q: readonly number[], { shoulder, elbow, wrist }: Config): boolean {
     const links = Array.from({ length: 7 }, () => identity<"base", "link">());
     linkPoses(this.robot.arm, q, links);
-    const [x, y] = links[5]!.position, ahead_mm = 1000 * (x * Math.cos(q[0]!) + y * Math.sin(q[0]!));
-    const asked = (word: string, yes: string, no: string, value: number, border: number): boolean => Math.abs(value) < border || (word !== yes && word !== no) || (word === yes) === value > 0;
-    return asked(shoulder, "righty", "lefty", ahead_mm, BORDER_MM) && asked(elbow, "epositive", "enegative", q[2]!, BORDER_RAD) && asked(wrist, "wpositive", "wnegative", q[4]!, BORDER_RAD);
+    const [x, y] = links[5]!.position;
+    const ahead_mm = 1000 * (x * Math.cos(q[0]!) + y * Math.sin(q[0]!));
+    const asked = (word: string, yes: string, no: string, value: number, border: number): boolean =>
+      Math.abs(value) < border || (word !== yes && word !== no) || (word === yes) === value > 0;
+    return (
+      asked(shoulder, "righty", "lefty", ahead_mm, BORDER_MM) &&
+      asked(elbow, "epositive", "enegative", q[2]!, BORDER_RAD) &&
+      asked(wrist, "wpositive", "wnegative", q[4]!, BORDER_RAD)
+    );
   }
 
   remember(): () => void {
     const { joints_rad } = this;
-    return () => { this.joints_rad = joints_rad; };
+    return () => {
+      this.joints_rad = joints_rad;
+    };
   }
 }

@@ -4,13 +4,38 @@ import type { Datum } from "../read/application.ts";
 import type { Config } from "./arm.ts";
 import { NOTHING, fromSix, type Trsf } from "./trsf.ts";
 
-export interface Joint { readonly kind: "joint"; readonly deg: readonly number[] }
-export interface Point { readonly kind: "point"; readonly trsf: Trsf; readonly father: string; readonly config: Config }
-export interface Frame { readonly kind: "frame"; readonly trsf: Trsf; readonly father: string }
-export interface Tool { readonly kind: "tool"; readonly trsf: Trsf }
+export interface Joint {
+  readonly kind: "joint";
+  readonly deg: readonly number[];
+}
+export interface Point {
+  readonly kind: "point";
+  readonly trsf: Trsf;
+  readonly father: string;
+  readonly config: Config;
+}
+export interface Frame {
+  readonly kind: "frame";
+  readonly trsf: Trsf;
+  readonly father: string;
+}
+export interface Tool {
+  readonly kind: "tool";
+  readonly trsf: Trsf;
+}
 /** How a motion is made: shares in percent, speeds in mm/s, lengths in mm. */
-export interface Description { readonly kind: "mdesc"; readonly accel: number; readonly vel: number; readonly tmax: number; readonly blend: string; readonly leave: number; readonly reach: number }
-export interface Line { readonly kind: "dio" | "aio" }
+export interface Description {
+  readonly kind: "mdesc";
+  readonly accel: number;
+  readonly vel: number;
+  readonly tmax: number;
+  readonly blend: string;
+  readonly leave: number;
+  readonly reach: number;
+}
+export interface Line {
+  readonly kind: "dio" | "aio";
+}
 export type Value = number | boolean | string | readonly number[] | Joint | Point | Frame | Tool | Description | Line;
 export type Kind = Exclude<Value, number | boolean | string | readonly number[]>["kind"];
 
@@ -18,7 +43,13 @@ export const isList = (value: Value): value is readonly number[] => Array.isArra
 export function kindOf(value: Value | undefined): Kind | "number" | "boolean" | "string" | "list" | "nothing" {
   if (value === undefined) return "nothing";
   if (isList(value)) return "list";
-  return typeof value === "object" ? value.kind : typeof value === "number" ? "number" : typeof value === "boolean" ? "boolean" : "string";
+  return typeof value === "object"
+    ? value.kind
+    : typeof value === "number"
+      ? "number"
+      : typeof value === "boolean"
+        ? "boolean"
+        : "string";
 }
 
 export function asNumber(value: Value, at: TextPlace): number {
@@ -26,29 +57,66 @@ export function asNumber(value: Value, at: TextPlace): number {
   throw new TextError(at, "a number", `Something else (${kindOf(value)}) stands where a number is expected.`);
 }
 
-const SIX = ["x", "y", "z", "rx", "ry", "rz"], JOINTS = ["j1", "j2", "j3", "j4", "j5", "j6"];
+const SIX = ["x", "y", "z", "rx", "ry", "rz"];
+const JOINTS = ["j1", "j2", "j3", "j4", "j5", "j6"];
 
 /** The values of a datum; those that nothing is done with here come out as none. */
 export function valuesOf({ type, values, line, column }: Datum): readonly Value[] {
   return values.flatMap((attributes): Value[] => {
     const number = (name: string, otherwise = 0): number => {
-      const text = attributes.get(name), value = text === undefined ? otherwise : Number(text);
-      if (text?.trim() === "" || !Number.isFinite(value)) throw new TextError({ line, column }, `a number for ${name}`, `The value "${text}" of ${name} is no number.`);
+      const text = attributes.get(name);
+      const value = text === undefined ? otherwise : Number(text);
+      if (text?.trim() === "" || !Number.isFinite(value))
+        throw new TextError({ line, column }, `a number for ${name}`, `The value "${text}" of ${name} is no number.`);
       return value;
     };
-    const father = (attributes.get("fatherId") ?? "").replace(/\[0\]$/, ""), trsf = (): Trsf => fromSix(SIX.map(name => number(name)));
+    const father = (attributes.get("fatherId") ?? "").replace(/\[0\]$/, "");
+    const trsf = (): Trsf => fromSix(SIX.map(name => number(name)));
     switch (type) {
-      case "num": return [number("value")];
-      case "bool": return [attributes.get("value") === "true"];
-      case "string": return [attributes.get("value") ?? ""];
-      case "dio": case "aio": return [{ kind: type }];
-      case "jointRx": return [{ kind: "joint", deg: JOINTS.map(name => number(name)) }];
-      case "pointRx": return [{ kind: "point", trsf: trsf(), father: father === "" ? "world" : father, config: { shoulder: attributes.get("shoulder") ?? "ssame", elbow: attributes.get("elbow") ?? "esame", wrist: attributes.get("wrist") ?? "wsame" } }];
-      case "frame": return [{ kind: "frame", trsf: trsf(), father: father === "" ? "world" : father }];
-      case "tool": return [{ kind: "tool", trsf: trsf() }];
-      case "trsf": return [SIX.map(name => number(name))];
-      case "mdesc": return [{ kind: "mdesc", accel: number("accel", 100), vel: number("vel", 100), tmax: number("tmax", 99999), blend: (attributes.get("blend") ?? "off").toLowerCase(), leave: number("leave", 50), reach: number("reach", 50) }];
-      default: return [];
+      case "num":
+        return [number("value")];
+      case "bool":
+        return [attributes.get("value") === "true"];
+      case "string":
+        return [attributes.get("value") ?? ""];
+      case "dio":
+      case "aio":
+        return [{ kind: type }];
+      case "jointRx":
+        return [{ kind: "joint", deg: JOINTS.map(name => number(name)) }];
+      case "pointRx":
+        return [
+          {
+            kind: "point",
+            trsf: trsf(),
+            father: father === "" ? "world" : father,
+            config: {
+              shoulder: attributes.get("shoulder") ?? "ssame",
+              elbow: attributes.get("elbow") ?? "esame",
+              wrist: attributes.get("wrist") ?? "wsame",
+            },
+          },
+        ];
+      case "frame":
+        return [{ kind: "frame", trsf: trsf(), father: father === "" ? "world" : father }];
+      case "tool":
+        return [{ kind: "tool", trsf: trsf() }];
+      case "trsf":
+        return [SIX.map(name => number(name))];
+      case "mdesc":
+        return [
+          {
+            kind: "mdesc",
+            accel: number("accel", 100),
+            vel: number("vel", 100),
+            tmax: number("tmax", 99999),
+            blend: (attributes.get("blend") ?? "off").toLowerCase(),
+            leave: number("leave", 50),
+            reach: number("reach", 50),
+          },
+        ];
+      default:
+        return [];
     }
   });
 }
@@ -56,45 +124,76 @@ export function valuesOf({ type, values, line, column }: Datum): readonly Value[
 /** What a variable of a program begins with. */
 export function beginning(type: string): Value | undefined {
   switch (type) {
-    case "num": return 0;
-    case "bool": return false;
-    case "string": return "";
-    case "trsf": return [0, 0, 0, 0, 0, 0];
-    case "jointRx": return { kind: "joint", deg: [0, 0, 0, 0, 0, 0] };
-    case "pointRx": return { kind: "point", trsf: NOTHING, father: "world", config: { shoulder: "ssame", elbow: "esame", wrist: "wsame" } };
-    default: return undefined;
+    case "num":
+      return 0;
+    case "bool":
+      return false;
+    case "string":
+      return "";
+    case "trsf":
+      return [0, 0, 0, 0, 0, 0];
+    case "jointRx":
+      return { kind: "joint", deg: [0, 0, 0, 0, 0, 0] };
+    case "pointRx":
+      return {
+        kind: "point",
+        trsf: NOTHING,
+        father: "world",
+        config: { shoulder: "ssame", elbow: "esame", wrist: "wsame" },
+      };
+    default:
+      return undefined;
   }
 }
 
 export function binary(sign: string, left: Value, right: Value, at: TextPlace): Value {
   if (typeof left === "boolean" && typeof right === "boolean") {
     switch (sign) {
-      case "and": return left && right;
-      case "or": return left || right;
-      case "xor": case "!=": return left !== right;
-      case "==": return left === right;
-      default: throw new TextError(at, "and, or, xor, == or !=", `"${sign}" does not join truth values.`);
+      case "and":
+        return left && right;
+      case "or":
+        return left || right;
+      case "xor":
+      case "!=":
+        return left !== right;
+      case "==":
+        return left === right;
+      default:
+        throw new TextError(at, "and, or, xor, == or !=", `"${sign}" does not join truth values.`);
     }
   }
   if (typeof left === "string" && typeof right === "string") {
     if (sign === "+") return left + right;
     if (sign === "==" || sign === "!=") return (left === right) === (sign === "==");
   }
-  const a = asNumber(left, at), b = asNumber(right, at);
+  const a = asNumber(left, at);
+  const b = asNumber(right, at);
   if ((sign === "/" || sign === "%") && b === 0) throw new TextError(at, "a divisor other than 0", "The divisor is 0.");
   switch (sign) {
-    case "+": return finite(a + b, at);
-    case "-": return finite(a - b, at);
-    case "*": return finite(a * b, at);
-    case "/": return finite(a / b, at);
-    case "%": return a % b;
-    case "==": return a === b;
-    case "!=": return a !== b;
-    case "<": return a < b;
-    case ">": return a > b;
-    case "<=": return a <= b;
-    case ">=": return a >= b;
-    default: throw new TextError(at, "an operator", `"${sign}" does not join numbers.`);
+    case "+":
+      return finite(a + b, at);
+    case "-":
+      return finite(a - b, at);
+    case "*":
+      return finite(a * b, at);
+    case "/":
+      return finite(a / b, at);
+    case "%":
+      return a % b;
+    case "==":
+      return a === b;
+    case "!=":
+      return a !== b;
+    case "<":
+      return a < b;
+    case ">":
+      return a > b;
+    case "<=":
+      return a <= b;
+    case ">=":
+      return a >= b;
+    default:
+      throw new TextError(at, "an operator", `"${sign}" does not join numbers.`);
   }
 }
 

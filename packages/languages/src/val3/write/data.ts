@@ -2,26 +2,111 @@ import { degrees, toVal3, type Pose } from "@twincell/core";
 import { Names, fixed } from "../../writing/index.ts";
 
 /** A tenth of a micrometre, a hundred-thousandth of a degree. */
-const MM = 4, DEG = 5;
+const MM = 4;
+const DEG = 5;
 /** Names that every version of the controller takes. */
 const NAME_LENGTH = 15;
 export const RESERVED: ReadonlySet<string> = new Set([
-  "begin", "end", "if", "else", "elseif", "endif", "while", "endwhile", "for", "to", "step", "endfor", "do", "until", "switch", "case", "default", "break", "endswitch", "call", "return", "and", "or", "xor", "not",
-  "true", "false", "start", "stop", "world", "flange", "gripper", "num", "bool", "string", "dio", "aio", "sio", "frame", "tool", "point", "joint", "trsf", "mdesc", "config", "pi", "x", "y", "z", "rx", "ry", "rz",
-  "open", "close", "delay", "wait", "watch", "here", "appro", "compose", "movej", "movel", "movec", "abs", "sqrt", "sin", "cos", "tan", "min", "max", "size", "put", "putln", "cls",
+  "begin",
+  "end",
+  "if",
+  "else",
+  "elseif",
+  "endif",
+  "while",
+  "endwhile",
+  "for",
+  "to",
+  "step",
+  "endfor",
+  "do",
+  "until",
+  "switch",
+  "case",
+  "default",
+  "break",
+  "endswitch",
+  "call",
+  "return",
+  "and",
+  "or",
+  "xor",
+  "not",
+  "true",
+  "false",
+  "start",
+  "stop",
+  "world",
+  "flange",
+  "gripper",
+  "num",
+  "bool",
+  "string",
+  "dio",
+  "aio",
+  "sio",
+  "frame",
+  "tool",
+  "point",
+  "joint",
+  "trsf",
+  "mdesc",
+  "config",
+  "pi",
+  "x",
+  "y",
+  "z",
+  "rx",
+  "ry",
+  "rz",
+  "open",
+  "close",
+  "delay",
+  "wait",
+  "watch",
+  "here",
+  "appro",
+  "compose",
+  "movej",
+  "movel",
+  "movec",
+  "abs",
+  "sqrt",
+  "sin",
+  "cos",
+  "tan",
+  "min",
+  "max",
+  "size",
+  "put",
+  "putln",
+  "cls",
 ]);
 
-export const attributes = (pairs: readonly (readonly [string, string])[]): string => pairs.map(([name, value]) => ` ${name}="${value}"`).join("");
+export const attributes = (pairs: readonly (readonly [string, string])[]): string =>
+  pairs.map(([name, value]) => ` ${name}="${value}"`).join("");
 const NAMES = ["x", "y", "z", "rx", "ry", "rz"] as const;
 
 /** x, y, z [mm], rx, ry, rz [deg], R = Rx(rx)·Ry(ry)·Rz(rz). */
 export function sixOf({ position, quaternion }: Pose): readonly string[] {
-  return [...position.map(v => fixed(v * 1000, MM)), ...toVal3(quaternion).map(angle => { const text = fixed(angle, DEG); return text === "-180" ? "180" : text; })];
+  return [
+    ...position.map(v => fixed(v * 1000, MM)),
+    ...toVal3(quaternion).map(angle => {
+      const text = fixed(angle, DEG);
+      return text === "-180" ? "180" : text;
+    }),
+  ];
 }
 export const trsfAttributes = (pose: Pose): string => attributes(sixOf(pose).map((text, i) => [NAMES[i]!, text]));
-export const jointAttributes = (q_rad: ArrayLike<number>): string => attributes(Array.from(q_rad, (q, i): [string, string] => [`j${i + 1}`, fixed(degrees(q), DEG)]));
+export const jointAttributes = (q_rad: ArrayLike<number>): string =>
+  attributes(Array.from(q_rad, (q, i): [string, string] => [`j${i + 1}`, fixed(degrees(q), DEG)]));
 
-interface Datum { readonly name: string; readonly type: string; readonly value: string; readonly step: string }
+interface Datum {
+  readonly name: string;
+  readonly type: string;
+  readonly value: string;
+  readonly step: string;
+}
 
 /** The data of an application, in the order in which the program first needs them. */
 export class DataList {
@@ -32,5 +117,7 @@ export class DataList {
     if (!this.data.has(name)) this.data.set(name, { name, type, value, step });
     return name;
   }
-  get all(): readonly Datum[] { return [...this.data.values()]; }
+  get all(): readonly Datum[] {
+    return [...this.data.values()];
+  }
 }

@@ -1,12 +1,36 @@
 import {
-  branchOf, compose, inverse, pose, rotate, type Condition, type EmittedFile, type MoveStep, type PalletStep, type Pose, type SignalLine, type Step, type Target, type Vector3,
+  branchOf,
+  compose,
+  inverse,
+  pose,
+  rotate,
+  type Condition,
+  type EmittedFile,
+  type MoveStep,
+  type PalletStep,
+  type Pose,
+  type SignalLine,
+  type Step,
+  type Target,
+  type Vector3,
 } from "@twincell/core";
 import { asciiText } from "../../text/index.ts";
-import { BlockStepWriter, BlockWriter, CannotSay, called, fixed, patternOf, pitchTerm, remark } from "../../writing/index.ts";
+import {
+  BlockStepWriter,
+  BlockWriter,
+  CannotSay,
+  called,
+  fixed,
+  patternOf,
+  pitchTerm,
+  remark,
+} from "../../writing/index.ts";
 import { GRIPPER, VALVE, configWords } from "../robots.ts";
 import { DataList, RESERVED, attributes, jointAttributes, sixOf, trsfAttributes } from "./data.ts";
 
-const HEADER = "<?xml version=\"1.0\" encoding=\"utf-8\"?>", XSI = "xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\"", VAL3 = "http://www.staubli.com/robotics/VAL3";
+const HEADER = '<?xml version="1.0" encoding="utf-8"?>';
+const XSI = 'xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"';
+const VAL3 = "http://www.staubli.com/robotics/VAL3";
 /** No limit of the tool's speed, in mm/s and degrees a second. */
 const UNLIMITED = "99999";
 const LONGEST_TEXT = 127;
@@ -24,17 +48,23 @@ export class ApplicationWriter extends BlockStepWriter {
   private moving = false;
 
   write(): readonly EmittedFile[] {
-    const { program } = this.place, { names } = this.data, title = names.of("project", program.name), programs: EmittedFile[] = [];
+    const { program } = this.place;
+    const { names } = this.data;
+    const title = names.of("project", program.name);
+    const programs: EmittedFile[] = [];
     for (const signal of Object.keys(program.signals)) this.signalName(signal);
     for (const routine of Object.keys(program.routines)) names.of("routine", routine);
     const main = this.program("start", program.steps, true);
-    for (const [routine, steps] of Object.entries(program.routines)) programs.push(this.program(names.of("routine", routine), steps, false));
-    const stop = this.program("stop", [], false), all = [main, ...programs, stop];
+    for (const [routine, steps] of Object.entries(program.routines))
+      programs.push(this.program(names.of("routine", routine), steps, false));
+    const stop = this.program("stop", [], false);
+    const all = [main, ...programs, stop];
     return [...all, this.dataFile(title), this.project(title, all)];
   }
 
   private program(name: string, steps: readonly Step[], isMain: boolean): EmittedFile {
-    const body = new BlockWriter(), file = new BlockWriter();
+    const body = new BlockWriter();
+    const file = new BlockWriter();
     this.out = body;
     this.local = [];
     this.inMain = isMain;
@@ -48,14 +78,22 @@ export class ApplicationWriter extends BlockStepWriter {
     });
     file.add(HEADER);
     file.block(`<Programs ${XSI} xmlns="${VAL3}/Program/2">`, "</Programs>", "", () => {
-      file.block(`<Program name="${name}" access="${isMain || name === "stop" ? "public" : "private"}">`, "</Program>", "", () => {
-        if (this.local.length > 0) file.block("<Locals>", "</Locals>", "", () => { for (const each of this.local) file.add(`<Local name="${each}" type="num" xsi:type="array" size="1"/>`); });
-        file.add("<Code><![CDATA[");
-        file.add("begin");
-        file.append(body);
-        file.add("end");
-        file.add("]]></Code>");
-      });
+      file.block(
+        `<Program name="${name}" access="${isMain || name === "stop" ? "public" : "private"}">`,
+        "</Program>",
+        "",
+        () => {
+          if (this.local.length > 0)
+            file.block("<Locals>", "</Locals>", "", () => {
+              for (const each of this.local) file.add(`<Local name="${each}" type="num" xsi:type="array" size="1"/>`);
+            });
+          file.add("<Code><![CDATA[");
+          file.add("begin");
+          file.append(body);
+          file.add("end");
+          file.add("]]></Code>");
+        },
+      );
     });
     return file.file(`${name}.pgx`, "\r\n");
   }
@@ -65,7 +103,15 @@ export class ApplicationWriter extends BlockStepWriter {
     out.add(HEADER);
     out.block(`<Database ${XSI} xmlns="${VAL3}/Data/2">`, "</Database>", "", () => {
       out.block("<Datas>", "</Datas>", "", () => {
-        for (const { name, type, value, step } of this.data.all) out.block(`<Data name="${name}" access="private" xsi:type="array" type="${type}" size="1">`, "</Data>", step, () => { out.add(`<Value key="0"${value}/>`, step); });
+        for (const { name, type, value, step } of this.data.all)
+          out.block(
+            `<Data name="${name}" access="private" xsi:type="array" type="${type}" size="1">`,
+            "</Data>",
+            step,
+            () => {
+              out.add(`<Value key="0"${value}/>`, step);
+            },
+          );
       });
     });
     return out.file(`${title}.dtx`, "\r\n");
@@ -75,9 +121,13 @@ export class ApplicationWriter extends BlockStepWriter {
     const out = new BlockWriter();
     out.add(HEADER);
     out.block(`<Project ${XSI} xmlns="${VAL3}/Project/3">`, "</Project>", "", () => {
-      out.add("<Parameters version=\"s7.0\" stackSize=\"5000\" millimeterUnit=\"true\"/>");
-      out.block("<Programs>", "</Programs>", "", () => { for (const { name } of programs) out.add(`<Program file="${name}"/>`); });
-      out.block("<Database>", "</Database>", "", () => { out.add(`<Data file="${title}.dtx"/>`); });
+      out.add('<Parameters version="s7.0" stackSize="5000" millimeterUnit="true"/>');
+      out.block("<Programs>", "</Programs>", "", () => {
+        for (const { name } of programs) out.add(`<Program file="${name}"/>`);
+      });
+      out.block("<Database>", "</Database>", "", () => {
+        out.add(`<Data file="${title}.dtx"/>`);
+      });
       out.add("<Libraries/>");
     });
     return out.file(`${title}.pjx`, "\r\n");
@@ -91,7 +141,9 @@ export class ApplicationWriter extends BlockStepWriter {
     this.moving = true;
   }
 
-  protected remark(text: string, step: string): void { this.out.add(`//${text}`, step); }
+  protected remark(text: string, step: string): void {
+    this.out.add(`//${text}`, step);
+  }
 
   /** Motions are put on a list and carried out beside the program: what is no motion waits for their end. */
   private settle(step: string): void {
@@ -105,36 +157,59 @@ export class ApplicationWriter extends BlockStepWriter {
   }
 
   protected step(step: Step, next: Step | undefined): void {
-    const add = (line: string): void => { this.out.add(line, step.id); };
+    const add = (line: string): void => {
+      this.out.add(line, step.id);
+    };
     if (step.type !== "move" && step.type !== "comment") this.settle(step.id);
     switch (step.type) {
-      case "move": return this.move(step, next, add);
-      case "wait": return add(`delay(${fixed(step.s, 6)})`);
+      case "move":
+        return this.move(step, next, add);
+      case "wait":
+        return add(`delay(${fixed(step.s, 6)})`);
       case "gripper":
         this.data.add(GRIPPER, "tool", `${trsfAttributes(pose())} fatherId="flange[0]" ioLink="${VALVE}"`, "");
         return add(`${step.closed ? "close" : "open"}(${GRIPPER})`);
-      case "set": return this.set(step, add);
-      case "wait-for": return this.waitFor(step, add);
+      case "set":
+        return this.set(step, add);
+      case "wait-for":
+        return this.waitFor(step, add);
       case "message": {
         const text = asciiText(step.text).replace(/"/g, "'");
-        if (text.length > LONGEST_TEXT || text.includes("]]>")) throw new CannotSay(step.id, `${called(step)} says ${text.length} characters; VAL 3 takes ${LONGEST_TEXT} without "]]>".`, "Say it in other words.");
+        if (text.length > LONGEST_TEXT || text.includes("]]>"))
+          throw new CannotSay(
+            step.id,
+            `${called(step)} says ${text.length} characters; VAL 3 takes ${LONGEST_TEXT} without "]]>".`,
+            "Say it in other words.",
+          );
         return add(`putln("${text}")`);
       }
       case "stop":
         this.onlyInMain(step, "ends the program");
         return add("return");
-      case "comment": return add(`//- ${asciiText(step.text).replaceAll("]]>", "]] >")}`.trimEnd());
-      case "call": add(`call ${this.data.names.of("routine", step.routine)}()`); return this.begin();
-      case "repeat": return this.repeat(step);
-      case "if": return this.choice(step, `if ${this.condition(step.when, step)}`, "else", "endIf");
-      case "pallet": return this.pallet(step, add);
+      case "comment":
+        return add(`//- ${asciiText(step.text).replaceAll("]]>", "]] >")}`.trimEnd());
+      case "call":
+        add(`call ${this.data.names.of("routine", step.routine)}()`);
+        return this.begin();
+      case "repeat":
+        return this.repeat(step);
+      case "if":
+        return this.choice(step, `if ${this.condition(step.when, step)}`, "else", "endIf");
+      case "pallet":
+        return this.pallet(step, add);
       // Declared under `cannot`.
-      case "payload": throw new CannotSay(step.id, `${called(step)} says a load.`, "Set the load in the settings of the arm.");
+      case "payload":
+        throw new CannotSay(step.id, `${called(step)} says a load.`, "Set the load in the settings of the arm.");
     }
   }
 
   private onlyInMain(step: Step, what: string): void {
-    if (!this.inMain) throw new CannotSay(step.id, `${called(step)} ${what} inside a routine; return of VAL 3 only leaves the routine.`, "Put the step into the program itself.");
+    if (!this.inMain)
+      throw new CannotSay(
+        step.id,
+        `${called(step)} ${what} inside a routine; return of VAL 3 only leaves the routine.`,
+        "Put the step into the program itself.",
+      );
   }
 
   private counter(name: string): string {
@@ -150,19 +225,48 @@ export class ApplicationWriter extends BlockStepWriter {
 
   /** Loops over layers, lines and places; the place is a frame that is put from one to the next. */
   private pallet(step: PalletStep, add: (line: string) => void): void {
-    const { program, baseFromWorld, robot } = this.place, { pallet, lines, inLine, isShifted, isZigzag, ...pitch } = patternOf(step, program);
-    const vendorFromFrame: Pose<"frame", "frame"> = pallet.frame === "world" ? compose(compose(pose<"frame", "base">(), compose(inverse(robot.baseFromVendorWorld as Pose as Pose<"base", "base">), baseFromWorld)), pose<"world", "frame">()) : pose();
-    const first = compose(vendorFromFrame, pallet.origin), frame = this.frame(step.pallet, step.id);
-    const [layer, line, along, at] = ["layer", "line", "along", "at"].map(word => this.counter(word)) as [string, string, string, string];
+    const { program, baseFromWorld, robot } = this.place;
+    const { pallet, lines, inLine, isShifted, isZigzag, ...pitch } = patternOf(step, program);
+    const vendorFromFrame: Pose<"frame", "frame"> =
+      pallet.frame === "world"
+        ? compose(
+            compose(
+              pose<"frame", "base">(),
+              compose(inverse(robot.baseFromVendorWorld as Pose as Pose<"base", "base">), baseFromWorld),
+            ),
+            pose<"world", "frame">(),
+          )
+        : pose();
+    const first = compose(vendorFromFrame, pallet.origin);
+    const frame = this.frame(step.pallet, step.id);
+    const [layer, line, along, at] = ["layer", "line", "along", "at"].map(word => this.counter(word)) as [
+      string,
+      string,
+      string,
+      string,
+    ];
     const last = isShifted ? `${inLine - 1}-(${line}%2)` : `${inLine - 1}`;
-    const [along_m, away_m, up_m] = [pitch.along_m, pitch.away_m, pitch.up_m].map(v => rotate(vendorFromFrame.quaternion, v)) as [Vector3, Vector3, Vector3];
-    const place = `{${sixOf(first).map((text, i) => i > 2 ? text : `${text}${isShifted ? pitchTerm(along_m[i]! / 2, `(2*${at}+(${line}%2))`, fine) : pitchTerm(along_m[i]!, at, fine)}${pitchTerm(away_m[i]!, line, fine)}${pitchTerm(up_m[i]!, layer, fine)}`).join(",")}}`;
-    const loop = (name: string, to: string, inside: () => void): void => { this.out.block(`for ${name}=0 to ${to} step 1`, "endFor", step.id, inside); };
+    const [along_m, away_m, up_m] = [pitch.along_m, pitch.away_m, pitch.up_m].map(v =>
+      rotate(vendorFromFrame.quaternion, v),
+    ) as [Vector3, Vector3, Vector3];
+    const place = `{${sixOf(first)
+      .map((text, i) =>
+        i > 2
+          ? text
+          : `${text}${isShifted ? pitchTerm(along_m[i]! / 2, `(2*${at}+(${line}%2))`, fine) : pitchTerm(along_m[i]!, at, fine)}${pitchTerm(away_m[i]!, line, fine)}${pitchTerm(up_m[i]!, layer, fine)}`,
+      )
+      .join(",")}}`;
+    const loop = (name: string, to: string, inside: () => void): void => {
+      this.out.block(`for ${name}=0 to ${to} step 1`, "endFor", step.id, inside);
+    };
     loop(layer, `${pallet.layers - 1}`, () => {
       loop(line, `${lines - 1}`, () => {
         loop(along, last, () => {
           add(`${at}=${along}`);
-          if (isZigzag) this.out.block(`if (${line}%2)==1`, "endIf", step.id, () => { add(`${at}=${last}-${along}`); });
+          if (isZigzag)
+            this.out.block(`if (${line}%2)==1`, "endIf", step.id, () => {
+              add(`${at}=${last}-${along}`);
+            });
           this.settle(step.id);
           add(`${frame}.trsf=${place}`);
           this.inside(step.steps, step.id);
@@ -176,29 +280,60 @@ export class ApplicationWriter extends BlockStepWriter {
 
   /** A line is a variable that is linked to the controller's line: it is written by its name, or not at all. */
   private signalName(signal: string, step?: Step): string {
-    if (/^[A-Za-z][A-Za-z0-9_]{0,14}$/.test(signal) && !RESERVED.has(signal.toLowerCase()) && this.data.names.of("signal", signal) === signal) return signal;
+    if (
+      /^[A-Za-z][A-Za-z0-9_]{0,14}$/.test(signal) &&
+      !RESERVED.has(signal.toLowerCase()) &&
+      this.data.names.of("signal", signal) === signal
+    )
+      return signal;
     if (step === undefined) return "";
-    throw new CannotSay(step.id, `${called(step)} uses the line "${signal}", which is no name of VAL 3.`, "Lines have names of letters, digits and _, at most 15, a letter first.");
+    throw new CannotSay(
+      step.id,
+      `${called(step)} uses the line "${signal}", which is no name of VAL 3.`,
+      "Lines have names of letters, digits and _, at most 15, a letter first.",
+    );
   }
 
   private lineOf(signal: string, step: Step): { readonly name: string; readonly kind: SignalLine["kind"] } {
-    const { signals } = this.place.program, name = this.signalName(signal, step);
-    if (!Object.hasOwn(signals, signal)) throw new CannotSay(step.id, `${called(step)} uses the line ${signal}, which is not in the list of signals.`, "Add it to the list.");
+    const { signals } = this.place.program;
+    const name = this.signalName(signal, step);
+    if (!Object.hasOwn(signals, signal))
+      throw new CannotSay(
+        step.id,
+        `${called(step)} uses the line ${signal}, which is not in the list of signals.`,
+        "Add it to the list.",
+      );
     const { kind } = signals[signal]!;
-    this.data.add(name, kind.startsWith("digital") ? "dio" : "aio", " link=\"\"", "");
+    this.data.add(name, kind.startsWith("digital") ? "dio" : "aio", ' link=""', "");
     return { name, kind };
   }
 
   private set(step: Extract<Step, { type: "set" }>, add: (line: string) => void): void {
-    const { name, kind } = this.lineOf(step.signal, step), { to } = step;
-    if (kind.endsWith("in")) throw new CannotSay(step.id, `${called(step)} writes the line ${step.signal}, which is an input.`, "Choose an output.");
-    if (kind.startsWith("digital") !== (typeof to === "boolean")) throw new CannotSay(step.id, `${called(step)} writes ${String(to)} to the line ${step.signal}, which is ${kind}.`, "Choose a value of that line.");
+    const { name, kind } = this.lineOf(step.signal, step);
+    const { to } = step;
+    if (kind.endsWith("in"))
+      throw new CannotSay(
+        step.id,
+        `${called(step)} writes the line ${step.signal}, which is an input.`,
+        "Choose an output.",
+      );
+    if (kind.startsWith("digital") !== (typeof to === "boolean"))
+      throw new CannotSay(
+        step.id,
+        `${called(step)} writes ${String(to)} to the line ${step.signal}, which is ${kind}.`,
+        "Choose a value of that line.",
+      );
     add(typeof to === "number" ? `aioSet(${name},${fixed(to, 6)})` : `${name}=${to}`);
   }
 
   private condition(when: Condition, step: Step): string {
     const { name, kind } = this.lineOf(when.signal, step);
-    if ("is" in when !== kind.startsWith("digital")) throw new CannotSay(step.id, `${called(step)} asks the line ${when.signal} for what it cannot answer.`, "Ask a digital line whether it is on, an analogue one for a limit.");
+    if ("is" in when !== kind.startsWith("digital"))
+      throw new CannotSay(
+        step.id,
+        `${called(step)} asks the line ${when.signal} for what it cannot answer.`,
+        "Ask a digital line whether it is on, an analogue one for a limit.",
+      );
     if ("is" in when) return `${name}==${when.is}`;
     return "above" in when ? `aioGet(${name})>${fixed(when.above, 6)}` : `aioGet(${name})<${fixed(when.below, 6)}`;
   }
@@ -207,36 +342,80 @@ export class ApplicationWriter extends BlockStepWriter {
     const when = this.condition(step.when, step);
     if (step.timeout_s === undefined) return add(`wait(${when})`);
     this.onlyInMain(step, "may end the program");
-    this.out.block(`if !watch(${when},${fixed(step.timeout_s, 6)})`, "endIf", step.id, () => { add("return"); });
+    this.out.block(`if !watch(${when},${fixed(step.timeout_s, 6)})`, "endIf", step.id, () => {
+      add("return");
+    });
   }
 
   // --- motions ----------------------------------------------------------------------------------------------------
 
   private move(step: MoveStep, next: Step | undefined, add: (line: string) => void): void {
-    const { target, path, id } = step, isAngles = path === "ptp" && "q" in target, tool = target.tool ?? (isAngles ? this.tool ?? "flange" : "flange");
-    const posture = this.place.posture(step, isAngles ? target : this.reached(target), this.near), frame = "q" in target ? "world" : target.frame;
+    const { target, path, id } = step;
+    const isAngles = path === "ptp" && "q" in target;
+    const tool = target.tool ?? (isAngles ? (this.tool ?? "flange") : "flange");
+    const posture = this.place.posture(step, isAngles ? target : this.reached(target), this.near);
+    const frame = "q" in target ? "world" : target.frame;
     this.near = posture ?? this.near;
     this.tool = tool;
     this.moving = true;
     const rest = `${this.toolName(tool, id)},${this.description(step, next)}`;
-    if (isAngles) return add(`movej(${this.data.add(this.pointName(step, ""), "jointRx", jointAttributes(target.q), id)},${rest})`);
-    const goal = this.point(step, target, frame, posture, ""), word = path === "ptp" ? "movej" : path === "lin" ? "movel" : "movec";
+    if (isAngles)
+      return add(`movej(${this.data.add(this.pointName(step, ""), "jointRx", jointAttributes(target.q), id)},${rest})`);
+    const goal = this.point(step, target, frame, posture, "");
+    const word = path === "ptp" ? "movej" : path === "lin" ? "movel" : "movec";
     if (path !== "circ") return add(`${word}(${goal},${rest})`);
-    if (step.via === undefined) throw new CannotSay(id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
+    if (step.via === undefined)
+      throw new CannotSay(id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
     add(`${word}(${this.point(step, step.via, frame, posture, "_via")},${goal},${rest})`);
   }
 
   private reached(target: Target): Target {
     const branch = "q" in target ? branchOf(this.place.robot, target.q) : undefined;
     if (!("q" in target) || branch === undefined) return target;
-    return { pose: compose(compose(pose<"frame", "world">(), this.place.worldFromBase), this.place.tip(target)), frame: "world", tool: target.tool ?? "flange", branch };
+    return {
+      pose: compose(compose(pose<"frame", "world">(), this.place.worldFromBase), this.place.tip(target)),
+      frame: "world",
+      tool: target.tool ?? "flange",
+      branch,
+    };
   }
 
-  private point(step: MoveStep, target: Target, frame: string, posture: readonly number[] | undefined, ending: string): string {
-    const inFrame = "pose" in target && target.frame === frame && frame !== "world" ? target.pose : compose(inverse(frame === "world" ? pose<"base", "frame">(this.place.robot.baseFromVendorWorld.position, this.place.robot.baseFromVendorWorld.quaternion) : compose(this.place.baseFromWorld, this.place.frame(frame))), this.place.tip(target));
-    const [shoulder, elbow, wrist] = configWords(posture === undefined ? undefined : branchOf(this.place.robot, posture));
+  private point(
+    step: MoveStep,
+    target: Target,
+    frame: string,
+    posture: readonly number[] | undefined,
+    ending: string,
+  ): string {
+    const inFrame =
+      "pose" in target && target.frame === frame && frame !== "world"
+        ? target.pose
+        : compose(
+            inverse(
+              frame === "world"
+                ? pose<"base", "frame">(
+                    this.place.robot.baseFromVendorWorld.position,
+                    this.place.robot.baseFromVendorWorld.quaternion,
+                  )
+                : compose(this.place.baseFromWorld, this.place.frame(frame)),
+            ),
+            this.place.tip(target),
+          );
+    const [shoulder, elbow, wrist] = configWords(
+      posture === undefined ? undefined : branchOf(this.place.robot, posture),
+    );
     const father = frame === "world" ? "world" : this.frame(frame, step.id);
-    return this.data.add(this.pointName(step, ending), "pointRx", `${trsfAttributes(inFrame)}${attributes([["shoulder", shoulder], ["elbow", elbow], ["wrist", wrist], ["fatherId", `${father}[0]`]])}`, step.id);
+    return this.data.add(
+      this.pointName(step, ending),
+      "pointRx",
+      `${trsfAttributes(inFrame)}${attributes([
+        ["shoulder", shoulder],
+        ["elbow", elbow],
+        ["wrist", wrist],
+        ["fatherId", `${father}[0]`],
+      ])}`,
+      step.id,
+    );
   }
 
   private pointName({ name }: MoveStep, ending: string): string {
@@ -246,27 +425,55 @@ export class ApplicationWriter extends BlockStepWriter {
 
   /** A frame stands in the world of the controller; that of a pallet in the frame of the pallet. */
   private frame(frame: string, step: string): string {
-    const { program: { pallets }, robot, baseFromWorld } = this.place, name = this.data.names.of("frame", frame), pallet = Object.hasOwn(pallets, frame) ? pallets[frame] : undefined;
+    const {
+      program: { pallets },
+      robot,
+      baseFromWorld,
+    } = this.place;
+    const name = this.data.names.of("frame", frame);
+    const pallet = Object.hasOwn(pallets, frame) ? pallets[frame] : undefined;
     if (pallet !== undefined && pallet.frame !== "world") {
       const father = this.frame(pallet.frame, step);
       return this.data.add(name, "frame", `${trsfAttributes(pose())} fatherId="${father}[0]"`, step);
     }
-    const at: Pose = pallet === undefined ? compose(inverse(robot.baseFromVendorWorld), compose(baseFromWorld, this.place.frame(frame))) : pose();
+    const at: Pose =
+      pallet === undefined
+        ? compose(inverse(robot.baseFromVendorWorld), compose(baseFromWorld, this.place.frame(frame)))
+        : pose();
     return this.data.add(name, "frame", `${trsfAttributes(at)} fatherId="world[0]"`, step);
   }
 
   private toolName(tool: string, step: string): string {
-    return tool === "flange" ? "flange" : this.data.add(this.data.names.of("tool", tool), "tool", `${trsfAttributes(this.place.tool(tool))} fatherId="flange[0]" ioLink="${VALVE}"`, step);
+    return tool === "flange"
+      ? "flange"
+      : this.data.add(
+          this.data.names.of("tool", tool),
+          "tool",
+          `${trsfAttributes(this.place.tool(tool))} fatherId="flange[0]" ioLink="${VALVE}"`,
+          step,
+        );
   }
 
   /** How a motion is made: speeds, accelerations, and how near its end is passed. */
   private description(step: MoveStep, next: Step | undefined): string {
-    const { speed, path } = step, full_mps = this.place.robot.maxTcpSpeed_mps, percent = (ratio: number): string => fixed(100 * ratio, 5);
-    const isJoint = path === "ptp", ratio = "ratio" in speed ? speed.ratio : "mps" in speed ? speed.mps / full_mps : 1, mps = "mps" in speed ? speed.mps : ratio * full_mps;
-    const acceleration = percent(step.acceleration?.ratio ?? 1), blend_mm = fixed(1000 * this.place.blend_m(step, this.before, next), 4), passes = blend_mm !== "0";
+    const { speed, path } = step;
+    const full_mps = this.place.robot.maxTcpSpeed_mps;
+    const percent = (ratio: number): string => fixed(100 * ratio, 5);
+    const isJoint = path === "ptp";
+    const ratio = "ratio" in speed ? speed.ratio : "mps" in speed ? speed.mps / full_mps : 1;
+    const mps = "mps" in speed ? speed.mps : ratio * full_mps;
+    const acceleration = percent(step.acceleration?.ratio ?? 1);
+    const blend_mm = fixed(1000 * this.place.blend_m(step, this.before, next), 4);
+    const passes = blend_mm !== "0";
     const value = attributes([
-      ["accel", acceleration], ["vel", isJoint ? percent(Math.min(1, ratio)) : "100"], ["decel", acceleration], ["tmax", isJoint ? UNLIMITED : fixed(mps * 1000, 4)], ["rmax", UNLIMITED],
-      ["blend", passes ? isJoint ? "joint" : "Cartesian" : "off"], ["leave", passes ? blend_mm : "50"], ["reach", passes ? blend_mm : "50"],
+      ["accel", acceleration],
+      ["vel", isJoint ? percent(Math.min(1, ratio)) : "100"],
+      ["decel", acceleration],
+      ["tmax", isJoint ? UNLIMITED : fixed(mps * 1000, 4)],
+      ["rmax", UNLIMITED],
+      ["blend", passes ? (isJoint ? "joint" : "Cartesian") : "off"],
+      ["leave", passes ? blend_mm : "50"],
+      ["reach", passes ? blend_mm : "50"],
     ]);
     return this.data.add(this.data.names.of(`mdesc ${value}`, "m"), "mdesc", value, step.id);
   }
