@@ -160,7 +160,10 @@ describe("what each control of the pad does", () => {
     await pad.press(5);
     const q = await open.page.evaluate(() => [...window.twincell.live.now().q_rad]);
     const steps = await open.page.evaluate(
-      () => window.twincell.stores.cellStore.getState().document!.programs[0]!.steps,
+      () =>
+        window.twincell.stores.cellStore
+          .getState()
+          .document!.programs.filter(program => program.format === "twincell.program")[0]!.steps,
     );
     expect(steps.at(-1)).toMatchObject({ type: "move", path: "ptp", target: { q, tool: "torch" } });
     await open.page.evaluate(() => window.twincell.document.undo());
@@ -392,7 +395,12 @@ test("N-50…N-57 the four top edges of the carton at 45° by pad, as V+ text th
   const saved = page.waitForEvent("download", download => download.suggestedFilename().endsWith(".v2"));
   await page.getByRole("button", { name: "Single files" }).click();
   const text = await readFile(await (await saved).path(), "utf8");
-  const program = await page.evaluate(() => window.twincell.stores.cellStore.getState().document!.programs[0]!);
+  const program = await page.evaluate(
+    () =>
+      window.twincell.stores.cellStore
+        .getState()
+        .document!.programs.filter(program => program.format === "twincell.program")[0]!,
+  );
   expect(program.steps).toHaveLength(8);
   expect(proveText(vPlus, { name: "edges.v2", text }, program, robot, cell.robot.worldFromBase)).toMatchObject({
     kind: "proven",
