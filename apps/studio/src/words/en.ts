@@ -1,3 +1,4 @@
+import { textWords } from "./text.ts";
 import { videoWords } from "./video.ts";
 
 /** English. Field terms as a programmer says them; sentences end with a full stop and carry the number and the unit. */
@@ -331,6 +332,8 @@ export const en = {
     comment: "Change comment",
     times: "Change loop",
     touchUp: "Touch up point",
+    touchUpText: (point: string) => `Touch up ${point} in the text`,
+    openText: (name: string) => `Open ${name}`,
     rename: "Rename",
     deleteSteps: (n: number) => `Delete ${plural(n, "step")}`,
     duplicate: "Duplicate",
@@ -1124,6 +1127,7 @@ export const en = {
     box: "Add a box",
     deselect: "Leave",
   },
+  text: textWords,
   video: videoWords,
   sheet: { label: "Tools", jog: "Jog", program: "Program", why: "Why", run: "Run", dead: "Hold to move" },
 };

@@ -7,7 +7,7 @@ import { notify } from "../../stores/notices.ts";
 import { openCell } from "../../stores/opening.ts";
 import { download } from "../../ui/download.ts";
 import { words } from "../../words/index.ts";
-import { openFile, openFiles } from "./openFile.ts";
+import { openFiles } from "./openFile.ts";
 import "./files.css";
 
 const KINDS = [
@@ -84,13 +84,13 @@ export function Files() {
       <input
         ref={input}
         type="file"
+        multiple
         accept={KINDS}
         hidden
         aria-label={words.commands.load}
         data-file-input
         onChange={event => {
-          const file = event.currentTarget.files?.[0];
-          if (file) void openFile(file);
+          void openFiles([...(event.currentTarget.files ?? [])]);
           event.currentTarget.value = "";
         }}
       />
