@@ -1,5 +1,5 @@
 import { Tooltip } from "radix-ui";
-import { lazy, Suspense, useEffect } from "react";
+import { lazy, Suspense, useEffect, useRef } from "react";
 import { useStore } from "zustand";
 import { Check } from "./features/check/Check.tsx";
 import { Coach } from "./features/coach/Coach.tsx";
@@ -21,6 +21,7 @@ import { Tree } from "./features/tree/Tree.tsx";
 import { Welcome } from "./features/welcome/Welcome.tsx";
 import { Sheet } from "./Sheet.tsx";
 import { SceneGuard } from "./SceneGuard.tsx";
+import { selectionStore } from "./stores/selection.ts";
 import { traceStore } from "./stores/trace.ts";
 import { viewStore } from "./stores/view.ts";
 import { PHONE, useMedia } from "./ui/useMedia.ts";
@@ -30,6 +31,7 @@ import "./app.css";
 const Viewport = lazy(() => import("./scene/Viewport.tsx").then(scene => ({ default: scene.Viewport })));
 const Export = lazy(() => import("./features/export/Export.tsx"));
 const CollisionDialog = lazy(() => import("./features/collide/CollisionDialog.tsx"));
+const Start = lazy(() => import("./features/start/Start.tsx"));
 const Robots = lazy(() => import("./features/robots/Robots.tsx"));
 const AddStation = lazy(() => import("./features/stations/AddStation.tsx"));
 const Cameras = lazy(() => import("./features/video/Cameras.tsx"));
@@ -46,6 +48,16 @@ export function App() {
   useEffect(() => {
     document.documentElement.dataset.theme = theme;
   }, [theme]);
+  const side = useRef<HTMLDivElement>(null);
+  // What has just been selected in the cell shows its numbers first, wherever the panel was scrolled to.
+  useEffect(
+    () =>
+      selectionStore.subscribe(({ selected }, before) => {
+        if (selected !== before.selected && selected !== null && selected.kind !== "step")
+          side.current?.scrollTo({ top: 0 });
+      }),
+    [],
+  );
   return (
     <Tooltip.Provider delayDuration={500}>
       <div className="app" data-layout={phone ? "phone" : "desk"}>
@@ -88,7 +100,7 @@ export function App() {
         ) : (
           <>
             <aside key="right" className="panel area-right" aria-label={words.app.region.side}>
-              <div className="scroll">
+              <div className="scroll" ref={side}>
                 <RightSide />
               </div>
             </aside>
@@ -99,6 +111,9 @@ export function App() {
         <ControlsDialog />
         <Suspense>
           <Export />
+        </Suspense>
+        <Suspense>
+          <Start />
         </Suspense>
         <Suspense>
           <Robots />
@@ -129,14 +144,17 @@ const Honest = () => (
 function RightSide() {
   const mode = useStore(viewStore, state => state.mode);
   const tracing = useStore(traceStore, state => state.active);
+  // A recorded point is selected at once: its numbers stay below, or the record buttons would move away under the pointer.
+  const first = useStore(selectionStore, ({ selected }) => selected !== null && selected.kind !== "step");
   switch (mode) {
     case "teach":
       return (
         <>
-          {tracing && <TracePanel />}
-          <Pendant />
-          <SavedPoses />
-          <Inspector />
+          {tracing && <TracePanel key="trace" />}
+          {first && <Inspector key="inspector" />}
+          <Pendant key="pendant" />
+          <SavedPoses key="poses" />
+          {!first && <Inspector key="inspector" />}
         </>
       );
     case "check":
