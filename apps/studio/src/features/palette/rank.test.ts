@@ -78,7 +78,7 @@ const FIRST_HITS: readonly (readonly [query: string, id: string])[] = [
   ["zero", "jog.zero"],
   ["collision", "view.collision"],
   ["mute", "view.mute"],
-  ["close camera", "view.camera"],
+  ["main or close", "view.camera"],
   ["plots", "view.plots"],
   ["box", "cell.box"],
   ["delete", "program.delete"],
