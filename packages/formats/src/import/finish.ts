@@ -60,7 +60,7 @@ export function finishImport(name: string, raw: RawParts, { metresPerUnit }: Fin
   const unit = guessUnit(raw.format, longestOf(sound), raw.statedUnit_m, metresPerUnit);
   const parts = sound.map(
     (part, i): ImportedPart => ({
-      name: part.name === "" ? `part ${i + 1}` : part.name,
+      name: part.name !== "" ? part.name : sound.length === 1 ? name : `part ${i + 1}`,
       path: part.path,
       color: hexOf(part.color ?? OWN_COLORS[0]!),
       mesh: scaledMesh(part.mesh, unit.metresPerUnit),
