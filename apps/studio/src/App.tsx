@@ -30,6 +30,7 @@ import "./app.css";
 const Viewport = lazy(() => import("./scene/Viewport.tsx").then(scene => ({ default: scene.Viewport })));
 const Export = lazy(() => import("./features/export/Export.tsx"));
 const CollisionDialog = lazy(() => import("./features/collide/CollisionDialog.tsx"));
+const ShapeDialog = lazy(() => import("./features/shapes/ShapeDialog.tsx"));
 const Robots = lazy(() => import("./features/robots/Robots.tsx"));
 const AddStation = lazy(() => import("./features/stations/AddStation.tsx"));
 const Cameras = lazy(() => import("./features/video/Cameras.tsx"));
@@ -108,6 +109,9 @@ export function App() {
         </Suspense>
         <Suspense>
           <CollisionDialog />
+        </Suspense>
+        <Suspense>
+          <ShapeDialog />
         </Suspense>
         <Suspense>
           <Cameras />

@@ -25,6 +25,7 @@ import { postStore } from "./stores/post.ts";
 import { roomStore } from "./stores/room.ts";
 import { seek } from "./stores/seek.ts";
 import { selectionStore } from "./stores/selection.ts";
+import { cardOf, shapeStore } from "./stores/shapes.ts";
 import { soundStore } from "./stores/sound.ts";
 import { stationStore } from "./stores/stations.ts";
 import { traceStore } from "./stores/trace.ts";
@@ -52,6 +53,7 @@ const twincell = {
     postStore,
     roomStore,
     selectionStore,
+    shapeStore,
     soundStore,
     stationStore,
     traceStore,
@@ -73,6 +75,7 @@ const twincell = {
     station: stationLive,
   },
   document: { commit, undo, redo, show: showDocument, open: openCellText },
+  importCard: cardOf,
   run: runCommand,
   seek,
 };

@@ -70,36 +70,40 @@ function freeId(name: string, taken: ReadonlySet<string>): string {
 }
 
 /**
- * The cell with everything that came from a file made larger or smaller: a unit that was taken wrongly is put right. Parts keep where
- * they stand to each other, and the lowest of them keeps its height.
+ * Objects made larger or smaller together: a unit that was taken wrongly is put right. They keep where they stand to each other, and the
+ * lowest of them keeps its height. Only meshes change.
  *
- * @param file    as the objects name it.
  * @param factor  above 0; 1000 makes metres of what was taken for millimetres.
  */
-export function rescaledImport(document: CellDocument, file: string, factor: number): CellDocument {
-  const isOne = (object: ObjectRecord): boolean => object.shape.kind === "mesh" && object.shape.file === file;
-  const members = document.objects.filter(isOne);
-  if (members.length === 0 || !(factor > 0) || factor === 1) return document;
+export function rescaledObjects(objects: readonly ObjectRecord[], factor: number): readonly ObjectRecord[] {
+  if (objects.length === 0 || !(factor > 0) || factor === 1) return objects;
   const fixed = [0, 1, 2].map(k => {
-    const values = members.map(({ worldFromObject: { position } }) => position[k]!);
+    const values = objects.map(({ worldFromObject: { position } }) => position[k]!);
     return k === 2 ? Math.min(...values) : (Math.min(...values) + Math.max(...values)) / 2;
   });
-  return {
-    ...document,
-    objects: document.objects.map(object => {
-      if (!isOne(object) || object.shape.kind !== "mesh") return object;
-      const { positions, indices } = shapeMesh(object.shape);
-      const at = object.worldFromObject.position;
-      const moved = (k: 0 | 1 | 2): number => fixed[k]! + factor * (at[k] - fixed[k]!);
-      return {
-        ...object,
-        worldFromObject: { position: [moved(0), moved(1), moved(2)], quaternion: object.worldFromObject.quaternion },
-        shape: {
-          kind: "mesh",
-          file,
-          ...encodeMesh({ positions: positions.map(value => value * factor), indices }),
-        },
-      };
-    }),
-  };
+  return objects.map((object): ObjectRecord => {
+    if (object.shape.kind !== "mesh") return object;
+    const { positions, indices } = shapeMesh(object.shape);
+    const { position, quaternion } = object.worldFromObject;
+    const moved = (k: 0 | 1 | 2): number => fixed[k]! + factor * (position[k] - fixed[k]!);
+    return {
+      ...object,
+      worldFromObject: { position: [moved(0), moved(1), moved(2)], quaternion },
+      shape: {
+        kind: "mesh",
+        file: object.shape.file,
+        ...encodeMesh({ positions: positions.map(value => value * factor), indices }),
+      },
+    };
+  });
+}
+
+/** The objects of a cell that came from a file. @param file  as the objects name it. */
+export const importedFrom = ({ objects }: CellDocument, file: string): readonly ObjectRecord[] =>
+  objects.filter(({ shape }) => shape.kind === "mesh" && shape.file === file);
+
+/** The cell with some of its objects replaced by those of the same id; what is no longer there stays away. */
+export function withObjects(document: CellDocument, changed: readonly ObjectRecord[]): CellDocument {
+  const byId = new Map(changed.map(object => [object.id, object]));
+  return { ...document, objects: document.objects.map(object => byId.get(object.id) ?? object) };
 }

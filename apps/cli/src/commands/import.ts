@@ -1,16 +1,12 @@
 import { existsSync } from "node:fs";
 import { robotById, LIBRARY, type Vector3 } from "@twincell/core";
-import { mergedByColor, withFewColors } from "@twincell/formats";
+import { partsForCell } from "@twincell/formats";
 import { emptyCell, placeParts, saveDocument, type CellDocument } from "@twincell/project";
 import { given } from "../io/arguments.ts";
 import { writeOne } from "../io/output.ts";
 import { readCell } from "../io/program.ts";
 import { readShapes, SHAPE_HELP, SHAPE_OPTIONS } from "../io/shapes.ts";
 import { UseFault, type Command } from "../io/usage.ts";
-
-/** More parts than this become one per colour: a cell is handled part by part. */
-const MOST_PARTS = 100;
-const MOST_MATERIALS = 20;
 
 export const importCommand: Command = {
   name: "import",
@@ -43,9 +39,8 @@ ${SHAPE_HELP}`,
     const lines: string[] = [];
     for (const path of options.positionals)
       for (const { name, parts, unit, report } of await readShapes(path, options)) {
-        const few = withFewColors(parts, MOST_MATERIALS);
         const placed = placeParts(
-          few.length > MOST_PARTS ? mergedByColor(few, name) : few,
+          partsForCell(parts, name),
           name,
           new Set(cell.objects.map(({ id }) => id)),
           at as Vector3 | undefined,

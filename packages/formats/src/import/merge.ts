@@ -41,6 +41,16 @@ export function mergedByColor(parts: readonly ImportedPart[], name: string): rea
   }));
 }
 
+/** More parts than this become one per colour in a cell, which is handled part by part. */
+export const MOST_PARTS = 100;
+export const MOST_MATERIALS = 20;
+
+/** The parts as a cell takes them: at most 20 colours, and one part per colour where there are more than 100. */
+export function partsForCell(parts: readonly ImportedPart[], name: string): readonly ImportedPart[] {
+  const few = withFewColors(parts, MOST_MATERIALS);
+  return few.length > MOST_PARTS ? mergedByColor(few, name) : few;
+}
+
 interface Cluster {
   readonly members: readonly string[];
   readonly rgb: readonly number[];

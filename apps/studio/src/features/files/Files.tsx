@@ -5,18 +5,25 @@ import { cellStore } from "../../stores/cell.ts";
 import { registerCommands } from "../../stores/commands.ts";
 import { notify } from "../../stores/notices.ts";
 import { openCell } from "../../stores/opening.ts";
+import { openDialog } from "../../stores/dialogs.ts";
+import { objectOf } from "../../stores/document.ts";
+import { selectionStore } from "../../stores/selection.ts";
+import { cardOf, shapeStore } from "../../stores/shapes.ts";
+import { IMPORT_ENDINGS } from "@twincell/formats";
 import { download } from "../../ui/download.ts";
 import { words } from "../../words/index.ts";
-import { openFile, openFiles } from "./openFile.ts";
+import { droppedFiles } from "./dropped.ts";
+import { openFiles } from "./openFile.ts";
 import "./files.css";
 
 const KINDS = [
   ".json",
   ".mcap",
   ".txt",
-  ".stl",
-  ".obj",
-  ".ply",
+  ".zip",
+  ".mtl",
+  ".bin",
+  ...IMPORT_ENDINGS.map(ending => `.${ending}`),
   ...new Set(DIALECTS.flatMap(({ extensions }) => extensions)),
 ].join();
 
@@ -49,6 +56,13 @@ export function Files() {
           words: words.commands.conveyor,
           run: () => openCell(conveyorPalletCell()),
         },
+        {
+          id: "file.shapes",
+          group: "edit",
+          words: words.shapes.command,
+          can: () => importOfSelected() !== null,
+          run: showImport,
+        },
         { id: "file.new", group: "file", words: words.commands.fresh, run: () => openCell(emptyCell()) },
       ]),
     [],
@@ -68,7 +82,7 @@ export function Files() {
       if (!hasFiles(event)) return;
       event.preventDefault();
       setOver(false);
-      void openFiles([...(event.dataTransfer?.files ?? [])]);
+      void droppedFiles(event.dataTransfer).then(openFiles);
     };
     window.addEventListener("dragover", drag);
     window.addEventListener("dragleave", leave);
@@ -84,13 +98,14 @@ export function Files() {
       <input
         ref={input}
         type="file"
+        multiple
         accept={KINDS}
         hidden
         aria-label={words.commands.load}
         data-file-input
         onChange={event => {
-          const file = event.currentTarget.files?.[0];
-          if (file) void openFile(file);
+          const files = [...(event.currentTarget.files ?? [])].map(file => ({ path: file.name, file }));
+          if (files.length > 0) void openFiles(files);
           event.currentTarget.value = "";
         }}
       />
@@ -101,6 +116,20 @@ export function Files() {
       )}
     </>
   );
+}
+
+/** The file that the selected object came from, when there is a report of it. */
+function importOfSelected(): string | null {
+  const { selected } = selectionStore.getState();
+  const { document } = cellStore.getState();
+  const shape = selected?.kind === "object" ? objectOf(document, selected.id)?.shape : undefined;
+  return shape?.kind === "mesh" && cardOf(document, shape.file) ? shape.file : null;
+}
+function showImport(): void {
+  const file = importOfSelected();
+  if (file === null) return;
+  shapeStore.setState({ shown: file });
+  openDialog("shapes");
 }
 
 function saveFile(): void {

@@ -1,7 +1,8 @@
 import { notify } from "../../stores/notices.ts";
 import { openCellText } from "../../stores/opening.ts";
 import { importText } from "../../stores/importing.ts";
-import { importMesh } from "../../live/mesh-import.ts";
+import { importShapes, type FileAt } from "../../live/mesh-import.ts";
+import { endingOf, IMPORT_ENDINGS } from "@twincell/formats";
 import { DIALECTS } from "@twincell/languages";
 import { words } from "../../words/index.ts";
 
@@ -15,8 +16,7 @@ export async function openFile(file: File): Promise<void> {
   try {
     if (kind === "mcap") await (await import("../../live/cell-control.ts")).openRecordingFiles([file]);
     else if (kind === "json") openCellText(await file.text(), file.name);
-    else if (kind === "stl" || kind === "obj" || kind === "ply")
-      await importMesh(file.name, kind, new Uint8Array(await file.arrayBuffer()));
+    else if (isShape(file.name)) await importShapes([{ path: file.name, file }]);
     else if (kind === "txt" || isProgram(kind)) {
       const [fault] = importText(await file.text(), file.name);
       if (fault !== undefined) notify("bad", words.file.notCell(file.name, fault), words.file.notCellHint);
@@ -26,9 +26,25 @@ export async function openFile(file: File): Promise<void> {
   }
 }
 
-/** Opens what was dropped at once: recordings together, as one history, everything else one by one. */
-export async function openFiles(files: readonly File[]): Promise<void> {
-  const recordings = files.filter(({ name }) => /\.mcap$/i.test(name));
-  for (const file of files) if (!recordings.includes(file)) await openFile(file);
+/** Shapes, robot descriptions and archives of them. */
+const isShape = (name: string): boolean => [...IMPORT_ENDINGS, "zip"].includes(endingOf(name));
+
+/**
+ * Opens what was dropped at once: recordings together, as one history; shapes together with the files beside them, which they may
+ * name; everything else one by one.
+ */
+export async function openFiles(files: readonly FileAt[]): Promise<void> {
+  const recordings = files.filter(({ file }) => /\.mcap$/i.test(file.name)).map(({ file }) => file);
+  const hasShapes = files.some(({ file }) => isShape(file.name));
+  try {
+    if (hasShapes) await importShapes(files.filter(({ file }) => !recordings.includes(file)));
+  } catch (trouble) {
+    notify(
+      "bad",
+      words.file.unreadable(files[0]?.file.name ?? ""),
+      trouble instanceof Error ? trouble.message : undefined,
+    );
+  }
+  if (!hasShapes) for (const { file } of files) if (!recordings.includes(file)) await openFile(file);
   if (recordings.length > 0) await (await import("../../live/cell-control.ts")).openRecordingFiles(recordings);
 }
