@@ -1,18 +1,17 @@
 import { inflateSync } from "fflate";
-import kernelAddress from "occt-import-js/dist/occt-import-js.wasm?url";
 import { inverse, seededRandom, transformMesh, type Pose } from "@twincell/core";
 import {
   endingOf,
   filesInMemory,
   filesToImport,
   importFile,
+  LARGEST_IMPORT,
   lightened,
   partsForCell,
   readZip,
   STEP_ENDINGS,
-  STEP_PARAMETERS,
   type ImportedPart,
-  type ImportOptions,
+  type OcctResult,
 } from "@twincell/formats";
 import { encodeMesh, placeParts, rescaledObjects, shapeMesh, type ObjectRecord } from "@twincell/project";
 import type { ImportedFile, ShapeAnswer, ShapeRequest } from "./shape-messages.ts";
@@ -56,12 +55,16 @@ async function imported({ files, taken }: Extract<ShapeRequest, { kind: "import"
   const paths = filesToImport([...held.keys()]);
   if (paths.length === 0)
     return { kind: "not-understood", sentence: "There is no shape and no robot description in it." };
-  const readStep = paths.some(path => STEP_ENDINGS.includes(endingOf(path))) ? await stepReader() : undefined;
+  const steps = new Map<Uint8Array, OcctResult>();
+  for (const path of paths) {
+    const bytes = held.get(path);
+    if (bytes && looksLikeStep(path, bytes)) steps.set(bytes, await readStep(bytes));
+  }
   const source = filesInMemory(held);
   const ids = new Set(taken);
   const done: ImportedFile[] = [];
   for (const path of paths) {
-    const answer = importFile(path, source, { readStep });
+    const answer = importFile(path, source, { readStep: bytes => steps.get(bytes) ?? { success: false } });
     if (answer.kind !== "imported")
       return { kind: "not-understood", sentence: paths.length > 1 ? `${path}: ${answer.sentence}` : answer.sentence };
     const { name, parts, unit, report } = answer;
@@ -73,11 +76,24 @@ async function imported({ files, taken }: Extract<ShapeRequest, { kind: "import"
   return { kind: "imported", files: done };
 }
 
-/** The CAD kernel weighs 7.6 MB and is fetched when the first STEP file comes. */
-async function stepReader(): Promise<NonNullable<ImportOptions["readStep"]>> {
-  const { default: load } = await import("occt-import-js");
-  const kernel = await load({ locateFile: () => new URL(kernelAddress, import.meta.url).href });
-  return bytes => kernel.ReadStepFile(bytes, STEP_PARAMETERS);
+const looksLikeStep = (path: string, bytes: Uint8Array): boolean =>
+  STEP_ENDINGS.includes(endingOf(path)) && bytes.length <= LARGEST_IMPORT;
+
+/** The CAD kernel weighs 7.6 MB and is fetched when the first STEP file comes; it ends with this worker. */
+async function readStep(bytes: Uint8Array): Promise<OcctResult> {
+  const worker = new Worker(new URL("./step.worker.ts", import.meta.url), { type: "module" });
+  try {
+    return await new Promise<OcctResult>((resolve, reject) => {
+      worker.addEventListener("message", ({ data }: MessageEvent<OcctResult | string>) => {
+        if (typeof data === "string") reject(new Error(`The CAD kernel failed: ${data}`));
+        else resolve(data);
+      });
+      worker.addEventListener("error", event => reject(new Error(`The CAD kernel failed: ${event.message}`)));
+      worker.postMessage(bytes);
+    });
+  } finally {
+    worker.terminate();
+  }
 }
 
 async function light(objects: readonly ObjectRecord[], faces: number): Promise<ShapeAnswer> {
