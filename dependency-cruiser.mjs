@@ -11,7 +11,7 @@ const mayInstall = {
   core: [],
   languages: [],
   controllers: ["@noble/hashes"],
-  formats: ["saxes", "xmlchars", "yaml"],
+  formats: ["meshoptimizer", "saxes", "xmlchars", "yaml"],
   recording: ["@mcap/", "@foxglove/", "@bokuweb/zstd-wasm"],
   physics: ["@mujoco/mujoco"],
   project: ["zod"],

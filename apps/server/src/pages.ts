@@ -15,10 +15,10 @@ const HEADERS: Readonly<Record<string, string>> = {
 };
 
 /**
- * MuJoCo's bindings write their own invokers when they start. Only the worker that holds them may do so, which has no page to
- * change and nobody but this origin to talk to; everything else stays without.
+ * The bindings of MuJoCo and of the CAD kernel write their own invokers when they start. Only the workers that hold them may do so,
+ * which have no page to change and nobody but this origin to talk to; everything else stays without.
  */
-const WRITES_CODE = /^\/assets\/physics\.worker-[\w-]+\.js$/;
+const WRITES_CODE = /^\/assets\/(physics|step)\.worker-[\w-]+\.js$/;
 const WRITER_HEADERS: Readonly<Record<string, string>> = {
   ...HEADERS,
   "content-security-policy":

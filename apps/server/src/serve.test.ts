@@ -60,13 +60,15 @@ test("serves the studio on loopback with isolation headers, and compresses it", 
   expect((await get("/assets/a-1234.js", { "if-none-match": String(script.headers["etag"]) })).status).toBe(304);
 });
 
-test("only the worker that holds the physics engine may write code; the page and every other script may not", async () => {
+test("only the workers that hold the physics engine and the CAD kernel may write code; the page and every other script may not", async () => {
   served = await serve({ studio, port: 0 });
   const policy = async (path: string): Promise<string> => String((await get(path)).headers["content-security-policy"]);
   expect(await policy("/assets/physics.worker-Ab_1-2.js")).toContain("'unsafe-eval'");
+  expect(await policy("/assets/step.worker-Ab_1-2.js")).toContain("'unsafe-eval'");
   for (const path of [
     "/",
     "/assets/a-1234.js",
+    "/assets/shape.worker-Ab_1-2.js",
     "/assets/physics.worker.js",
     "/assets/x/physics.worker-a.js",
     "/physics.worker-a.js",

@@ -38,6 +38,7 @@ const Viewport = lazy(() => import("./scene/Viewport.tsx").then(scene => ({ defa
 const Export = lazy(() => import("./features/export/Export.tsx"));
 const CollisionDialog = lazy(() => import("./features/collide/CollisionDialog.tsx"));
 const Start = lazy(() => import("./features/start/Start.tsx"));
+const ShapeDialog = lazy(() => import("./features/shapes/ShapeDialog.tsx"));
 const Robots = lazy(() => import("./features/robots/Robots.tsx"));
 const AddStation = lazy(() => import("./features/stations/AddStation.tsx"));
 const Cameras = lazy(() => import("./features/video/Cameras.tsx"));
@@ -155,6 +156,9 @@ export function App() {
         </Suspense>
         <Suspense>
           <CollisionDialog />
+        </Suspense>
+        <Suspense>
+          <ShapeDialog />
         </Suspense>
         <Suspense>
           <Cameras />

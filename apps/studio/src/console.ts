@@ -25,6 +25,7 @@ import { postStore } from "./stores/post.ts";
 import { roomStore } from "./stores/room.ts";
 import { seek } from "./stores/seek.ts";
 import { selectionStore } from "./stores/selection.ts";
+import { cardOf, shapeStore } from "./stores/shapes.ts";
 import { soundStore } from "./stores/sound.ts";
 import { stationStore } from "./stores/stations.ts";
 import { textStore } from "./stores/text.ts";
@@ -53,6 +54,7 @@ const twincell = {
     postStore,
     roomStore,
     selectionStore,
+    shapeStore,
     soundStore,
     stationStore,
     textStore,
@@ -75,6 +77,7 @@ const twincell = {
     station: stationLive,
   },
   document: { commit, undo, redo, show: showDocument, open: openCellText },
+  importCard: cardOf,
   run: runCommand,
   seek,
 };

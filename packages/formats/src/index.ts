@@ -17,3 +17,4 @@ export * from "./urdf/meshes.ts";
 export * from "./urdf/write.ts";
 export * from "./xacro/index.ts";
 export * from "./dh/index.ts";
+export * from "./import/index.ts";

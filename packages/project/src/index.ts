@@ -9,4 +9,5 @@ export * from "./coords.ts";
 export * from "./physical.ts";
 export * from "./history.ts";
 export * from "./mesh/index.ts";
+export * from "./imported.ts";
 export * from "./example/index.ts";

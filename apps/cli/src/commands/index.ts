@@ -6,6 +6,8 @@ import { datasetCommand } from "./dataset.ts";
 import { dialectsCommand } from "./dialects.ts";
 import { fkCommand } from "./fk.ts";
 import { ikCommand } from "./ik.ts";
+import { importCommand } from "./import.ts";
+import { meshCommand } from "./mesh.ts";
 import { parseCommand } from "./parse.ts";
 import { postCommand } from "./post.ts";
 import { recordCommand } from "./record.ts";
@@ -34,5 +36,7 @@ export const COMMANDS: readonly Command[] = [
   recordCommand,
   replayCommand,
   calibrateCommand,
+  importCommand,
+  meshCommand,
   benchCommand,
 ];

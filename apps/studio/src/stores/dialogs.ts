@@ -11,7 +11,8 @@ export type DialogName =
   | "robots"
   | "station"
   | "collision"
-  | "cameras";
+  | "cameras"
+  | "shapes";
 export interface DialogState {
   readonly open: DialogName | null;
 }

@@ -1,2 +1,3 @@
 export * from "./source.ts";
+export * from "./zip.ts";
 export * from "./resolve.ts";

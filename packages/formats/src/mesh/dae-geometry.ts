@@ -7,12 +7,15 @@ import { addPolygon, MOST_CORNERS } from "./polygon.ts";
 export interface DaeGeometry {
   readonly points: ArrayLike<number>;
   readonly triangles: number[];
+  /** Which of the triangles' corners wear which material: its symbol, the first corner, the corner after the last. */
+  readonly ranges: readonly { readonly symbol: string; readonly first: number; readonly end: number }[];
 }
 
 /** The surface of a COLLADA <geometry>; lines are counted in `skipped`. */
 export function daeGeometry(element: Element, skipped: Map<string, number>): DaeGeometry {
   const mesh = childOf(element, "mesh");
-  const parts: { readonly points: number[]; readonly triangles: number[] } = { points: [], triangles: [] };
+  const ranges: { symbol: string; first: number; end: number }[] = [];
+  const parts = { points: [] as number[], triangles: [] as number[], ranges };
   if (!mesh) {
     count(skipped, "curved geometry", 1);
     return parts;
@@ -43,7 +46,9 @@ export function daeGeometry(element: Element, skipped: Map<string, number>): Dae
       }
       return corners;
     };
+    const before = parts.triangles.length;
     faces(primitive, cornersOf, parts);
+    ranges.push({ symbol: primitive.attributes["material"] ?? "", first: before, end: parts.triangles.length });
   }
   return parts;
 }

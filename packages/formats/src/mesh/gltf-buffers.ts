@@ -16,6 +16,8 @@ const COMPONENTS = new Map<
 ]);
 const WIDTHS: Readonly<Record<string, number>> = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4 };
 const MOST = 60_000_000;
+/** A few words in a file must not take hundreds of megabytes: elements that are all 0 have no bytes. */
+const MOST_WITHOUT_BYTES = 3_000_000;
 
 /** The numbers behind the accessors of a glTF. */
 export class GltfBuffers {
@@ -43,6 +45,8 @@ export class GltfBuffers {
       );
     if (count * width > MOST)
       throw new Refusal(`${accessor.place} of the glTF has ${count} elements; at most ${MOST / width} are read.`);
+    if (!accessor.has("bufferView") && count * width > MOST_WITHOUT_BYTES)
+      throw new Refusal(`${accessor.place} of the glTF promises ${count} elements and has no bytes for them.`);
     const numbers = accessor.has("bufferView")
       ? this.elements(accessor, accessor.whole("componentType"), count, width)
       : new Float64Array(count * width);

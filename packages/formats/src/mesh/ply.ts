@@ -20,29 +20,47 @@ interface Numbers {
  */
 export function readPly(bytes: Uint8Array): MeshRead | NotUnderstood {
   return answering(() => {
-    const header = plyHeader(bytes);
-    const binary = header.encoding !== "ascii";
-    const numbers = binary
-      ? binaryNumbers(bytes, header)
-      : textNumbers(latin1(bytes.subarray(header.end)), header.lines);
-    let positions = new Float64Array(0);
-    const indices: number[] = [];
-    for (const element of header.elements) {
-      if ((!binary && element.count > bytes.length) || (binary && element.count * leastSize(element) > bytes.length)) {
-        throw new Refusal(
-          `The header promises ${element.count} elements “${shorten(element.name)}”, but the file has ${bytes.length} bytes.`,
-        );
-      }
-      if (element.name === "vertex") positions = vertices(element, numbers);
-      else readFaces(element, numbers, positions, indices);
-    }
+    const { positions, indices, isBinary } = plyContent(bytes);
     if (indices.length === 0) {
       throw new Refusal(
         `The file is a cloud of ${positions.length / 3} points without faces: make a surface of it first (for example screened Poisson reconstruction in the scanner's software or MeshLab) and export that as PLY.`,
       );
     }
-    return finishMesh(binary ? "PLY (binary)" : "PLY (ASCII)", { positions, indices: Uint32Array.from(indices) }, []);
+    return finishMesh(isBinary ? "PLY (binary)" : "PLY (ASCII)", { positions, indices }, []);
   });
+}
+
+/** What stands in a PLY: corners, faces where it has any, the mean colour of its corners where they have one. */
+export interface PlyContent {
+  readonly positions: Float64Array;
+  readonly indices: Uint32Array;
+  readonly isBinary: boolean;
+  /** Red, green, blue from 0 to 1. */
+  readonly meanColor: readonly [number, number, number] | undefined;
+}
+
+/** @throws {Refusal} for what is no PLY, or ends too early. */
+export function plyContent(bytes: Uint8Array): PlyContent {
+  const header = plyHeader(bytes);
+  const isBinary = header.encoding !== "ascii";
+  const numbers = isBinary
+    ? binaryNumbers(bytes, header)
+    : textNumbers(latin1(bytes.subarray(header.end)), header.lines);
+  let vertex: Pick<PlyContent, "positions" | "meanColor"> = { positions: new Float64Array(0), meanColor: undefined };
+  const indices: number[] = [];
+  for (const element of header.elements) {
+    if (
+      (!isBinary && element.count > bytes.length) ||
+      (isBinary && element.count * leastSize(element) > bytes.length)
+    ) {
+      throw new Refusal(
+        `The header promises ${element.count} elements “${shorten(element.name)}”, but the file has ${bytes.length} bytes.`,
+      );
+    }
+    if (element.name === "vertex") vertex = vertices(element, numbers);
+    else readFaces(element, numbers, vertex.positions, indices);
+  }
+  return { ...vertex, indices: Uint32Array.from(indices), isBinary };
 }
 
 const leastSize = ({ properties }: PlyElement): number =>
@@ -51,7 +69,9 @@ const leastSize = ({ properties }: PlyElement): number =>
     properties.reduce((sum, { type, count }) => sum + sizeOf(count ?? type), 0),
   );
 
-function vertices({ count, properties }: PlyElement, numbers: Numbers): Float64Array<ArrayBuffer> {
+function vertices({ count, properties }: PlyElement, numbers: Numbers): Pick<PlyContent, "positions" | "meanColor"> {
+  const channels = properties.map(({ name }) => ["red", "green", "blue"].indexOf(name));
+  const sums = [0, 0, 0];
   const axes = properties.map(({ name }) => ["x", "y", "z"].indexOf(name));
   const positions = new Float64Array(3 * count);
   for (const [axis, name] of ["x", "y", "z"].entries())
@@ -63,9 +83,13 @@ function vertices({ count, properties }: PlyElement, numbers: Numbers): Float64A
         const value = numbers.next(property.type);
         const axis = axes[p]!;
         if (axis >= 0) positions[3 * v + axis] = value;
+        const channel = channels[p]!;
+        if (channel >= 0) sums[channel]! += /^u?int/.test(property.type) ? value / 255 : value;
       }
     }
-  return positions;
+  const [red, green, blue] = sums.map(sum => sum / count);
+  const isColored = count > 0 && [0, 1, 2].every(channel => channels.includes(channel));
+  return { positions, meanColor: isColored ? [red!, green!, blue!] : undefined };
 }
 
 /** Any element but the vertices; its list `vertex_indices`, if it has one, is a face. */

@@ -36,8 +36,12 @@ export function loadMeshes(shapes: readonly PlacedShape[], path: string, files: 
       continue;
     }
     if (found.note !== undefined) notes.push(found.note);
-    const answer = readMesh(found.path, files.read(found.path) ?? new Uint8Array(), address =>
-      files.read(joinPath(folderOf(found.path), address)),
+    // RViz and MoveIt heed a COLLADA file's unit and pass over its up axis: robots are drawn with that in mind.
+    const answer = readMesh(
+      found.path,
+      files.read(found.path) ?? new Uint8Array(),
+      address => files.read(joinPath(folderOf(found.path), address)),
+      "z",
     );
     if (answer.kind === "read") meshes.set(reference, answer.mesh);
     else {

@@ -1,8 +1,10 @@
 import { DIALECTS } from "@twincell/languages";
 import { useEffect, useRef, useState } from "react";
 import { registerCommands } from "../../stores/commands.ts";
+import { IMPORT_ENDINGS } from "@twincell/formats";
 import { words } from "../../words/index.ts";
 import { fileCommands } from "./commands.ts";
+import { droppedFiles } from "./dropped.ts";
 import { openFiles } from "./openFile.ts";
 import "./files.css";
 
@@ -10,9 +12,10 @@ const KINDS = [
   ".json",
   ".mcap",
   ".txt",
-  ".stl",
-  ".obj",
-  ".ply",
+  ".zip",
+  ".mtl",
+  ".bin",
+  ...IMPORT_ENDINGS.map(ending => `.${ending}`),
   ...new Set(DIALECTS.flatMap(({ extensions }) => extensions)),
 ].join();
 
@@ -36,7 +39,7 @@ export function Files() {
       if (!hasFiles(event)) return;
       event.preventDefault();
       setOver(false);
-      void openFiles([...(event.dataTransfer?.files ?? [])]);
+      void droppedFiles(event.dataTransfer).then(openFiles);
     };
     window.addEventListener("dragover", drag);
     window.addEventListener("dragleave", leave);
@@ -58,7 +61,8 @@ export function Files() {
         aria-label={words.commands.load}
         data-file-input
         onChange={event => {
-          void openFiles([...(event.currentTarget.files ?? [])]);
+          const files = [...(event.currentTarget.files ?? [])].map(file => ({ path: file.name, file }));
+          if (files.length > 0) void openFiles(files);
           event.currentTarget.value = "";
         }}
       />

@@ -3,7 +3,10 @@ import { cellStore } from "../../stores/cell.ts";
 import type { Command } from "../../stores/commands.ts";
 import { openDialog } from "../../stores/dialogs.ts";
 import { notify } from "../../stores/notices.ts";
+import { objectOf } from "../../stores/document.ts";
 import { openCell } from "../../stores/opening.ts";
+import { selectionStore } from "../../stores/selection.ts";
+import { cardOf, shapeStore } from "../../stores/shapes.ts";
 import { download } from "../../ui/download.ts";
 import { words } from "../../words/index.ts";
 
@@ -28,8 +31,29 @@ export const fileCommands = (chooseFile: () => void): readonly Command[] => [
   { id: "file.load", group: "file", words: words.commands.load, keys: ["Mod+O"], run: chooseFile },
   { id: "file.example", group: "file", words: words.commands.example, run: () => openCell(edgeTraceCell()) },
   { id: "file.conveyor", group: "file", words: words.commands.conveyor, run: () => openCell(conveyorPalletCell()) },
+  {
+    id: "file.shapes",
+    group: "edit",
+    words: words.shapes.command,
+    can: () => importOfSelected() !== null,
+    run: showImport,
+  },
   { id: "file.new", group: "file", words: words.commands.fresh, run: () => openCell(emptyCell()) },
 ];
+
+/** The file that the selected object came from, when there is a report of it. */
+function importOfSelected(): string | null {
+  const { selected } = selectionStore.getState();
+  const { document } = cellStore.getState();
+  const shape = selected?.kind === "object" ? objectOf(document, selected.id)?.shape : undefined;
+  return shape?.kind === "mesh" && cardOf(document, shape.file) ? shape.file : null;
+}
+function showImport(): void {
+  const file = importOfSelected();
+  if (file === null) return;
+  shapeStore.setState({ shown: file });
+  openDialog("shapes");
+}
 
 function saveFile(): void {
   const { document } = cellStore.getState();

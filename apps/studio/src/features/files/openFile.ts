@@ -1,7 +1,8 @@
 import { notify } from "../../stores/notices.ts";
 import { openCellText } from "../../stores/opening.ts";
 import { importText } from "../../stores/importing.ts";
-import { importMesh } from "../../live/mesh-import.ts";
+import { importShapes, type FileAt } from "../../live/mesh-import.ts";
+import { endingOf, IMPORT_ENDINGS } from "@twincell/formats";
 import { DIALECTS } from "@twincell/languages";
 import { words } from "../../words/index.ts";
 import { openTextFiles } from "../text/open-text.ts";
@@ -16,8 +17,7 @@ export async function openFile(file: File): Promise<void> {
   try {
     if (kind === "mcap") await (await import("../../live/cell-control.ts")).openRecordingFiles([file]);
     else if (kind === "json") openCellText(await file.text(), file.name);
-    else if (kind === "stl" || kind === "obj" || kind === "ply")
-      await importMesh(file.name, kind, new Uint8Array(await file.arrayBuffer()));
+    else if (isShape(file.name)) await importShapes([{ path: file.name, file }]);
     else if (isProgram(kind) && kind !== "txt") await openTexts([file]);
     else if (kind === "txt") {
       const [fault] = importText(await file.text(), file.name);
@@ -35,14 +35,33 @@ async function openTexts(files: readonly File[]): Promise<void> {
   );
 }
 
-/** Opens what was chosen or dropped at once: recordings together, as one history, program files as one program, the rest one by one. */
-export async function openFiles(files: readonly File[]): Promise<void> {
-  const recordings = files.filter(({ name }) => /\.mcap$/i.test(name));
-  const texts = files.filter(({ name }) => {
-    const kind = /\.([a-z0-9]+)$/i.exec(name)?.[1]?.toLowerCase() ?? "";
-    return kind !== "txt" && isProgram(kind);
-  });
-  for (const file of files) if (!recordings.includes(file) && !texts.includes(file)) await openFile(file);
-  if (texts.length > 0) await openTexts(texts);
+/** Shapes, robot descriptions and archives of them. */
+const isShape = (name: string): boolean => [...IMPORT_ENDINGS, "zip"].includes(endingOf(name));
+
+/**
+ * Opens what was chosen or dropped at once: recordings together, as one history; program files together, as one program; shapes
+ * together with the files beside them, which they may name; everything else one by one.
+ */
+export async function openFiles(files: readonly FileAt[]): Promise<void> {
+  const recordings = files.filter(({ file }) => /\.mcap$/i.test(file.name)).map(({ file }) => file);
+  const hasShapes = files.some(({ file }) => isShape(file.name));
+  const texts = files
+    .map(({ file }) => file)
+    .filter(({ name }) => {
+      const kind = /\.([a-z0-9]+)$/i.exec(name)?.[1]?.toLowerCase() ?? "";
+      return kind !== "txt" && isProgram(kind);
+    });
+  const others = files.filter(({ file }) => !recordings.includes(file) && !texts.includes(file));
+  try {
+    if (hasShapes) await importShapes(others);
+    if (texts.length > 0) await openTexts(texts);
+  } catch (trouble) {
+    notify(
+      "bad",
+      words.file.unreadable(files[0]?.file.name ?? ""),
+      trouble instanceof Error ? trouble.message : undefined,
+    );
+  }
+  if (!hasShapes) for (const { file } of others) await openFile(file);
   if (recordings.length > 0) await (await import("../../live/cell-control.ts")).openRecordingFiles(recordings);
 }

@@ -1,0 +1,146 @@
+import { spawnSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { afterAll, beforeAll, describe, expect, test } from "vitest";
+import { boxMesh, meshBounds } from "@twincell/core";
+import { importFile, writeStl, type FileSource } from "@twincell/formats";
+import { openDocument, shapeMesh } from "@twincell/project";
+
+const root = fileURLToPath(new URL("../../../", import.meta.url));
+let folder = "";
+beforeAll(() => {
+  folder = mkdtempSync(join(tmpdir(), "twincell-shapes-"));
+});
+afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const at = (name: string): string => join(folder, name);
+const write = (name: string, content: string | Uint8Array): string => {
+  writeFileSync(at(name), content);
+  return at(name);
+};
+const twincell = (
+  ...args: readonly string[]
+): { readonly code: number; readonly out: string; readonly err: string } => {
+  const run = spawnSync(process.execPath, ["apps/cli/src/main.ts", ...args], { cwd: root, encoding: "utf8" });
+  return { code: run.status ?? -1, out: run.stdout, err: run.stderr };
+};
+const disk: FileSource = { read: path => (existsSync(path) ? readFileSync(path) : undefined), list: () => undefined };
+
+const TETRAHEDRON = `ISO-10303-21;
+HEADER;
+FILE_DESCRIPTION((''),'2;1');
+FILE_NAME('','',(''),(''),'','','');
+FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));
+ENDSEC;
+DATA;
+ENDSEC;
+END-ISO-10303-21;
+`;
+
+test("import puts the parts of an OBJ into a new cell with names, colours and one size, and adds to one that is there", () => {
+  write("a.mtl", "newmtl red\nKd 1 0 0\n");
+  const obj = write(
+    "a.obj",
+    "mtllib a.mtl\nv 0 0 0\nv 400 0 0\nv 0 400 0\nv 0 0 400\no jig\nusemtl red\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n",
+  );
+  const first = twincell("import", obj, "-o", at("cell.json"));
+  expect(first.err).toBe("");
+  expect(JSON.parse(first.out)).toMatchObject({
+    unit: { metresPerUnit: 0.001, certainty: "likely" },
+    report: { triangles: 4, materials: 1, openEdges: 0 },
+    objects: ["jig"],
+  });
+  expect(
+    twincell(
+      "import",
+      write("b.stl", writeStl(boxMesh([9, 4, 4]))),
+      "-o",
+      at("cell.json"),
+      "--unit",
+      "mm",
+      "--at",
+      "1,2,0.5",
+    ).code,
+  ).toBe(0);
+  const cell = openDocument(readFileSync(at("cell.json"), "utf8"));
+  if (cell.kind !== "opened") throw new Error(cell.kind);
+  expect(cell.document.objects.map(({ id, color }) => [id, color])).toEqual([
+    ["jig", "#ff0000"],
+    ["b", "#9aa7b0"],
+  ]);
+  expect(cell.document.objects[1]!.worldFromObject.position).toEqual([1, 2, 0.5]);
+  const { lower, upper } = meshBounds(shapeMesh(cell.document.objects[1]!.shape));
+  expect(upper[0] - lower[0]).toBeCloseTo(0.009, 6);
+});
+
+test("T-49: mesh writes a GLB with the triangles asked for and prints faces, materials, bounds and both deviations in metres", () => {
+  const positions: number[] = [];
+  const indices: number[] = [];
+  const n = 60;
+  for (let i = 0; i <= n; i++)
+    for (let j = 0; j <= n; j++) positions.push(i / n, j / n, 0.1 * Math.sin((3 * i) / n) * Math.cos((2 * j) / n));
+  for (let i = 0; i < n; i++)
+    for (let j = 0; j < n; j++) {
+      const a = i * (n + 1) + j;
+      indices.push(a, a + n + 1, a + 1, a + 1, a + n + 1, a + n + 2);
+    }
+  const input = write(
+    "wave.stl",
+    writeStl({ positions: Float64Array.from(positions), indices: Uint32Array.from(indices) }),
+  );
+  const { code, out } = twincell("mesh", input, "-o", at("wave.glb"), "--faces", "600");
+  expect(code).toBe(0);
+  const report = JSON.parse(out) as Record<string, number>;
+  expect(report).toMatchObject({ faces_before: 7200, materials: 1 });
+  expect(report["faces"]).toBeLessThanOrEqual(600);
+  expect(report["bounds_change_m"]).toBeLessThan(1e-4);
+  expect(report["max_deviation_m"]).toBeGreaterThan(1e-6);
+  expect(report["max_deviation_m"]).toBeLessThan(2e-3);
+  expect(report["rms_deviation_m"]).toBeLessThan(report["max_deviation_m"]!);
+  const back = importFile(at("wave.glb"), disk);
+  expect(back.kind === "imported" && back.report.triangles).toBe(report["faces"]);
+});
+
+describe("what cannot be read ends with 2 and one sentence, and no cell is written", () => {
+  test.each<readonly [string, () => readonly string[], RegExp]>([
+    ["no file", () => ["import", at("none.stl"), "-o", at("no.json")], /There is no file/],
+    ["an ending nobody knows", () => ["import", write("a.fbx", "x"), "-o", at("no.json")], /cannot be imported/],
+    [
+      "a file cut off",
+      () => ["import", write("cut.stl", writeStl(boxMesh([1, 1, 1])).subarray(0, 200)), "-o", at("no.json")],
+      /promises 12 triangles/,
+    ],
+    ["an empty STEP", () => ["import", write("e.step", TETRAHEDRON), "-o", at("no.json")], /STEP/],
+    ["no archive", () => ["import", write("a.zip", "PK"), "-o", at("no.json")], /no ZIP archive/],
+    [
+      "a unit nobody knows",
+      () => ["import", write("u.stl", writeStl(boxMesh([1, 1, 1]))), "-o", at("no.json"), "--unit", "ell"],
+      /--unit wants/,
+    ],
+    [
+      "too few faces",
+      () => ["mesh", write("u.stl", writeStl(boxMesh([1, 1, 1]))), "-o", at("no.glb"), "--faces", "2"],
+      /--faces wants/,
+    ],
+  ])("%s", (_, args, says) => {
+    const { code, err } = twincell(...args());
+    expect(code).toBe(2);
+    expect(err).toMatch(says);
+    expect(err.trim().split("\n")).toHaveLength(1);
+    expect(existsSync(at("no.json")) || existsSync(at("no.glb"))).toBe(false);
+  });
+});
+
+const part = process.env["TWINCELL_SHARED"] ?? fileURLToPath(new URL("../../../../shared", import.meta.url));
+test.skipIf(!existsSync(join(part, "bench/part.step")))(
+  "X-02: a machined STEP part comes in as closed 300 × 200 mm, to 0.1 mm",
+  () => {
+    const { out } = twincell("mesh", join(part, "bench/part.step"), "-o", at("part.glb"));
+    const report = JSON.parse(out) as { lower_m: number[]; upper_m: number[]; open_edges: number; format: string };
+    expect(report).toMatchObject({ format: "STEP", open_edges: 0 });
+    [0.3, 0.2].forEach((side, k) =>
+      expect(Math.abs(report.upper_m[k]! - report.lower_m[k]! - side)).toBeLessThan(1e-4),
+    );
+  },
+);

@@ -1,0 +1,10 @@
+export * from "./part.ts";
+export * from "./unit.ts";
+export * from "./merge.ts";
+export { boundsOf, finishImport, joinedMesh, scaledMesh } from "./finish.ts";
+export { endingOf, LARGEST_IMPORT, rawParts, SHAPE_ENDINGS, STEP_ENDINGS, stemOf } from "./raw-parts.ts";
+export { STEP_FINENESS, STEP_PARAMETERS, stepParts, type OcctResult } from "./step-parts.ts";
+export { filesToImport, IMPORT_ENDINGS, importFile, type ImportOptions } from "./import-file.ts";
+export * from "./deviation.ts";
+export * from "./lighten.ts";
+export * from "./write-glb.ts";
