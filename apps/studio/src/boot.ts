@@ -12,6 +12,7 @@ import { startJogging } from "./live/jogger.ts";
 import { hold, startPhysics } from "./live/physics.ts";
 import { pause, startPlayhead } from "./live/playhead.ts";
 import { startPreview } from "./live/preview.ts";
+import { startTexts } from "./live/text-program.ts";
 import { keepDocument, openKept } from "./stores/autosave.ts";
 import { CellLibrary, setLibrary, type KeyValueStore } from "./stores/library.ts";
 import { notify } from "./stores/notices.ts";
@@ -73,6 +74,7 @@ export function boot(): void {
       startCellControl();
     });
   watchCollisions();
+  startTexts();
   const checking = startChecking();
   startCommands(checking);
   const beat = (now_ms: number): void => {

@@ -1,3 +1,4 @@
+import { textWords } from "./text.ts";
 import { videoWords } from "./video.ts";
 
 /** English. Field terms as a programmer says them; sentences end with a full stop and carry the number and the unit. */
@@ -266,6 +267,13 @@ export const en = {
     gone: "no longer there",
     addBox: "Add a box",
     deleteObject: "Delete object",
+    hide: "Hide",
+    show: "Show",
+    lock: "Lock in the 3D view",
+    unlock: "Unlock",
+    hidden: "hidden",
+    locked: "locked",
+    nameOfObject: "Name of the object",
     useTool: "Use this tool",
     verdicts: { ok: "fine", warn: "near a limit", bad: "not possible", unknown: "not checked yet" },
   },
@@ -331,6 +339,8 @@ export const en = {
     comment: "Change comment",
     times: "Change loop",
     touchUp: "Touch up point",
+    touchUpText: (point: string) => `Touch up ${point} in the text`,
+    openText: (name: string) => `Open ${name}`,
     rename: "Rename",
     deleteSteps: (n: number) => `Delete ${plural(n, "step")}`,
     duplicate: "Duplicate",
@@ -350,6 +360,10 @@ export const en = {
     wait: "Change wait",
     addObject: "Add object",
     deleteObject: "Delete object",
+    hide: "Hide object",
+    show: "Show object",
+    lock: "Lock object",
+    unlock: "Unlock object",
     import: "Import program",
     cellName: "Rename cell",
     moveRobot: "Move robot",
@@ -1168,6 +1182,7 @@ export const en = {
     box: "Add a box",
     deselect: "Leave",
   },
+  text: textWords,
   video: videoWords,
   sheet: { label: "Tools", jog: "Jog", program: "Program", why: "Why", run: "Run", dead: "Hold to move" },
 };

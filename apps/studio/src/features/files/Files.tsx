@@ -3,7 +3,7 @@ import { useEffect, useRef, useState } from "react";
 import { registerCommands } from "../../stores/commands.ts";
 import { words } from "../../words/index.ts";
 import { fileCommands } from "./commands.ts";
-import { openFile, openFiles } from "./openFile.ts";
+import { openFiles } from "./openFile.ts";
 import "./files.css";
 
 const KINDS = [
@@ -52,13 +52,13 @@ export function Files() {
       <input
         ref={input}
         type="file"
+        multiple
         accept={KINDS}
         hidden
         aria-label={words.commands.load}
         data-file-input
         onChange={event => {
-          const file = event.currentTarget.files?.[0];
-          if (file) void openFile(file);
+          void openFiles([...(event.currentTarget.files ?? [])]);
           event.currentTarget.value = "";
         }}
       />
