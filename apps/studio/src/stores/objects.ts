@@ -27,7 +27,8 @@ export function duplicateObject(id: string): string | null {
   const name = firstFree(2, n => `${stem} ${n}`, new Set(document.objects.map(each => each.name)));
   const copy = firstFree(2, n => `${id}-${n}`, new Set(document.objects.map(each => each.id)));
   const [x, y, z] = object.worldFromObject.position;
-  const { locked: _, ...free } = object;
+  const free: ObjectRecord = { ...object };
+  delete (free as { locked?: true }).locked; // A copy is there to be moved.
   commit(words.undo.duplicate, before => ({
     ...before,
     objects: [
