@@ -68,6 +68,32 @@ test("by clicks alone: a new cell keeps the one before, which is found, opened, 
   await context.close();
 });
 
+test("an object is renamed, duplicated, hidden and locked from the tree", async () => {
+  const { page, context, problems } = await studio.open({ width: 920, height: 420 });
+  await drawn(page);
+  const object = (name: string) =>
+    page.evaluate(
+      wanted => window.twincell.stores.cellStore.getState().document?.objects.find(each => each.name === wanted),
+      name,
+    );
+  const row = (name: string) => page.locator(".cell-tree .row").filter({ has: page.getByText(name, { exact: true }) });
+  await row("Carton").focus();
+  await page.keyboard.press("F2");
+  await page.getByLabel("Name of the object").fill("Large carton");
+  await page.keyboard.press("Enter");
+  await row("Large carton").click({ button: "right" });
+  await page.getByRole("menuitem", { name: "Duplicate" }).click();
+  await row("Large carton 2").click({ button: "right" });
+  await page.getByRole("menuitem", { name: "Hide" }).click();
+  await row("Large carton 2").click({ button: "right" });
+  await page.getByRole("menuitem", { name: "Lock in the 3D view" }).click();
+  expect(await object("Large carton 2")).toMatchObject({ hidden: true, locked: true });
+  expect(await object("Large carton")).not.toHaveProperty("hidden");
+  expect(await row("Large carton 2").textContent()).toContain("hidden");
+  expect(problems).toEqual([]);
+  await context.close();
+});
+
 test("on a phone the cells stand one below the other and nothing is cut off", async () => {
   const { page, context } = await studio.open({ width: 390, height: 844, touch: true });
   await drawn(page);

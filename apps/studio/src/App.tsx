@@ -24,8 +24,8 @@ import { Sheet } from "./Sheet.tsx";
 import { SceneGuard } from "./SceneGuard.tsx";
 import { cellStore } from "./stores/cell.ts";
 import { textOf } from "./stores/document.ts";
-import { textStore } from "./stores/text.ts";
 import { selectionStore } from "./stores/selection.ts";
+import { textStore } from "./stores/text.ts";
 import { traceStore } from "./stores/trace.ts";
 import { viewStore } from "./stores/view.ts";
 import { Segments } from "./ui/Choice.tsx";
@@ -59,13 +59,13 @@ export function App() {
   useEffect(() => {
     document.documentElement.dataset.theme = theme;
   }, [theme]);
-  const panel = useRef<HTMLDivElement>(null);
+  const sidePanel = useRef<HTMLDivElement>(null);
   // What has just been selected in the cell shows its numbers first, wherever the panel was scrolled to.
   useEffect(
     () =>
       selectionStore.subscribe(({ selected }, before) => {
         if (selected !== before.selected && selected !== null && selected.kind !== "step")
-          panel.current?.scrollTo({ top: 0 });
+          sidePanel.current?.scrollTo({ top: 0 });
       }),
     [],
   );
@@ -132,7 +132,7 @@ export function App() {
           <>
             {!side && (
               <aside key="right" className="panel area-right" aria-label={words.app.region.side}>
-                <div className="scroll" ref={panel}>
+                <div className="scroll" ref={sidePanel}>
                   <RightSide />
                 </div>
               </aside>

@@ -1,6 +1,7 @@
 export * from "./document.ts";
 export * from "./open.ts";
 export * from "./save.ts";
+export * from "./diff.ts";
 export * from "./programs.ts";
 export * from "./text-program.ts";
 export * from "./attach.ts";

@@ -4,6 +4,7 @@ import { calibrateCommand } from "./calibrate.ts";
 import { checkCommand } from "./check.ts";
 import { datasetCommand } from "./dataset.ts";
 import { dialectsCommand } from "./dialects.ts";
+import { diffCommand } from "./diff.ts";
 import { fkCommand } from "./fk.ts";
 import { ikCommand } from "./ik.ts";
 import { importCommand } from "./import.ts";
@@ -28,6 +29,7 @@ export const COMMANDS: readonly Command[] = [
   simulateCommand,
   validateCommand,
   datasetCommand,
+  diffCommand,
   postCommand,
   parseCommand,
   runCommand,

@@ -1,12 +1,15 @@
 import { Axis3d, Box, Cone, Cylinder, Plus, Wrench } from "lucide-react";
+import type { ObjectRecord } from "@twincell/project";
 import { ContextMenu } from "radix-ui";
-import type { ReactNode } from "react";
+import { useState, type ReactNode } from "react";
 import { useStore } from "zustand";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
-import { commit, robotOf } from "../../stores/document.ts";
+import { robotOf } from "../../stores/document.ts";
+import { deleteObject, duplicateObject, renameObject, toggleHidden, toggleLocked } from "../../stores/objects.ts";
 import { shortName } from "../../stores/robot.ts";
 import { hover, select, selectionStore, type Thing } from "../../stores/selection.ts";
+import { showKeys } from "../../ui/keys.ts";
 import { Tip } from "../../ui/Tip.tsx";
 import { words } from "../../words/index.ts";
 
@@ -48,13 +51,13 @@ export function CellTree() {
             thing={{ kind: "object", id: object.id }}
             glyph={object.shape.kind === "box" ? <Box /> : object.shape.kind === "mesh" ? <Cone /> : <Cylinder />}
             kind={words.tree.roles[object.role]}
-            onDelete={() => {
-              commit(words.undo.deleteObject, before => ({
-                ...before,
-                objects: before.objects.filter(other => other.id !== object.id),
-              }));
-              select(null);
-            }}
+            object={object}
+            extra={
+              <>
+                {object.hidden && <span className="tag">{words.tree.hidden}</span>}
+                {object.locked && <span className="tag">{words.tree.locked}</span>}
+              </>
+            }
           >
             {object.name}
           </Leaf>
@@ -81,7 +84,7 @@ function Leaf({
   kind,
   extra,
   inside = false,
-  onDelete,
+  object,
   children,
 }: {
   thing: Thing;
@@ -89,11 +92,13 @@ function Leaf({
   kind: string;
   extra?: ReactNode;
   inside?: boolean;
-  onDelete?: () => void;
+  object?: ObjectRecord;
   children: ReactNode;
 }) {
   const on = useStore(selectionStore, state => same(state.selected, thing));
   const under = useStore(selectionStore, state => same(state.hovered, thing));
+  const [renaming, setRenaming] = useState(false);
+  if (object && renaming) return <ObjectName object={object} onDone={() => setRenaming(false)} />;
   const row = (
     <button
       className="row"
@@ -106,10 +111,13 @@ function Leaf({
       onPointerEnter={() => hover(thing)}
       onPointerLeave={() => hover(null)}
       onKeyDown={event => {
-        if (event.key === "Delete" && onDelete) {
-          event.stopPropagation();
-          onDelete();
-        }
+        if (!object) return;
+        if (event.key === "Delete") deleteObject(object.id);
+        else if (event.key === "F2") setRenaming(true);
+        else if (event.key.toLowerCase() === "d" && (event.ctrlKey || event.metaKey)) duplicateObject(object.id);
+        else return;
+        event.preventDefault();
+        event.stopPropagation();
       }}
     >
       <span className="glyph" aria-hidden>
@@ -119,18 +127,63 @@ function Leaf({
       {extra}
     </button>
   );
-  if (!onDelete) return row;
+  if (!object) return row;
   return (
     <ContextMenu.Root modal={false}>
       <ContextMenu.Trigger asChild>{row}</ContextMenu.Trigger>
       <ContextMenu.Portal>
-        <ContextMenu.Content className="menu">
-          <ContextMenu.Item className="menu-item danger" onSelect={onDelete}>
+        <ContextMenu.Content className="menu" onCloseAutoFocus={event => event.preventDefault()}>
+          <MenuItem words={words.common.rename} keys="F2" onSelect={() => setRenaming(true)} />
+          <MenuItem words={words.common.duplicate} keys="Mod+D" onSelect={() => duplicateObject(object.id)} />
+          <MenuItem
+            words={object.hidden ? words.tree.show : words.tree.hide}
+            onSelect={() => toggleHidden(object.id)}
+          />
+          <MenuItem
+            words={object.locked ? words.tree.unlock : words.tree.lock}
+            onSelect={() => toggleLocked(object.id)}
+          />
+          <ContextMenu.Item className="menu-item danger" onSelect={() => deleteObject(object.id)}>
             {words.tree.deleteObject}
             <span className="kbd">Del</span>
           </ContextMenu.Item>
         </ContextMenu.Content>
       </ContextMenu.Portal>
     </ContextMenu.Root>
+  );
+}
+
+const MenuItem = ({ words: text, keys, onSelect }: { words: string; keys?: string; onSelect: () => void }) => (
+  <ContextMenu.Item className="menu-item" onSelect={onSelect}>
+    {text}
+    {keys !== undefined && <span className="kbd">{showKeys(keys)}</span>}
+  </ContextMenu.Item>
+);
+
+/** The name of an object, typed in its row. */
+function ObjectName({ object, onDone }: { object: ObjectRecord; onDone: () => void }) {
+  const [typed, setTyped] = useState(object.name);
+  return (
+    <div className="field text">
+      <input
+        autoFocus
+        aria-label={words.tree.nameOfObject}
+        value={typed}
+        maxLength={80}
+        onFocus={event => event.currentTarget.select()}
+        onChange={event => setTyped(event.currentTarget.value)}
+        onBlur={() => {
+          renameObject(object.id, typed);
+          onDone();
+        }}
+        onKeyDown={event => {
+          if (event.key === "Enter") event.currentTarget.blur();
+          if (event.key === "Escape") {
+            event.stopPropagation();
+            onDone();
+          }
+        }}
+      />
+    </div>
   );
 }

@@ -61,7 +61,8 @@ export function ObjectView({ object, theme }: { readonly object: ObjectRecord; r
       ref={group}
       name={object.id}
       matrixAutoUpdate={false}
-      userData={{ thing: { kind: "object", id: object.id } }}
+      visible={!object.hidden}
+      userData={{ thing: { kind: "object", id: object.id }, unpickable: object.locked === true }}
     >
       {wall ? (
         <Wall geometry={geometry} edges={edges} color={object.color} size_m={box} theme={theme} />
