@@ -1,5 +1,5 @@
 import { Tooltip } from "radix-ui";
-import { lazy, Suspense, useEffect } from "react";
+import { lazy, Suspense, useEffect, useRef } from "react";
 import { useStore } from "zustand";
 import { Check } from "./features/check/Check.tsx";
 import { Coach } from "./features/coach/Coach.tsx";
@@ -25,6 +25,7 @@ import { SceneGuard } from "./SceneGuard.tsx";
 import { cellStore } from "./stores/cell.ts";
 import { textOf } from "./stores/document.ts";
 import { textStore } from "./stores/text.ts";
+import { selectionStore } from "./stores/selection.ts";
 import { traceStore } from "./stores/trace.ts";
 import { viewStore } from "./stores/view.ts";
 import { Segments } from "./ui/Choice.tsx";
@@ -36,6 +37,7 @@ const TextPanel = lazy(() => import("./features/text/TextPanel.tsx"));
 const Viewport = lazy(() => import("./scene/Viewport.tsx").then(scene => ({ default: scene.Viewport })));
 const Export = lazy(() => import("./features/export/Export.tsx"));
 const CollisionDialog = lazy(() => import("./features/collide/CollisionDialog.tsx"));
+const Start = lazy(() => import("./features/start/Start.tsx"));
 const Robots = lazy(() => import("./features/robots/Robots.tsx"));
 const AddStation = lazy(() => import("./features/stations/AddStation.tsx"));
 const Cameras = lazy(() => import("./features/video/Cameras.tsx"));
@@ -56,6 +58,16 @@ export function App() {
   useEffect(() => {
     document.documentElement.dataset.theme = theme;
   }, [theme]);
+  const panel = useRef<HTMLDivElement>(null);
+  // What has just been selected in the cell shows its numbers first, wherever the panel was scrolled to.
+  useEffect(
+    () =>
+      selectionStore.subscribe(({ selected }, before) => {
+        if (selected !== before.selected && selected !== null && selected.kind !== "step")
+          panel.current?.scrollTo({ top: 0 });
+      }),
+    [],
+  );
   return (
     <Tooltip.Provider delayDuration={500}>
       <div className="app" data-layout={phone ? "phone" : "desk"} data-text={side ? "side" : undefined}>
@@ -119,7 +131,7 @@ export function App() {
           <>
             {!side && (
               <aside key="right" className="panel area-right" aria-label={words.app.region.side}>
-                <div className="scroll">
+                <div className="scroll" ref={panel}>
                   <RightSide />
                 </div>
               </aside>
@@ -131,6 +143,9 @@ export function App() {
         <ControlsDialog />
         <Suspense>
           <Export />
+        </Suspense>
+        <Suspense>
+          <Start />
         </Suspense>
         <Suspense>
           <Robots />
@@ -161,14 +176,17 @@ const Honest = () => (
 function RightSide() {
   const mode = useStore(viewStore, state => state.mode);
   const tracing = useStore(traceStore, state => state.active);
+  // A recorded point is selected at once: its numbers stay below, or the record buttons would move away under the pointer.
+  const first = useStore(selectionStore, ({ selected }) => selected !== null && selected.kind !== "step");
   switch (mode) {
     case "teach":
       return (
         <>
-          {tracing && <TracePanel />}
-          <Pendant />
-          <SavedPoses />
-          <Inspector />
+          {tracing && <TracePanel key="trace" />}
+          {first && <Inspector key="inspector" />}
+          <Pendant key="pendant" />
+          <SavedPoses key="poses" />
+          {!first && <Inspector key="inspector" />}
         </>
       );
     case "check":

@@ -33,7 +33,7 @@ export const showDocument = (document: CellDocument): void => publish(createHist
  * Attached frames stand where their objects are, and programs carry the tools and frames of the cell, so that each can be
  * checked, exported and run by itself.
  */
-function inStep(changed: CellDocument): CellDocument {
+export function inStep(changed: CellDocument): CellDocument {
   const document = followObjects(changed);
   const tools = Object.fromEntries(document.tools.map(tool => [tool.name, tool.flangeFromTcp]));
   const frames = Object.fromEntries(document.frames.map(frame => [frame.name, frame.worldFromFrame]));
