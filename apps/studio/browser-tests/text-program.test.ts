@@ -51,6 +51,10 @@ const DAT = [
 /** Latin-1, as the controller writes it. */
 const bytes = (text: string): Buffer => Buffer.from(text, "latin1");
 const robot = robotById("kuka_kr6_2")!;
+/** Where XP2 is: in the base of the text, which stands at X 800, Z 400. */
+const XP2_m: Vector3 = [0.9205, 0.0355, 0.61];
+/** The robot on screen glides to a point; a busy machine draws few pictures a second. */
+const SOON = { timeout: 30_000 };
 
 async function withProject(page: Page): Promise<void> {
   await drawn(page);
@@ -107,7 +111,7 @@ test("a KRL project of two files runs in the cell; a point touched up in 3D chan
     null,
     { polling: 100 },
   );
-  await expect.poll(async () => distance(torchAt(await standing(page)), [0.9205, 0.0355, 0.61])).toBeLessThan(1e-4);
+  await expect.poll(async () => distance(torchAt(await standing(page)), XP2_m), SOON).toBeLessThan(1e-4);
   expect(await page.locator(".text-lines mark").allTextContents()).toEqual(["XP2"]);
   await page.screenshot({ path: picture("text-program") });
 
@@ -127,10 +131,10 @@ test("a KRL project of two files runs in the cell; a point touched up in 3D chan
   // Back to the point, the tool is dragged by its ring, and the point touched up.
   await page.evaluate(() => window.twincell.stores.viewStore.setState({ mode: "teach" }));
   await page.getByRole("option", { name: "XP2 1 motion" }).click();
-  await expect.poll(async () => distance(torchAt(await standing(page)), [0.9205, 0.0355, 0.61])).toBeLessThan(1e-4);
+  await expect.poll(async () => distance(torchAt(await standing(page)), XP2_m), SOON).toBeLessThan(1e-4);
   const before = await standing(page);
   await dragRing(page);
-  await expect.poll(async () => distance(torchAt(await standing(page)), torchAt(before))).toBeGreaterThan(0.005);
+  await expect.poll(async () => distance(torchAt(await standing(page)), torchAt(before)), SOON).toBeGreaterThan(0.005);
   const there = torchAt(await standing(page));
   await page.getByRole("button", { name: "Touch up" }).click();
   await page.waitForFunction(
@@ -188,6 +192,22 @@ test("what is wrong with a text stands at its line, and a click goes there", asy
   await problem.click();
   expect(await page.evaluate(() => window.twincell.stores.textStore.getState().cursor)).toEqual({ file: 0, line: 18 });
   await page.screenshot({ path: picture("text-problem") });
+  expect(problems).toEqual([]);
+}, 120_000);
+
+test("on a phone the text, its points and the touch-up are in the program sheet, and nothing is wider than the screen", async () => {
+  const { page, problems } = await studio.open({ width: 390, height: 844, touch: true });
+  await withProject(page);
+  await page.getByRole("tab", { name: "Program", exact: true }).click();
+  await page.getByRole("option", { name: "XP2 1 motion" }).tap();
+  await page.getByRole("button", { name: "Touch up" }).waitFor();
+  expect(await page.locator(".text-lines mark").allTextContents()).toEqual(["XP2"]);
+  expect(await page.evaluate(() => window.document.documentElement.scrollWidth)).toBeLessThanOrEqual(390);
+  const height = await page
+    .getByRole("button", { name: "Touch up" })
+    .evaluate(key => key.getBoundingClientRect().height);
+  expect(height).toBeGreaterThanOrEqual(44);
+  await page.screenshot({ path: picture("text-phone") });
   expect(problems).toEqual([]);
 }, 120_000);
 

@@ -7,7 +7,10 @@ export function cellJsonSchema(): Record<string, unknown> {
   const cell = z.toJSONSchema(cellSchema, { io: "input" }) as Record<string, unknown> & {
     readonly properties: Record<string, unknown>;
   };
-  const { $schema: dialect, ...textProgram } = z.toJSONSchema(textProgramSchema, { io: "input" });
+  // Only the whole document says which dialect of JSON schema it is.
+  const textProgram = Object.fromEntries(
+    Object.entries(z.toJSONSchema(textProgramSchema, { io: "input" })).filter(([key]) => key !== "$schema"),
+  );
   return {
     $id: `twincell.cell.v${NEWEST}`,
     title: `Twincell cell, version ${NEWEST}`,
