@@ -1,3 +1,4 @@
+import { direct } from "./direct.ts";
 import { videoWords } from "./video.ts";
 
 /** English. Field terms as a programmer says them; sentences end with a full stop and carry the number and the unit. */
@@ -1125,6 +1126,7 @@ export const en = {
     box: "Add a box",
     deselect: "Leave",
   },
+  direct,
   video: videoWords,
   sheet: { label: "Tools", jog: "Jog", program: "Program", why: "Why", run: "Run", dead: "Hold to move" },
 };
