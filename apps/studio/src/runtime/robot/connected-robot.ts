@@ -12,8 +12,9 @@ const refused = (code: string, sentence: string, hint = ""): CommandOutcome => (
   why: { code, sentence, hint },
 });
 
-/** Speed of a straight jog at 100 % [m/s]: the cap of manual mode. */
-const JOG_MPS = 0.25;
+/** Speeds of a jog at an override of 100 %: of the joint speed, and along a straight line [m/s]; at most the 0.25 m/s of manual mode. */
+const JOG_RATIO = 0.1;
+const JOG_MPS = 0.1;
 
 /**
  * Direct control of one connected robot: every command goes to its guard, which refuses or stops it; nothing here moves what
@@ -96,7 +97,9 @@ export function connectedRobot(id: string): ConnectedRobot {
     moveHome: () => move(Array.from(stationLive(id)?.robot.home_rad ?? [])),
     async jogJoint(joint, by_rad) {
       const live = stationLive(id);
-      return live ? move(jointTarget(live.robot, live.q_rad, joint, by_rad)) : gone();
+      if (!live) return gone();
+      const q = jointTarget(live.robot, live.q_rad, joint, by_rad);
+      return step({ id: "jog", type: "move", path: "ptp", target: { q }, speed: { ratio: JOG_RATIO }, blend_m: 0 });
     },
     async jogCartesian(axis, by, frame) {
       const live = stationLive(id);
