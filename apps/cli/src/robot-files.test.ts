@@ -1,5 +1,5 @@
 import { spawnSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -167,6 +167,49 @@ describe("a library robot as URDF and as D-H table", () => {
     expect(twincell(["post", program, "--to", "l-irl", "-o", out]).err).toContain(
       'there is no robot "small_arm" in the library',
     );
+  });
+
+  test("an arm is what its kinematics say: saved under another robot's name it is not written for, under any name it is itself", () => {
+    const urdfOf = (id: string, name: string): string => {
+      const path = join(folder, name);
+      expect(twincell(["robots", "--urdf", id, "-o", path])).toMatchObject({ code: 0 });
+      return path;
+    };
+    const step = {
+      id: "a",
+      type: "move",
+      path: "ptp",
+      target: { q: [0.1, 0.2, 0.3, 0.1, 0.5, 0.2] },
+      speed: { ratio: 0.3 },
+      blend_m: 0,
+    };
+    const program = file(
+      "for-irb120.json",
+      JSON.stringify({
+        format: "twincell.program",
+        version: 1,
+        name: "Taught",
+        robot: "abb_irb120",
+        tools: {},
+        frames: {},
+        groups: {},
+        steps: [step],
+      }),
+    );
+    const post = (robot: string, out: string) =>
+      twincell(["post", program, "--to", "rapid", "-o", join(folder, out), "--robot", robot]);
+    // The same make, 100 mm more between axes 2 and 3: an arm that the library does not have.
+    const other = urdfOf("abb_irb120", "abb_irb120.urdf");
+    const longer = readFileSync(other, "utf8").replace(/xyz="0 0 0\.27"/, 'xyz="0 0 0.37"');
+    expect(longer).not.toBe(readFileSync(other, "utf8"));
+    writeFileSync(other, longer);
+    const wrong = post(other, "wrong-arm");
+    expect(wrong.code).toBe(1);
+    expect(wrong.err).toMatch(
+      /called abb_irb120, but is not the ABB IRB 120.*its flange is at \([-0-9., ]+\) mm, that of the ABB IRB 120.* at \([-0-9., ]+\) mm/,
+    );
+    expect(existsSync(join(folder, "wrong-arm"))).toBe(false);
+    expect(post(urdfOf("abb_irb120", "arm-of-cell-4.urdf"), "right-arm")).toMatchObject({ code: 0 });
   });
 
   test("check on a robot of other joints says so", () => {

@@ -1,5 +1,5 @@
 import { Tooltip } from "radix-ui";
-import { lazy, Suspense, useEffect } from "react";
+import { lazy, Suspense, useEffect, useRef } from "react";
 import { useStore } from "zustand";
 import { Check } from "./features/check/Check.tsx";
 import { Coach } from "./features/coach/Coach.tsx";
@@ -16,20 +16,28 @@ import { Pendant } from "./features/pendant/Pendant.tsx";
 import { SavedPoses } from "./features/poses/SavedPoses.tsx";
 import { Timeline } from "./features/timeline/Timeline.tsx";
 import { TopBar } from "./features/topbar/TopBar.tsx";
+import { TextSide } from "./features/text/TextSide.tsx";
 import { TracePanel } from "./features/trace/TracePanel.tsx";
 import { Tree } from "./features/tree/Tree.tsx";
 import { Welcome } from "./features/welcome/Welcome.tsx";
 import { Sheet } from "./Sheet.tsx";
 import { SceneGuard } from "./SceneGuard.tsx";
+import { cellStore } from "./stores/cell.ts";
+import { textOf } from "./stores/document.ts";
+import { textStore } from "./stores/text.ts";
+import { selectionStore } from "./stores/selection.ts";
 import { traceStore } from "./stores/trace.ts";
 import { viewStore } from "./stores/view.ts";
+import { Segments } from "./ui/Choice.tsx";
 import { PHONE, useMedia } from "./ui/useMedia.ts";
 import { words } from "./words/index.ts";
 import "./app.css";
 
+const TextPanel = lazy(() => import("./features/text/TextPanel.tsx"));
 const Viewport = lazy(() => import("./scene/Viewport.tsx").then(scene => ({ default: scene.Viewport })));
 const Export = lazy(() => import("./features/export/Export.tsx"));
 const CollisionDialog = lazy(() => import("./features/collide/CollisionDialog.tsx"));
+const Start = lazy(() => import("./features/start/Start.tsx"));
 const Robots = lazy(() => import("./features/robots/Robots.tsx"));
 const AddStation = lazy(() => import("./features/stations/AddStation.tsx"));
 const Cameras = lazy(() => import("./features/video/Cameras.tsx"));
@@ -43,21 +51,42 @@ const Rewind = lazy(() => import("./features/history/Rewind.tsx"));
 export function App() {
   const phone = useMedia(PHONE);
   const theme = useStore(viewStore, state => state.theme);
+  const text = useStore(cellStore, state => textOf(state.document));
+  const teaching = useStore(viewStore, state => state.mode === "teach");
+  const layout = useStore(textStore, state => state.layout);
+  const side = text !== null && teaching && layout === "side" && !phone;
   useEffect(() => {
     document.documentElement.dataset.theme = theme;
   }, [theme]);
+  const panel = useRef<HTMLDivElement>(null);
+  // What has just been selected in the cell shows its numbers first, wherever the panel was scrolled to.
+  useEffect(
+    () =>
+      selectionStore.subscribe(({ selected }, before) => {
+        if (selected !== before.selected && selected !== null && selected.kind !== "step")
+          panel.current?.scrollTo({ top: 0 });
+      }),
+    [],
+  );
   return (
     <Tooltip.Provider delayDuration={500}>
-      <div className="app" data-layout={phone ? "phone" : "desk"}>
+      <div className="app" data-layout={phone ? "phone" : "desk"} data-text={side ? "side" : undefined}>
         <a className="skip-link" href="#program">
           {words.app.skip}
         </a>
         <TopBar key="top" phone={phone} />
         {!phone && (
           <nav key="left" className="panel area-left" aria-label={words.app.region.cell}>
-            <Tree />
+            {side ? <TextSide text={text} /> : <Tree />}
             <Honest />
           </nav>
+        )}
+        {side && (
+          <section key="text" className="panel area-text" aria-label={words.text.title}>
+            <Suspense>
+              <TextPanel />
+            </Suspense>
+          </section>
         )}
         <main key="view" className="area-view" aria-label={words.app.region.view}>
           <SceneGuard>
@@ -72,6 +101,19 @@ export function App() {
             </Suspense>
           </SceneGuard>
           <Overlay phone={phone} />
+          {text !== null && teaching && !phone && (
+            <div className="text-switch">
+              <Segments
+                label={words.text.layout}
+                value={layout}
+                onChange={value => textStore.setState({ layout: value })}
+                options={[
+                  { value: "side", words: words.text.side },
+                  { value: "3d", words: words.text.view },
+                ]}
+              />
+            </div>
+          )}
           <Physics />
           <Suspense>
             <VideoPanels />
@@ -87,11 +129,13 @@ export function App() {
           <Sheet key="sheet" />
         ) : (
           <>
-            <aside key="right" className="panel area-right" aria-label={words.app.region.side}>
-              <div className="scroll">
-                <RightSide />
-              </div>
-            </aside>
+            {!side && (
+              <aside key="right" className="panel area-right" aria-label={words.app.region.side}>
+                <div className="scroll" ref={panel}>
+                  <RightSide />
+                </div>
+              </aside>
+            )}
             <BottomSide key="bottom" />
           </>
         )}
@@ -99,6 +143,9 @@ export function App() {
         <ControlsDialog />
         <Suspense>
           <Export />
+        </Suspense>
+        <Suspense>
+          <Start />
         </Suspense>
         <Suspense>
           <Robots />
@@ -129,14 +176,17 @@ const Honest = () => (
 function RightSide() {
   const mode = useStore(viewStore, state => state.mode);
   const tracing = useStore(traceStore, state => state.active);
+  // A recorded point is selected at once: its numbers stay below, or the record buttons would move away under the pointer.
+  const first = useStore(selectionStore, ({ selected }) => selected !== null && selected.kind !== "step");
   switch (mode) {
     case "teach":
       return (
         <>
-          {tracing && <TracePanel />}
-          <Pendant />
-          <SavedPoses />
-          <Inspector />
+          {tracing && <TracePanel key="trace" />}
+          {first && <Inspector key="inspector" />}
+          <Pendant key="pendant" />
+          <SavedPoses key="poses" />
+          {!first && <Inspector key="inspector" />}
         </>
       );
     case "check":

@@ -5,15 +5,19 @@ import { Check } from "./features/check/Check.tsx";
 import { Inspector } from "./features/inspector/Inspector.tsx";
 import { Pendant } from "./features/pendant/Pendant.tsx";
 import { SavedPoses } from "./features/poses/SavedPoses.tsx";
+import { TextSide } from "./features/text/TextSide.tsx";
 import { Timeline } from "./features/timeline/Timeline.tsx";
 import { TracePanel } from "./features/trace/TracePanel.tsx";
 import { Tree } from "./features/tree/Tree.tsx";
+import { cellStore } from "./stores/cell.ts";
+import { textOf } from "./stores/document.ts";
 import { traceStore } from "./stores/trace.ts";
 import { showMode, viewStore, type SheetTab, type StudioMode } from "./stores/view.ts";
 import { Segments } from "./ui/Choice.tsx";
 import { words } from "./words/index.ts";
 
 const Stations = lazy(() => import("./features/stations/Stations.tsx").then(part => ({ default: part.Stations })));
+const TextPanel = lazy(() => import("./features/text/TextPanel.tsx"));
 const Run = lazy(() => import("./features/run/Run.tsx"));
 const History = lazy(() => import("./features/history/History.tsx"));
 const Rewind = lazy(() => import("./features/history/Rewind.tsx"));
@@ -26,6 +30,7 @@ export function Sheet() {
   const tab = useStore(viewStore, state => state.sheet);
   const tracing = useStore(traceStore, state => state.active);
   const mode = useStore(viewStore, state => state.mode);
+  const text = useStore(cellStore, state => textOf(state.document));
   return (
     <Tabs.Root
       className="area-sheet"
@@ -50,10 +55,21 @@ export function Sheet() {
         <SavedPoses />
       </Tabs.Content>
       <Tabs.Content value="program" className="sheet-body sheet-program" tabIndex={-1}>
-        <Tree />
-        <div className="scroll">
-          <Inspector />
-        </div>
+        {text ? (
+          <div className="text-sheet">
+            <TextSide text={text} />
+            <Suspense>
+              <TextPanel />
+            </Suspense>
+          </div>
+        ) : (
+          <>
+            <Tree />
+            <div className="scroll">
+              <Inspector />
+            </div>
+          </>
+        )}
       </Tabs.Content>
       <Tabs.Content value="why" className="scroll sheet-body" tabIndex={-1}>
         <Check />

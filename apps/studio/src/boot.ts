@@ -1,4 +1,4 @@
-import { get, set } from "idb-keyval";
+import { del, get, keys, set } from "idb-keyval";
 import { startCommands } from "./commands/index.ts";
 import { startSounds } from "./features/sounds/sounds.ts";
 import { startChecking } from "./live/checking.ts";
@@ -12,11 +12,25 @@ import { startJogging } from "./live/jogger.ts";
 import { hold, startPhysics } from "./live/physics.ts";
 import { pause, startPlayhead } from "./live/playhead.ts";
 import { startPreview } from "./live/preview.ts";
-import { keepDocument, openKept, type Keeper } from "./stores/autosave.ts";
+import { startTexts } from "./live/text-program.ts";
+import { keepDocument, openKept } from "./stores/autosave.ts";
+import { CellLibrary, setLibrary, type KeyValueStore } from "./stores/library.ts";
+import { notify } from "./stores/notices.ts";
+import { keepPresent, onKeepFacts } from "./stores/opening.ts";
 import { keepPreferences } from "./stores/preferences.ts";
+import { words } from "./words/index.ts";
+import { presentFacts } from "./live/present-facts.ts";
 import { onStop } from "./stores/stop.ts";
 
-const browserKeeper: Keeper = { get: key => get(key), set: (key, value) => set(key, value) };
+const browserStore: KeyValueStore = {
+  get: key => get(key),
+  set: (key, value) => set(key, value),
+  keys: () => keys(),
+  delete: key => del(key),
+};
+/** Not from `crypto.randomUUID`, which a page on a plain network address does not have. */
+const newCellId = (): string =>
+  Array.from(crypto.getRandomValues(new Uint8Array(9)), byte => byte.toString(36).padStart(2, "0")).join("");
 
 /** Starts everything that lives as long as the page. Nothing here waits for the 3D view. */
 export function boot(): void {
@@ -29,19 +43,38 @@ export function boot(): void {
   startPreview();
   startSounds();
   for (const bringToRest of [releaseAll, endGlide, pause, hold]) onStop(bringToRest);
-  keepDocument(browserKeeper, {
-    after: (ms, act) => {
-      const timer = setTimeout(act, ms);
-      return () => clearTimeout(timer);
+  const library = new CellLibrary(browserStore, () => Date.now(), newCellId);
+  setLibrary(library);
+  onKeepFacts(presentFacts);
+  keepDocument(
+    browserStore,
+    {
+      after: (ms, act) => {
+        const timer = setTimeout(act, ms);
+        return () => clearTimeout(timer);
+      },
     },
+    library,
+  );
+  document.addEventListener("visibilitychange", () => {
+    if (document.visibilityState !== "hidden") return;
+    keepPresent();
+    library.flush().catch(() => undefined); // The next save says why nothing is kept; here nobody looks.
   });
   // Languages, controllers and recording are a part of the page that the first sight of it does not wait for.
-  void openKept(browserKeeper)
+  void library
+    .load()
+    // Without a library the cell that was open is still read.
+    .catch((trouble: unknown) =>
+      notify("warn", words.file.noLibrary(trouble instanceof Error ? trouble.message : String(trouble))),
+    )
+    .then(() => openKept(browserStore, library))
     .then(() => import("./live/cell-control.ts"))
     .then(({ startCellControl }) => {
       startCellControl();
     });
   watchCollisions();
+  startTexts();
   const checking = startChecking();
   startCommands(checking);
   const beat = (now_ms: number): void => {

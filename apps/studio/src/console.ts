@@ -27,6 +27,7 @@ import { seek } from "./stores/seek.ts";
 import { selectionStore } from "./stores/selection.ts";
 import { soundStore } from "./stores/sound.ts";
 import { stationStore } from "./stores/stations.ts";
+import { textStore } from "./stores/text.ts";
 import { traceStore } from "./stores/trace.ts";
 import { videoStore } from "./stores/video.ts";
 import { viewStore } from "./stores/view.ts";
@@ -54,6 +55,7 @@ const twincell = {
     selectionStore,
     soundStore,
     stationStore,
+    textStore,
     traceStore,
     videoStore,
     viewStore,

@@ -32,6 +32,7 @@ export { emitPtpAxis, krl } from "./krl/index.ts";
 export { val3 } from "./val3/index.ts";
 export { vPlus } from "./v-plus/index.ts";
 export * from "./prove.ts";
+export * from "./patch/index.ts";
 
 /** Every dialect. A new one is a folder and one line here. */
 export const DIALECTS: readonly Dialect[] = [

@@ -1,5 +1,7 @@
 import {
   checkProgram,
+  linkSolids,
+  robotById,
   readCertificate,
   verifyProgram,
   writeCertificate,
@@ -7,21 +9,26 @@ import {
   type Verdict,
 } from "@twincell/core";
 import { cellGeometry } from "@twincell/project";
-import { given } from "../io/arguments.ts";
+import { executeText } from "@twincell/languages";
+import { given, type Given } from "../io/arguments.ts";
+import { inputsFrom } from "../io/moments.ts";
+import { projectFault, textProject } from "../io/text-project.ts";
 import { writeOne } from "../io/output.ts";
 import { readText } from "../io/files.ts";
 import { readCell, readProgram } from "../io/program.ts";
-import { programRobot, ROBOT_HELP, ROBOT_OPTIONS } from "../io/robot.ts";
+import { programRobot, ROBOT_HELP, ROBOT_OPTIONS, type RobotToRun } from "../io/robot.ts";
 import { UseFault, type Command } from "../io/usage.ts";
 
 export const checkCommand: Command = {
   name: "check",
   summary: "judge a program: reach, limits, speed, torques, branches, collision",
-  usage: `twincell check PROGRAM [--robot R] [--cell CELL] [--margin M] [--junit FILE] [--certificate FILE | --verify FILE]
+  usage: `twincell check PROGRAM|FILE… [--as-text [--dialect D]] [--robot R] [--cell CELL] [--margin M] [--junit FILE] [--certificate FILE | --verify FILE]
 
 Writes VERDICT {"ok","steps":[{"id","verdict","findings":[…]}],"torque":…,…} and ends with 1 when any step is bad. Where torques are
 known, which joint is asked most goes to stderr as well; where they are not, "torque" says why.
 
+  --as-text       FILE is a vendor's program text, several of one program, a folder of them, or a cell whose selected program is a
+                  text: it is executed as its controller would and judged; each step says its "file" and "line"; inputs: --inputs
   --robot R       the robot to judge it on; the one the program names when absent
   --cell CELL     the saved cell to keep clear of; without it collisions are not looked at
   --margin M      distance to keep from everything, in metres (default 0)
@@ -40,6 +47,9 @@ ${ROBOT_HELP}`,
       junit: { type: "string" },
       certificate: { type: "string" },
       verify: { type: "string" },
+      "as-text": { type: "boolean" },
+      dialect: { type: "string" },
+      inputs: { type: "string" },
       json: { type: "boolean" },
     });
     const [path] = options.positionals;
@@ -51,6 +61,7 @@ ${ROBOT_HELP}`,
     if (path === undefined) throw new UseFault("PROGRAM is missing.", "Give the path of a program file.");
     if (margin_m < 0) throw new UseFault(`--margin wants 0 or more, not ${margin_m}.`);
     const chosen = await programRobot(options);
+    if (options.flag("as-text")) return checkText(options, chosen, margin_m);
     const { program, robot, solids } = await readProgram(path, chosen);
     const cell = cellPath === undefined ? undefined : cellGeometry(await readCell(cellPath), solids());
     if ((certificatePath ?? verifyPath) !== undefined && cell === undefined)
@@ -77,6 +88,37 @@ ${ROBOT_HELP}`,
     return verdict.ok ? 0 : 1;
   },
 };
+
+/** A vendor's text, executed and judged: the verdict of a taught program, each step with its file and line. */
+async function checkText(options: Given, chosen: RobotToRun | undefined, margin_m: number): Promise<number> {
+  const project = await textProject(options.positionals, options.text("dialect"));
+  const cellPath = options.text("cell");
+  const cell = cellPath === undefined ? project.cell : await readCell(cellPath);
+  const robot = chosen?.robot ?? (cell && robotById(cell.robot.id));
+  if (!robot) throw new UseFault("--robot is missing.", "A vendor's text does not say which robot it is for.");
+  const worldFromBase = cell?.robot.worldFromBase;
+  const executed = executeText(project.dialect, project.joined.text, project.placeOf(1).path, robot, worldFromBase, {
+    inputs: inputsFrom(options.text("inputs")),
+  });
+  if (executed.kind === "not-understood") throw projectFault(project, executed.faults);
+  if (executed.cut !== undefined) process.stderr.write(`twincell: ${executed.cut}\n`);
+  const solids = chosen?.solids ?? (() => linkSolids(robot));
+  const { verdict } = checkProgram(executed.program, robot, {
+    margin_m,
+    ...(cell ? { cell: cellGeometry(cell, solids()) } : {}),
+  });
+  const steps = verdict.steps.map(step => {
+    const { path, line } = project.placeOf(executed.lines.get(step.id) ?? 1);
+    return { ...step, file: path, line };
+  });
+  const junit = options.text("junit");
+  if (junit !== undefined) await writeOne(junit, junitReport(executed.program.name, verdict));
+  process.stdout.write(`${JSON.stringify({ ...verdict, steps })}\n`);
+  for (const { verdict: says, file, line, findings } of steps)
+    if (says === "bad")
+      for (const { sentence } of findings) process.stderr.write(`twincell: ${file}, line ${line}: ${sentence}\n`);
+  return verdict.ok ? 0 : 1;
+}
 
 function verified(answer: ProgramCertificateVerdict): string {
   switch (answer.kind) {

@@ -1,13 +1,12 @@
 import { pose, SignalTable, Stepper, type Executed, type Step } from "@twincell/core";
 import { given } from "../io/arguments.ts";
-import { dialectOf } from "../io/dialect.ts";
-import { readText } from "../io/files.ts";
 import { lineWriter } from "../io/json-lines.ts";
 import { inputsFrom, ioOf, momentWriter } from "../io/moments.ts";
 import { readCell } from "../io/program.ts";
 import { robotOf, ROBOT_OPTIONS } from "../io/robot.ts";
 import { UseFault, type Command } from "../io/usage.ts";
-import { notUnderstood, tellSkipped } from "./parse.ts";
+import { projectFault, textProject, type TextProject } from "../io/text-project.ts";
+import { tellSkipped } from "./parse.ts";
 
 /** A text that never ends is cut here. */
 const LONGEST_S = 24 * 3600;
@@ -15,9 +14,10 @@ const LONGEST_S = 24 * 3600;
 export const runCommand: Command = {
   name: "run",
   summary: "interpret a vendor's program text, one line per period",
-  usage: `twincell run FILE --robot R [--dialect D] [--cell CELL] [--period 0.01] [--inputs part=true] [--skip-unknown]
+  usage: `twincell run FILE… --robot R [--dialect D] [--cell CELL] [--period 0.01] [--inputs part=true] [--skip-unknown]
 
-Executes the text with the vendor's own conventions and writes the same lines as simulate, each with the text line under way. With --skip-unknown what is not understood is left out and named on stderr.`,
+FILE is a program text, several of one program, a folder of them, or a cell whose selected program is a text; a file's siblings
+(program.src has its program.dat) are found beside it. Executes the text with the vendor's own conventions and writes the same lines as simulate, each with the text line under way. With --skip-unknown what is not understood is left out and named on stderr.`,
   async run(args) {
     const options = given(args, {
       ...ROBOT_OPTIONS,
@@ -28,20 +28,25 @@ Executes the text with the vendor's own conventions and writes the same lines as
       "skip-unknown": { type: "boolean" },
       json: { type: "boolean" },
     });
-    const [path] = options.positionals;
     const period_s = options.number("period") ?? 0.01;
     const cellPath = options.text("cell");
-    if (path === undefined) throw new UseFault("FILE is missing.", "Give the path of a program text.");
     if (!(period_s >= 1e-4)) throw new UseFault(`--period wants at least 0.0001 s, not ${period_s}.`);
     const { robot } = await robotOf(options);
-    const dialect = dialectOf("dialect", options.text("dialect"), path);
+    const project = await textProject(options.positionals, options.text("dialect"));
+    const { dialect, joined } = project;
+    const path = project.placeOf(1).path;
     const worldFromBase =
-      cellPath === undefined ? pose<"world", "base">() : (await readCell(cellPath)).robot.worldFromBase;
-    const interpreted = dialect.interpret(await readText(path), robot, worldFromBase, {
+      cellPath === undefined
+        ? (project.cell?.robot.worldFromBase ?? pose<"world", "base">())
+        : (await readCell(cellPath)).robot.worldFromBase;
+    const interpreted = dialect.interpret(joined.text, robot, worldFromBase, {
       skipUnknown: options.flag("skip-unknown"),
     });
-    if (interpreted.kind === "not-understood") throw notUnderstood(path, interpreted.faults);
-    tellSkipped(path, interpreted.skipped ?? []);
+    if (interpreted.kind === "not-understood") throw projectFault(project, interpreted.faults);
+    tellSkipped(
+      path,
+      (interpreted.skipped ?? []).map(each => ({ ...each, line: project.placeOf(each.line).line })),
+    );
 
     const seen = new Map<string, { readonly line: number; readonly tool: string }>();
     let tool = "flange";
@@ -76,7 +81,7 @@ Executes the text with the vendor's own conventions and writes the same lines as
       await writer.end();
       if (now.kind !== "fault" || !now.fault) return 0;
       process.stderr.write(
-        `twincell: ${path}, line ${seen.get(now.fault.step)?.line ?? 0}: ${now.fault.sentence} ${now.fault.hint}\n`,
+        `twincell: ${placeText(project, seen.get(now.fault.step)?.line ?? 1)}: ${now.fault.sentence} ${now.fault.hint}\n`,
       );
       return 1;
     }
@@ -85,3 +90,8 @@ Executes the text with the vendor's own conventions and writes the same lines as
     return 1;
   },
 };
+
+function placeText(project: TextProject, at: number): string {
+  const { path, line } = project.placeOf(at);
+  return `${path}, line ${line}`;
+}

@@ -3,6 +3,7 @@ import { basename, resolve } from "node:path";
 import {
   compose,
   inverse,
+  libraryRobotOf,
   parseRobot,
   pose,
   robotFromArm,
@@ -74,7 +75,28 @@ async function fromTable(path: string, base: string | undefined, tip: string | u
     frames: { base: "base", tip: "flange" },
     assumptions: answer.assumptions,
   });
-  return { robot, baseFromRoot: pose(), solids: () => undefined };
+  return { robot: identified(robot), baseFromRoot: pose(), solids: () => undefined };
+}
+
+/**
+ * A file says nothing of what controls its arm, and its name is anybody's choice. An arm with the kinematics and limits of a
+ * library robot is that robot: it gets its id, its home and its vendor's world; any other keeps the name of its file.
+ */
+function identified(robot: Robot): Robot {
+  const known = libraryRobotOf(robot);
+  if (known === undefined) return robot;
+  return {
+    ...robot,
+    id: known.id,
+    name: known.name,
+    vendor: known.vendor,
+    home_rad: known.home_rad,
+    baseFromVendorWorld: known.baseFromVendorWorld,
+    assumptions: [
+      ...robot.assumptions,
+      `The kinematics and limits of the file are those of the ${known.name}: its conventions are used.`,
+    ],
+  };
 }
 
 /** The content of a robot file, docs/add-a-robot.md; undefined for a table, which states its convention. */
@@ -118,12 +140,14 @@ function fromDescription(
   const answer = readRobot(whole, disk, { args });
   if (answer.kind !== "read") throw refused(path, answer);
   const chain = chainOf(path, answer.robot, undefined, tip);
-  const robot = robotFromArm(chain.arm, {
-    id: idOf(path),
-    frames: { base: chain.base, tip: chain.tip },
-    assumptions: [...answer.warnings, ...chain.assumptions],
-    ...(chain.masses ? { masses: chain.masses } : {}),
-  });
+  const robot = identified(
+    robotFromArm(chain.arm, {
+      id: idOf(path),
+      frames: { base: chain.base, tip: chain.tip },
+      assumptions: [...answer.warnings, ...chain.assumptions],
+      ...(chain.masses ? { masses: chain.masses } : {}),
+    }),
+  );
   const solids = (): ReturnType<RobotFromFile["solids"]> => {
     if (chain.shapes.length === 0) return undefined;
     const meshes = loadMeshes(solidShapes(chain), whole, disk);

@@ -2,10 +2,11 @@ import { goThere } from "../live/go.ts";
 import { contactAt, namesOf } from "../live/hand.ts";
 import { theLive } from "../live/live.ts";
 import { solveStep } from "../live/solve.ts";
+import { touchUpSelected } from "../live/text-program.ts";
 import { cellStore } from "../stores/cell.ts";
 import { collideStore } from "../stores/collide.ts";
 import type { Command } from "../stores/commands.ts";
-import { theProgram, theRobot } from "../stores/document.ts";
+import { textOf, theProgram, theRobot } from "../stores/document.ts";
 import { notify } from "../stores/notices.ts";
 import {
   addComment,
@@ -95,6 +96,10 @@ export const programCommands = (): readonly Command[] => [
     keys: ["Shift+U"],
     can: () => isMove(selectedStep()),
     run: () => {
+      if (textOf(cellStore.getState().document)) {
+        if (!refused()) void touchUpSelected();
+        return;
+      }
       const id = selectedStep();
       if (id && !refused() && touchUp(id, theLive().q_rad, cellStore.getState().document?.tool ?? "flange"))
         notify("done", words.jog.touched(nameOf(id)));

@@ -33,8 +33,8 @@ export const viewCommands = (): readonly Command[] => [
     words: words.commands.plots,
     run: () => viewStore.setState(({ plots }) => ({ plots: !plots })),
   },
-  { id: "view.theme", group: "view", words: words.commands.theme, run: toggleTheme },
-  { id: "view.mute", group: "view", words: words.commands.mute, keys: ["M"], run: toggleMuted },
+  { id: "view.theme", group: "view", words: words.commands.theme, aliases: ["Dark", "Light"], run: toggleTheme },
+  { id: "view.mute", group: "view", words: words.commands.mute, aliases: ["Mute"], keys: ["M"], run: toggleMuted },
   {
     id: "view.headset",
     group: "view",

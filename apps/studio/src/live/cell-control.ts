@@ -4,7 +4,7 @@ import { cellGeometry, type CellDocument } from "@twincell/project";
 import { cellStore } from "../stores/cell.ts";
 import { registerCommands } from "../stores/commands.ts";
 import { controlStore } from "../stores/control.ts";
-import { flangeFromTcpOf, programOf, robotOf } from "../stores/document.ts";
+import { flangeFromTcpOf, programOf, robotOf, textOf } from "../stores/document.ts";
 import { historyStore } from "../stores/history.ts";
 import { onInput } from "../stores/inputs.ts";
 import { theLanguage } from "../stores/languages.ts";
@@ -202,7 +202,9 @@ export function startCellControl(): void {
       words: words.commands.startRun,
       keys: ["Mod+Shift+Enter"],
       run: () => {
-        void startRun();
+        // A vendor's text runs as it stands, with its breakpoints, where it is seen.
+        if (textOf(cellStore.getState().document)) viewStore.setState({ mode: "run" });
+        else void startRun();
       },
     },
     {

@@ -3,6 +3,7 @@ import { cellGeometry, type CellDocument } from "@twincell/project";
 import { cellStore } from "../stores/cell.ts";
 import { programOf, robotOf } from "../stores/document.ts";
 import { playStore } from "../stores/play.ts";
+import { textStore } from "../stores/text.ts";
 import { stationStore } from "../stores/stations.ts";
 import type { FromChecker, ToChecker } from "../workers/check-messages.ts";
 import { loadReel } from "./playhead.ts";
@@ -87,7 +88,15 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
     const { document } = cellStore.getState();
     const program = programOf(document);
     const robot = robotOf(document);
-    if (!document || !program || !robot) return;
+    if (!document || !robot) return;
+    if (!program) {
+      if (textStore.getState().reading) return;
+      // A text that is not understood, or not executed yet, does nothing.
+      if (busy) fire();
+      loadReel(null);
+      playStore.setState({ checking: null, trouble: null, plan: null, verdict: null, path: [] });
+      return;
+    }
     if (busy) fire();
     id++;
     if (program.steps.length === 0) {
@@ -122,7 +131,13 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
   };
 
   let judged = cellStore.getState().document;
-  const stop = cellStore.subscribe(({ document }) => {
+  let { executions } = cellStore.getState();
+  const stop = cellStore.subscribe(({ document, executions: now }) => {
+    // A vendor's text says what it does a while after it changed.
+    if (now !== executions) {
+      executions = now;
+      later();
+    }
     if (document === judged) return;
     // A plan of another robot has other joints.
     if (document?.robot.id !== judged?.robot.id) {

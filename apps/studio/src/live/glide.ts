@@ -9,6 +9,7 @@ const PART = 0.35;
 const PEAK = 1.5;
 
 let stopGlide: (() => void) | null = null;
+export const isGliding = (): boolean => stopGlide !== null;
 
 /**
  * Moves the robot on screen from where it stands to q on a straight line in joint space with the cubic law

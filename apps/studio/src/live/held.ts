@@ -8,12 +8,12 @@ const held = new Map<JogSource, Float64Array>();
 const listeners = new Set<(any: boolean) => void>();
 let wasHeld = false;
 
-const isHeld = (): boolean => {
+export const isAnyHeld = (): boolean => {
   for (const command of held.values()) for (let i = 0; i < AXES; i++) if (command[i] !== 0) return true;
   return false;
 };
 function tell(): void {
-  const now = isHeld();
+  const now = isAnyHeld();
   if (now === wasHeld) return;
   wasHeld = now;
   for (const listen of listeners) listen(now);

@@ -24,6 +24,23 @@ const SIGNS: Readonly<Record<string, RegExp>> = {
   pacscript: /^\s*('!TITLE|TakeArm\b|Move\s+[PLC]\s*,)/im,
 };
 
+/** How much speaks for a language: the ending of the file, how its texts begin, and the robot's own. */
+function weigh(text: string, robot: Robot, name: string): (dialect: Dialect) => number {
+  const ending = /\.[^.]+$/.exec(name)?.[0]?.toLowerCase() ?? "";
+  const own = new Set(languagesOf(robot).flatMap(({ dialect, why }) => (why === null ? [dialect] : [])));
+  return dialect =>
+    (own.has(dialect) ? 0.5 : 0) +
+    (dialect.extensions.some(each => each.toLowerCase() === ending) ? 2 : 0) +
+    (SIGNS[dialect.id]?.test(text) ? 1 : 0);
+}
+
+/** The language that a text is of by its ending and how it begins; undefined when neither says anything. */
+export function languageOfText(text: string, name: string, robot: Robot): string | undefined {
+  const weight = weigh(text, robot, name);
+  const [best] = DIALECTS.toSorted((a, b) => weight(b) - weight(a));
+  return best !== undefined && weight(best) >= 1 ? best.id : undefined;
+}
+
 /**
  * Which language a text is of, and what it says: the first that reads steps out of it, asked in the order of the file's
  * ending, of how texts of the language begin, and of the robot's own. Where none does, the one with the fewest faults.
@@ -38,12 +55,7 @@ export function readText(
   wanted?: string,
   skipUnknown = false,
 ): Reading | undefined {
-  const ending = /\.[^.]+$/.exec(name)?.[0]?.toLowerCase() ?? "";
-  const own = new Set(languagesOf(robot).flatMap(({ dialect, why }) => (why === null ? [dialect] : [])));
-  const weight = (dialect: Dialect): number =>
-    (own.has(dialect) ? 0.5 : 0) +
-    (dialect.extensions.some(each => each.toLowerCase() === ending) ? 2 : 0) +
-    (SIGNS[dialect.id]?.test(text) ? 1 : 0);
+  const weight = weigh(text, robot, name);
   const asked =
     wanted === undefined
       ? DIALECTS.toSorted((a, b) => weight(b) - weight(a))

@@ -34,6 +34,7 @@ import { Probe } from "./scene-probe.tsx";
 import { Stage } from "./stage/stage.tsx";
 import "./scene.css";
 import { readTheme } from "./theme.ts";
+import { Thumbnail } from "./thumbnail.tsx";
 import { ToolView } from "./tool-view.tsx";
 import { WORDS } from "./words.ts";
 import { askForHeadset } from "./xr/availability.ts";
@@ -91,6 +92,7 @@ export function Viewport() {
         >
           <RenderLoop meter={meter} picture={picture} cube={cube} close={close} />
           <Probe meter={meter} close={close} />
+          <Thumbnail />
           {document && <Controls wishes={wishes} world={world} document={document} interaction={interaction} />}
           <group rotation-x={-Math.PI / 2} ref={world}>
             {document && <Stage theme={colours} document={document} />}

@@ -14,10 +14,13 @@ export interface CellState {
   /** Labels of what undo and redo would do, newest first. */
   readonly undo: readonly string[];
   readonly redo: readonly string[];
+  /** Counts up when a vendor's text has been executed: what it does is known from then on. */
+  readonly executions: number;
 }
 export const cellStore = createStore<CellState>(() => ({
   document: null,
   saving: { kind: "saved" },
   undo: [],
   redo: [],
+  executions: 0,
 }));

@@ -5,6 +5,8 @@ export type CommandGroup = "file" | "edit" | "program" | "jog" | "view" | "play"
 export interface Command {
   readonly id: string;
   readonly words: string;
+  /** Other names a person may type for it. */
+  readonly aliases?: readonly string[];
   readonly group: CommandGroup;
   /** "Mod+Z", "T", "Shift+Slash", … "Mod" is Ctrl, or ⌘ on a Mac. Letters are what is printed on the key. */
   readonly keys?: readonly string[];

@@ -2,6 +2,7 @@ import { createStore } from "zustand/vanilla";
 
 /** At most one dialog is open. */
 export type DialogName =
+  | "cells"
   | "palette"
   | "shortcuts"
   | "controls"

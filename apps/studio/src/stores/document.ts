@@ -33,7 +33,7 @@ export const showDocument = (document: CellDocument): void => publish(createHist
  * Attached frames stand where their objects are, and programs carry the tools and frames of the cell, so that each can be
  * checked, exported and run by itself.
  */
-function inStep(changed: CellDocument): CellDocument {
+export function inStep(changed: CellDocument): CellDocument {
   const document = followObjects(changed);
   const tools = Object.fromEntries(document.tools.map(tool => [tool.name, tool.flangeFromTcp]));
   const frames = Object.fromEntries(document.frames.map(frame => [frame.name, frame.worldFromFrame]));
@@ -78,9 +78,27 @@ export function redo(): string | null {
 
 export const robotOf = (document: CellDocument | null): Robot | null =>
   document ? (robotById(document.robot.id) ?? null) : null;
-/** The program of steps being worked on; null while a vendor's text is. */
-export const programOf = (document: CellDocument | null): Program | null =>
-  document ? (selectedProgram(document) ?? null) : null;
+/** What the texts of the cell do, step by step, for the robot they were executed on. */
+const executed = new WeakMap<
+  TextProgram,
+  { readonly robot: CellDocument["robot"]; readonly program: Program | null }
+>();
+
+/** Keeps what a text does once it has been executed: from then on it is planned, checked and played like taught steps. */
+export function keepExecuted(text: TextProgram, robot: CellDocument["robot"], program: Program | null): void {
+  executed.set(text, { robot, program });
+  cellStore.setState(({ executions }) => ({ executions: executions + 1 }));
+}
+
+/** The program being worked on: taught steps, or the steps that a vendor's text does; null until that has been executed. */
+export function programOf(document: CellDocument | null): Program | null {
+  if (!document) return null;
+  const steps = selectedProgram(document);
+  if (steps) return steps;
+  const text = selectedText(document);
+  const known = text === undefined ? undefined : executed.get(text);
+  return known?.robot === document.robot ? known.program : null;
+}
 /** The vendor's text being worked on; null while a program of steps is. */
 export const textOf = (document: CellDocument | null): TextProgram | null =>
   document ? (selectedText(document) ?? null) : null;
@@ -93,7 +111,8 @@ export const theRobot = (): Robot | null => robotOf(cellStore.getState().documen
 
 /** The document with its current program changed. */
 export function withProgram(document: CellDocument, change: (program: Program) => Program): CellDocument {
-  const before = programOf(document);
+  // Steps of a text are what it does: they change with the text alone.
+  const before = selectedProgram(document);
   if (!before) return document;
   const after = change(before);
   return after === before

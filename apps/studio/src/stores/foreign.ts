@@ -6,6 +6,8 @@ export interface ForeignText {
   readonly dialect: string;
   readonly text: string /** What is not understood is left out. */;
   readonly skipUnknown?: boolean;
+  /** It is the program of the cell that is worked on: closed and edited there. */
+  readonly ofCell?: true;
 }
 export interface ForeignState {
   readonly open: ForeignText | null;

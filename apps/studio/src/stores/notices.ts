@@ -16,14 +16,24 @@ export const noticeStore = createStore<NoticeState>(() => ({ notices: [] }));
 const quiet = (notice: Notice): boolean => notice.tone === "info" || notice.tone === "done";
 const stays = (notice: Notice): boolean => !quiet(notice);
 
+/** More of them would cover the robot. */
+const MAX_SHOWN = 3;
+
 let next = 1;
 export function notify(tone: Notice["tone"], sentence: string, hint?: string): number {
   const id = next++;
   const notice: Notice = hint === undefined ? { id, tone, sentence } : { id, tone, sentence, hint };
   noticeStore.setState(state => ({
-    notices: [...state.notices.filter(other => stays(other) || !quiet(notice)).slice(-3), notice],
+    notices: [
+      ...state.notices
+        .filter(other => other.sentence !== sentence && (stays(other) || !quiet(notice)))
+        .slice(-(MAX_SHOWN - 1)),
+      notice,
+    ],
   }));
   return id;
 }
 export const dismiss = (id: number): void =>
   noticeStore.setState(state => ({ notices: state.notices.filter(notice => notice.id !== id) }));
+/** Another cell is open: what was said of the one before no longer concerns anybody. */
+export const dismissAll = (): void => noticeStore.setState({ notices: [] });

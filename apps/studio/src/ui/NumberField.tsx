@@ -13,6 +13,8 @@ interface Props {
   readonly max?: number;
   readonly decimals?: number;
   readonly disabled?: boolean;
+  /** The unit is drawn elsewhere, as in the heading of a column; it still belongs to the name that is read aloud. */
+  readonly unitAbove?: boolean;
   /** `done` is false while dragging. */
   readonly onChange: (value: number, done: boolean) => void;
 }
@@ -27,6 +29,7 @@ export function NumberField({
   max = Infinity,
   decimals,
   disabled = false,
+  unitAbove = false,
   onChange,
 }: Props) {
   const [typed, setTyped] = useState<string | null>(null);
@@ -145,7 +148,7 @@ export function NumberField({
             }
           }}
         />
-        {unit && (
+        {unit && !unitAbove && (
           <span className="unit" aria-hidden>
             {unit}
           </span>

@@ -13,7 +13,7 @@ import { axisConvention, type AxisConvention, type PulseData } from "./robots.ts
 import { Controller } from "./write/controller.ts";
 import { JobWriter } from "./write/job.ts";
 import { jobName } from "./write/names.ts";
-import { WalkedPlace, inParts } from "../writing/index.ts";
+import { INFORM_LINES, WalkedPlace, inParts, outOfRange } from "../writing/index.ts";
 import { posturesOf } from "./write/postures.ts";
 import { FASTEST_MPS, pathSpeed } from "./write/speed.ts";
 
@@ -186,13 +186,15 @@ function unresolved(program: Program, steps: readonly Step[], pulses: PulseData 
           sentence: `${called} uses the signal "${name}", which the program does not have.`,
           hint: "Add the signal to the program.",
         };
-      if (line.address === undefined || line.address < 1)
+      if (line.address === undefined)
         return {
           kind: "cannot",
           step: step.id,
           sentence: `${called} uses the signal "${name}", whose number on the controller is not given.`,
           hint: "Give the signal the number of its line: IN# and OT# count from 1.",
         };
+      const wrong = outOfRange("INFORM", INFORM_LINES, step, name, line);
+      if (wrong !== undefined) return { kind: "cannot", step: step.id, ...wrong };
     }
     if (step.type === "call" && !Object.hasOwn(program.routines, step.routine))
       return {

@@ -10,7 +10,7 @@ import {
   type Step,
 } from "@twincell/core";
 import { axisConvention } from "./robots.ts";
-import { WalkedPlace } from "../writing/index.ts";
+import { KRL_LINES, WalkedPlace, outOfRange } from "../writing/index.ts";
 import { posturesOf } from "./write/postures.ts";
 import { ModuleWriter } from "./write/program.ts";
 import { percentOf } from "./write/settings.ts";
@@ -92,13 +92,15 @@ function unresolved(program: Program, steps: readonly Step[]): Refusal | undefin
           sentence: `${called} uses the signal "${name}", which the program does not have.`,
           hint: "Add the signal to the program.",
         };
-      if (line.address === undefined || line.address < 1)
+      if (line.address === undefined)
         return {
           kind: "cannot",
           step: step.id,
           sentence: `${called} uses the signal "${name}", whose number on the controller is not given.`,
           hint: "Give the signal the number of its line: $IN and $OUT count from 1.",
         };
+      const wrong = outOfRange("KRL", KRL_LINES, step, name, line);
+      if (wrong !== undefined) return { kind: "cannot", step: step.id, ...wrong };
     }
     if (step.type === "call" && !Object.hasOwn(program.routines, step.routine))
       return {

@@ -1,5 +1,6 @@
 import type { Dialect, LineShapes, Skipped, TextFault } from "@twincell/core";
 import { rehearse } from "./rehearse.ts";
+import { withIdentity } from "./identity.ts";
 
 /** A text is read again without what was not understood at most this often; each time tells up to fifty places. */
 const MOST_READINGS = 400;
@@ -9,7 +10,8 @@ const MOST_READINGS = 400;
  * that is in it, since nobody knows when it would run. Each place is told with the fault that stands there. The fault of a
  * text that is no program at all, or that stays when its line is left out, remains.
  */
-export function skippingDialect(dialect: Dialect): Dialect {
+export function skippingDialect(given: Dialect): Dialect {
+  const dialect = withIdentity(given);
   const { lines } = dialect;
   if (lines === undefined) return dialect;
   return {

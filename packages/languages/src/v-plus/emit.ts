@@ -10,6 +10,7 @@ import {
   type Step,
 } from "@twincell/core";
 import { jointConvention } from "./robots.ts";
+import { VPLUS_LINES, outOfRange } from "../writing/index.ts";
 import { MOST_POINTS, pointList } from "./write/point-list.ts";
 import { posturesOf, type Place } from "./write/postures.ts";
 import { ProgramWriter } from "./write/program.ts";
@@ -92,6 +93,10 @@ function unspeakable(program: Program, steps: readonly Step[]): Extract<Emitted,
         `names the signal “${signal}”, whose number is not known. V+ counts its lines.`,
         "Give the signal its address: outputs count from 1, inputs from 1001.",
       );
+    }
+    if (signal !== undefined) {
+      const wrong = outOfRange("V+", VPLUS_LINES, step, signal, program.signals[signal]!);
+      if (wrong !== undefined) return { kind: "cannot", step: step.id, ...wrong };
     }
     if (step.type === "repeat" && step.times !== "forever" && step.times > MOST_TIMES)
       return refuse(

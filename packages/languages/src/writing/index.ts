@@ -11,3 +11,4 @@ export * from "./basic-program.ts";
 export * from "./basic-modules.ts";
 export * from "./six-numbers.ts";
 export * from "./emitter.ts";
+export * from "./line-ranges.ts";

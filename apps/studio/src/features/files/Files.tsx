@@ -1,13 +1,9 @@
-import { conveyorPalletCell, edgeTraceCell, emptyCell, saveDocument } from "@twincell/project";
 import { DIALECTS } from "@twincell/languages";
 import { useEffect, useRef, useState } from "react";
-import { cellStore } from "../../stores/cell.ts";
 import { registerCommands } from "../../stores/commands.ts";
-import { notify } from "../../stores/notices.ts";
-import { openCell } from "../../stores/opening.ts";
-import { download } from "../../ui/download.ts";
 import { words } from "../../words/index.ts";
-import { openFile, openFiles } from "./openFile.ts";
+import { fileCommands } from "./commands.ts";
+import { openFiles } from "./openFile.ts";
 import "./files.css";
 
 const KINDS = [
@@ -24,35 +20,7 @@ const KINDS = [
 export function Files() {
   const input = useRef<HTMLInputElement>(null);
   const [over, setOver] = useState(false);
-  useEffect(
-    () =>
-      registerCommands([
-        {
-          id: "file.save",
-          group: "file",
-          words: words.commands.save,
-          keys: ["Mod+S"],
-          can: () => cellStore.getState().document !== null,
-          run: saveFile,
-        },
-        {
-          id: "file.load",
-          group: "file",
-          words: words.commands.load,
-          keys: ["Mod+O"],
-          run: () => input.current?.click(),
-        },
-        { id: "file.example", group: "file", words: words.commands.example, run: () => openCell(edgeTraceCell()) },
-        {
-          id: "file.conveyor",
-          group: "file",
-          words: words.commands.conveyor,
-          run: () => openCell(conveyorPalletCell()),
-        },
-        { id: "file.new", group: "file", words: words.commands.fresh, run: () => openCell(emptyCell()) },
-      ]),
-    [],
-  );
+  useEffect(() => registerCommands(fileCommands(() => input.current?.click())), []);
   useEffect(() => {
     const hasFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes("Files") ?? false;
     const drag = (event: DragEvent): void => {
@@ -84,13 +52,13 @@ export function Files() {
       <input
         ref={input}
         type="file"
+        multiple
         accept={KINDS}
         hidden
         aria-label={words.commands.load}
         data-file-input
         onChange={event => {
-          const file = event.currentTarget.files?.[0];
-          if (file) void openFile(file);
+          void openFiles([...(event.currentTarget.files ?? [])]);
           event.currentTarget.value = "";
         }}
       />
@@ -101,12 +69,4 @@ export function Files() {
       )}
     </>
   );
-}
-
-function saveFile(): void {
-  const { document } = cellStore.getState();
-  if (!document) return;
-  const name = `${document.name.trim().replaceAll(/[^\p{L}\p{N}]+/gu, "-") || "cell"}.twincell.json`;
-  download(name, new Blob([saveDocument(document)], { type: "application/json" }));
-  notify("done", words.file.saved(name));
 }

@@ -1,6 +1,7 @@
 import type { Pose, Vector3 } from "@twincell/core";
 import type { ObjectRecord } from "@twincell/project";
 import { commit, withObject } from "../../stores/document.ts";
+import { shownUnit } from "../../ui/expression.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../words/index.ts";
 import { PoseFields } from "./PoseFields.tsx";
@@ -25,11 +26,12 @@ export function ObjectInspector({ object }: { object: ObjectRecord }) {
         <span className="tag">{words.tree.roles[object.role]}</span>
       </h2>
       <div className="section stack">
-        <h3 className="label">{words.inspector.position}</h3>
         <PoseFields pose={object.worldFromObject} onChange={move} />
         {shape.kind === "box" && (
           <>
-            <h3 className="label">{words.inspector.size}</h3>
+            <h3 className="label">
+              {words.inspector.size} <span className="dim">{shownUnit("length")}</span>
+            </h3>
             <div className="fields-3">
               {MARKS.map((mark, i) => (
                 <NumberField
@@ -37,6 +39,7 @@ export function ObjectInspector({ object }: { object: ObjectRecord }) {
                   label={`${words.inspector.size} ${SIDES[i]}`}
                   mark={mark}
                   quantity="length"
+                  unitAbove
                   min={0.001}
                   max={20}
                   value={shape.size_m[i]!}

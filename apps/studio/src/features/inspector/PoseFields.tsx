@@ -1,12 +1,13 @@
 import type { Pose, Vector3 } from "@twincell/core";
 import { fixedXyz, fromFixedXyz } from "../../live/fixed-xyz.ts";
+import { shownUnit } from "../../ui/expression.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../words/index.ts";
 
 const MARKS = ["X", "Y", "Z"] as const;
 const TURNS = ["Rx", "Ry", "Rz"] as const;
 
-/** Six numbers of a pose: mm, and degrees about the fixed axes x, y, z. */
+/** Six numbers of a pose in two columns wide enough for −12 345.67: mm, and degrees about the fixed axes x, y, z. */
 export function PoseFields({
   pose,
   disabled = false,
@@ -28,27 +29,31 @@ export function PoseFields({
     onChange({ position: pose.position, quaternion: fromFixedXyz(next[0]!, next[1]!, next[2]!) }, done);
   };
   return (
-    <div className="stack">
-      <div className="fields-3">
+    <div className="pose-fields">
+      <div className="stack" role="group" aria-label={words.inspector.position}>
+        <Unit words={words.inspector.position} unit={shownUnit("length")} />
         {MARKS.map((mark, i) => (
           <NumberField
             key={mark}
             label={`${words.inspector.position} ${mark}`}
             mark={mark}
             quantity="length"
+            unitAbove
             value={pose.position[i]!}
             disabled={disabled}
             onChange={(value, done) => place(i, value, done)}
           />
         ))}
       </div>
-      <div className="fields-3">
+      <div className="stack" role="group" aria-label={words.inspector.rotation}>
+        <Unit words={words.inspector.rotation} unit={shownUnit("angle")} />
         {TURNS.map((mark, i) => (
           <NumberField
             key={mark}
             label={`${words.inspector.rotation} ${mark}`}
             mark={mark}
             quantity="angle"
+            unitAbove
             value={angles[i]!}
             disabled={disabled}
             onChange={(value, done) => turn(i, value, done)}
@@ -58,3 +63,9 @@ export function PoseFields({
     </div>
   );
 }
+
+const Unit = ({ words: text, unit }: { words: string; unit: string }) => (
+  <span className="pose-unit" aria-hidden>
+    {text} <span className="dim">{unit}</span>
+  </span>
+);

@@ -1,13 +1,13 @@
 import { CircleCheck, Info, OctagonAlert, TriangleAlert, X } from "lucide-react";
-import { useEffect } from "react";
+import { useEffect, useState } from "react";
 import { useStore } from "zustand";
 import { dismiss, noticeStore, type Notice } from "../../stores/notices.ts";
 import { words } from "../../words/index.ts";
 import "./notices.css";
 
 const GLYPH = { info: <Info />, warn: <TriangleAlert />, bad: <OctagonAlert />, done: <CircleCheck /> } as const;
-/** What needs no hand goes by itself; a problem stays until it was seen. */
-const STAYS_MS = { info: 5000, done: 5000, warn: 9000, bad: null } as const;
+/** Long enough to be read twice; while the pointer or the focus is on it a notice stays. */
+const STAYS_MS = { info: 5000, done: 5000, warn: 9000, bad: 20_000 } as const;
 
 export function Notices() {
   const notices = useStore(noticeStore, state => state.notices);
@@ -22,14 +22,22 @@ export function Notices() {
 
 function Toast({ notice }: { notice: Notice }) {
   const { id, tone } = notice;
+  const [held, setHeld] = useState(false);
   useEffect(() => {
-    const stays = STAYS_MS[tone];
-    if (stays === null) return undefined;
-    const timer = setTimeout(() => dismiss(id), stays);
+    if (held) return undefined;
+    const timer = setTimeout(() => dismiss(id), STAYS_MS[tone]);
     return () => clearTimeout(timer);
-  }, [id, tone]);
+  }, [id, tone, held]);
   return (
-    <div className="notice" data-tone={tone} role={tone === "bad" ? "alert" : "status"}>
+    <div
+      className="notice"
+      data-tone={tone}
+      role={tone === "bad" ? "alert" : "status"}
+      onPointerEnter={() => setHeld(true)}
+      onPointerLeave={() => setHeld(false)}
+      onFocus={() => setHeld(true)}
+      onBlur={() => setHeld(false)}
+    >
       <span aria-hidden>{GLYPH[tone]}</span>
       <div className="grow">
         <p>{notice.sentence}</p>

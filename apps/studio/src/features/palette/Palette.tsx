@@ -5,6 +5,7 @@ import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
 import { Frame } from "../../ui/Frame.tsx";
 import { showKeys } from "../../ui/keys.ts";
 import { words } from "../../words/index.ts";
+import { commandScore } from "./rank.ts";
 import "./palette.css";
 
 const GROUPS: readonly CommandGroup[] = ["program", "jog", "play", "view", "edit", "file", "help"];
@@ -16,7 +17,12 @@ export function Palette() {
   return (
     <>
       <Frame open={open === "palette"} title={words.palette.title} onClose={closeDialog} width={560}>
-        <Command label={words.palette.title} loop className="palette">
+        <Command
+          label={words.palette.title}
+          loop
+          className="palette"
+          filter={(_id, query, [title, ...aliases] = []) => commandScore(query, title ?? "", aliases)}
+        >
           <Command.Input
             className="palette-input"
             placeholder={words.palette.search}
@@ -33,7 +39,8 @@ export function Palette() {
                     <Command.Item
                       key={command.id}
                       className="menu-item"
-                      value={`${command.words} ${command.id}`}
+                      value={command.id}
+                      keywords={[command.words, ...(command.aliases ?? [])]}
                       disabled={command.can?.() === false}
                       onSelect={() => {
                         closeDialog();

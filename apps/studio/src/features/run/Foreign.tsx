@@ -87,14 +87,16 @@ export function Foreign({ open }: { readonly open: ForeignText }) {
         height="min(52vh, 560px)"
         stops={{ at: at => breakpoints.has(at), toggle: toggleBreakpoint, words: words.foreign.breakpoint }}
       />
-      <div className="run-buttons">
-        <button className="btn" disabled={phase !== "idle"} onClick={() => openDialog("import")}>
-          {words.foreign.edit}
-        </button>
-        <button className="btn" disabled={phase !== "idle"} onClick={() => foreignStore.setState({ open: null })}>
-          {words.foreign.back}
-        </button>
-      </div>
+      {open.ofCell !== true && (
+        <div className="run-buttons">
+          <button className="btn" disabled={phase !== "idle"} onClick={() => openDialog("import")}>
+            {words.foreign.edit}
+          </button>
+          <button className="btn" disabled={phase !== "idle"} onClick={() => foreignStore.setState({ open: null })}>
+            {words.foreign.back}
+          </button>
+        </div>
+      )}
     </>
   );
 }

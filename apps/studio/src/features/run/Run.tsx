@@ -1,13 +1,14 @@
 import { Pause, Play, RotateCcw, Square } from "lucide-react";
 import { useEffect } from "react";
 import { useStore } from "zustand";
-import { runnableFile } from "@twincell/languages";
+import { dialectById, joinFiles, runnableFile } from "@twincell/languages";
+import type { TextProgram } from "@twincell/project";
 import { postProgram } from "../../live/posting.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { controlStore } from "../../stores/control.ts";
-import { programOf, robotOf } from "../../stores/document.ts";
-import { foreignStore } from "../../stores/foreign.ts";
+import { programOf, robotOf, textOf } from "../../stores/document.ts";
+import { foreignStore, openForeign } from "../../stores/foreign.ts";
 import { languageOf, languageStore } from "../../stores/languages.ts";
 import { playStore } from "../../stores/play.ts";
 import { postStore } from "../../stores/post.ts";
@@ -22,6 +23,7 @@ import "./run.css";
 export default function Run() {
   const document = useStore(cellStore, state => state.document);
   const program = programOf(document);
+  const text = textOf(document);
   const robot = robotOf(document);
   const running = useStore(controlStore, state => state.running);
   const safety = useStore(controlStore, state => state.safety);
@@ -36,6 +38,9 @@ export default function Run() {
   }, [program, id]);
   const file = dialect && emitted?.kind === "emitted" ? runnableFile(dialect, emitted.files) : undefined;
   const foreign = useStore(foreignStore, state => state.open);
+  useEffect(() => {
+    openTextOfCell(text);
+  }, [text]);
   const cannot = trouble ?? (emitted?.kind === "cannot" ? emitted.sentence : null);
 
   if (foreign)
@@ -101,6 +106,18 @@ export default function Run() {
       </div>
     </section>
   );
+}
+
+/** The text that is worked on is what runs, as it stands; one that is under way is not taken away. */
+function openTextOfCell(text: TextProgram | null): void {
+  const { open, phase } = foreignStore.getState();
+  if (phase !== "idle") return;
+  const dialect = text && dialectById(text.language);
+  if (text && dialect) {
+    const joined = joinFiles(dialect, text.files, text.main);
+    if (open?.text !== joined.text || open.name !== text.main)
+      openForeign({ name: text.main, dialect: text.language, text: joined.text, ofCell: true });
+  } else if (open?.ofCell === true) foreignStore.setState({ open: null });
 }
 
 function TwinError() {

@@ -1,25 +1,19 @@
 import { useEffect } from "react";
+import { escapeRule } from "../../live/moving.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { words } from "../../words/index.ts";
 
-/** Two presses of Esc within this time stop everything. */
-const TWICE_MS = 600;
-
-/** Always at the same place, above every dialog, and on the Pause key or Esc twice. Acts on press, not on release. */
+/** Always at the same place, above every dialog, and on the Pause key, or Esc while something moves. Acts on press, not on release. */
 export function StopButton() {
   useEffect(() => {
-    let last_ms = -Infinity;
+    const escape = escapeRule();
     const listen = (event: KeyboardEvent): void => {
       if (event.repeat) return;
       if (event.key === "Pause") {
         event.preventDefault();
         runCommand("stop");
       }
-      if (event.key !== "Escape") return;
-      if (event.timeStamp - last_ms < TWICE_MS) {
-        runCommand("stop");
-        last_ms = -Infinity;
-      } else last_ms = event.timeStamp;
+      if (event.key === "Escape" && escape(event.timeStamp) === "stop") runCommand("stop");
     };
     window.addEventListener("keydown", listen, true);
     return () => window.removeEventListener("keydown", listen, true);

@@ -17,7 +17,7 @@ import "./topbar.css";
 
 const MODES: readonly StudioMode[] = ["teach", "check", "run", "history"];
 const MENU: readonly (readonly string[])[] = [
-  ["file.save", "file.load", "file.example", "file.new"],
+  ["file.cells", "file.new", "file.load", "file.example", "file.conveyor", "file.save"],
   ["export.open", "export.import"],
   ["view.cameras", "view.collision", "help.controls", "help.shortcuts", "help.coach"],
 ];

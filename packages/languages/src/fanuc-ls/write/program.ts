@@ -16,7 +16,18 @@ import {
   type Vector3,
 } from "@twincell/core";
 import { asciiText } from "../../text/index.ts";
-import { CannotSay, Names, StepWriter, called, fixed, patternOf, pitchTerm, type Place } from "../../writing/index.ts";
+import {
+  CannotSay,
+  FANUC_LINES,
+  Names,
+  StepWriter,
+  called,
+  fixed,
+  outOfRange,
+  patternOf,
+  pitchTerm,
+  type Place,
+} from "../../writing/index.ts";
 import { GRIPPER_OUTPUT, type PendantConvention } from "../robots.ts";
 import { Listing } from "./listing.ts";
 import { configOf, pendantJoints, xyzwpr, type Position } from "./positions.ts";
@@ -231,12 +242,14 @@ export class ProgramWriter extends StepWriter {
       );
     const { kind, address } = signals[signal]!;
     if (address === undefined && /^(RI|RO|UI|UO|SI|SO)\[[0-9]+\]$/.test(signal)) return { text: signal, kind };
-    if (address === undefined || address < 1)
+    if (address === undefined)
       throw new CannotSay(
         step.id,
         `${called(step)} uses the line ${signal}, whose number on the controller is not given.`,
         "Give it its number: lines of FANUC count from 1.",
       );
+    const wrong = outOfRange("FANUC", FANUC_LINES, step, signal, { kind, address });
+    if (wrong !== undefined) throw new CannotSay(step.id, wrong.sentence, wrong.hint);
     return { text: labelled(SHORT[kind], address, signal), kind };
   }
 

@@ -383,6 +383,8 @@ function doorOf({ kind }: SignalLine, address: number, step: Step, signal: strin
   const isInput = kind.endsWith("in");
   const isDigital = kind.startsWith("digital");
   const { standard, configurable, tool } = DIGITAL_LINES;
+  const whole = Number.isInteger(address) && address >= 0;
+  if (!whole) throw noLine(address, step, signal);
   if (!isDigital) {
     if (address < 2) return { name: "standard_analog", number: address, isInput, isDigital };
     if (isInput && address < 4) return { name: "tool_analog", number: address - 2, isInput, isDigital };
@@ -391,12 +393,15 @@ function doorOf({ kind }: SignalLine, address: number, step: Step, signal: strin
     return { name: "configurable_digital", number: address - standard, isInput, isDigital };
   else if (address < standard + configurable + tool)
     return { name: "tool_digital", number: address - standard - configurable, isInput, isDigital };
-  throw new CannotSay(
-    step.id,
-    `${called(step)} uses the line ${signal} with the number ${address}, which the controller does not have.`,
-    "Digital lines are 0 to 17 (16 and 17 at the tool), analogue ones 0 and 1, inputs to 3.",
-  );
+  throw noLine(address, step, signal);
 }
+
+const noLine = (address: number, step: Step, signal: string): CannotSay =>
+  new CannotSay(
+    step.id,
+    `${called(step)} uses the line ${signal} with the number ${address}; the controller has digital lines 0 to 17, analogue outputs 0 to 1 and analogue inputs 0 to 3.`,
+    "Give the line a number of the controller; 16 and 17 are digital lines at the tool, 2 and 3 analogue inputs there.",
+  );
 
 /** Tools, frames and lines in the order in which steps first use them. */
 function usedNames(lists: readonly (readonly Step[])[]): {

@@ -1,0 +1,140 @@
+import { readdir, readFile, stat } from "node:fs/promises";
+import { basename, dirname, join } from "node:path";
+import type { Dialect, TextFault } from "@twincell/core";
+import { dialectById, joinFiles, mainOf, type JoinedText } from "@twincell/languages";
+import { openDocument, selectedText, textFileOf, type CellDocument, type TextFile } from "@twincell/project";
+import { dialectOf } from "./dialect.ts";
+import { readText } from "./files.ts";
+import { UseFault } from "./usage.ts";
+
+/** A vendor's program of one or several files, as it is executed. */
+export interface TextProject {
+  readonly dialect: Dialect;
+  readonly files: readonly TextFile[];
+  readonly joined: JoinedText;
+  /** The path or file name that a line of the joined text stands in. */
+  placeOf(line: number): { readonly path: string; readonly line: number };
+  /** The cell it was kept in, when it comes from one. */
+  readonly cell?: CellDocument;
+}
+
+/**
+ * The program of these paths: files, folders of files, or a cell whose selected program is a text. The siblings of a file are found
+ * beside it: those of the same name with another ending of the language (program.src has its program.dat).
+ */
+export async function textProject(paths: readonly string[], language: string | undefined): Promise<TextProject> {
+  const [first] = paths;
+  if (first === undefined) throw new UseFault("FILE is missing.", "Give the path of a program text.");
+  if (/\.json$/i.test(first)) return fromCell(first);
+  if (first === "-") {
+    const dialect = dialectOf("dialect", language);
+    const file: TextFile = { name: "-", text: await readText("-") };
+    return project(dialect, [{ path: "-", file }], "-");
+  }
+  const whole = (await Promise.all(paths.map(filesOf))).flat();
+  const [named] = whole;
+  if (named === undefined) throw new UseFault(`${first} holds no file.`);
+  // The file whose ending says the language: a program rather than its data.
+  const program = whole.find(path => paths.includes(path) && !/\.dat$/i.test(path));
+  const dialect = dialectOf("dialect", language, program ?? named);
+  const all = new Set(whole.filter(path => speaks(dialect, path) || paths.includes(path)));
+  for (const path of [...all]) for (const sibling of await siblingsOf(path, dialect)) all.add(sibling);
+  const read = await Promise.all(
+    [...all].map(async path => ({ path, file: textFileOf(basename(path), await bytesOf(path)) })),
+  );
+  const twice = read.find(({ file }, i) => read.findIndex(each => each.file.name === file.name) < i);
+  if (twice) throw new UseFault(`Two files are called ${twice.file.name}.`, "Give the files of one program.");
+  const given = read.filter(({ path }) => paths.includes(path)).map(({ file }) => file);
+  const main =
+    mainOf(dialect, given) ??
+    mainOf(
+      dialect,
+      read.map(({ file }) => file),
+    ) ??
+    read[0]!.file;
+  return project(dialect, read, main.name);
+}
+
+/** The message for a text that cannot be executed: the file and line of its first fault. */
+export function projectFault({ placeOf }: TextProject, faults: readonly TextFault[]): UseFault {
+  const [fault] = faults;
+  const { path, line } = placeOf(fault?.line ?? 1);
+  return new UseFault(
+    `${path}, line ${line}, column ${fault?.column ?? 0}: ${fault?.sentence ?? "The text cannot be read."}`,
+    faults.length > 1 ? `${faults.length - 1} more of the kind.` : "",
+  );
+}
+
+function project(
+  dialect: Dialect,
+  read: readonly { readonly path: string; readonly file: TextFile }[],
+  main: string,
+  cell?: CellDocument,
+): TextProject {
+  const files = read.map(({ file }) => file);
+  const joined = joinFiles(dialect, files, main);
+  return {
+    dialect,
+    files,
+    joined,
+    placeOf: line => {
+      const place = joined.place(line);
+      return { path: read[place.file]?.path ?? main, line: place.line };
+    },
+    ...(cell === undefined ? {} : { cell }),
+  };
+}
+
+async function fromCell(path: string): Promise<TextProject> {
+  const opened = openDocument(await readText(path));
+  if (opened.kind !== "opened")
+    throw new UseFault(
+      `${path}: ${opened.kind === "not-a-cell" ? (opened.why[0] ?? "This is not a saved cell.") : `version ${opened.version} is newer than this release reads.`}`,
+    );
+  const text = selectedText(opened.document);
+  const dialect = text && dialectById(text.language);
+  if (!text || !dialect)
+    throw new UseFault(
+      text
+        ? `${path}: there is no language "${text.language}".`
+        : `${path}: the selected program "${opened.document.program}" is of steps, not a vendor's text.`,
+      text ? "" : "Leave --as-text out, or select the text in the studio.",
+    );
+  return project(
+    dialect,
+    text.files.map(file => ({ path: file.name, file })),
+    text.main,
+    opened.document,
+  );
+}
+
+const speaks = (dialect: Dialect, path: string): boolean =>
+  dialect.extensions.some(each => path.toLowerCase().endsWith(each.toLowerCase()));
+
+async function filesOf(path: string): Promise<string[]> {
+  const found = await stat(path).catch(() => undefined);
+  if (found === undefined) throw new UseFault(`There is no file ${path}.`);
+  if (!found.isDirectory()) return [path];
+  const names = await readdir(path);
+  return names.sort().map(name => join(path, name));
+}
+
+async function siblingsOf(path: string, dialect: Dialect): Promise<string[]> {
+  const stem = basename(path)
+    .replace(/\.[^.]*$/, "")
+    .toLowerCase();
+  const names = await readdir(dirname(path)).catch(() => []);
+  return names
+    .filter(name => name.replace(/\.[^.]*$/, "").toLowerCase() === stem && speaks(dialect, name))
+    .map(name => join(dirname(path), name))
+    .filter(each => each !== path && join(each) !== join(path));
+}
+
+async function bytesOf(path: string): Promise<Uint8Array> {
+  const bytes = await readFile(path).catch((problem: unknown) => {
+    throw new UseFault(`${path} cannot be read: ${(problem as Error).message}.`);
+  });
+  if (bytes.subarray(0, 4096).includes(0))
+    throw new UseFault(`${path} is a binary program, not a text.`, "Export it as text on the controller.");
+  return bytes;
+}

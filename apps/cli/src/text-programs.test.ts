@@ -1,0 +1,102 @@
+import { spawnSync } from "node:child_process";
+import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { addProgram, emptyCell, saveDocument, textFileOf } from "@twincell/project";
+import { afterAll, expect, test } from "vitest";
+
+const root = fileURLToPath(new URL("../../../", import.meta.url));
+const folder = mkdtempSync(join(tmpdir(), "twincell-text-"));
+afterAll(() => {
+  rmSync(folder, { recursive: true, force: true });
+});
+const SRC = "DEF weld( )\r\nPTP XHOME\r\n; f\u00fcr\r\nPTP XP1\r\nEND\r\n";
+const DAT = (a1: number): string =>
+  `DEFDAT weld\r\nDECL E6AXIS XHOME={A1 0.0,A2 -90.0,A3 90.0,A4 0.0,A5 20.0,A6 0.0}\r\nDECL E6AXIS XP1={A1 ${a1},A2 -80.0,A3 90.0,A4 0.0,A5 20.0,A6 0.0}\r\nENDDAT\r\n`;
+function project(name: string, a1: number): string {
+  const at = join(folder, name);
+  mkdirSync(at);
+  writeFileSync(join(at, "weld.src"), Buffer.from(SRC, "latin1"));
+  writeFileSync(join(at, "weld.dat"), Buffer.from(DAT(a1), "latin1"));
+  return at;
+}
+function twincell(...args: readonly string[]) {
+  const run = spawnSync(process.execPath, ["apps/cli/src/main.ts", ...args], { cwd: root, encoding: "utf8" });
+  return { code: run.status, out: run.stdout, err: run.stderr };
+}
+interface Judged {
+  readonly ok: boolean;
+  readonly steps: readonly { readonly verdict: string; readonly file: string; readonly line: number }[];
+}
+const good = project("good", 30);
+const bad = project("bad", 200);
+const ROBOT = ["--robot", "kuka_kr6_2"];
+
+test("run and check --as-text find the .dat beside the .src, and take both files or their folder as well", () => {
+  for (const paths of [
+    [join(good, "weld.src")],
+    [join(good, "weld.dat"), join(good, "weld.src")],
+    [good, "--dialect", "krl"],
+  ]) {
+    const checked = twincell("check", ...paths, "--as-text", ...ROBOT);
+    expect(checked).toMatchObject({ code: 0 });
+    const { ok, steps } = JSON.parse(checked.out) as Judged;
+    expect(ok).toBe(true);
+    expect(steps.map(({ verdict, file, line }) => [verdict, file, line])).toEqual([
+      ["ok", join(good, "weld.src"), 2],
+      ["ok", join(good, "weld.src"), 4],
+    ]);
+    const ran = twincell("run", ...paths, ...ROBOT, "--period", "0.1");
+    expect(ran).toMatchObject({ code: 0 });
+    const last = JSON.parse(ran.out.trim().split("\n").at(-1)!) as { readonly q: readonly number[] };
+    expect(
+      Math.abs(last.q[0]! + (30 / 180) * Math.PI) < 1e-6 || Math.abs(last.q[0]! - (30 / 180) * Math.PI) < 1e-6,
+    ).toBe(true);
+  }
+});
+
+test("check --as-text says what is wrong with its file and line, and ends with 1", () => {
+  const { code, err } = twincell("check", join(bad, "weld.src"), "--as-text", ...ROBOT);
+  expect(code).toBe(1);
+  expect(err).toContain(`${join(bad, "weld.src")}, line 4: `);
+});
+
+test("check --as-text judges the text that a cell keeps, in that cell and on its robot", () => {
+  const files = [
+    textFileOf("weld.src", Buffer.from(SRC, "latin1")),
+    textFileOf("weld.dat", Buffer.from(DAT(30), "latin1")),
+  ];
+  const cell = addProgram(emptyCell("kuka_kr6_2"), {
+    format: "twincell.text-program",
+    version: 1,
+    name: "weld",
+    robot: "kuka_kr6_2",
+    language: "krl",
+    main: "weld.src",
+    files,
+  });
+  const path = join(folder, "cell.json");
+  writeFileSync(path, saveDocument(cell));
+  const checked = twincell("check", path, "--as-text");
+  expect(checked).toMatchObject({ code: 0 });
+  expect((JSON.parse(checked.out) as Judged).steps.map(({ file, line }) => [file, line])).toEqual([
+    ["weld.src", 2],
+    ["weld.src", 4],
+  ]);
+  writeFileSync(path, saveDocument(emptyCell("kuka_kr6_2")));
+  expect(twincell("check", path, "--as-text").err).toContain('the selected program "Program" is of steps');
+});
+
+test("a fault is named with its own file, a binary program and a missing file with one sentence", () => {
+  const wrong = project("wrong", 30);
+  writeFileSync(join(wrong, "weld.dat"), "DEFDAT weld\r\nDECL E6AXIS XHOME={A1 0.0,A2 }\r\nENDDAT\r\n");
+  const faulty = twincell("check", join(wrong, "weld.src"), "--as-text", ...ROBOT);
+  expect(faulty.code).toBe(2);
+  expect(faulty.err).toContain(`${join(wrong, "weld.dat")}, line 2, column `);
+  const binary = join(folder, "main.src");
+  writeFileSync(binary, Uint8Array.from([1, 0, 2]));
+  expect(twincell("run", binary, ...ROBOT)).toMatchObject({ code: 2 });
+  expect(twincell("run", binary, ...ROBOT).err).toContain("main.src is a binary program, not a text.");
+  expect(twincell("run", join(folder, "none.src"), ...ROBOT)).toMatchObject({ code: 2 });
+});

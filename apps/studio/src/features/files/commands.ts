@@ -1,0 +1,40 @@
+import { conveyorPalletCell, edgeTraceCell, emptyCell, saveDocument } from "@twincell/project";
+import { cellStore } from "../../stores/cell.ts";
+import type { Command } from "../../stores/commands.ts";
+import { openDialog } from "../../stores/dialogs.ts";
+import { notify } from "../../stores/notices.ts";
+import { openCell } from "../../stores/opening.ts";
+import { download } from "../../ui/download.ts";
+import { words } from "../../words/index.ts";
+
+/** What a person does with whole cells; `chooseFile` lets them pick one from the disk. */
+export const fileCommands = (chooseFile: () => void): readonly Command[] => [
+  {
+    id: "file.cells",
+    group: "file",
+    words: words.commands.cells,
+    aliases: ["Open a cell", "Versions of a cell", "Trash"],
+    keys: ["Mod+Shift+O"],
+    run: () => openDialog("cells"),
+  },
+  {
+    id: "file.save",
+    group: "file",
+    words: words.commands.save,
+    keys: ["Mod+S"],
+    can: () => cellStore.getState().document !== null,
+    run: saveFile,
+  },
+  { id: "file.load", group: "file", words: words.commands.load, keys: ["Mod+O"], run: chooseFile },
+  { id: "file.example", group: "file", words: words.commands.example, run: () => openCell(edgeTraceCell()) },
+  { id: "file.conveyor", group: "file", words: words.commands.conveyor, run: () => openCell(conveyorPalletCell()) },
+  { id: "file.new", group: "file", words: words.commands.fresh, run: () => openCell(emptyCell()) },
+];
+
+function saveFile(): void {
+  const { document } = cellStore.getState();
+  if (!document) return;
+  const name = `${document.name.trim().replaceAll(/[^\p{L}\p{N}]+/gu, "-") || "cell"}.twincell.json`;
+  download(name, new Blob([saveDocument(document)], { type: "application/json" }));
+  notify("done", words.file.saved(name));
+}
