@@ -38,13 +38,29 @@ async function choose(page: Page, action: string): Promise<void> {
   await tester.getByRole("combobox", { name: "Action" }).click();
   await page.getByRole("option", { name: action, exact: true }).click();
 }
+async function type(page: Page, label: string, value: string): Promise<void> {
+  const field = page.getByRole("region", { name: "Tester" }).getByLabel(label);
+  await field.fill(value);
+  await field.press("Enter");
+}
+/** Tries the chosen action while Space holds the enabling switch, and waits until the controller has answered. */
+async function tryEnabled(page: Page): Promise<string> {
+  const tester = page.getByRole("region", { name: "Tester" });
+  await page.getByRole("region", { name: "Direct control" }).focus();
+  await page.keyboard.down("Space");
+  await tester.getByRole("button", { name: "Test", exact: true }).click();
+  const result = tester.getByLabel("Result");
+  await result.filter({ hasText: /\S/ }).waitFor({ timeout: 60_000 });
+  await page.keyboard.up("Space");
+  return result.innerText();
+}
 const stands = (page: Page): Promise<unknown> =>
   page.waitForFunction(() => window.twincell.stores.stationStore.getState().stations[0]?.moving === false, null, {
     timeout: 20_000,
   });
 
 for (const brand of ["Universal Robots"])
-  test(`${brand}: nothing moves before the switch is held, one joint turns while it is, and letting go ends it`, async () => {
+  test(`T-10 T-35 ${brand}: jogged while held, the four Tester actions, drives off and reset`, async () => {
     const { page, problems } = await studio.open();
     await drawn(page);
     await page.evaluate(() => window.twincell.stores.viewStore.setState({ coachDone: true }));
@@ -77,5 +93,33 @@ for (const brand of ["Universal Robots"])
     expect(jogged[0]!).toBeLessThan(160);
     for (const j of [1, 2, 3, 4, 5]) expect(jogged[j]! - before[j]!).toBeCloseTo(0, 1);
 
+    await choose(page, "Move Joint");
+    await type(page, "Angle J1, °", "5");
+    expect(await tryEnabled(page)).toBe("Done.");
+    expect((await printJoints(page))[0]).toBeCloseTo(5, 1);
+
+    await choose(page, "Move Joints");
+    await type(page, "Angle J1, °", "0");
+    await type(page, "Angle J6, °", "10");
+    expect(await tryEnabled(page)).toBe("Done.");
+    const both = await printJoints(page);
+    expect(both[0]).toBeCloseTo(0, 1);
+    expect(both[5]).toBeCloseTo(10, 1);
+
+    await choose(page, "Move To Endpoint");
+    const z_mm = Number.parseFloat(await page.getByRole("region", { name: "Tester" }).getByLabel("Z, mm").inputValue());
+    await type(page, "Z, mm", "+=20");
+    expect(await tryEnabled(page)).toBe("Done.");
+    await choose(page, "Print Joints");
+    await choose(page, "Move To Endpoint");
+    const reached = await page.getByRole("region", { name: "Tester" }).getByLabel("Z, mm").inputValue();
+    expect(Number.parseFloat(reached) - z_mm).toBeCloseTo(20, 0);
+
+    // T-10: the drives are off, motion is refused until reset.
+    await panel.getByRole("button", { name: "Drives off" }).click();
+    await panel.getByRole("button", { name: "Reset" }).waitFor();
+    expect(await panel.getByRole("button", { name: "Hold to enable" }).isDisabled()).toBe(true);
+    await panel.getByRole("button", { name: "Reset" }).click();
+    await panel.getByRole("button", { name: "Drives off" }).waitFor();
     expect(problems).toEqual([]);
   }, 240_000);
