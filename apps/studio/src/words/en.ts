@@ -1,3 +1,4 @@
+import { direct } from "./direct.ts";
 import { textWords } from "./text.ts";
 import { videoWords } from "./video.ts";
 
@@ -1214,6 +1215,7 @@ export const en = {
     box: "Add a box",
     deselect: "Leave",
   },
+  direct,
   text: textWords,
   video: videoWords,
   sheet: { label: "Tools", jog: "Jog", program: "Program", why: "Why", run: "Run", dead: "Hold to move" },

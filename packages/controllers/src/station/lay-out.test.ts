@@ -59,3 +59,34 @@ test("T-63 a robot that is moved while its program is planned elsewhere does not
   expect(await ended(again)).toEqual({ kind: "done" });
   station.close();
 });
+
+test("T-10 a stop that comes while a program is planned elsewhere keeps it from beginning, and the next one begins", async () => {
+  const scheduler = manualScheduler();
+  const ended = endedOn(scheduler);
+  let go = (): void => {
+    /* Nothing waits yet. */
+  };
+  const slow: LayOut = question =>
+    new Promise(resolve => {
+      go = () => {
+        resolve(layOut(question));
+      };
+    });
+  const opened = await openStation({ id: "s", brand: brandById("ur")!, robot, scheduler, dialect, layOut: slow });
+  if (opened.kind === "refused") throw new Error(opened.why.sentence);
+  const { station } = opened;
+  const seat = station.seat("you");
+  expect(await ended(station.connect())).toEqual({ kind: "done" });
+  seat.take();
+  await scheduler.elapse(0.2);
+  const before = Array.from(seat.robot.jointAngles());
+  const running = station.run(seat, program, false);
+  station.stop(false);
+  go();
+  expect(await ended(running)).toMatchObject({ kind: "refused", why: { code: "station.stopped" } });
+  expect(Array.from(seat.robot.jointAngles())).toEqual(before);
+  const again = station.run(seat, program, false);
+  go();
+  expect(await ended(again)).toEqual({ kind: "done" });
+  station.close();
+});

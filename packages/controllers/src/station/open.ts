@@ -20,7 +20,7 @@ import { DONE, refused } from "../outcomes.ts";
 import { layOut, type LayOut } from "./lay-out.ts";
 import { openCabinet, type Cabinet, type CabinetOpened } from "./cabinet.ts";
 import { createStation, type Armed, type Station, type StationJob } from "./station.ts";
-import { movedMeanwhile } from "./words.ts";
+import { movedMeanwhile, stoppedMeanwhile } from "./words.ts";
 
 export interface OpenOptions {
   readonly id: string;
@@ -186,6 +186,8 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
     };
     return { kind: "job", job, stuck: laid.stuck };
   }
+  /** Stops that were asked for: a program that is still being planned then does not begin after it. */
+  let stops = 0;
   return {
     kind: "opened",
     station: {
@@ -208,6 +210,7 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
           void cabinet.act("", { do: "trouble", unplugged: pulled });
         }),
       stop(emergency) {
+        stops++;
         station.guard.stop(emergency);
       },
       async watch(seat, on) {
@@ -223,8 +226,10 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
         return on ? rejoined : rejoined.kind === "done" ? seat.watch(false) : rejoined;
       },
       async run(seat, program, asText) {
+        const before = stops;
         const answer = await jobOf(program, asText);
         if (answer.kind === "refused") return answer;
+        if (stops !== before) return refused(stoppedMeanwhile(name));
         const { job } = answer;
         const blocked =
           job.plan &&

@@ -26,3 +26,8 @@ export const movedMeanwhile = (name: string): Refusal => ({
   sentence: `${name} was moved while its program was being planned.`,
   hint: "Let it stand, then send the program again.",
 });
+export const stoppedMeanwhile = (name: string): Refusal => ({
+  code: "station.stopped",
+  sentence: `${name} was stopped while its program was being planned: the program does not begin.`,
+  hint: "Send the program again when the robot may move.",
+});

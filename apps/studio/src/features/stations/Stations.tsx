@@ -37,6 +37,7 @@ import { HoldButton } from "../../ui/HoldButton.tsx";
 import { Slide } from "../../ui/Slide.tsx";
 import { Tip } from "../../ui/Tip.tsx";
 import { words } from "../../words/index.ts";
+import { DirectControl } from "./DirectControl.tsx";
 import { Together } from "./Together.tsx";
 import "./stations.css";
 
@@ -295,6 +296,7 @@ function Details({ station }: { readonly station: StationState }) {
   const { link } = station;
   return (
     <>
+      {!station.guard.watching && <DirectControl station={station} />}
       <dl className="facts station-facts">
         <div>
           <dt>{words.control.latency}</dt>

@@ -1,0 +1,104 @@
+import {
+  flangePose,
+  multiply,
+  fromAxisAngle,
+  rotate,
+  solveAll,
+  type Pose,
+  type Robot,
+  type Vector3,
+} from "@twincell/core";
+
+/** Directions of a Cartesian jog: along x, y, z, then about them. */
+export type CartesianAxis = 0 | 1 | 2 | 3 | 4 | 5;
+/** Whose axes those are: the base's, or the flange's as it stands when the jog begins. */
+export type JogFrame = "base" | "flange";
+
+/** A jog key held for long ends this far inside a joint limit [rad], so that rounding in a controller does not refuse it. */
+const INSIDE_LIMIT_RAD = 1e-3;
+/** A held Cartesian jog goes no farther than this in one press [m, rad]. */
+const MAX_TRAVEL_M = 0.5;
+const MAX_TURN_RAD = Math.PI / 2;
+/** Its straight line is looked at in these steps [m, rad]. */
+const STEP_M = 0.005;
+const STEP_RAD = Math.PI / 180;
+/** A joint that turns more than this in one of them is near a singularity, or on another solution [rad]. */
+const MAX_JOINT_STEP_RAD = 0.15;
+
+/**
+ * Joint angles with one joint moved by an angle, kept inside its limits. Joints count from 1.
+ *
+ *   q'_j = clamp(q_j + by, lower_j + ε, upper_j − ε),   ε = 0.001 rad;   never against the direction of `by`
+ *
+ * @param by_rad  ±Infinity for the whole way to the limit.
+ */
+export function jointTarget(robot: Robot, q_rad: ArrayLike<number>, joint: number, by_rad: number): number[] {
+  const target_rad = Array.from(q_rad);
+  const { lower_rad, upper_rad } = robot.arm.joints[joint - 1]!.limits;
+  const now_rad = target_rad[joint - 1]!;
+  const wanted_rad = now_rad + by_rad;
+  target_rad[joint - 1] =
+    by_rad > 0
+      ? Math.max(now_rad, Math.min(wanted_rad, upper_rad - INSIDE_LIMIT_RAD))
+      : Math.min(now_rad, Math.max(wanted_rad, lower_rad + INSIDE_LIMIT_RAD));
+  return target_rad;
+}
+
+/**
+ * The flange moved along an axis, or turned about one through its own origin.
+ *
+ *   base:    p' = p + d·e,         R' = Rot(e, d)·R
+ *   flange:  p' = p + d·(R·e),     R' = R·Rot(e, d)
+ */
+export function shifted(
+  baseFromFlange: Pose<"base", "flange">,
+  axis: CartesianAxis,
+  by: number,
+  frame: JogFrame,
+): Pose<"base", "flange"> {
+  const unit: Vector3 = [0, 0, 0];
+  unit[axis % 3] = 1;
+  const { position, quaternion } = baseFromFlange;
+  if (axis < 3) {
+    const along = frame === "base" ? unit : rotate(quaternion, unit);
+    return {
+      position: [position[0] + by * along[0], position[1] + by * along[1], position[2] + by * along[2]],
+      quaternion: [...quaternion],
+    };
+  }
+  const turn = fromAxisAngle(unit, by);
+  return {
+    position: [...position],
+    quaternion: frame === "base" ? multiply(turn, quaternion) : multiply(quaternion, turn),
+  };
+}
+
+/**
+ * Joint angles at the end of a straight jog of the flange, as far as the arm goes without a jump of a joint; null when it
+ * goes nowhere.
+ *
+ * @param by  [m] along x, y, z; [rad] about them. ±Infinity for as far as one held press may go.
+ * @param whole  Only the whole distance counts: a step is done or not done.
+ */
+export function cartesianTarget(
+  robot: Robot,
+  q_rad: ArrayLike<number>,
+  axis: CartesianAxis,
+  by: number,
+  frame: JogFrame,
+  whole = Number.isFinite(by),
+): number[] | null {
+  const most = axis < 3 ? MAX_TRAVEL_M : MAX_TURN_RAD;
+  const travel = Math.max(-most, Math.min(most, by));
+  const count = Math.max(1, Math.ceil(Math.abs(travel) / (axis < 3 ? STEP_M : STEP_RAD)));
+  const from = flangePose(robot.arm, q_rad);
+  let last = Array.from(q_rad);
+  for (let i = 1; i <= count; i++) {
+    const reach = solveAll(robot, shifted(from, axis, (travel * i) / count, frame), { near: last });
+    const next = reach.kind === "reached" ? reach.solutions[0]?.q_rad : undefined;
+    if (!next || last.some((angle, j) => Math.abs(next[j]! - angle) > MAX_JOINT_STEP_RAD))
+      return whole || i === 1 ? null : last;
+    last = Array.from(next);
+  }
+  return last;
+}
