@@ -38,6 +38,8 @@ export function actWords(act: Act): ActWords {
       return plain("gives the lease back");
     case "confirm":
       return plain("confirms that motion is wanted");
+    case "cell":
+      return plain("gives it the cell");
     case "reset":
       return command("resets the robot");
     case "hold":

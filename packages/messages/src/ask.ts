@@ -66,6 +66,8 @@ export const askSchema = z.discriminatedUnion("type", [
         data: z.exactOptional(z.record(text, angles)),
       }),
     ),
+    /** The document of the cell it works in: what its guard keeps it from. */
+    cell: z.exactOptional(z.unknown()),
     /** Opened to watch: nothing is commanded until somebody takes it to command. */
     watch: z.exactOptional(z.boolean()),
   }),
@@ -76,6 +78,8 @@ export const askSchema = z.discriminatedUnion("type", [
     ...asked,
     ...station,
   }),
+  /** The cell is another from now on, or its objects or its tool are: its guard keeps the robot from them, in motion too. */
+  z.strictObject({ type: z.literal("cell"), ...asked, ...station, cell: z.unknown() }),
   z.strictObject({ type: z.literal("hold"), ...asked, ...station, pressed: z.boolean() }),
   z.strictObject({ type: z.literal("speed"), ...asked, ...station, percent: z.number() }),
   z.strictObject({ type: z.literal("move"), ...asked, ...station, q_rad: angles }),

@@ -52,6 +52,8 @@ export interface HostedStation<Seat extends HostedSeat = HostedSeat> {
   /** Makes a program ready to be started: what may be refused is told before anything moves. */
   prepare(seat: Seat, program: Program, asText: boolean): Promise<HostedArmed>;
   stop(emergency: boolean): void;
+  /** The cell whose objects and tool its guard keeps it from. */
+  setCell(document: unknown): CommandOutcome;
   /** The pendant of a virtual controller; null where a person stands before a real one. */
   readonly pendant: HostedPendant | null;
   readonly plug: ((pulled: boolean) => void) | null;
@@ -110,6 +112,22 @@ const refuse = (code: string, sentence: string, hint: string): CommandOutcome =>
   kind: "refused",
   why: { code, sentence, hint },
 });
+/** What a message says of an outcome. Refusals of planners and drivers know more, which no client would understand. */
+function written(outcome: CommandOutcome): CommandOutcome {
+  if (outcome.kind === "done") return outcome;
+  const { code, sentence, hint, joint, value, limit } = outcome.why;
+  return {
+    kind: outcome.kind,
+    why: {
+      code,
+      sentence,
+      hint,
+      ...(joint === undefined ? {} : { joint }),
+      ...(value === undefined ? {} : { value }),
+      ...(limit === undefined ? {} : { limit }),
+    },
+  };
+}
 const known = (value: number): number | null => (Number.isFinite(value) ? value : null);
 
 const noStation = (id: string): CommandOutcome =>
@@ -162,7 +180,7 @@ export function createHost(options: HostOptions): Host {
     const said = { type: "act" as const, station, number: acts++, who, ...words, target: [...target] };
     all({ ...said, outcome: null });
     return outcome => {
-      all({ ...said, outcome });
+      all({ ...said, outcome: written(outcome) });
     };
   }
 
@@ -326,6 +344,8 @@ export function createHost(options: HostOptions): Host {
             return seat.release();
           case "confirm":
             return seat.confirm();
+          case "cell":
+            return othersLease(station) ?? station.setCell(ask.cell);
           case "reset":
             return seat.robot.reset();
           case "watch":
@@ -357,6 +377,17 @@ export function createHost(options: HostOptions): Host {
         }
       }
 
+      /** Why somebody who has not the lease may not do what concerns a robot that somebody else commands; null when nobody does. */
+      function othersLease({ guard, words }: HostedStation): CommandOutcome | null {
+        const { holder } = guard.state;
+        if (holder === null || holder === who) return null;
+        return refuse(
+          "guard.lease-taken",
+          `${words.name} is commanded by ${holder}.`,
+          "Wait until the lease is given back. Anyone may stop the robot.",
+        );
+      }
+
       async function together({ members }: AskOf<"together">): Promise<CommandOutcome> {
         const ids = members.map(({ station }) => station);
         const ready: HostedMember[] = [];
@@ -383,7 +414,7 @@ export function createHost(options: HostOptions): Host {
         });
         for (const tellEnd of told) tellEnd(outcome);
         if (each.size > 0)
-          all({ type: "ended", stations: [...each].map(([station, ended]) => ({ station, outcome: ended })) });
+          all({ type: "ended", stations: [...each].map(([station, ended]) => ({ station, outcome: written(ended) })) });
         return outcome;
       }
 
@@ -446,7 +477,7 @@ export function createHost(options: HostOptions): Host {
             default: {
               const { id } = ask;
               void carryOut(ask).then(outcome => {
-                tell({ type: "answer", id, outcome });
+                tell({ type: "answer", id, outcome: written(outcome) });
               });
             }
           }

@@ -27,6 +27,11 @@ export function openDocument(text: string): Opened {
       why: [`The file is not JSON: ${cause instanceof Error ? cause.message : "it cannot be read"}.`],
     };
   }
+  return readDocument(value);
+}
+
+/** The same of a value that was JSON, or came as a message. Never throws. */
+export function readDocument(value: unknown): Opened {
   if (!isRecord(value)) return { kind: "not-a-cell", why: ["The file holds no JSON object."] };
   if (value.format !== "twincell.cell") {
     return {

@@ -1,6 +1,9 @@
 import {
+  checkProgram,
   emptyProgram,
+  linkSolids,
   manualScheduler,
+  robotById,
   type CommandOutcome,
   type ManualScheduler,
   type MoveStep,
@@ -9,6 +12,7 @@ import {
 } from "@twincell/core";
 import { BRANDS } from "@twincell/controllers";
 import { createClient, write, type Client, type Request, type Tell, type TellOf } from "@twincell/messages";
+import { cellGeometry, edgeTraceCell } from "@twincell/project";
 import { afterEach, describe, expect, test } from "vitest";
 import { stationHost } from "./host.ts";
 
@@ -148,6 +152,82 @@ describe.each(brands)("a station of %s", brand => {
     expect(await ask({ type: "zero", station: "s" })).toMatchObject({
       kind: "refused",
       why: { code: "guard.link-unconfirmed" },
+    });
+  }, 60_000);
+});
+
+describe("A the guard of a connected robot knows the objects of its cell", () => {
+  const robot = robotById("staubli_rx90l")!;
+  const cell = edgeTraceCell();
+  const { worldFromBase } = cell.robot;
+  /** Down through the table, as a program of joint targets. */
+  const down: Program = {
+    ...emptyProgram(robot.id, "Down"),
+    steps: [
+      {
+        id: "a",
+        type: "move",
+        path: "ptp",
+        speed: { ratio: 0.3 },
+        blend_m: 0,
+        target: { q: [0, 0.5, 2.1, 0, 0.2, 0] },
+      },
+    ],
+  };
+  async function opened(given: unknown) {
+    const { scheduler, join, samples } = bench();
+    const { client } = join("you");
+    const other = join("another").client;
+    const ask = (request: Request, from = client) => answered(scheduler, client, "s", from.ask(request));
+    const outcome = await ask({
+      type: "open",
+      station: "s",
+      brand: "staubli-cs7",
+      robot: robot.id,
+      worldFromBase,
+      ...(given === undefined ? {} : { cell: given }),
+    });
+    return { ask, samples, outcome, other };
+  }
+  async function ready(given: unknown) {
+    const { ask, outcome, ...rest } = await opened(given);
+    expect(outcome).toEqual({ kind: "done" });
+    expect(await ask({ type: "take", station: "s" })).toEqual({ kind: "done" });
+    expect(await ask({ type: "connect", station: "s" })).toEqual({ kind: "done" });
+    return { ask, ...rest };
+  }
+
+  test("T-45 T-68 the table that the check speaks of keeps the program from the robot, the cell given when it is opened or later", async () => {
+    const { verdict } = checkProgram(down, robot, { cell: cellGeometry(cell, linkSolids(robot)) });
+    expect(verdict.steps.flatMap(({ findings }) => findings).map(({ code }) => code)).toContain("collision.contact");
+    const { ask, samples, other } = await ready(cell);
+    const run: Request = { type: "run", station: "s", program: down, asText: false };
+    expect(await ask(run)).toMatchObject({ kind: "refused", why: { code: "collision.contact" } });
+    const table = cell.objects;
+    // Who has not the lease takes nothing out of the cell.
+    expect(await ask({ type: "cell", station: "s", cell: { ...cell, objects: [] } }, other)).toMatchObject({
+      kind: "refused",
+      why: { code: "guard.lease-taken" },
+    });
+    expect(await ask({ type: "cell", station: "s", cell: { ...cell, objects: [] } })).toEqual({ kind: "done" });
+    expect(await ask({ type: "cell", station: "s", cell: { ...cell, objects: table } })).toEqual({ kind: "done" });
+    expect(await ask(run)).toMatchObject({ kind: "refused", why: { code: "collision.contact" } });
+    for (const { q_rad } of samples("s")) expect(q_rad[1]).toBeCloseTo(robot.home_rad[1]!, 3);
+  }, 60_000);
+
+  test("a cell that cannot be read is refused with the place, and the one before counts on", async () => {
+    expect((await opened({ ...cell, version: 99 })).outcome).toMatchObject({
+      kind: "refused",
+      why: { code: "station.cell", sentence: expect.stringContaining("99") as string },
+    });
+    const { ask } = await ready(cell);
+    expect(await ask({ type: "cell", station: "s", cell: { ...cell, objects: 5 } })).toMatchObject({
+      kind: "refused",
+      why: { code: "station.cell", sentence: expect.stringContaining("objects") as string },
+    });
+    expect(await ask({ type: "run", station: "s", program: down, asText: false })).toMatchObject({
+      kind: "refused",
+      why: { code: "collision.contact" },
     });
   }, 60_000);
 });

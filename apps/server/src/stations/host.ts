@@ -1,6 +1,7 @@
 import { brandById, BRANDS, createSharedCell, openStation, startTogether, type LayOut } from "@twincell/controllers";
 import { robotById, type Refusal, type Scheduler } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
+import { readConnectionCell } from "@twincell/project";
 import { createHost, PLUG_IN, type AskOf, type Host, type OpenedStation } from "@twincell/messages";
 import { nodeNetwork } from "../sockets/node-network.ts";
 import { plugInFor } from "./plug-in.ts";
@@ -52,6 +53,8 @@ export function stationHost(scheduler: Scheduler, version: string, layOut?: LayO
         robot,
         scheduler,
         dialect,
+        readCell: readConnectionCell,
+        ...(ask.cell === undefined ? {} : { cell: ask.cell }),
         heartbeat_s: HEARTBEAT_S,
         ...(layOut ? { layOut } : {}),
         ...(ask.stand ? { shared: { cell, stand: ask.stand } } : {}),

@@ -1,4 +1,4 @@
-import type { LaidOut } from "@twincell/controllers";
+import type { CellDefinition, LaidOut } from "@twincell/controllers";
 import type { Pose, Program } from "@twincell/core";
 
 /** Robots and languages go by their ids: both sides have the library. */
@@ -8,6 +8,7 @@ export interface ToLayOut {
   readonly dialect: string | null;
   readonly program: Program;
   readonly start_rad: Float64Array;
+  readonly cell: CellDefinition | null;
   readonly worldFromBase: Pose<"world", "base"> | null;
 }
 export type FromLayOut =

@@ -43,7 +43,7 @@ export function layOutElsewhere(): { readonly layOut: LayOut; close(): void } {
     return mine;
   }
   return {
-    layOut: ({ program, robot, start_rad, worldFromBase, dialect }) =>
+    layOut: ({ program, robot, start_rad, worldFromBase, cell, dialect }) =>
       new Promise(resolve => {
         const id = count++;
         waiting.set(id, resolve);
@@ -54,6 +54,7 @@ export function layOutElsewhere(): { readonly layOut: LayOut; close(): void } {
           program,
           start_rad,
           worldFromBase: worldFromBase ?? null,
+          cell: cell ?? null,
         } satisfies ToLayOut);
       }),
     close() {

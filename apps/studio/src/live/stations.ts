@@ -8,6 +8,7 @@ import {
   type Robot,
 } from "@twincell/core";
 import { actNote, type TellOf } from "@twincell/messages";
+import type { CellDocument } from "@twincell/project";
 import { createRunRecorder, type RunRecorder } from "@twincell/recording";
 import { createCabinetLink, type CabinetLink } from "../cabinet/link.ts";
 import { cellStore } from "../stores/cell.ts";
@@ -124,6 +125,7 @@ export async function addStation({
     robot: robotId,
     worldFromBase: document.robot.worldFromBase,
     stand,
+    cell: document,
     ...(watch ? { watch } : {}),
     ...(address
       ? {
@@ -502,9 +504,39 @@ function show(sample: TellOf<"sample">): void {
   changeStation(sample.station, { moving, mode, safety, override, step, message, plan_rad, command_rad });
 }
 
+/** What a connected robot's guard must know of the cell: the rest of the document is not sent again. */
+const sameForGuards = (a: CellDocument, b: CellDocument): boolean =>
+  a.robot === b.robot &&
+  a.objects === b.objects &&
+  a.tools === b.tools &&
+  a.tool === b.tool &&
+  a.allowedPairs === b.allowedPairs &&
+  a.pairs === b.pairs;
+const CELL_EVERY_MS = 100;
+let cellDue: number | undefined;
+
+/** Every robot that is connected from here is given the cell as it is now. One that cannot be given it says why. */
+function tellCell(): void {
+  cellDue = undefined;
+  const { document } = cellStore.getState();
+  if (!document) return;
+  for (const { id, name } of stationStore.getState().stations)
+    void hostOf(id)
+      ?.ask({ type: "cell", station: id, cell: document })
+      .then(outcome => {
+        if (outcome.kind !== "done") notify("bad", `${name}: ${outcome.why.sentence}`, outcome.why.hint);
+      });
+}
+
 /** Listens to hosts as long as the page lives. STOP stops every station. */
 export function startStations(): void {
   onHosts(take);
+  // While an object is dragged the cell changes with every frame; it is told at most this often, and as it is in the end.
+  cellStore.subscribe((state, before) => {
+    if (!state.document || state.document === before.document) return;
+    if (before.document && sameForGuards(state.document, before.document)) return;
+    if (stationStore.getState().stations.length > 0) cellDue ??= window.setTimeout(tellCell, CELL_EVERY_MS);
+  });
   onStop(() => {
     for (const place of new Set(stationStore.getState().stations.map(({ place: at }) => at))) hostAt(place)?.stop();
   });

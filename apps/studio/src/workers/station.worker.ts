@@ -1,6 +1,7 @@
 import { brandById, BRANDS, createSharedCell, openStation, startTogether } from "@twincell/controllers";
 import { manualScheduler, robotById, type Refusal } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
+import { readConnectionCell } from "@twincell/project";
 import { createHost, type OpenedStation } from "@twincell/messages";
 
 /** How often the world of the page goes on, and the most it goes on by at once [s]. */
@@ -50,6 +51,8 @@ const host = createHost({
       robot,
       scheduler,
       dialect,
+      readCell: readConnectionCell,
+      ...(ask.cell === undefined ? {} : { cell: ask.cell }),
       ...(ask.stand ? { shared: { cell, stand: ask.stand } } : {}),
       ...(ask.watch === undefined ? {} : { watching: ask.watch }),
       ...(ask.name === undefined ? {} : { name: ask.name }),

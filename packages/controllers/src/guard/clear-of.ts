@@ -18,6 +18,8 @@ export interface ClearOfOptions {
 export interface ClearOf {
   /** For `GuardOptions.isSafe`. */
   readonly isSafe: (q_rad: ArrayLike<number>) => boolean;
+  /** The pairs that touch at q, each as one text: what a robot that begins too near to something must not add to. */
+  readonly contactsAt: (q_rad: ArrayLike<number>) => readonly string[];
   /** What comes too near at q; null where q is safe. */
   readonly inTheWay: (q_rad: ArrayLike<number>) => Contact | null;
   /** What is kept between a link and an object, all errors in it [m]: never less than they are, unless nothing is to be kept. */
@@ -40,6 +42,7 @@ export function clearOf(
   const pair = collider.pairs.find(each => each.a.kind === "link" && each.b.kind === "object");
   return {
     isSafe: q_rad => checker.free(q_rad),
+    contactsAt: q_rad => collider.check(q_rad).map(({ a, b }) => `${a}|${b}`),
     inTheWay: q_rad => checker.inTheWay(q_rad),
     kept_m: pair === undefined ? wanted_m : marginOf(pair, wanted_m, cell.shapeError_m),
   };

@@ -21,6 +21,7 @@ import {
   denialRefusal,
   leaseGivenBack,
   linkWentDown,
+  nowhereSafe,
   switchLetGo,
   targetTooNear,
   tooFast,
@@ -42,6 +43,8 @@ export interface GuardOptions {
   readonly heartbeat_s?: number;
   /** Longest time the robot needs to stop; how far ahead the clearance is looked at follows from it. */
   readonly brakingTime_s?: number;
+  /** On top of the guard's own reaction: how old samples are and how long a stop is under way, over the link to the controller [s]. */
+  readonly linkDelay_s?: number;
   readonly flangeFromTcp?: Pose<"flange", "tcp">;
   /** The other robots of the cell; see `createSharedCell`. */
   readonly place?: Place;
@@ -49,6 +52,14 @@ export interface GuardOptions {
   readonly watching?: boolean;
   /** Speed of the tool in manual mode. */
   readonly manualCap_mps?: number;
+}
+
+/** What a guard asks of a cell, and the tool whose speed it measures. */
+export interface GuardedCell {
+  readonly isSafe: (q_rad: Float64Array) => boolean;
+  /** The pairs that touch: a motion that begins too near to something is stopped before it adds one. */
+  readonly contactsAt?: (q_rad: Float64Array) => readonly string[];
+  readonly flangeFromTcp?: Pose<"flange", "tcp">;
 }
 
 /** One who may command: mouse, headset, gamepad, server. */
@@ -78,6 +89,8 @@ export interface Guard {
   stop(emergency?: boolean): void;
   /** Who keeps the link knows that it is gone, maybe before it was silent for long, and maybe back before that. */
   linkLost(): void;
+  /** The cell or the tool is another from now on; what moves is judged by it from its next sample on. */
+  setCell(cell: GuardedCell): void;
   /** Why a point may not be added to a program (row T-42); null when it may. */
   pointRefusal(q_rad: ArrayLike<number>): Refusal | null;
   onChange(listen: (state: GuardState) => void): () => void;
@@ -103,14 +116,16 @@ export function createGuard(options: GuardOptions): Guard {
   const { robot, jumpTo } = controller;
   const n = robot.arm.joints.length;
   const rules = { deadMan: options.deadMan ?? controller.kind !== "virtual" };
-  const isSafe = options.isSafe ?? (() => true);
+  let isSafe = options.isSafe ?? (() => true);
   const silence = options.silence_s ?? 0.06;
   const silence_s = typeof silence === "number" ? (): number => silence : silence;
+  const delay_s = options.linkDelay_s ?? 0;
   const cap_mps = options.manualCap_mps ?? MANUAL_CAP_MPS;
   const braking_s = options.brakingTime_s ?? hardBrakingTime_s(robot);
-  const flangeFromTcp = options.flangeFromTcp ?? identity<"flange", "tcp">();
-  const tcp = tcpOf(robot.arm, flangeFromTcp);
-  const bound_mps = speedBound(robot, flangeFromTcp);
+  let contactsAt: GuardedCell["contactsAt"];
+  let flangeFromTcp = options.flangeFromTcp ?? identity<"flange", "tcp">();
+  let tcp = tcpOf(robot.arm, flangeFromTcp);
+  let bound_mps = speedBound(robot, flangeFromTcp);
   const changes = listeners<GuardState>();
   const notices = listeners<Refusal>();
 
@@ -127,9 +142,13 @@ export function createGuard(options: GuardOptions): Guard {
   // What is known of the motion: latest angles, where it would stand if stopped now, the last pose that was safe with room to stop.
   const q_rad = controller.jointAngles();
   const ahead_rad = new Float64Array(n);
+  const between_rad = new Float64Array(n);
+  const gained_rad = new Float64Array(n);
+  const rate_rad_s = new Float64Array(n);
   const safe_rad = Float64Array.from(q_rad);
   let time_s = NaN;
   let leaving = false;
+  let touchedAtStart: readonly string[] = [];
   let tip = identity<"base", "tcp">();
   let tipBefore = identity<"base", "tcp">();
 
@@ -161,6 +180,12 @@ export function createGuard(options: GuardOptions): Guard {
   }
 
   async function goBack(): Promise<void> {
+    // The cell may have changed since that pose was safe.
+    if (!isSafe(safe_rad)) {
+      notice(nowhereSafe);
+      send({ type: "ended" });
+      return;
+    }
     capped = cappedFor(safe_rad);
     applySpeed();
     const outcome = await controller.moveJoints(Float64Array.from(safe_rad));
@@ -190,7 +215,7 @@ export function createGuard(options: GuardOptions): Guard {
     const denied = send({ type: "ask", who });
     if (denied) return refused(denied);
     because = null;
-    leaving = !isSafe(q_rad);
+    beginLeaving();
     place?.begin();
     capped = cappedFor(target_rad);
     applySpeed();
@@ -213,6 +238,14 @@ export function createGuard(options: GuardOptions): Guard {
     return outcome.kind === "stopped" && reason ? { kind: "stopped", why: reason } : outcome;
   }
 
+  /** A robot that stands too near to something may go away from there. */
+  function beginLeaving(): void {
+    leaving = !isSafe(q_rad);
+    touchedAtStart = leaving ? (contactsAt?.(q_rad) ?? []) : [];
+  }
+  const addsContact = (at_rad: Float64Array): boolean =>
+    contactsAt?.(at_rad).some(pair => !touchedAtStart.includes(pair)) ?? false;
+
   const watchedOnly = (): Refusal | null => (state.watching ? denialRefusal("watching", robot.name, null) : null);
   const silent = (silent_s: number): Refusal => (state.watching ? watchedLinkDown : linkWentDown)(robot.name, silent_s);
 
@@ -228,15 +261,26 @@ export function createGuard(options: GuardOptions): Guard {
     const known = dt_s > 0;
     manual = lent.mode === "manual";
     let part = 0;
+    // The difference of two samples is a speed half a sample old, and the next look is a sample away: a joint gains speed meanwhile.
+    const age_s = known ? Math.min(dt_s, REACTION_S) + delay_s : 0;
     for (let i = 0; i < n; i++) {
-      ahead_rad[i] = known ? (lent.q_rad[i]! - q_rad[i]!) / dt_s : 0;
-      part = Math.max(part, Math.abs(ahead_rad[i]!) / robot.arm.joints[i]!.limits.speed_rad_s);
+      const rate = known ? (lent.q_rad[i]! - q_rad[i]!) / dt_s : 0;
+      const most = robot.arm.joints[i]!.limits.speed_rad_s;
+      const gain = known ? Math.max(0, (Math.abs(rate) - Math.abs(rate_rad_s[i]!)) / dt_s) : 0;
+      const then = Math.sign(rate) * Math.min(Math.max(most, Math.abs(rate)), Math.abs(rate) + gain * age_s);
+      rate_rad_s[i] = rate;
+      ahead_rad[i] = then;
+      gained_rad[i] = ((rate + then) / 2) * (REACTION_S + delay_s);
+      part = Math.max(part, Math.abs(then) / most);
       q_rad[i] = lent.q_rad[i]!;
     }
     // From a part of full speed a joint stops in that part of the braking time, half as far as it would go in it.
     // From where it is commanded to be by now, where the controller says so: what was commanded will come.
     const from_rad = lent.target_rad ?? lent.q_rad;
-    for (let i = 0; i < n; i++) ahead_rad[i] = from_rad[i]! + ahead_rad[i]! * ((part * braking_s) / 2 + REACTION_S);
+    for (let i = 0; i < n; i++) {
+      ahead_rad[i] = from_rad[i]! + gained_rad[i]! + (ahead_rad[i]! * part * braking_s) / 2;
+      between_rad[i] = (q_rad[i]! + ahead_rad[i]!) / 2;
+    }
     time_s = lent.time_s;
     [tip, tipBefore] = [tipBefore, tip];
     tcp(q_rad, tip);
@@ -260,9 +304,12 @@ export function createGuard(options: GuardOptions): Guard {
     const here = isSafe(q_rad);
     if (leaving) {
       leaving = !here;
+      if (!leaving || state.motion !== "moving" || !(addsContact(q_rad) || addsContact(ahead_rad))) return;
+      notice(cameTooNear);
+      send({ type: "too-near" });
       return;
     }
-    const kept = here && (!underWay || isSafe(ahead_rad));
+    const kept = here && (!underWay || (isSafe(ahead_rad) && isSafe(between_rad)));
     if (kept) {
       if (state.trip === "none") safe_rad.set(q_rad);
       return;
@@ -410,6 +457,17 @@ export function createGuard(options: GuardOptions): Guard {
         notice(silent(scheduler.now_s() - Math.min(heard_s, scheduler.now_s())));
         send({ type: "link-lost" });
       }
+    },
+    setCell(cell) {
+      ({ isSafe, contactsAt } = cell);
+      flangeFromTcp = cell.flangeFromTcp ?? identity<"flange", "tcp">();
+      tcp = tcpOf(robot.arm, flangeFromTcp);
+      bound_mps = speedBound(robot, flangeFromTcp);
+      // Speeds of the tool are measured from one sample to the next: not from the old tool to the new.
+      tcp(q_rad, tip);
+      if (state.trip === "none" && isSafe(q_rad)) safe_rad.set(q_rad);
+      // What stands too near because something was put there may be led away from it.
+      if (state.motion === "at-rest") beginLeaving();
     },
     pointRefusal,
     onChange: listen => changes.add(listen),

@@ -81,6 +81,11 @@ export const cameTooNear: Refusal = {
   sentence: "The robot came within the clearance margin of something and was stopped.",
   hint: "It goes back to its last safe pose. " + CLEARANCE_HINT,
 };
+export const nowhereSafe: Refusal = {
+  code: "guard.no-safe-pose",
+  sentence: "The cell has changed: the last safe pose is within the clearance margin of something now.",
+  hint: "Look at the robot and jog it away from what is near.",
+};
 export const linkWentDown = (robot: string, silent_s: number): Refusal => ({
   code: "guard.link-lost",
   sentence: `Nothing was heard of ${robot} for ${Math.round(silent_s * 1000)} ms; it was told to stop.`,

@@ -11,4 +11,4 @@ export {
   type StartedWords,
 } from "./together.ts";
 export type { Ahead, AheadWords, Progress } from "./ahead.ts";
-export { layOut, type LaidOut, type LayOut, type LayOutQuestion } from "./lay-out.ts";
+export { layOut, type CellDefinition, type LaidOut, type LayOut, type LayOutQuestion } from "./lay-out.ts";

@@ -19,11 +19,18 @@ import { notEmitted } from "./words.ts";
 /** Programs of more motions are not checked before they are sent. */
 const MOST_CHECKED = 500;
 
+/** A cell as it goes from thread to thread: the links of its robot are made from the robot. */
+export type CellDefinition = Omit<CellGeometry, "links">;
+/** The cell with the links of that robot in it. Pure. */
+export const withLinks = (cell: CellDefinition, robot: Robot): CellGeometry => ({ ...cell, links: linkSolids(robot) });
+
 export interface LayOutQuestion {
   readonly program: Program;
   readonly robot: Robot;
   readonly start_rad: Float64Array;
   readonly worldFromBase?: Pose<"world", "base">;
+  /** What it must not touch, with the tool it carries; only itself when left out. */
+  readonly cell?: CellDefinition;
   /** The language it is to be written in; its steps are sent when left out. */
   readonly dialect?: Dialect;
 }
@@ -43,20 +50,22 @@ export interface LaidOut {
 export type LayOut = (question: LayOutQuestion) => Promise<LaidOut>;
 
 /** Plans, checks and writes a program. Pure. */
-export function layOut({ program, robot, start_rad, worldFromBase, dialect }: LayOutQuestion): LaidOut {
+export function layOut({ program, robot, start_rad, worldFromBase, cell, dialect }: LayOutQuestion): LaidOut {
   const from = { start_rad, ...(worldFromBase ? { worldFromBase } : {}) };
   const answer = planProgram(program, robot, from);
-  const own: CellGeometry = {
-    worldFromBase: worldFromBase ?? identity(),
-    links: linkSolids(robot),
-    objects: [],
-    allowedPairs: [],
-    shapeError_m: robot.shapeError_m,
-  };
+  const keptClearOf = withLinks(
+    cell ?? {
+      worldFromBase: worldFromBase ?? identity(),
+      objects: [],
+      allowedPairs: [],
+      shapeError_m: robot.shapeError_m,
+    },
+    robot,
+  );
   const findings =
     answer.plan.segments.length > MOST_CHECKED
       ? []
-      : checkProgram(program, robot, { ...from, cell: own })
+      : checkProgram(program, robot, { ...from, cell: keptClearOf })
           .verdict.steps.flatMap(step => step.findings)
           .sort((a, b) => a.at_s - b.at_s);
   const written = dialect?.emit(

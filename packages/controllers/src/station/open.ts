@@ -14,13 +14,18 @@ import { createRealController, type Brand, type ControllerData, type PortNumbers
 import { memoryNetwork, type Network } from "../transport/index.ts";
 import { withLines } from "../runner/index.ts";
 import type { SharedCell } from "../cell/index.ts";
-import type { Seat } from "../guard/index.ts";
+import { clearOf, type Seat } from "../guard/index.ts";
 import { LookAhead, wayBlocked } from "../twin/index.ts";
 import { DONE, refused } from "../outcomes.ts";
-import { layOut, type LayOut } from "./lay-out.ts";
+import { layOut, withLinks, type CellDefinition, type LayOut } from "./lay-out.ts";
 import { openCabinet, type Cabinet, type CabinetOpened } from "./cabinet.ts";
 import { createStation, type Armed, type Station, type StationJob } from "./station.ts";
 import { movedMeanwhile, stoppedMeanwhile } from "./words.ts";
+
+/** A cell that was read from a document, or why it was not. */
+export type CellRead =
+  | { readonly kind: "cell"; readonly cell: CellDefinition }
+  | { readonly kind: "refused"; readonly why: Refusal };
 
 export interface OpenOptions {
   readonly id: string;
@@ -40,6 +45,10 @@ export interface OpenOptions {
   };
   /** The cell it shares with other robots, and where it stands there; `worldFromBase` is where its programs take it to stand. */
   readonly shared?: { readonly cell: SharedCell; readonly stand: Pose<"world", "base"> };
+  /** The document of the cell it works in: its objects and tool are what its guard keeps it from. */
+  readonly cell?: unknown;
+  /** Reads such a document for this robot. An app that gives none knows no cells, and one that is given is refused. */
+  readonly readCell?: (document: unknown, robot: Robot, worldFromBase?: Pose<"world", "base">) => CellRead;
   readonly deadMan?: boolean;
   readonly heartbeat_s?: number;
   /** Opened to watch: whoever moves the robot is left alone, and from here it is not commanded. */
@@ -73,6 +82,8 @@ export interface BrandStation extends Station {
   /** The same in two, for a start together with others: what may be refused is told before anything moves. */
   prepare(seat: Seat, program: Program, asText: boolean): Promise<Armed>;
   stop(emergency: boolean): void;
+  /** Another cell, or the same one changed. What moves is stopped if it is too near to something in it; one that cannot be read leaves the one before. */
+  setCell(document: unknown): CommandOutcome;
   /** Only to watch it from now on, or to command it again. */
   watch(seat: Seat, on: boolean): Promise<CommandOutcome>;
 }
@@ -102,6 +113,14 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
         hint: `Choose another controller of ${brand.vendor}, or another robot.`,
       },
     };
+  }
+  const readCell = (document: unknown): CellRead =>
+    options.readCell?.(document, robot, worldFromBase) ?? { kind: "refused", why: readsNoCells };
+  let cell: CellDefinition | null = null;
+  if (options.cell !== undefined) {
+    const read = readCell(options.cell);
+    if (read.kind === "refused") return read;
+    ({ cell } = read);
   }
   const deaf = brand.cannot.find(({ row }) => row === "watch");
   if (deaf && options.watching === true) return cannotWatch(brand.name, deaf.because);
@@ -158,6 +177,17 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
     ...(options.heartbeat_s === undefined ? {} : { heartbeat_s: options.heartbeat_s }),
     deadMan: options.deadMan ?? near === null,
   });
+  function keepClearOf(definition: CellDefinition): void {
+    cell = definition;
+    const { isSafe, contactsAt } = clearOf(withLinks(definition, robot), robot);
+    const { flangeFromGrip } = definition;
+    station.guard.setCell({
+      isSafe,
+      contactsAt,
+      ...(flangeFromGrip ? { flangeFromTcp: flangeFromGrip as Pose as Pose<"flange", "tcp"> } : {}),
+    });
+  }
+  if (cell) keepClearOf(cell);
   /** The program with its plan from where the robot stands, what the check finds on it, and its text; or why it is not sent. */
   async function jobOf(
     program: Program,
@@ -172,6 +202,7 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
       robot,
       start_rad,
       ...(worldFromBase ? { worldFromBase } : {}),
+      ...(cell ? { cell } : {}),
       ...(asText && controller.runText ? { dialect } : {}),
     });
     if (laid.unwritten) return { kind: "refused", why: laid.unwritten };
@@ -212,6 +243,12 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
       stop(emergency) {
         stops++;
         station.guard.stop(emergency);
+      },
+      setCell(document) {
+        const read = readCell(document);
+        if (read.kind === "refused") return read;
+        keepClearOf(read.cell);
+        return DONE;
       },
       async watch(seat, on) {
         const { state } = station.guard;
@@ -290,6 +327,11 @@ function* atTerminals(program: Program, brand: Brand, signals?: Signals): Genera
   for (const step of unrolled(program, read)) yield withLines(step, terminal);
 }
 
+const readsNoCells: Refusal = {
+  code: "station.no-cells",
+  sentence: "A cell was given, and nothing here reads cells.",
+  hint: "Open the robot without a cell, or use a program that reads them.",
+};
 const cannotWatch = (brand: string, because: string): { readonly kind: "refused"; readonly why: Refusal } => ({
   kind: "refused",
   why: {

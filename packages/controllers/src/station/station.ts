@@ -101,6 +101,8 @@ class TextOnItsWay implements Iterable<Step> {
 }
 
 const ALARM_RAD = Math.PI / 180;
+/** A sample and a stop together are no longer under way to and from a controller than this, as the guard counts on [s]. */
+const LINK_DELAY_S = 0.02;
 /** A motion that begins sooner than this and lasts longer is one to be seen [s]. */
 const SOON_S = 0.1;
 
@@ -132,6 +134,7 @@ export function createStation(options: StationOptions): Station {
     controller: handing,
     scheduler,
     ...(options.flangeFromTcp ? { flangeFromTcp: options.flangeFromTcp } : {}),
+    ...(real ? { linkDelay_s: LINK_DELAY_S } : {}),
     ...(options.isSafe ? { isSafe: options.isSafe } : {}),
     ...(options.place ? { place: options.place } : {}),
     ...(options.watching === undefined ? {} : { watching: options.watching }),
