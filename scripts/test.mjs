@@ -3,8 +3,11 @@ import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync } from "node:fs";
 import { build, install, node, outFolder, root } from "./prepare.mjs";
 import { chromium } from "./chromium.mjs";
+import { clientsPython, installClients } from "./clients.mjs";
 
 install();
+// In CI a client that is missing is a failure; elsewhere its tests say that they are skipped.
+const clientsProblem = process.env.CI ? installClients() : undefined;
 const out = outFolder();
 const browser = chromium();
 const bin = name => `node_modules/${name}`;
@@ -31,6 +34,11 @@ const stages = [
 ];
 
 const failed = [];
+if (clientsProblem !== undefined) {
+  console.log(clientsProblem);
+  failed.push("third-party clients");
+}
+const python = process.env.TWINCELL_PYTHON ?? clientsPython();
 for (const [name, args] of stages) {
   console.log(`\n── ${name}`);
   if (args === null) {
@@ -46,6 +54,7 @@ for (const [name, args] of stages) {
       ...process.env,
       PATH: `${root}node_modules/.bin:${process.env.PATH}`,
       ...(browser ? { TWINCELL_CHROMIUM: browser } : {}),
+      ...(python ? { TWINCELL_PYTHON: python } : {}),
     },
   });
   console.log(

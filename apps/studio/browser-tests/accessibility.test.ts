@@ -121,7 +121,12 @@ describe("by keyboard alone", () => {
       await page.keyboard.up(key);
     };
     const steps = (): Promise<number> =>
-      page.evaluate(() => window.twincell.stores.cellStore.getState().document!.programs[0]!.steps.length);
+      page.evaluate(
+        () =>
+          window.twincell.stores.cellStore
+            .getState()
+            .document!.programs.filter(program => program.format === "twincell.program")[0]!.steps.length,
+      );
 
     await page.keyboard.press("t");
     await page.getByRole("region", { name: "Trace edges" }).waitFor();

@@ -53,7 +53,12 @@ test.each([
       polling: 200,
     });
     expect(
-      await page.evaluate(() => window.twincell.stores.cellStore.getState().document!.programs[0]!.steps.length),
+      await page.evaluate(
+        () =>
+          window.twincell.stores.cellStore
+            .getState()
+            .document!.programs.filter(program => program.format === "twincell.program")[0]!.steps.length,
+      ),
     ).toBeGreaterThan(3);
     await page.screenshot({ path: picture(`way-round-${name}`), timeout: 120_000 });
 

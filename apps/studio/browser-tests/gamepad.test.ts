@@ -160,7 +160,10 @@ describe("what each control of the pad does", () => {
     await pad.press(5);
     const q = await open.page.evaluate(() => [...window.twincell.live.now().q_rad]);
     const steps = await open.page.evaluate(
-      () => window.twincell.stores.cellStore.getState().document!.programs[0]!.steps,
+      () =>
+        window.twincell.stores.cellStore
+          .getState()
+          .document!.programs.filter(program => program.format === "twincell.program")[0]!.steps,
     );
     expect(steps.at(-1)).toMatchObject({ type: "move", path: "ptp", target: { q, tool: "torch" } });
     await open.page.evaluate(() => window.twincell.document.undo());
@@ -174,7 +177,16 @@ describe("what each control of the pad does", () => {
     );
   });
 
-  test("N-36, N-42 button 11 changes to the close camera, 0.5, 0.5 and 0.1 m from the tip, and back", async () => {
+  /** Where the close camera of the last frame stands seen from the TCP, in the world [m]. */
+  const closeFromTcp = (): Promise<readonly [number, number, number]> =>
+    open.page.evaluate(async () => {
+      await new Promise(resolve => requestAnimationFrame(() => requestAnimationFrame(resolve)));
+      const { x, y, z } = window.twincellScene!.closeCamera.position;
+      const [px, py, pz] = window.twincell.live.now().worldFromTcp.position;
+      return [x - px, -z - py, y - pz] as const;
+    });
+
+  test("N-36, N-42, N-45 button 11 changes to the close camera, at the height of the TCP or 0.5, 0.5, 0.1 m from it, and back", async () => {
     const fromTip = (): Promise<number> =>
       open.page.evaluate(() => {
         const { x, y, z } = window.twincellScene!.camera.position;
@@ -184,14 +196,22 @@ describe("what each control of the pad does", () => {
     const away = await fromTip();
     await pad.press(11);
     expect(await open.page.evaluate(() => window.twincell.stores.viewStore.getState().camera)).toBe("close");
+    await expect.poll(async () => Math.abs((await closeFromTcp())[2])).toBeLessThan(1e-9);
+    await open.page.evaluate(() => window.twincell.run("view.closePlacement"));
+    await expect
+      .poll(async () => (await closeFromTcp()).map(each => Math.round(Math.abs(each) * 1e9) / 1e9))
+      .toEqual([0.5, 0.5, 0.1]);
+    await open.page.evaluate(() => window.twincell.run("view.closePlacement"));
     await pad.press(11);
     expect(await open.page.evaluate(() => window.twincell.stores.viewStore.getState().camera)).toBe("main");
     expect(Math.abs((await fromTip()) - away)).toBeLessThan(1e-6);
   });
 
-  test("N-33, N-44 trigger 7 tilts the close camera from 0 to 90°", async () => {
-    const tilt = (): Promise<number> =>
-      open.page.evaluate(() => window.twincell.stores.viewStore.getState().closeTilt_rad);
+  test("N-33, N-44 trigger 7 tilts the view of the close camera from 0 to 90°", async () => {
+    const tilt = async (): Promise<number> => {
+      const [x, y, z] = await closeFromTcp();
+      return Math.atan2(z, Math.hypot(x, y));
+    };
     for (const [pressed, deg] of [
       [0.5, 45],
       [1, 90],
@@ -199,7 +219,7 @@ describe("what each control of the pad does", () => {
       [0, 0],
     ] as const) {
       await pad.button(7, pressed);
-      expect(degrees(await tilt())).toBeCloseTo(deg, 9);
+      await expect.poll(async () => Math.round(degrees(await tilt()) * 1e6) / 1e6).toBe(deg);
     }
   });
 });
@@ -392,7 +412,12 @@ test("N-50…N-57 the four top edges of the carton at 45° by pad, as V+ text th
   const saved = page.waitForEvent("download", download => download.suggestedFilename().endsWith(".v2"));
   await page.getByRole("button", { name: "Single files" }).click();
   const text = await readFile(await (await saved).path(), "utf8");
-  const program = await page.evaluate(() => window.twincell.stores.cellStore.getState().document!.programs[0]!);
+  const program = await page.evaluate(
+    () =>
+      window.twincell.stores.cellStore
+        .getState()
+        .document!.programs.filter(program => program.format === "twincell.program")[0]!,
+  );
   expect(program.steps).toHaveLength(8);
   expect(proveText(vPlus, { name: "edges.v2", text }, program, robot, cell.robot.worldFromBase)).toMatchObject({
     kind: "proven",

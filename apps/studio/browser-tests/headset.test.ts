@@ -26,6 +26,7 @@ const recorded = (page: Page): Promise<number[][]> =>
   page.evaluate(() => {
     const { document } = window.twincell.stores.cellStore.getState();
     return document!.programs
+      .filter(each => each.format === "twincell.program")
       .find(each => each.name === document!.program)!
       .steps.flatMap(step => (step.type === "move" && "q" in step.target ? [[...step.target.q]] : []));
   });

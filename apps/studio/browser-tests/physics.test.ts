@@ -1,5 +1,5 @@
 import { createWorld, loadEngine, PhysicsRun, type MujocoWorld } from "@twincell/physics";
-import { conveyorPalletCell, physicalScene, saveDocument, type CellDocument } from "@twincell/project";
+import { conveyorPalletCell, physicalScene, saveDocument, type CellDocument, type StepsCell } from "@twincell/project";
 import { robotById } from "@twincell/core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import type {} from "../src/console.ts";
@@ -16,7 +16,7 @@ afterAll(async () => {
 });
 
 /** The example with one box to fetch. */
-function oneBox(): CellDocument {
+function oneBox(): StepsCell {
   const cell = conveyorPalletCell();
   const program = cell.programs[0]!;
   const places = { ...program.pallets.places!, rows: 1, columns: 1 };

@@ -92,7 +92,13 @@ test("N-47 N-48 N-49 a contact sounds once and paints what is touched, and both 
 test("points are recorded where the robot stands, touched up, and taken back one by one", async () => {
   const { page, problems } = await studio.open();
   await drawn(page);
-  const steps = () => page.evaluate(() => window.twincell.stores.cellStore.getState().document!.programs[0]!.steps);
+  const steps = () =>
+    page.evaluate(
+      () =>
+        window.twincell.stores.cellStore
+          .getState()
+          .document!.programs.filter(program => program.format === "twincell.program")[0]!.steps,
+    );
   await stand(page, [0.6, 0.1, 0.8]);
   await page.getByRole("button", { name: "PTP", exact: true }).first().click();
   await stand(page, [0.6, -0.1, 0.8]);
@@ -106,7 +112,10 @@ test("points are recorded where the robot stands, touched up, and taken back one
   for (const left of [2, 1, 0]) {
     await page.keyboard.press("Control+z");
     await page.waitForFunction(
-      count => window.twincell.stores.cellStore.getState().document!.programs[0]!.steps.length === count,
+      count =>
+        window.twincell.stores.cellStore
+          .getState()
+          .document!.programs.filter(program => program.format === "twincell.program")[0]!.steps.length === count,
       left,
     );
   }

@@ -3,6 +3,7 @@ import {
   freshStepIds,
   identity,
   insertSteps,
+  inverse,
   pose,
   withLists,
   type MoveStep,
@@ -12,7 +13,8 @@ import {
   type Step,
   type Target,
 } from "@twincell/core";
-import type { CellDocument, FrameRecord } from "./document.ts";
+import { isTextProgram, type CellDocument, type FrameRecord } from "./document.ts";
+import { withStepPrograms } from "./programs.ts";
 
 /*
  * Saved poses of the tool tip ("coordinates" to those who taught with them): named frames of the cell, taken at the TCP,
@@ -29,7 +31,9 @@ export function addCoords(cell: CellDocument, worldFromTcp: Pose<"world", "tcp">
   const taken = new Set([
     "world",
     ...cell.frames.map(frame => frame.name),
-    ...cell.programs.flatMap(program => [...Object.keys(program.pallets), ...Object.keys(program.frames)]),
+    ...cell.programs.flatMap(program =>
+      isTextProgram(program) ? [] : [...Object.keys(program.pallets), ...Object.keys(program.frames)],
+    ),
   ]);
   const plain = wanted.trim() === "" ? "Pose" : wanted.trim();
   let name = plain;
@@ -41,15 +45,31 @@ export function addCoords(cell: CellDocument, worldFromTcp: Pose<"world", "tcp">
 export function editCoords(cell: CellDocument, name: string, worldFromTcp: Pose<"world", "tcp">): CellDocument {
   if (!savedCoords(cell).some(frame => frame.name === name)) return cell;
   const worldFromFrame = placed(worldFromTcp);
+  const moved = withStepPrograms(cell, program =>
+    Object.hasOwn(program.frames, name)
+      ? { ...program, frames: { ...program.frames, [name]: worldFromFrame } }
+      : program,
+  );
   return {
-    ...cell,
-    frames: cell.frames.map(frame => (frame.name === name ? { ...frame, worldFromFrame } : frame)),
-    programs: cell.programs.map(program =>
-      Object.hasOwn(program.frames, name)
-        ? { ...program, frames: { ...program.frames, [name]: worldFromFrame } }
-        : program,
-    ),
+    ...moved,
+    frames: cell.frames.map(frame => (frame.name === name ? edited(cell, frame, worldFromFrame) : frame)),
   };
+}
+
+/** A saved pose that is attached to an object stays attached, where it is now. */
+function edited(cell: CellDocument, frame: FrameRecord, worldFromFrame: Pose<"world", "frame">): FrameRecord {
+  const { attachedTo } = frame;
+  const object = attachedTo === undefined ? undefined : cell.objects.find(each => each.id === attachedTo.object);
+  return attachedTo === undefined || object === undefined
+    ? { ...frame, worldFromFrame }
+    : {
+        ...frame,
+        worldFromFrame,
+        attachedTo: {
+          object: attachedTo.object,
+          objectFromFrame: compose(inverse(object.worldFromObject), worldFromFrame),
+        },
+      };
 }
 
 /** Row L-48: all saved poses are gone; user frames stay. Moves that went to one stay where they went, in the world. */
@@ -57,9 +77,8 @@ export function removeCoords(cell: CellDocument): CellDocument {
   const gone = new Map(savedCoords(cell).map(frame => [frame.name, frame.worldFromFrame]));
   if (gone.size === 0) return cell;
   return {
-    ...cell,
+    ...withStepPrograms(cell, program => withoutFrames(program, gone)),
     frames: cell.frames.filter(frame => !gone.has(frame.name)),
-    programs: cell.programs.map(program => withoutFrames(program, gone)),
   };
 }
 
@@ -89,30 +108,27 @@ export function trajectoryThroughCoords(
   const { path = "lin", speed = { mps: 0.1 }, blend_m = 0, tool = cell.tool } = options;
   const record = cell.tools.find(each => each.name === tool);
   if (through.length === 0) return cell;
-  return {
-    ...cell,
-    programs: cell.programs.map(program => {
-      if (program.name !== cell.program) return program;
-      const ids = freshStepIds(program, through.length, "p");
-      const steps = through.map(
-        (name, i): MoveStep => ({
-          id: ids[i]!,
-          name,
-          type: "move",
-          path: i === 0 ? "ptp" : path,
-          speed: i === 0 ? APPROACH : speed,
-          blend_m: i === through.length - 1 ? 0 : blend_m,
-          target: { pose: pose(), frame: name, tool },
-        }),
-      );
-      const frames = Object.fromEntries(through.map(name => [name, known.get(name)!]));
-      const tools =
-        record === undefined || Object.hasOwn(program.tools, tool)
-          ? program.tools
-          : { ...program.tools, [tool]: record.flangeFromTcp };
-      return insertSteps({ ...program, tools, frames: { ...program.frames, ...frames } }, program.steps.length, steps);
-    }),
-  };
+  return withStepPrograms(cell, program => {
+    if (program.name !== cell.program) return program;
+    const ids = freshStepIds(program, through.length, "p");
+    const steps = through.map(
+      (name, i): MoveStep => ({
+        id: ids[i]!,
+        name,
+        type: "move",
+        path: i === 0 ? "ptp" : path,
+        speed: i === 0 ? APPROACH : speed,
+        blend_m: i === through.length - 1 ? 0 : blend_m,
+        target: { pose: pose(), frame: name, tool },
+      }),
+    );
+    const frames = Object.fromEntries(through.map(name => [name, known.get(name)!]));
+    const tools =
+      record === undefined || Object.hasOwn(program.tools, tool)
+        ? program.tools
+        : { ...program.tools, [tool]: record.flangeFromTcp };
+    return insertSteps({ ...program, tools, frames: { ...program.frames, ...frames } }, program.steps.length, steps);
+  });
 }
 
 function withoutFrames(program: Program, gone: ReadonlyMap<string, Pose<"world", "frame">>): Program {

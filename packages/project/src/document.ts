@@ -1,4 +1,5 @@
 import type { Belt, Gripper, PairMatrix, PeopleZone, Person, Pose, Program, Sensor, Vector3 } from "@twincell/core";
+import { TEXT_PROGRAM_FORMAT, type TextProgram } from "./text-program.ts";
 
 /** How a solid is described in a saved cell. Origin and axes are the object's own frame, z up. */
 export type Shape =
@@ -37,14 +38,34 @@ export interface ObjectRecord {
   readonly softness_s?: number;
   /** It moves what lies on it. */
   readonly belt?: Belt;
+  /** Not drawn; checks and physics still know it. */
+  readonly hidden?: true;
+  /** Not picked in the 3D view and not moved there. */
+  readonly locked?: true;
+}
+
+/** What a frame belongs to: it moves with the object. */
+export interface Attachment {
+  /** Id of the object. */
+  readonly object: string;
+  readonly objectFromFrame: Pose<"object", "frame">;
 }
 
 /** A user frame; `saved`: a pose of the tool tip that a person saved, to go through it later (rows L-44 … L-49). */
 export interface FrameRecord {
   readonly name: string;
+  /** Where it is now; of an attached frame worldFromObject · objectFromFrame, which `followObjects` keeps true. */
   readonly worldFromFrame: Pose<"world", "frame">;
   readonly saved?: true;
+  readonly attachedTo?: Attachment;
+  readonly hidden?: true;
+  readonly locked?: true;
 }
+
+/** A program of a cell: steps, or a vendor's text that is run and patched as it is. */
+export type CellProgram = Program | TextProgram;
+
+export const isTextProgram = (program: CellProgram): program is TextProgram => program.format === TEXT_PROGRAM_FORMAT;
 
 /** Which parts of the robot are checked against which, and the robot and tool it was learnt with. */
 export interface PairsRecord extends PairMatrix {
@@ -55,8 +76,10 @@ export interface PairsRecord extends PairMatrix {
 /** Everything a person saves: one robot, its tools, what stands around it, and the programs taught there. */
 export interface CellDocument {
   readonly format: "twincell.cell";
-  readonly version: 1;
+  readonly version: 2;
   readonly name: string;
+  /** Made for people who learn: tasks to do, hints, nothing that drives a real robot. */
+  readonly training?: true;
   readonly robot: { readonly id: string; readonly worldFromBase: Pose<"world", "base"> };
   readonly tools: readonly ToolRecord[];
   /** Name of the tool in use; "flange" for none. */
@@ -71,7 +94,12 @@ export interface CellDocument {
   readonly zones?: readonly PeopleZone[];
   /** The matrix of the robot's own pairs, once a person has learnt or edited it; without it what touches at home is left out. */
   readonly pairs?: PairsRecord;
-  readonly programs: readonly Program[];
+  readonly programs: readonly CellProgram[];
   /** Name of the program being worked on. */
   readonly program: string;
+}
+
+/** A cell whose programs are all of steps, as the examples are. */
+export interface StepsCell extends CellDocument {
+  readonly programs: readonly Program[];
 }

@@ -1,7 +1,9 @@
-import { parseProgram, robotById, type Program } from "@twincell/core";
+import { parseProgram, robotById } from "@twincell/core";
 import type { z } from "zod";
-import type { CellDocument } from "./document.ts";
-import { cellSchema } from "./schema.ts";
+import { followObjects } from "./attach.ts";
+import type { CellDocument, CellProgram } from "./document.ts";
+import { cellSchema, textProgramSchema } from "./schema.ts";
+import { TEXT_PROGRAM_FORMAT } from "./text-program.ts";
 import { NEWEST, lift } from "./versions.ts";
 
 export type Opened =
@@ -48,8 +50,14 @@ export function openDocument(text: string): Opened {
 
 function withPrograms(cell: z.infer<typeof cellSchema>, lifted: readonly string[]): Opened {
   const why: string[] = [];
-  const programs: Program[] = [];
+  const programs: CellProgram[] = [];
   for (const [i, source] of cell.programs.entries()) {
+    if (isRecord(source) && source.format === TEXT_PROGRAM_FORMAT) {
+      const read = textProgramSchema.safeParse(source);
+      if (read.success) programs.push(read.data);
+      else why.push(...read.error.issues.map(issue => sentence({ ...issue, path: ["programs", i, ...issue.path] })));
+      continue;
+    }
     const answer = parseProgram(source);
     if (answer.kind === "program") programs.push(answer.program);
     else
@@ -76,6 +84,9 @@ function withPrograms(cell: z.infer<typeof cellSchema>, lifted: readonly string[
       cell.frames.map(frame => frame.name),
     ),
   );
+  for (const [i, { attachedTo }] of cell.frames.entries())
+    if (attachedTo !== undefined && !cell.objects.some(object => object.id === attachedTo.object))
+      why.push(`frames[${i}].attachedTo.object: the cell has no object with the id ${shown(attachedTo.object)}.`);
   if (why.length === 0) {
     why.push(
       ...twice(
@@ -90,7 +101,7 @@ function withPrograms(cell: z.infer<typeof cellSchema>, lifted: readonly string[
       why.push(`program: the cell has no program called ${shown(cell.program)}.`);
   }
   if (why.length > 0) return { kind: "not-a-cell", why: why.slice(0, MOST_REASONS) };
-  return { kind: "opened", document: { ...cell, programs }, lifted };
+  return { kind: "opened", document: followObjects({ ...cell, programs }), lifted };
 }
 
 function twice(list: string, key: string, names: readonly string[]): string[] {

@@ -1,6 +1,6 @@
 import { Stepper, appendStep, emptyProgram, robotById, unrolled, type Program, type Step } from "@twincell/core";
 import { expect, test } from "vitest";
-import type { CellDocument } from "./document.ts";
+import type { CellDocument, StepsCell } from "./document.ts";
 import { emptyCell } from "./example/index.ts";
 import { openDocument } from "./open.ts";
 import {
@@ -48,7 +48,7 @@ test("T-28 a program is stored in the cell, saved, loaded again and runs", () =>
 });
 
 test("T-29, T-33 a program is a list of actions, each a plain object in the file", () => {
-  const cell = JSON.parse(saveDocument(addProgram(emptyCell(), taught("Weld", 0.2)))) as CellDocument;
+  const cell = JSON.parse(saveDocument(addProgram(emptyCell(), taught("Weld", 0.2)))) as StepsCell;
   expect(cell.programs.find(program => program.name === "Weld")!.steps).toEqual([
     point("p1", 0.2),
     { id: "w1", type: "wait", s: 0.1 },

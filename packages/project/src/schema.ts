@@ -1,6 +1,7 @@
 import { z } from "zod";
 import type { Pose } from "@twincell/core";
 import { decodeMesh } from "./mesh/codec.ts";
+import { TEXT_PROGRAM_FORMAT } from "./text-program.ts";
 
 /** How far a quaternion's length may be from 1 before it is taken for a mistake instead of rounding. */
 const UNIT_TOLERANCE = 1e-3;
@@ -91,11 +92,54 @@ const zone = z.strictObject({
   ]),
 });
 
-/** Version 1 of the cell file. The programs inside have their own door: core's `parseProgram`. */
+const yes = z.exactOptional(z.literal(true));
+
+/** Of a file that is not UTF-8 each character is a byte. */
+const textFile = z
+  .strictObject({ name: text, encoding: z.exactOptional(z.enum(["utf-8", "latin-1", "shift-jis"])), text: z.string() })
+  .superRefine(({ encoding = "utf-8", text: content }, context) => {
+    const wrong = encoding === "utf-8" ? content.search(/\p{Surrogate}/u) : content.search(/[^\u0000-\u00ff]/u);
+    if (wrong >= 0)
+      context.addIssue({
+        code: "custom",
+        message: `character ${wrong + 1} of the text is no ${encoding === "utf-8" ? "character of UTF-8" : "byte (U+0000 … U+00FF)"}`,
+      });
+  });
+
+/** A vendor's program, kept as its files. */
+export const textProgramSchema = z
+  .strictObject({
+    format: z.literal(TEXT_PROGRAM_FORMAT),
+    version: z.literal(1),
+    name: text,
+    robot: text,
+    language: text,
+    main: text,
+    files: z.array(textFile).min(1),
+  })
+  .superRefine(({ main, files }, context) => {
+    const names = files.map(file => file.name);
+    if (!names.includes(main))
+      context.addIssue({
+        code: "custom",
+        path: ["main"],
+        message: `the program has no file called ${JSON.stringify(main)}`,
+      });
+    for (const [i, name] of names.entries())
+      if (names.indexOf(name) < i)
+        context.addIssue({
+          code: "custom",
+          path: ["files", i, "name"],
+          message: `${JSON.stringify(name)} is already the name of another file`,
+        });
+  });
+
+/** The newest version of the cell file; docs/cell.schema.json is printed from it. Each program in it is read on its own: steps by core's `parseProgram`. */
 export const cellSchema = z.strictObject({
   format: z.literal("twincell.cell"),
-  version: z.literal(1),
+  version: z.literal(2),
   name: z.string(),
+  training: yes,
   robot: z.strictObject({ id: text, worldFromBase: poseOf<"world", "base">() }),
   tools: z.array(
     z.strictObject({
@@ -119,10 +163,19 @@ export const cellSchema = z.strictObject({
       friction: z.exactOptional(z.number().nonnegative().max(10)),
       softness_s: z.exactOptional(z.number().positive()),
       belt: z.exactOptional(belt),
+      hidden: yes,
+      locked: yes,
     }),
   ),
   frames: z.array(
-    z.strictObject({ name: text, worldFromFrame: poseOf<"world", "frame">(), saved: z.exactOptional(z.literal(true)) }),
+    z.strictObject({
+      name: text,
+      worldFromFrame: poseOf<"world", "frame">(),
+      saved: yes,
+      attachedTo: z.exactOptional(z.strictObject({ object: text, objectFromFrame: poseOf<"object", "frame">() })),
+      hidden: yes,
+      locked: yes,
+    }),
   ),
   allowedPairs: z.array(z.tuple([text, text])),
   sensors: z.exactOptional(z.array(sensor)),

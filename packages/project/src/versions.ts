@@ -1,5 +1,5 @@
 /** The version this release writes. */
-export const NEWEST = 1;
+export const NEWEST = 2;
 
 interface LiftStep {
   readonly says: string;
@@ -8,9 +8,16 @@ interface LiftStep {
 
 /**
  * Step n lifts a cell of version n to n + 1. A shipped step is never edited; the file of every version that was ever
- * shipped is kept in fixtures/cells. Version 1 is the first, so there is nothing to lift yet.
+ * shipped is kept in fixtures/cells.
  */
-export const STEPS: Readonly<Record<number, LiftStep>> = {};
+export const STEPS: Readonly<Record<number, LiftStep>> = {
+  // Everything of version 1 means the same in version 2, which only adds: text programs, attached frames, hidden and locked
+  // objects and frames, training cells.
+  1: {
+    says: "The cell is of version 1; it may now also hold vendor programs as text and frames that move with an object.",
+    lift: cell => ({ ...cell }),
+  },
+};
 
 export interface Lifted {
   readonly cell: Record<string, unknown>;

@@ -76,7 +76,10 @@ test.skipIf(absent)(
       });
       expect([...new Set(read.states.map(state => state.step))]).toEqual(["s0", "s1"]);
       expect(read.events).toMatchObject([{ message: "Angehalten – „jetzt“.", level: 3 }]);
-      expect(read.meta).toMatchObject([["twincell.run", { robot: robot.id, cell: "Zelle α" }]]);
+      expect(read.meta).toMatchObject([
+        ["twincell.run", { robot: robot.id, cell: "Zelle α" }],
+        ["twincell.digest", { json: expect.stringContaining("Angehalten – „jetzt“.") as string }],
+      ]);
     } finally {
       rmSync(folder, { recursive: true });
     }

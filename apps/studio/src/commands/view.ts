@@ -4,6 +4,7 @@ import { headsetStore } from "../stores/headset.ts";
 import {
   showMode,
   toggleCamera,
+  toggleClosePlacement,
   toggleMuted,
   toggleTheme,
   viewStore,
@@ -25,6 +26,7 @@ export const viewCommands = (): readonly Command[] => [
     }),
   ),
   { id: "view.camera", group: "view", words: words.commands.camera, keys: ["C"], run: toggleCamera },
+  { id: "view.closePlacement", group: "view", words: words.commands.closePlacement, run: toggleClosePlacement },
   {
     id: "view.plots",
     group: "view",

@@ -1,7 +1,7 @@
 import { identity, type Pose, robotById } from "@twincell/core";
 import { Canvas } from "@react-three/fiber";
 import { lazy, Suspense, useEffect, useMemo, useRef, useState } from "react";
-import { type Group, type Mesh, NeutralToneMapping, PCFShadowMap } from "three";
+import { type Group, type Mesh, NeutralToneMapping, PCFShadowMap, PerspectiveCamera } from "three";
 import { useStore } from "zustand";
 import { dragFollows } from "../live/drag.ts";
 import { cellStore } from "../stores/cell.ts";
@@ -58,6 +58,7 @@ export function Viewport() {
   const colours = useMemo(() => readTheme(theme), [theme]);
   const [pictured, setPictured] = useState(true);
   const picture = useMemo(hiddenPicture, []);
+  const close = useMemo(() => new PerspectiveCamera(40, 1.4, 0.02, 60), []);
   const interaction = useMemo(newInteraction, []);
   const wishes = useMemo<CameraWishes>(() => ({ fit: () => undefined, look: () => undefined }), []);
   const label = useMemo<PointerLabel>(() => ({ element: null }), []);
@@ -88,8 +89,8 @@ export function Viewport() {
           gl={{ antialias: true, toneMapping: NeutralToneMapping, toneMappingExposure: 0.95 }}
           camera={{ fov: 32, near: 0.05, far: 60, position: [3.6, 2.3, 2.1] }}
         >
-          <RenderLoop meter={meter} picture={picture} cube={cube} />
-          <Probe meter={meter} />
+          <RenderLoop meter={meter} picture={picture} cube={cube} close={close} />
+          <Probe meter={meter} close={close} />
           {document && <Controls wishes={wishes} world={world} document={document} interaction={interaction} />}
           <group rotation-x={-Math.PI / 2} ref={world}>
             {document && <Stage theme={colours} document={document} />}

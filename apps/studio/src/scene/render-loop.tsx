@@ -24,12 +24,14 @@ export function RenderLoop({
   meter,
   picture,
   cube,
+  close,
 }: {
   readonly meter: FrameMeter;
+  /** Follows the TCP; placed anew every frame. */
+  readonly close: PerspectiveCamera;
   readonly picture: PictureFrame;
   readonly cube: RefObject<HTMLDivElement | null>;
 }) {
-  const close = useMemo(() => new PerspectiveCamera(40, 1.4, 0.02, 60), []);
   const overview = useMemo(() => new PerspectiveCamera(36, 1.4, 0.05, 60), []);
   const clock = useMemo(() => ({ start: 0, turned: new Quaternion(0, 0, 0, 0) }), []);
   const invalidate = useThree(state => state.invalidate);

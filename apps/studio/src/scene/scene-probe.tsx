@@ -12,6 +12,8 @@ export interface SceneProbe {
   readonly frames: number;
   readonly meter: FrameMeter;
   readonly camera: Camera;
+  /** The camera that follows the TCP, as the last frame placed it. */
+  readonly closeCamera: Camera;
   readonly gl: WebGLRenderer;
   readonly scene: Scene;
   /** Draw calls and triangles of the last frame. */
@@ -23,7 +25,7 @@ declare global {
   }
 }
 
-export function Probe({ meter }: { readonly meter: FrameMeter }) {
+export function Probe({ meter, close }: { readonly meter: FrameMeter; readonly close: Camera }) {
   const get = useThree(state => state.get);
   useEffect(() => {
     const point = new Vector3();
@@ -46,6 +48,7 @@ export function Probe({ meter }: { readonly meter: FrameMeter }) {
       get camera() {
         return get().camera;
       },
+      closeCamera: close,
       get gl() {
         return get().gl;
       },
@@ -60,6 +63,6 @@ export function Probe({ meter }: { readonly meter: FrameMeter }) {
     return () => {
       delete window.twincellScene;
     };
-  }, [get, meter]);
+  }, [get, meter, close]);
   return null;
 }

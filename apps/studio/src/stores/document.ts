@@ -1,4 +1,15 @@
-import { createHistory, type CellDocument, type History, type ObjectRecord, type ToolRecord } from "@twincell/project";
+import {
+  createHistory,
+  followObjects,
+  selectedProgram,
+  selectedText,
+  withStepPrograms,
+  type CellDocument,
+  type History,
+  type ObjectRecord,
+  type TextProgram,
+  type ToolRecord,
+} from "@twincell/project";
 import { robotById, type Pose, type Program, type Robot } from "@twincell/core";
 import { cellStore } from "./cell.ts";
 
@@ -18,18 +29,21 @@ function publish(next: History): void {
 /** Shows another document; undo starts afresh. */
 export const showDocument = (document: CellDocument): void => publish(createHistory(inStep(document)));
 
-/** Programs carry the tools and frames of the cell, so that each can be checked, exported and run by itself. */
-function inStep(document: CellDocument): CellDocument {
+/**
+ * Attached frames stand where their objects are, and programs carry the tools and frames of the cell, so that each can be
+ * checked, exported and run by itself.
+ */
+function inStep(changed: CellDocument): CellDocument {
+  const document = followObjects(changed);
   const tools = Object.fromEntries(document.tools.map(tool => [tool.name, tool.flangeFromTcp]));
   const frames = Object.fromEntries(document.frames.map(frame => [frame.name, frame.worldFromFrame]));
-  const programs = document.programs.map(program => {
+  return withStepPrograms(document, program => {
     // Inside a pallet step the name of a pallet means its places: a frame of that name stays out.
     const free = Object.fromEntries(Object.entries(frames).filter(([name]) => !Object.hasOwn(program.pallets, name)));
     return agrees(program.tools, tools) && agrees(program.frames, free)
       ? program
       : { ...program, tools: { ...program.tools, ...tools }, frames: { ...program.frames, ...free } };
   });
-  return programs.every((program, i) => program === document.programs[i]) ? document : { ...document, programs };
 }
 const agrees = (has: Readonly<Record<string, Pose>>, wants: Readonly<Record<string, Pose>>): boolean =>
   Object.entries(wants).every(
@@ -64,8 +78,12 @@ export function redo(): string | null {
 
 export const robotOf = (document: CellDocument | null): Robot | null =>
   document ? (robotById(document.robot.id) ?? null) : null;
+/** The program of steps being worked on; null while a vendor's text is. */
 export const programOf = (document: CellDocument | null): Program | null =>
-  document?.programs.find(program => program.name === document.program) ?? null;
+  document ? (selectedProgram(document) ?? null) : null;
+/** The vendor's text being worked on; null while a program of steps is. */
+export const textOf = (document: CellDocument | null): TextProgram | null =>
+  document ? (selectedText(document) ?? null) : null;
 export const toolOf = (document: CellDocument | null): ToolRecord | null =>
   document?.tools.find(tool => tool.name === document.tool) ?? null;
 export const objectOf = (document: CellDocument | null, id: string): ObjectRecord | null =>

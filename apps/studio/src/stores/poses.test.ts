@@ -2,7 +2,7 @@ import { pose } from "@twincell/core";
 import { edgeTraceCell, savedCoords } from "@twincell/project";
 import { beforeEach, expect, test } from "vitest";
 import { cellStore } from "./cell.ts";
-import { showDocument, undo } from "./document.ts";
+import { programOf, showDocument, undo } from "./document.ts";
 import { forgetPoses, keepPose, movePose, movesThroughPoses, posesText, readPoses } from "./poses.ts";
 
 const saved = (): readonly { name: string; x: number }[] =>
@@ -51,7 +51,7 @@ test("L-48 L-49 the program goes through all poses; when they are gone its moves
   keepPose(pose([0.6, 0, 0.4]));
   const count = (): number => {
     const { document } = cellStore.getState();
-    return document!.programs.find(({ name }) => name === document!.program)!.steps.length;
+    return programOf(document)!.steps.length;
   };
   const before = count();
   movesThroughPoses();

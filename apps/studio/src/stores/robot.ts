@@ -1,4 +1,5 @@
 import { retargetProgram, robotById, type Robot } from "@twincell/core";
+import { withStepPrograms } from "@twincell/project";
 import { words } from "../words/index.ts";
 import { cellStore } from "./cell.ts";
 import { commit, robotOf } from "./document.ts";
@@ -19,7 +20,7 @@ export function changeRobot(id: string): boolean {
   if (!document || !to || document.robot.id === id) return false;
   let points = 0;
   let kept = 0;
-  const programs = document.programs.map(program => {
+  const { programs } = withStepPrograms(document, program => {
     const taught = robotById(program.robot) ?? from;
     if (!taught) return program;
     const moved = retargetProgram(program, taught, to, document.robot.worldFromBase);

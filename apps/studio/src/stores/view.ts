@@ -26,7 +26,7 @@ export const viewStore = createStore<ViewState>(() => ({
   theme: "dark",
   camera: "main",
   closeTilt_rad: 0,
-  closePlacement: "offset",
+  closePlacement: "level",
   muted: false,
   inHeadset: false,
   sheet: "jog",
@@ -42,6 +42,9 @@ export const toggleMuted = (): void => viewStore.setState(({ muted }) => ({ mute
 /** Row N-36. */
 export const toggleCamera = (): void =>
   viewStore.setState(({ camera }) => ({ camera: camera === "main" ? "close" : "main" }));
+/** Rows N-42, N-45: at the height of the TCP, or 0.5, 0.5, 0.1 m from it. */
+export const toggleClosePlacement = (): void =>
+  viewStore.setState(({ closePlacement }) => ({ closePlacement: closePlacement === "level" ? "offset" : "level" }));
 /** Row N-44: an analogue trigger 0 … 1 tilts the close camera 0 … 90°. */
 export const tiltCloseCamera = (trigger: number): void =>
   viewStore.setState({ closeTilt_rad: (Math.min(1, Math.max(0, trigger)) * Math.PI) / 2 });

@@ -1084,6 +1084,7 @@ export const en = {
     theme: "Theme: light or dark",
     mute: "Sounds on or off",
     camera: "Main or close camera",
+    closePlacement: "Close camera: at tool height, or 0.5 · 0.5 · 0.1 m away",
     headset: "Enter the headset",
     trace: "Trace edges",
     recordPtp: "Record point, PTP",

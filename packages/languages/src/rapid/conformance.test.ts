@@ -23,8 +23,9 @@ describeDialect(rapid, bench);
 describeStructure(rapid, bench);
 describeDialect(rapid, { ...bench, robot: robotById("abb_crb15000_5_95")!, branches: false });
 
+const PYTHON = process.env["TWINCELL_PYTHON"] ?? "python3";
 /** The Python package rapidchecker: somebody else's grammar of RAPID, which knows nothing of ours. */
-const hasChecker = spawnSync("python3", ["-c", "import rapidchecker"]).status === 0;
+const hasChecker = spawnSync(PYTHON, ["-c", "import rapidchecker"]).status === 0;
 describe.skipIf(!hasChecker)("a grammar of RAPID that is not ours (pip install rapidchecker)", () => {
   test("takes what is written", () => {
     const { robot, worldFromBase, paths } = bench;
@@ -39,7 +40,7 @@ describe.skipIf(!hasChecker)("a grammar of RAPID that is not ours (pip install r
         if (emitted.kind === "cannot") throw new Error(emitted.sentence);
         writeFileSync(join(folder, `p${i}.mod`), emitted.files[0]!.text.replaceAll("\r", ""));
       }
-      const answer = spawnSync("python3", ["-m", "rapidchecker", folder], { encoding: "utf8" });
+      const answer = spawnSync(PYTHON, ["-m", "rapidchecker", folder], { encoding: "utf8" });
       expect(answer.stdout + answer.stderr).toMatch(/No RAPID format errors/);
       expect(answer.status).toBe(0);
     } finally {

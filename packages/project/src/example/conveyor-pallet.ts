@@ -8,7 +8,7 @@ import {
   type Program,
   type Step,
 } from "@twincell/core";
-import type { CellDocument, ObjectRecord } from "../document.ts";
+import type { StepsCell, ObjectRecord } from "../document.ts";
 
 /** Boxes of 60 mm come one after the other; nine places of a table take them (row M-54). */
 const BOX_M = 0.06;
@@ -43,12 +43,12 @@ const box = (number: number): ObjectRecord => ({
 });
 
 /** A UR10e between a conveyor with a photo-cell and a table with nine places, and the program that fills them. */
-export function conveyorPalletCell(): CellDocument {
+export function conveyorPalletCell(): StepsCell {
   const first_m = BEAM_X_M - 0.1 - BOXES * SPACING_M - 0.2;
   const last_m = BEAM_X_M + 0.25;
   return {
     format: "twincell.cell",
-    version: 1,
+    version: 2,
     name: "Conveyor and pallet",
     robot: { id: "ur10e", worldFromBase: pose([0, 0, 0.1]) },
     tools: [

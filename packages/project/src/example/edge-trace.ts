@@ -1,5 +1,5 @@
 import { emptyProgram, pose, type Pose, type Vector3 } from "@twincell/core";
-import type { CellDocument, ObjectRecord, ToolRecord } from "../document.ts";
+import type { StepsCell, ObjectRecord, ToolRecord } from "../document.ts";
 
 /*
  * Where things stand decides whether all four top edges can be traced with the tool at 45°: at the far edge the tool
@@ -52,11 +52,11 @@ function wall(id: string, name: string, size_m: Vector3, x: number, y: number): 
 }
 
 /** The RX90L on its column in a walled cell, with a carton of 400 × 300 × 200 mm on a low table: ready to trace the carton's top edges. */
-export function edgeTraceCell(): CellDocument {
+export function edgeTraceCell(): StepsCell {
   const stand_m = TABLE_TOP_AT_M[2] - TABLE_TOP_M[2] / 2;
   return {
     format: "twincell.cell",
-    version: 1,
+    version: 2,
     name: "Edge trace",
     robot: { id: ROBOT, worldFromBase: pose([0, 0, COLUMN_HEIGHT_M]) },
     tools: [TORCH],

@@ -1,11 +1,11 @@
 import { emptyProgram, pose } from "@twincell/core";
-import type { CellDocument } from "../document.ts";
+import type { StepsCell } from "../document.ts";
 
 /** A robot alone on the floor, with nothing taught. */
-export function emptyCell(robot = "staubli_rx90l", name = "New cell"): CellDocument {
+export function emptyCell(robot = "staubli_rx90l", name = "New cell"): StepsCell {
   return {
     format: "twincell.cell",
-    version: 1,
+    version: 2,
     name,
     robot: { id: robot, worldFromBase: pose() },
     tools: [],

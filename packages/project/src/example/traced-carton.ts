@@ -11,7 +11,7 @@ import {
   type Step,
   type Vector3,
 } from "@twincell/core";
-import type { CellDocument } from "../document.ts";
+import type { StepsCell } from "../document.ts";
 import { edgeTraceCell } from "./edge-trace.ts";
 
 /** How far the tool stays back from an edge before and after it. */
@@ -42,7 +42,7 @@ function orientation([x, y]: readonly [number, number]): Quaternion {
 }
 
 /** The cell of the edge trace with the traced program in it, ready to be played: all four top edges at 45°, one after the other. */
-export function tracedCartonCell(): CellDocument {
+export function tracedCartonCell(): StepsCell {
   const cell = edgeTraceCell();
   const tool = cell.tools[0]!;
   const frame = cell.frames[0]!;

@@ -1,3 +1,4 @@
+import { isTextProgram } from "@twincell/project";
 import { Check, ChevronDown } from "lucide-react";
 import { DropdownMenu } from "radix-ui";
 import { useState } from "react";
@@ -47,7 +48,9 @@ export function ProgramSwitch() {
               {programs?.map(program => (
                 <DropdownMenu.RadioItem key={program.name} className="menu-item" value={program.name}>
                   <span className="grow">{program.name}</span>
-                  <span className="dim small">{words.tree.steps(program.steps.length)}</span>
+                  <span className="dim small">
+                    {isTextProgram(program) ? program.language : words.tree.steps(program.steps.length)}
+                  </span>
                   <DropdownMenu.ItemIndicator>
                     <Check size={14} />
                   </DropdownMenu.ItemIndicator>

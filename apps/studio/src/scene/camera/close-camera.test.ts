@@ -38,14 +38,16 @@ test("N-42 G-09 the close camera keeps 0.5, 0.5, 0.1 m from the TCP wherever it 
 });
 
 test("N-45 by default it looks horizontally at the height of the TCP", () => {
-  closeCameraPosition(worldFromTcp, "level", 0, free, out);
+  const { closePlacement, closeTilt_rad } = viewStore.getInitialState();
+  closeCameraPosition(worldFromTcp, closePlacement, closeTilt_rad, free, out);
   expect(out[2]).toBeCloseTo(0.55, 12);
 });
 
 test("N-33 N-44 G-09 the trigger at half tilts the view by 45°, all of it looks straight down, more or less than that is cut off", () => {
   const elevation_deg = (trigger: number): number => {
     tiltCloseCamera(trigger);
-    closeCameraPosition(worldFromTcp, "level", viewStore.getState().closeTilt_rad, free, out);
+    const { closePlacement, closeTilt_rad } = viewStore.getState();
+    closeCameraPosition(worldFromTcp, closePlacement, closeTilt_rad, free, out);
     return degrees(Math.atan2(out[2] - 0.55, Math.hypot(out[0] - 0.7, out[1] - 0.2)));
   };
   expect([0, 0.25, 0.5, 1, 7, -3].map(trigger => Math.round(elevation_deg(trigger) * 1e6) / 1e6)).toEqual([

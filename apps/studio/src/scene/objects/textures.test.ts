@@ -2,20 +2,20 @@ import { edgeTraceCell } from "@twincell/project";
 import { linkShapes, robotById } from "@twincell/core";
 import { RepeatWrapping, SRGBColorSpace } from "three";
 import { afterEach, expect, test, vi } from "vitest";
-import { partMaterials } from "../robot/materials.ts";
+import { partSurfaces } from "../robot/materials.ts";
 import { kraftTexture, looksLikeCardboard } from "./cardboard.ts";
 
 afterEach(() => {
   vi.unstubAllGlobals();
 });
 
-test("N-04 the robot wears painted castings, dark wrists and bare metal; every part of every link has a material", () => {
-  const materials = partMaterials();
+test("N-04 the robot wears painted castings, dark wrists and bare metal; every part of every link has a surface", () => {
+  const surfaces = partSurfaces();
   const worn = new Set(linkShapes(robotById("staubli_rx90l")!).flatMap(link => link.parts.map(part => part.material)));
   expect(worn.size).toBeGreaterThanOrEqual(3);
-  for (const name of worn) expect(materials[name].color.getHexString()).toMatch(/^[0-9a-f]{6}$/);
-  expect(new Set([...worn].map(name => materials[name].color.getHexString())).size).toBe(worn.size);
-  expect(materials.metal.metalness).toBeGreaterThan(materials.casting.metalness);
+  for (const name of worn) expect(surfaces[name].color).toMatch(/^#[0-9a-f]{6}$/);
+  expect(new Set([...worn].map(name => surfaces[name].color)).size).toBe(worn.size);
+  expect(surfaces.metal.metalness).toBeGreaterThan(surfaces.casting.metalness);
 });
 
 test("N-04 the carton of the cell is textured as cardboard, furniture and walls are not", () => {

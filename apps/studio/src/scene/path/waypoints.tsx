@@ -1,5 +1,5 @@
 import { compose, flangePose, flow, identity, type Pose, type Program, type Robot, robotById } from "@twincell/core";
-import type { CellDocument } from "@twincell/project";
+import { selectedProgram, type CellDocument } from "@twincell/project";
 import { useLayoutEffect, useMemo, useRef } from "react";
 import { type InstancedMesh, Matrix4 } from "three";
 import { poseMatrix } from "../pose-matrix.ts";
@@ -41,7 +41,7 @@ export function waypointPoses(document: CellDocument, program: Program, robot: R
 
 /** Taught points: a small frame with a white dot each, in two draw calls. */
 export function Waypoints({ document }: { readonly document: CellDocument }) {
-  const program = document.programs.find(each => each.name === document.program);
+  const program = selectedProgram(document);
   const robot = robotById(document.robot.id);
   const poses = useMemo(
     () => (program && robot ? waypointPoses(document, program, robot) : []),

@@ -6,7 +6,7 @@ import { paintTouching } from "../paint.ts";
 import { raycastByTree } from "../pick/raycast.ts";
 import { poseMatrix } from "../pose-matrix.ts";
 import { linkDrawings } from "./link-geometry.ts";
-import { ghostMaterials, partMaterials } from "./materials.ts";
+import { ghostMaterial, linkMaterial } from "./materials.ts";
 
 /** Where the angles come from: written in place, `revision` counts the changes. */
 export interface ArmState {
@@ -29,10 +29,7 @@ const noPick = (): void => undefined;
 /** An arm as its joint angles say, link by link. Draws, decides nothing. */
 export function ArmView({ robot, worldFromBase, live: now, prefix = "", ghost }: Props) {
   const drawings = useMemo(() => linkDrawings(robot), [robot]);
-  const materials = useMemo(
-    () => (ghost === undefined ? partMaterials(robot.paint) : ghostMaterials(ghost)),
-    [robot.paint, ghost],
-  );
+  const material = useMemo(() => (ghost === undefined ? linkMaterial : ghostMaterial(ghost)), [ghost]);
   const links = useRef<(Group | null)[]>([]);
   const seen = useRef(-1);
   const scratch = useMemo(
@@ -49,7 +46,7 @@ export function ArmView({ robot, worldFromBase, live: now, prefix = "", ghost }:
   }, [robot, worldFromBase]);
   useEffect(
     () => () => {
-      for (const drawing of drawings) for (const piece of drawing.pieces) piece.geometry.dispose();
+      for (const drawing of drawings) drawing.geometry.dispose();
     },
     [drawings],
   );
@@ -57,7 +54,7 @@ export function ArmView({ robot, worldFromBase, live: now, prefix = "", ghost }:
     () =>
       prefix !== ""
         ? undefined
-        : paintTouching(name => links.current[drawings.findIndex(drawing => drawing.name === name)] ?? null),
+        : paintTouching(name => links.current[drawings.find(drawing => drawing.name === name)?.link ?? -1] ?? null),
     [drawings, prefix],
   );
 
@@ -85,16 +82,13 @@ export function ArmView({ robot, worldFromBase, live: now, prefix = "", ghost }:
         links.current[drawing.link] = group;
       }}
     >
-      {drawing.pieces.map(piece => (
-        <mesh
-          key={piece.material}
-          geometry={piece.geometry}
-          material={materials[piece.material]}
-          castShadow={ghost === undefined}
-          receiveShadow={ghost === undefined}
-          raycast={ghost === undefined ? raycastByTree : noPick}
-        />
-      ))}
+      <mesh
+        geometry={drawing.geometry}
+        material={material}
+        castShadow={ghost === undefined}
+        receiveShadow={ghost === undefined}
+        raycast={ghost === undefined ? raycastByTree : noPick}
+      />
     </group>
   ));
 }

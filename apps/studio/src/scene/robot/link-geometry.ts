@@ -1,25 +1,28 @@
-import { type LinkShape, linkShapes, type PartMaterial, type Robot } from "@twincell/core";
+import { type LinkShape, linkShapes, type Robot } from "@twincell/core";
 import type { BufferGeometry } from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { meshGeometry } from "../mesh-geometry.ts";
+import { giveSurface, type PartSurfaces, partSurfaces } from "./materials.ts";
 
-/** One draw call: all parts of a link that share a material. */
-export interface LinkPiece {
-  readonly material: PartMaterial;
-  readonly geometry: BufferGeometry;
-}
+/** One draw call: all parts of a link. The time of a frame goes by the number of these, not by their triangles. */
 export interface LinkDrawing {
   readonly link: number;
   readonly name: string;
-  readonly pieces: readonly LinkPiece[];
+  readonly geometry: BufferGeometry;
 }
 
-function drawing(shape: LinkShape): LinkDrawing {
-  const byMaterial = new Map<PartMaterial, BufferGeometry[]>();
-  for (const part of shape.parts)
-    byMaterial.set(part.material, [...(byMaterial.get(part.material) ?? []), meshGeometry(part.mesh)]);
-  const pieces = [...byMaterial].map(([material, geometries]) => ({ material, geometry: mergeGeometries(geometries) }));
-  return { link: shape.link, name: shape.name, pieces };
+function drawing(shape: LinkShape, surfaces: PartSurfaces): LinkDrawing {
+  const geometries = shape.parts.map(part => {
+    const geometry = meshGeometry(part.mesh);
+    giveSurface(geometry, surfaces[part.material]);
+    return geometry;
+  });
+  return { link: shape.link, name: shape.name, geometry: mergeGeometries(geometries) };
 }
 
-export const linkDrawings = (robot: Robot): LinkDrawing[] => linkShapes(robot).map(drawing);
+export function linkDrawings(robot: Robot): LinkDrawing[] {
+  const surfaces = partSurfaces(robot.paint);
+  return linkShapes(robot)
+    .filter(shape => shape.parts.length > 0)
+    .map(shape => drawing(shape, surfaces));
+}

@@ -5,6 +5,7 @@ import { useEffect, useRef, useState } from "react";
 import { useStore } from "zustand";
 import { theLive } from "../../live/live.ts";
 import { cellStore } from "../../stores/cell.ts";
+import { programOf } from "../../stores/document.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { leaveHeadset } from "../../stores/headset.ts";
 import { jogStore } from "../../stores/jog.ts";
@@ -108,7 +109,7 @@ function handOf(state: unknown): unknown {
 
 function deleteLast(): void {
   const { document } = cellStore.getState();
-  const last = document?.programs.find(each => each.name === document.program)?.steps.at(-1);
+  const last = programOf(document)?.steps.at(-1);
   if (last) deleteSteps([last.id]);
 }
 
@@ -129,9 +130,7 @@ function PlayKey() {
 function State() {
   const points = useStore(
     cellStore,
-    ({ document }) =>
-      document?.programs.find(each => each.name === document.program)?.steps.filter(step => step.type === "move")
-        .length ?? 0,
+    ({ document }) => programOf(document)?.steps.filter(step => step.type === "move").length ?? 0,
   );
   const blocked = useStore(jogStore, state => state.blocked !== null);
   const touching = useStore(watchStore, state => state.contacts.length > 0);
