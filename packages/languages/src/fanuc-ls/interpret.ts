@@ -1,6 +1,6 @@
-import type { Dialect, Step } from "@twincell/core";
+import type { Step } from "@twincell/core";
 import { TextError, textFault } from "../text/index.ts";
-import { blockDoors } from "../text/structured/index.ts";
+import { blockDoors, type BlockReader } from "../text/structured/index.ts";
 import { readSource } from "./read/source.ts";
 import { hasPendant } from "./run/arm.ts";
 import { Machine } from "./run/machine.ts";
@@ -12,7 +12,7 @@ const MOST_STEPS = 200_000;
  * Executes and reads one listing, or several one behind the other of which the first is started. Pallets are read from shifted
  * points. A program with jumps other than those of loops and decisions is executed with every input off and comes out as what it does.
  */
-export const { interpret: interpretFanucLs, parse: parseFanucLs }: Pick<Dialect, "parse" | "interpret"> = blockDoors({
+export const { interpret: interpretFanucLs, parse: parseFanucLs }: BlockReader = blockDoors({
   name: "FANUC TP",
   speaks: hasPendant,
   read: readSource,

@@ -1,31 +1,39 @@
-import { emptyProgram, type Parsed, type Pose, type Robot } from "@twincell/core";
+import { emptyProgram, type Pose, type Robot, type Signals } from "@twincell/core";
 import { headingOr, plainText, textFault, textLines, unrolled, withComments, type Comment } from "../text/index.ts";
-import { openInform } from "./interpret.ts";
+import type { ReadSteps } from "../reading/checked-import.ts";
+import { openInform, type Run } from "./interpret.ts";
 import type { PulseData } from "./robots.ts";
 
 /**
- * The neutral program that jobs amount to, with TOOL.CND and UFRAME.CND behind them. The first job is executed with every
- * input off and its motions written down, so loops, calls and shifts come out as what they do.
+ * The neutral program that jobs amount to, with TOOL.CND and UFRAME.CND behind them. The first job is executed
+ * and its motions are written down, so loops, calls and shifts come out as what they do, and decisions by inputs as decisions.
  */
 export function parseInform(
   text: string,
   robot: Robot,
   worldFromBase: Pose<"world", "base">,
   pulses: PulseData | undefined,
-): Parsed {
+): ReadSteps {
   const opened = openInform(text, robot, worldFromBase, pulses);
   if (opened.kind === "not-understood") return opened;
-  const run = opened.start();
-  const done = unrolled(run.steps, { program: "job", statement: "an instruction" });
+  const runs: Run[] = [];
+  const executed = (signals?: Signals): Run["steps"] => {
+    const run = opened.start(signals);
+    runs.push(run);
+    return run.steps;
+  };
+  const done = unrolled(executed, opened.context.signals, { program: "job", statement: "an instruction" });
   if (done.kind === "not-understood") return done;
   const lines = textLines(text).map(plainText);
   const { tools, frames, signals } = opened.context;
-  const assumed = [...run.assumed].map(([name, at]) =>
+  const assumed = [...new Map(runs.flatMap(run => [...run.assumed]))].map(([name, at]) =>
     textFault(at, "TOOL.CND or UFRAME.CND behind the job", `${name} is kept on the controller: it is taken to be 0.`),
   );
   return {
     kind: "parsed",
-    warnings: [...done.waits, ...assumed, ...done.repeated],
+    waits: done.waits,
+    executable: () => ({ kind: "ready", run: signals => opened.start(signals).steps, context: opened.context }),
+    warnings: [...assumed, ...done.repeated],
     program: {
       ...emptyProgram(robot.id, nameOf(lines)),
       ...withComments(lines, done, comment),

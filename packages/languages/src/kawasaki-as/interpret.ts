@@ -1,10 +1,9 @@
-import type { Dialect } from "@twincell/core";
-import { blockDoors, constantsOf, mainScript } from "../text/structured/index.ts";
+import { blockDoors, constantsOf, mainScript, type BlockReader } from "../text/structured/index.ts";
 import { readSource } from "./read/grammar.ts";
 import { Machine, speaksAs } from "./run/machine.ts";
 
 /** Executes and reads AS: the first program of the text that no other one calls, with the locations that stand in the text's own lists. */
-export const { interpret: interpretAs, parse: parseAs }: Pick<Dialect, "parse" | "interpret"> = blockDoors({
+export const { interpret: interpretAs, parse: parseAs }: BlockReader = blockDoors({
   name: "AS",
   speaks: speaksAs,
   read: readSource,

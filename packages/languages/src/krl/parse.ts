@@ -1,26 +1,37 @@
-import { emptyProgram, type Parsed, type Pose, type Robot } from "@twincell/core";
+import { emptyProgram, type Pose, type Robot, type Signals } from "@twincell/core";
 import { plainText, textFault, textLines, unrolled, withComments, type Comment } from "../text/index.ts";
-import { openKrl } from "./interpret.ts";
+import type { ReadSteps } from "../reading/checked-import.ts";
+import { openKrl, type Run } from "./interpret.ts";
 
 /**
- * The neutral program that a KRL text amounts to: a .src, with its .dat behind it. It is executed with every input off and
- * its motions written down, so loops, calls and pallets come out as what they do.
+ * The neutral program that a KRL text amounts to: a .src, with its .dat behind it. It is executed and its motions are
+ * written down, so loops, calls and pallets come out as what they do, and decisions by inputs as decisions.
  */
-export function parseKrl(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Parsed {
+export function parseKrl(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): ReadSteps {
   const opened = openKrl(text, robot, worldFromBase);
   if (opened.kind === "not-understood") return opened;
-  const run = opened.start();
-  const done = unrolled(run.steps, { program: "program", statement: "a statement" });
+  const runs: Run[] = [];
+  const executed = (signals?: Signals): Run["steps"] => {
+    const run = opened.start(signals);
+    runs.push(run);
+    return run.steps;
+  };
+  const done = unrolled(executed, opened.context.signals, { program: "program", statement: "a statement" });
   if (done.kind === "not-understood") return done;
   const lines = textLines(text).map(plainText);
   const { tools, frames, signals } = opened.context;
-  const assumed = [...run.assumed].map(([name, at]) =>
+  const assumed = [...new Map(runs.flatMap(run => [...run.assumed]))].map(([name, at]) =>
     textFault(at, "a value in the text", `${name} is kept on the controller: it is taken as it is on delivery.`),
   );
-  const warned = run.warned.map(({ at, sentence }) => textFault(at, "an axis from 1 to 6", sentence));
+  const said = new Map(
+    runs.flatMap(run => run.warned.map(each => [`${each.at.line} ${each.sentence}`, each] as const)),
+  );
+  const warned = [...said.values()].map(({ at, sentence }) => textFault(at, "an axis from 1 to 6", sentence));
   return {
     kind: "parsed",
-    warnings: [...done.waits, ...assumed, ...warned, ...done.repeated],
+    waits: done.waits,
+    executable: () => ({ kind: "ready", run: signals => opened.start(signals).steps, context: opened.context }),
+    warnings: [...assumed, ...warned, ...done.repeated],
     program: {
       ...emptyProgram(robot.id, nameOf(lines)),
       ...withComments(lines, done, comment),

@@ -1,5 +1,6 @@
 import { emptyProgram, type Parsed, type Pose, type Robot, type Step } from "@twincell/core";
 import { textFault } from "../text/index.ts";
+import { LINES } from "./lines.ts";
 import { readPoseList } from "./read/list.ts";
 import type { PoseList } from "./read/pose-list.ts";
 
@@ -56,3 +57,7 @@ const visits = ({ poses }: PoseList): Step[] =>
       blend_m: 0,
     }),
   );
+
+/** Whether a list names poses and moves to none of them: no line of it is a motion. */
+export const isListOfPlaces = (text: string): boolean =>
+  !text.split(/\r\n|\n|\r/).some(line => LINES.motion.test(line));

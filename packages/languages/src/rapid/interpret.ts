@@ -1,5 +1,4 @@
-import type { Dialect } from "@twincell/core";
-import { blockDoors, changedNames, routineScript } from "../text/structured/index.ts";
+import { blockDoors, changedNames, routineScript, type BlockReader } from "../text/structured/index.ts";
 import { readSource } from "./read/grammar.ts";
 import { Machine } from "./run/machine.ts";
 
@@ -7,7 +6,7 @@ import { Machine } from "./run/machine.ts";
 const SPEAKS: ReadonlySet<string> = new Set(["abb_irb120", "abb_crb15000_5_95"]);
 
 /** Executes and reads RAPID: PROC main, or the only routine of the text. */
-export const { interpret: interpretRapid, parse: parseRapid }: Pick<Dialect, "parse" | "interpret"> = blockDoors({
+export const { interpret: interpretRapid, parse: parseRapid }: BlockReader = blockDoors({
   name: "RAPID",
   speaks: ({ id }) => SPEAKS.has(id),
   read: readSource,

@@ -1,4 +1,5 @@
-import type { Dialect, LineShapes, Skipped, TextFault } from "@twincell/core";
+import type { Dialect, LineShapes, Parsed, Pose, Robot, Skipped, TextFault } from "@twincell/core";
+import { checkedImport } from "../reading/checked-import.ts";
 import { rehearse } from "./rehearse.ts";
 import { withIdentity } from "./identity.ts";
 
@@ -10,15 +11,22 @@ const MOST_READINGS = 400;
  * that is in it, since nobody knows when it would run. Each place is told with the fault that stands there. The fault of a
  * text that is no program at all, or that stays when its line is left out, remains.
  */
-export function skippingDialect(given: Dialect): Dialect {
+export function skippingDialect(given: Dialect, isPlaces?: (text: string) => boolean): Dialect {
   const dialect = withIdentity(given);
   const { lines } = dialect;
-  if (lines === undefined) return dialect;
+  const checked = (text: string, robot: Robot, worldFromBase?: Pose<"world", "base">): Parsed =>
+    checkedImport({ ...dialect, ...(isPlaces === undefined ? {} : { isPlaces }) }, text, robot, worldFromBase);
+  if (lines === undefined) return { ...dialect, parse: checked };
   return {
     ...dialect,
     parse(text, robot, worldFromBase, options) {
-      if (options?.skipUnknown !== true) return dialect.parse(text, robot, worldFromBase);
-      return without(text, lines, shorter => dialect.parse(shorter, robot, worldFromBase));
+      if (options?.skipUnknown !== true) return checked(text, robot, worldFromBase);
+      return without(
+        text,
+        lines,
+        shorter => dialect.parse(shorter, robot, worldFromBase),
+        shorter => checked(shorter, robot, worldFromBase),
+      );
     },
     interpret(text, robot, worldFromBase, options) {
       if (options?.skipUnknown !== true) return dialect.interpret(text, robot, worldFromBase);
@@ -47,6 +55,7 @@ function without<A extends { readonly kind: string }>(
   text: string,
   shapes: LineShapes,
   read: (text: string) => A | NotUnderstood,
+  confirm?: (text: string) => A | NotUnderstood,
 ): (A & { readonly skipped: readonly Skipped[] }) | NotUnderstood {
   const ends = text.match(/\r\n|\n|\r/g) ?? [];
   const lines = text.split(/\r\n|\n|\r/);
@@ -56,12 +65,16 @@ function without<A extends { readonly kind: string }>(
   let faults: readonly TextFault[] = [];
   let first: readonly TextFault[] | undefined;
   for (let reading = 0; reading < MOST_READINGS; reading++) {
-    const answer = read(lines.map((line, i) => line + (ends[i] ?? "")).join(""));
+    const shorter = lines.map((line, i) => line + (ends[i] ?? "")).join("");
+    const understood = read(shorter);
     // Where nothing stays there was no program.
     if (first !== undefined && lines.every(line => line.trim() === ""))
       return { kind: "not-understood", faults: first };
-    if (!isNotUnderstood(answer)) return { ...answer, skipped: skipped.toSorted((a, b) => a.line - b.line) };
-    ({ faults } = answer);
+    if (!isNotUnderstood(understood)) {
+      const answer = confirm === undefined ? understood : confirm(shorter);
+      return isNotUnderstood(answer) ? answer : { ...answer, skipped: skipped.toSorted((a, b) => a.line - b.line) };
+    }
+    ({ faults } = understood);
     first ??= faults;
     let isShorter = false;
     for (const fault of faults) {

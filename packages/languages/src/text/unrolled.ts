@@ -1,67 +1,46 @@
-import type { Executed, Group, Program, Step, TextFault } from "@twincell/core";
-import { TextError, textFault } from "./faults.ts";
-import { WaitsOutside } from "./waits-outside.ts";
-
-/** A program with more steps than this is taken to repeat itself for ever. */
-const MOST_STEPS = 200_000;
+import type { Executed, Group, Program, SignalLine, Signals, Step, TextFault } from "@twincell/core";
+import { numberedSteps, repeatedWarnings, writtenOut } from "../reading/written-out.ts";
 
 /** What a language calls its programs and their lines, for sentences. */
 export interface Words {
   readonly program: string;
   readonly statement: string;
 }
-/** What a program did when it was executed to its end: its steps, each with the line it came from. */
+/** What a program did when it was executed to its end: its steps, each with the line it came from, by its id. */
 export interface Unrolled {
   readonly kind: "unrolled";
   readonly steps: readonly Step[];
-  readonly from: readonly number[];
-  /** A wait for something outside ended it early. */
-  readonly waits: readonly TextFault[];
+  readonly from: ReadonlyMap<string, number>;
+  /** Steps that wait where the text goes round until an input changes. */
+  readonly waits: ReadonlySet<string>;
   /** Lines that were executed more than once. */
   readonly repeated: readonly TextFault[];
 }
 
-/** Executes a program with its motions written down, so that loops, calls and shifts come out as what they do. */
+/**
+ * Executes a program with its motions written down, so that loops, calls and shifts come out as what they do, and decisions by
+ * inputs as decisions.
+ *
+ * @param kinds  the lines of the controller, by name; filled while the program is executed.
+ */
 export function unrolled(
-  run: Iterator<Executed, unknown>,
+  run: (signals: Signals) => Iterator<Executed, unknown>,
+  kinds: Readonly<Record<string, SignalLine>>,
   { program, statement }: Words,
 ): Unrolled | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] } {
-  const steps: Step[] = [];
-  const from: number[] = [];
-  const met = new Set<number>();
-  const again = new Set<number>();
-  const waits: TextFault[] = [];
-  try {
-    for (let next = run.next(); next.done !== true; next = run.next()) {
-      const { line, step } = next.value;
-      if (step === undefined) continue;
-      if (steps.length >= MOST_STEPS)
-        throw new TextError(
-          { line, column: 1 },
-          `a ${program} that ends`,
-          `The ${program} has more than ${MOST_STEPS} steps: it repeats itself for ever.`,
-        );
-      if (met.has(line)) again.add(line);
-      met.add(line);
-      from.push(line);
-      steps.push({ ...step, id: `s${steps.length + 1}` });
+  let why: TextFault | undefined;
+  for (const merged of [true, false]) {
+    const written = writtenOut(run, kinds, { merged, called: program });
+    if (written.kind === "cannot") {
+      why ??= written.fault;
+      continue;
     }
-  } catch (cause) {
-    if (cause instanceof WaitsOutside)
-      waits.push(
-        textFault({ line: 1, column: 1 }, `a ${program} that goes on by itself`, `${cause.message} ${cause.hint}`),
-      );
-    else if (cause instanceof TextError) return { kind: "not-understood", faults: [cause.fault] };
-    else throw cause;
+    const from = new Map<string, number>();
+    const waits = new Set<string>();
+    const steps = numberedSteps(written.steps, from, waits);
+    return { kind: "unrolled", steps, from, waits, repeated: repeatedWarnings(written.repeated, statement) };
   }
-  const repeated = [...again].map(line =>
-    textFault(
-      { line, column: 1 },
-      `${statement} that is executed once`,
-      `Line ${line} is executed more than once: every time became a step of its own.`,
-    ),
-  );
-  return { kind: "unrolled", steps, from, waits, repeated };
+  return { kind: "not-understood", faults: [why!] };
 }
 
 /**
@@ -76,14 +55,15 @@ export type Comment =
 /**
  * Gives steps the names and groups that stand in the comments of their text.
  *
- * @param say  what a line says, if it is a comment or begins another part of the text
+ * @param from  the line of each step, by its id; a step inside a decision has its own.
+ * @param say   what a line says, if it is a comment or begins another part of the text
  */
 export function withComments(
   lines: readonly string[],
-  { steps, from }: Unrolled,
+  { steps, from }: { readonly steps: readonly Step[]; readonly from: ReadonlyMap<string, number> },
   say: (line: string) => Comment | undefined,
 ): Pick<Program, "steps" | "groups"> {
-  const stepLines = new Set(from);
+  const stepLines = new Set(from.values());
   const names = new Map<number, string>();
   const groupOf = new Map<number, string>();
   const before = new Map<number, readonly string[]>();
@@ -128,17 +108,21 @@ export function withComments(
     name = undefined;
     said = [];
   }
-  const list: Step[] = [];
-  for (const [i, step] of steps.entries()) {
-    const line = from[i]!;
+  const dressed = (inside: readonly Step[]): Step[] => inside.flatMap(dress);
+  const dress = (step: Step): Step[] => {
+    const line = from.get(step.id)!;
     const called = names.get(line);
     const group = groupOf.get(line);
     const member = group === undefined ? {} : { group };
     const texts = before.get(line) ?? [];
     before.delete(line);
-    for (const [k, text] of texts.entries()) list.push({ id: `${step.id}.${k + 1}`, type: "comment", text, ...member });
-    list.push({ ...step, ...(called === undefined ? {} : { name: called }), ...member });
-  }
+    const remarks = texts.map((text, k): Step => ({ id: `${step.id}.${k + 1}`, type: "comment", text, ...member }));
+    const own: Step = { ...step, ...(called === undefined ? {} : { name: called }), ...member };
+    if (own.type !== "if") return [...remarks, own];
+    const then = dressed(own.then);
+    return [...remarks, { ...own, then, ...(own.else === undefined ? {} : { else: dressed(own.else) }) }];
+  };
+  const list = dressed(steps);
   const used = new Set(groupOf.values());
   return { groups: Object.fromEntries(Object.entries(groups).filter(([id]) => used.has(id))), steps: list };
 }

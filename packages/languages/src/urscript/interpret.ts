@@ -1,10 +1,9 @@
-import type { Dialect } from "@twincell/core";
-import { blockDoors, constantsOf, mainScript } from "../text/structured/index.ts";
+import { blockDoors, constantsOf, mainScript, type BlockReader } from "../text/structured/index.ts";
 import { readSource } from "./read/grammar.ts";
 import { Machine, speaksUrScript } from "./run/machine.ts";
 
 /** Executes and reads URScript: one program `def … end` with the routines inside it, or the statements of a bare script. */
-export const { interpret: interpretUrScript, parse: parseUrScript }: Pick<Dialect, "parse" | "interpret"> = blockDoors({
+export const { interpret: interpretUrScript, parse: parseUrScript }: BlockReader = blockDoors({
   name: "URScript",
   speaks: speaksUrScript,
   read: readSource,

@@ -1,4 +1,4 @@
-import { emptyProgram, type Parsed, type Pose, type Robot } from "@twincell/core";
+import { emptyProgram, type Pose, type Robot } from "@twincell/core";
 import {
   headingOr,
   plainText,
@@ -9,6 +9,7 @@ import {
   type Comment,
   type Unrolled,
 } from "../text/index.ts";
+import type { ReadSteps } from "../reading/checked-import.ts";
 import { interpretVPlus } from "./interpret.ts";
 import { structuredProgram } from "./read/structure.ts";
 
@@ -21,9 +22,9 @@ const POINT = /^\s*(?:DO\s+)?DECOMPOSE\s+([A-Z][A-Z0-9_.]*)\s*\[\s*([0-9]+)\s*\]
  * The neutral program that a V+ text amounts to. Loops, calls, decisions and pallets that a neutral program has too are
  * kept. Any other text is executed and its motions written down, so its loops and arrays come out as what they do. A point list moves nothing: each of its points becomes a joint move.
  */
-export function parseVPlus(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Parsed {
+export function parseVPlus(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): ReadSteps {
   const lines = textLines(text).map(plainText);
-  const isList = lines.some(line => POINT.test(line)) && !lines.some(line => /^\s*\.PROGRAM\b/i.test(line));
+  const isList = isPointList(text);
   const structured = isList ? undefined : structuredProgram(text, lines, robot, worldFromBase, nameOf(lines));
   if (structured?.kind === "program") return { kind: "parsed", program: structured.program, warnings: [] };
   if (structured?.kind === "not-understood") return structured;
@@ -31,7 +32,10 @@ export function parseVPlus(text: string, robot: Robot, worldFromBase: Pose<"worl
   const interpreted = interpretVPlus(source, robot, worldFromBase);
   if (interpreted.kind === "not-understood") return interpreted;
 
-  const done = unrolled(interpreted.run(), { program: "program", statement: "a statement" });
+  const done = unrolled(interpreted.run, interpreted.context.signals ?? {}, {
+    program: "program",
+    statement: "a statement",
+  });
   if (done.kind === "not-understood") return done;
   const moved: Unrolled = isList
     ? {
@@ -51,7 +55,9 @@ export function parseVPlus(text: string, robot: Robot, worldFromBase: Pose<"worl
   const { tools, signals = {} } = interpreted.context;
   return {
     kind: "parsed",
-    warnings: [...done.waits, ...list, ...done.repeated],
+    waits: done.waits,
+    executable: () => interpreted,
+    warnings: [...list, ...done.repeated],
     program: { ...emptyProgram(robot.id, nameOf(lines)), ...withComments(lines, moved, comment), tools, signals },
   };
 }
@@ -72,4 +78,10 @@ function nameOf(lines: readonly string[]): string {
 function comment(line: string): Comment | undefined {
   const said = headingOr(/^\s*;(.*)/.exec(line)?.[1]);
   return said?.kind === "remark" ? undefined : said;
+}
+
+/** Whether a text fills arrays with points and is no program: it moves nothing. */
+export function isPointList(text: string): boolean {
+  const lines = textLines(text).map(plainText);
+  return lines.some(line => POINT.test(line)) && !lines.some(line => /^\s*\.PROGRAM\b/i.test(line));
 }

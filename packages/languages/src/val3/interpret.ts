@@ -1,11 +1,10 @@
-import type { Dialect } from "@twincell/core";
-import { blockDoors, changedNames, routineScript } from "../text/structured/index.ts";
+import { blockDoors, changedNames, routineScript, type BlockReader } from "../text/structured/index.ts";
 import { readApplication } from "./read/application.ts";
 import { hasWorld } from "./run/arm.ts";
 import { Machine } from "./run/machine.ts";
 
 /** Executes and reads VAL 3: the program "start", or the first of the text, with the data that stand behind it. */
-export const { interpret: interpretVal3, parse: parseVal3 }: Pick<Dialect, "parse" | "interpret"> = blockDoors({
+export const { interpret: interpretVal3, parse: parseVal3 }: BlockReader = blockDoors({
   name: "VAL 3",
   speaks: hasWorld,
   read: readApplication,

@@ -21,6 +21,9 @@ interface Frame {
   readonly step: number[];
 }
 
+/** An input is asked while what stands before it is not executed yet. Never leaves the machine. */
+class ReadTooEarly extends Error {}
+
 /** Executes INFORM jobs instruction by instruction. Deterministic: the same text and the same signals give the same steps. */
 export class Machine {
   private readonly memory: Memory;
@@ -55,7 +58,14 @@ export class Machine {
     if (main.done !== true) {
       this.stack.push(newFrame(main.value));
       while (this.stack.length > 0 && !this.stopped) {
-        this.instruction(this.stack.at(-1)!);
+        const frame = this.stack.at(-1)!;
+        const { at } = frame;
+        try {
+          this.instruction(frame);
+        } catch (cause) {
+          if (!(cause instanceof ReadTooEarly)) throw cause;
+          frame.at = at;
+        }
         if (this.ready.length > 0) {
           const ready = this.ready;
           this.ready = [];
@@ -111,8 +121,14 @@ export class Machine {
     }
   }
 
+  /** What was done before an input is asked is executed first: the instruction comes again when it has been. */
+  private standStill(): void {
+    this.settle(false);
+    if (this.ready.length > 0) throw new ReadTooEarly();
+  }
+
   private holds(when: Condition, at: TextPlace): boolean {
-    if (looksOutside(when)) this.settle(false);
+    if (looksOutside(when)) this.standStill();
     return this.memory.holds(when, at);
   }
 
@@ -148,7 +164,7 @@ export class Machine {
       case "aout":
         return done({ id: id(), type: "set", signal: memory.note("AO", statement.number), to: statement.to });
       case "din":
-        this.settle(false);
+        this.standStill();
         memory.set(statement.to, memory.value(statement.from), statement);
         break;
       case "wait":

@@ -24,6 +24,9 @@ const CALL_DEPTH = 40;
 /** Dealt with before, or of no consequence for where the robot goes. */
 const QUIET_ROUTINES = new Set(["IR_STOPM", "MSGQUIT"]);
 
+/** A line is looked at while what stands before it is not executed yet. Never leaves the machine. */
+class ReadTooEarly extends Error {}
+
 /** Executes a KRL module statement by statement. Deterministic: the same text and the same signals give the same steps. */
 export class Machine implements Memory {
   readonly lines: Lines;
@@ -65,7 +68,16 @@ export class Machine implements Memory {
     if (main.done !== true) {
       this.enter(main.value, [], main.value.place);
       while (this.stack.length > 0 && !this.stopped) {
-        this.instruction(this.stack.at(-1)!);
+        const frame = this.stack.at(-1)!;
+        const { at } = frame;
+        const depth = this.stack.length;
+        try {
+          this.instruction(frame);
+        } catch (cause) {
+          if (!(cause instanceof ReadTooEarly)) throw cause;
+          this.stack.length = depth;
+          frame.at = at;
+        }
         if (this.ready.length > 0) {
           const ready = this.ready;
           this.ready = [];
@@ -84,6 +96,8 @@ export class Machine implements Memory {
     if (line !== undefined) {
       // Looking at a line stops the advance run: the motion before it ends where it was taught.
       this.settle(false);
+      // What was done before is executed first: the statement comes again when it has been.
+      if (this.ready.length > 0) throw new ReadTooEarly();
       return this.lines.read(line);
     }
     if (key === "$AXIS_ACT") return axesOf(this.state.presentAxes_deg);

@@ -1,5 +1,5 @@
-import type { Dialect, Robot } from "@twincell/core";
-import { blockDoors, mainScript } from "../structured/index.ts";
+import type { Robot } from "@twincell/core";
+import { blockDoors, mainScript, type BlockReader } from "../structured/index.ts";
 import type { BasicMachine, Stage } from "./machine.ts";
 import type { BasicAnswer } from "./reader.ts";
 
@@ -12,7 +12,7 @@ export interface BasicLanguage {
 }
 
 /** The two doors through which text of a BASIC comes in. */
-export const basicDoors = ({ machine, ...language }: BasicLanguage): Pick<Dialect, "parse" | "interpret"> =>
+export const basicDoors = ({ machine, ...language }: BasicLanguage): BlockReader =>
   blockDoors({
     ...language,
     script: (source, robot, worldFromBase) =>

@@ -4,16 +4,18 @@ import {
   type Dialect,
   type Executed,
   type Interpreted,
-  type Parsed,
   type Pose,
   type Robot,
   type Signals,
   type Step,
   type TextFault,
 } from "@twincell/core";
+import type { CheckedReader, ReadSteps } from "../../reading/checked-import.ts";
 import { TextError, textFault } from "../faults.ts";
 import { rehearse } from "../rehearse.ts";
 import { newSurroundings, type Surroundings } from "../surroundings.ts";
+import { RunsOnTheSpot } from "./machine.ts";
+import { WaitsOutside } from "../waits-outside.ts";
 import { Outline, type OutlineMachine } from "./outline.ts";
 import type { Block } from "./tree.ts";
 
@@ -50,6 +52,8 @@ export interface BlockLanguage<S, M> {
   readonly read: (text: string) => { readonly kind: "source"; readonly source: S } | NotUnderstood;
   readonly script: (source: S, robot: Robot, worldFromBase: Pose<"world", "base">) => Script<M>;
 }
+/** Both ways to take a text of a language of blocks: as steps, which are still to be compared with it, and executed. */
+export type BlockReader = Pick<Dialect, "interpret"> & Pick<CheckedReader, "parse">;
 interface NotUnderstood {
   readonly kind: "not-understood";
   readonly faults: readonly TextFault[];
@@ -65,7 +69,7 @@ export function blockDoors<S, V, M extends OutlineMachine<V> & { spelt?(name: st
   speaks,
   read,
   script,
-}: BlockLanguage<S, M>): Pick<Dialect, "parse" | "interpret"> {
+}: BlockLanguage<S, M>): BlockReader {
   function open(
     text: string,
     robot: Robot,
@@ -84,18 +88,29 @@ export function blockDoors<S, V, M extends OutlineMachine<V> & { spelt?(name: st
       ? answer
       : { kind: "open", script: script(answer.source, robot, worldFromBase) };
   }
+  function executable(script: Script<M>): Extract<Interpreted, { kind: "ready" }> {
+    const surroundings = newSurroundings();
+    const run = function* (signals?: Signals): Generator<Executed, void> {
+      const asked = new AskedSignals(signals);
+      try {
+        yield* script.run(script.machine(surroundings, asked));
+      } catch (cause) {
+        // What turns in a circle while inputs are looked at goes on when they change.
+        if (cause instanceof RunsOnTheSpot && asked.isAsked) throw new WaitsOutside(cause);
+        throw cause;
+      }
+    };
+    return { kind: "ready", run, context: surroundings };
+  }
   return {
     interpret(text, robot, worldFromBase = identity()): Interpreted {
       const opened = open(text, robot, worldFromBase);
       if (opened.kind === "not-understood") return opened;
-      const surroundings = newSurroundings();
-      const run = function* (signals?: Signals): Generator<Executed, void> {
-        yield* opened.script.run(opened.script.machine(surroundings, signals));
-      };
-      const fault = rehearse(run());
-      return fault === undefined ? { kind: "ready", run, context: surroundings } : refusal(fault);
+      const ready = executable(opened.script);
+      const fault = rehearse({ [Symbol.iterator]: () => ready.run() });
+      return fault === undefined ? ready : refusal(fault);
     },
-    parse(text, robot, worldFromBase = identity()): Parsed {
+    parse(text, robot, worldFromBase = identity()): ReadSteps {
       const opened = open(text, robot, worldFromBase);
       if (opened.kind === "not-understood") return opened;
       const { title, machine: start, writer = start, block, unrolled, warnings } = opened.script;
@@ -107,6 +122,7 @@ export function blockDoors<S, V, M extends OutlineMachine<V> & { spelt?(name: st
         const { groups, routines, pallets } = outline;
         return {
           kind: "parsed",
+          executable: () => executable(opened.script),
           warnings: [...outline.warnings, ...(warnings?.(machine) ?? [])],
           program: { ...emptyProgram(robot.id, title), ...surroundings, groups, pallets, routines, steps },
         };
@@ -116,6 +132,22 @@ export function blockDoors<S, V, M extends OutlineMachine<V> & { spelt?(name: st
       }
     },
   };
+}
+
+/** Inputs that are all off where nobody says anything, and whether one was asked. */
+class AskedSignals implements Signals {
+  isAsked = false;
+  private readonly outside: Signals | undefined;
+  constructor(outside: Signals | undefined) {
+    this.outside = outside;
+  }
+  read(signal: string): boolean | number {
+    this.isAsked = true;
+    return this.outside?.read(signal) ?? false;
+  }
+  write(signal: string, value: boolean | number): void {
+    this.outside?.write(signal, value);
+  }
 }
 
 const refusal = (fault: TextFault): NotUnderstood => ({ kind: "not-understood", faults: [fault] });

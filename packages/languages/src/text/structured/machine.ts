@@ -11,6 +11,9 @@ const STATEMENTS_WITHOUT_MOTION = 100_000;
 /** Calls inside calls. */
 const CALL_DEPTH = 40;
 
+/** A program that executes statement after statement without a motion. */
+export class RunsOnTheSpot extends TextError {}
+
 /** The variables of one call. */
 export interface Scope<V> {
   readonly routine: string;
@@ -251,7 +254,7 @@ export abstract class BlockMachine<V> {
 
   protected spend(at: TextPlace): void {
     if (++this.idle > STATEMENTS_WITHOUT_MOTION) {
-      throw new TextError(
+      throw new RunsOnTheSpot(
         at,
         "a motion, a wait or an end",
         `The program has executed ${STATEMENTS_WITHOUT_MOTION} statements without a motion: it runs on the spot for ever.`,

@@ -127,11 +127,8 @@ export class Machine extends BlockMachine<Value> {
   // --- values -----------------------------------------------------------------------------------------------------
 
   variable(name: string): Value | undefined {
-    for (let i = this.scopes.length - 1; i >= 0; i--) {
-      const found = this.scopes[i]!.names.get(name);
-      if (found !== undefined) return found;
-    }
-    return this.globals.get(name);
+    const own = this.scopes.at(-1)?.names.get(name) ?? this.globals.get(name);
+    return own ?? this.scopes.findLast(({ names }) => names.has(name))?.names.get(name);
   }
 
   evaluate(expression: Expression): Value {
@@ -193,9 +190,11 @@ export class Machine extends BlockMachine<Value> {
       return this.store(to.of, withItem(this.evaluate(to.of), path[0]!, value, to), global);
     }
     if (to.kind !== "variable") throw new TextError(to, "a variable", "Only a variable can be given a value.");
-    const holder = this.scopes.findLast(({ names }) => names.has(to.name))?.names;
-    if (global || this.globals.has(to.name) || this.scopes.length === 0) this.globals.set(to.name, value);
-    else (holder ?? this.scopes.at(-1)!.names).set(to.name, value);
+    const own = this.scopes.at(-1)?.names;
+    // A parameter is the routine's own, whatever else has its name.
+    if (!global && own?.has(to.name) === true) own.set(to.name, value);
+    else if (global || this.globals.has(to.name) || own === undefined) this.globals.set(to.name, value);
+    else (this.scopes.findLast(({ names }) => names.has(to.name))?.names ?? own).set(to.name, value);
   }
 
   private function(expression: Extract<Expression, { kind: "call" }>): Value {
