@@ -56,7 +56,7 @@ export default {
       from: { path: "^packages/(controllers|languages)/src/([^/]+)/", pathNot: "/testing/" },
       to: {
         path: "^packages/(controllers|languages)/src/[^/]+/",
-        pathNot: "^packages/[^/]+/src/($2|text|writing|transport|http|guard|cell|twin|virtual|real|runner|testing)/",
+        pathNot: "^packages/[^/]+/src/($2|text|reading|writing|transport|http|guard|cell|twin|virtual|real|runner|testing)/",
       },
     },
     {

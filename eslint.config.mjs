@@ -9,7 +9,7 @@ export default [
     rules: {
       "@typescript-eslint/no-non-null-assertion": "off", // indices into typed arrays are the daily bread here
       "@typescript-eslint/no-explicit-any": "error",
-      "@typescript-eslint/no-unused-vars": ["error", { argsIgnorePattern: "^_" }],
+      "@typescript-eslint/no-unused-vars": ["error", { argsIgnorePattern: "^_", ignoreRestSiblings: true }],
       "@typescript-eslint/unified-signatures": "off",
       "no-empty": ["error", { allowEmptyCatch: false }],
       "one-var": ["error", "never"],

@@ -17,6 +17,7 @@ import { SavedPoses } from "./features/poses/SavedPoses.tsx";
 import { Timeline } from "./features/timeline/Timeline.tsx";
 import { TopBar } from "./features/topbar/TopBar.tsx";
 import { TextSide } from "./features/text/TextSide.tsx";
+import { ProgramSwitch } from "./features/tree/ProgramSwitch.tsx";
 import { TracePanel } from "./features/trace/TracePanel.tsx";
 import { Tree } from "./features/tree/Tree.tsx";
 import { Welcome } from "./features/welcome/Welcome.tsx";
@@ -78,7 +79,13 @@ export function App() {
         <TopBar key="top" phone={phone} />
         {!phone && (
           <nav key="left" className="panel area-left" aria-label={words.app.region.cell}>
-            {side ? <TextSide text={text} /> : <Tree />}
+            {side ? (
+              <TextSide text={text}>
+                <ProgramSwitch />
+              </TextSide>
+            ) : (
+              <Tree />
+            )}
             <Honest />
           </nav>
         )}

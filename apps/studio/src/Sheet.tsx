@@ -6,6 +6,7 @@ import { Inspector } from "./features/inspector/Inspector.tsx";
 import { Pendant } from "./features/pendant/Pendant.tsx";
 import { SavedPoses } from "./features/poses/SavedPoses.tsx";
 import { TextSide } from "./features/text/TextSide.tsx";
+import { ProgramSwitch } from "./features/tree/ProgramSwitch.tsx";
 import { Timeline } from "./features/timeline/Timeline.tsx";
 import { TracePanel } from "./features/trace/TracePanel.tsx";
 import { Tree } from "./features/tree/Tree.tsx";
@@ -57,7 +58,9 @@ export function Sheet() {
       <Tabs.Content value="program" className="sheet-body sheet-program" tabIndex={-1}>
         {text ? (
           <div className="text-sheet">
-            <TextSide text={text} />
+            <TextSide text={text}>
+              <ProgramSwitch />
+            </TextSide>
             <Suspense>
               <TextPanel />
             </Suspense>

@@ -1,6 +1,7 @@
 import { edgeTraceCell, emptyCell, saveDocument } from "@twincell/project";
 import { beforeEach, expect, test } from "vitest";
-import { keepDocument, openKept, type Keeper } from "./autosave.ts";
+import { keepDocument, openKept } from "./autosave.ts";
+import type { Keeper } from "./keeper.ts";
 import { cellStore } from "./cell.ts";
 import { commit, showDocument } from "./document.ts";
 import { noticeStore } from "./notices.ts";

@@ -2,14 +2,10 @@ import { edgeTraceCell, openDocument, saveDocument, type CellDocument } from "@t
 import { words } from "../words/index.ts";
 import { cellStore } from "./cell.ts";
 import { showDocument } from "./document.ts";
+import type { Keeper } from "./keeper.ts";
 import { libraryStore, type CellLibrary } from "./library.ts";
 import { notify } from "./notices.ts";
 
-/** A place that keeps texts: the browser's database, or a double in tests. Writing may fail. */
-export interface Keeper {
-  get(key: string): Promise<unknown>;
-  set(key: string, value: unknown): Promise<void>;
-}
 export interface Clock {
   after(ms: number, act: () => void): () => void;
 }

@@ -9,7 +9,7 @@ import {
   type CellDocument,
 } from "@twincell/project";
 import { createStore } from "zustand/vanilla";
-import type { Keeper } from "./autosave.ts";
+import type { Keeper } from "./keeper.ts";
 import { inStep } from "./document.ts";
 
 /** A place that keeps texts by key, lists its keys and can delete. Every call may fail; one `set` is all or nothing. */

@@ -33,7 +33,7 @@ export function readConnectionCell(
   const { document: cell } = opened;
   const isSame = cell.robot.id === robot.id;
   const ofRobot = (name: string): boolean => /^link \d+$/.test(name);
-  const { links: _, ...geometry } = cellGeometry(
+  const { links, ...geometry } = cellGeometry(
     {
       ...cell,
       robot: { ...cell.robot, id: robot.id, worldFromBase: worldFromBase ?? cell.robot.worldFromBase },

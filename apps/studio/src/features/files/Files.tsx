@@ -3,7 +3,7 @@ import { useEffect, useRef, useState } from "react";
 import { registerCommands } from "../../stores/commands.ts";
 import { IMPORT_ENDINGS } from "@twincell/formats";
 import { words } from "../../words/index.ts";
-import { fileCommands } from "./commands.ts";
+import { fileCommands } from "../../commands/file.ts";
 import { droppedFiles } from "./dropped.ts";
 import { openFiles } from "./openFile.ts";
 import "./files.css";

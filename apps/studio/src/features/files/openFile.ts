@@ -5,7 +5,7 @@ import { importShapes, type FileAt } from "../../live/mesh-import.ts";
 import { endingOf, IMPORT_ENDINGS } from "@twincell/formats";
 import { DIALECTS } from "@twincell/languages";
 import { words } from "../../words/index.ts";
-import { openTextFiles } from "../text/open-text.ts";
+import { openTextFiles } from "../../live/open-text.ts";
 
 /** Whether files with that ending are programs of a robot language. */
 const isProgram = (kind: string): boolean =>

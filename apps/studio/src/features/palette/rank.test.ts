@@ -7,7 +7,7 @@ import { programCommands } from "../../commands/program.ts";
 import { viewCommands } from "../../commands/view.ts";
 import type { Command } from "../../stores/commands.ts";
 import { words } from "../../words/index.ts";
-import { fileCommands } from "../files/commands.ts";
+import { fileCommands } from "../../commands/file.ts";
 import { commandScore } from "./rank.ts";
 
 let commands: readonly Command[] = [];

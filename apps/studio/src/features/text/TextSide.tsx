@@ -1,5 +1,5 @@
 import { FileCode2, FileDigit } from "lucide-react";
-import type { KeyboardEvent } from "react";
+import type { KeyboardEvent, ReactNode } from "react";
 import { useStore } from "zustand";
 import type { TextPoint } from "@twincell/languages";
 import type { TextProgram } from "@twincell/project";
@@ -11,11 +11,10 @@ import { playStore } from "../../stores/play.ts";
 import { goToLine, goToPoint } from "../../live/text-program.ts";
 import { Segments } from "../../ui/Choice.tsx";
 import { words } from "../../words/index.ts";
-import { ProgramSwitch } from "../tree/ProgramSwitch.tsx";
 import { findingsOf } from "./findings.ts";
 
-/** Left of the text: which program, its files, its points. */
-export function TextSide({ text }: { readonly text: TextProgram }) {
+/** Left of the text: which program, its files, its points. `children` is the choice among the cell's programs. */
+export function TextSide({ text, children }: { readonly text: TextProgram; readonly children: ReactNode }) {
   const state = useStore(textStore);
   const verdict = useStore(playStore, each => each.verdict);
   const points = pointsOf(state).filter(point => point.uses.length > 0 || point.fixed === undefined);
@@ -37,7 +36,7 @@ export function TextSide({ text }: { readonly text: TextProgram }) {
   };
   return (
     <section className="text-side" aria-label={words.text.files} id="program">
-      <ProgramSwitch />
+      {children}
       <div className="text-kind">
         <Segments
           label={words.text.kind}

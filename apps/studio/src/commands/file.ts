@@ -1,14 +1,14 @@
 import { conveyorPalletCell, edgeTraceCell, emptyCell, saveDocument } from "@twincell/project";
-import { cellStore } from "../../stores/cell.ts";
-import type { Command } from "../../stores/commands.ts";
-import { openDialog } from "../../stores/dialogs.ts";
-import { notify } from "../../stores/notices.ts";
-import { objectOf } from "../../stores/document.ts";
-import { openCell } from "../../stores/opening.ts";
-import { selectionStore } from "../../stores/selection.ts";
-import { cardOf, shapeStore } from "../../stores/shapes.ts";
-import { download } from "../../ui/download.ts";
-import { words } from "../../words/index.ts";
+import { cellStore } from "../stores/cell.ts";
+import type { Command } from "../stores/commands.ts";
+import { openDialog } from "../stores/dialogs.ts";
+import { notify } from "../stores/notices.ts";
+import { objectOf } from "../stores/document.ts";
+import { openCell } from "../stores/opening.ts";
+import { selectionStore } from "../stores/selection.ts";
+import { cardOf, shapeStore } from "../stores/shapes.ts";
+import { download } from "../ui/download.ts";
+import { words } from "../words/index.ts";
 
 /** What a person does with whole cells; `chooseFile` lets them pick one from the disk. */
 export const fileCommands = (chooseFile: () => void): readonly Command[] => [

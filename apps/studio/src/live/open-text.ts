@@ -1,13 +1,13 @@
 import { DIALECTS, mainOf } from "@twincell/languages";
 import { addProgram, mainFileOf, textFileOf, type TextFile, type TextProgram } from "@twincell/project";
-import { languageOfText } from "../../live/reading.ts";
-import { cellStore } from "../../stores/cell.ts";
-import { commit, robotOf } from "../../stores/document.ts";
-import { notify } from "../../stores/notices.ts";
-import { select } from "../../stores/selection.ts";
-import { textStore } from "../../stores/text.ts";
-import { showMode } from "../../stores/view.ts";
-import { words } from "../../words/index.ts";
+import { languageOfText } from "./reading.ts";
+import { cellStore } from "../stores/cell.ts";
+import { commit, robotOf } from "../stores/document.ts";
+import { notify } from "../stores/notices.ts";
+import { select } from "../stores/selection.ts";
+import { textStore } from "../stores/text.ts";
+import { showMode } from "../stores/view.ts";
+import { words } from "../words/index.ts";
 
 /** A byte that no program text has: the file is a compiled program. */
 const isBinary = ({ text }: TextFile): boolean => text.slice(0, 4096).includes("\u0000");
