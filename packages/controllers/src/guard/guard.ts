@@ -88,7 +88,7 @@ export interface Guard {
   /** Anyone may stop. */
   stop(emergency?: boolean): void;
   /** Who keeps the link knows that it is gone, maybe before it was silent for long, and maybe back before that. */
-  linkLost(): void;
+  linkLost(why?: Refusal): void;
   /** The cell or the tool is another from now on; what moves is judged by it from its next sample on. */
   setCell(cell: GuardedCell): void;
   /** Why a point may not be added to a program (row T-42); null when it may. */
@@ -425,7 +425,9 @@ export function createGuard(options: GuardOptions): Guard {
         reset() {
           const watched = watchedOnly();
           if (watched) return refused(watched);
-          if (state.motion !== "at-rest") return refused(denialRefusal("still-moving", robot.name, state.holder));
+          // Whether it may is asked before the controller is told: its drives would be on already.
+          const { denied } = guardStep(state, { type: "reset", who }, rules);
+          if (denied) return refused(denialRefusal(denied, robot.name, state.holder));
           const outcome = controller.reset();
           return outcome.kind === "done" ? act({ type: "reset", who }) : outcome;
         },
@@ -452,9 +454,9 @@ export function createGuard(options: GuardOptions): Guard {
     stop(emergency = false) {
       send({ type: "stop", emergency });
     },
-    linkLost() {
+    linkLost(why) {
       if (state.link !== "lost") {
-        notice(silent(scheduler.now_s() - Math.min(heard_s, scheduler.now_s())));
+        notice(why ?? silent(scheduler.now_s() - Math.min(heard_s, scheduler.now_s())));
         send({ type: "link-lost" });
       }
     },

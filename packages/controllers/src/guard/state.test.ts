@@ -88,7 +88,7 @@ describe.each([{ deadMan: true }, { deadMan: false }])("guard, all states × all
         expect(underWay(answer.state)).toBe(false);
       }
       if (from.emergency && !answer.state.emergency) {
-        expect(event.type).toBe("reset");
+        expect(event).toEqual({ type: "reset", who: from.holder });
         expect(from.motion).toBe("at-rest");
       }
     }

@@ -132,6 +132,8 @@ export function guardStep(state: GuardState, event: GuardEvent, rules: GuardRule
     case "stop":
       return halted({ emergency: state.emergency || event.emergency }, [event.emergency ? "emergency-stop" : "stop"]);
     case "reset":
+      // It turns drives on: for the one who commands alone, whoever pressed the emergency stop.
+      if (state.holder !== event.who) return deny(state.holder === null ? "no-lease" : "lease-taken");
       return state.motion === "at-rest" ? to({ emergency: false }) : deny("still-moving");
     case "ended":
       if (state.motion === "stopping" && state.trip === "return-due") {

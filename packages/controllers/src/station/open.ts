@@ -303,10 +303,12 @@ export async function openStation(options: OpenOptions): Promise<OpenedBrand> {
         if (answer.kind === "refused") return answer;
         return answer.stuck ? { kind: "refused", why: answer.stuck } : station.arm(seat, answer.job);
       },
-      close() {
-        station.close();
-        opened?.close();
-        near?.close();
+      close(then) {
+        station.close(() => {
+          opened?.close();
+          near?.close();
+          then?.();
+        });
       },
     },
   };
@@ -344,7 +346,8 @@ const cannotWatch = (brand: string, because: string): { readonly kind: "refused"
 /** Closes an open link and opens it again; resolves with the first state that comes over it. */
 async function rejoin(station: Station): Promise<CommandOutcome> {
   if (station.link?.state !== "open") return DONE;
-  station.disconnect();
+  // Whoever moves the robot is left alone: only the line is opened anew.
+  if ("disconnect" in station.controller) station.controller.disconnect();
   const connected = await station.connect();
   if (connected.kind !== "done") return connected;
   return new Promise(resolve => {

@@ -104,6 +104,50 @@ describe("a station", () => {
     expect(await again).toEqual({ kind: "done" });
   });
 
+  test.each(["disconnect", "close"] as const)(
+    "X-41 %s of a moving robot stops it first: it stands when the connection is gone, and no later than its braking time",
+    async what => {
+      const { scheduler, face, station, seat } = await bench();
+      void seat.robot.moveJoints(shifted(0.8));
+      await scheduler.elapse(0.3);
+      expect(face.virtual.isMoving()).toBe(true);
+      const before_rad = face.virtual.jointAngle(1);
+      station[what]();
+      expect(station.link).toMatchObject({ state: "open" });
+      await scheduler.elapse(2);
+      expect(station.link).toMatchObject({ state: "closed" });
+      expect(face.virtual.isMoving()).toBe(false);
+      const stood_rad = face.virtual.jointAngle(1);
+      expect(stood_rad).toBeLessThan(robot.home_rad[0]! + 0.7);
+      expect(stood_rad).toBeGreaterThanOrEqual(before_rad);
+      await scheduler.elapse(10);
+      expect(face.virtual.jointAngle(1)).toBe(stood_rad);
+    },
+  );
+
+  test("X-41 after a person disconnected it a robot that is connected again within 50 ms moves only after a person's word", async () => {
+    const { scheduler, station, seat } = await bench();
+    station.disconnect();
+    await scheduler.elapse(0.02);
+    const connecting = station.connect();
+    await scheduler.elapse(0.03);
+    expect(await connecting).toEqual({ kind: "done" });
+    expect(await seat.robot.moveToZero()).toMatchObject({ kind: "refused", why: { code: "guard.link-unconfirmed" } });
+    expect(seat.confirm()).toEqual({ kind: "done" });
+  });
+
+  test("T-10 drives that somebody's emergency stop took off come on again for the one who commands alone", async () => {
+    const { scheduler, station, seat } = await bench();
+    const other = station.seat("somebody else");
+    other.robot.stop(true);
+    await scheduler.elapse(1);
+    expect(other.robot.reset()).toMatchObject({ kind: "refused", why: { code: "guard.lease-taken" } });
+    seat.release();
+    expect(seat.robot.reset()).toMatchObject({ kind: "refused", why: { code: "guard.no-lease" } });
+    seat.take();
+    expect(seat.robot.reset()).toEqual({ kind: "done" });
+  });
+
   test("X-41 a line that breaks and is back sooner than anybody would call it silent asks for a person's word all the same", async () => {
     const scheduler = manualScheduler();
     const face = nearFace(robot, scheduler);

@@ -19,7 +19,7 @@ import { createGuard, type Guard, type GuardState, type Seat } from "../guard/in
 import { listeners } from "../listeners.ts";
 import { createTwin, PlanFollower, type Deviation, type Twin } from "../twin/index.ts";
 import { createAhead, type Ahead } from "./ahead.ts";
-import { deviates } from "./words.ts";
+import { deviates, disconnected } from "./words.ts";
 import { DONE } from "../outcomes.ts";
 
 export interface StationOptions {
@@ -42,6 +42,10 @@ export interface StationOptions {
   /** More than this far from plan or command is said aloud [rad]. */
   readonly alarm_rad?: number;
 }
+
+/** A robot that is to be let go has this long to stand when its braking time is not given [s]. */
+const BRAKING_S = 2;
+const LOOK_S = 0.005;
 
 /** What a program is handed over with: its text where there is one and the controller takes texts, else its steps; the plan is what it is compared with. */
 export interface StationJob {
@@ -77,6 +81,7 @@ export interface Station {
   /** A place from which it may be commanded; each has its own. */
   seat(who: string): Seat;
   connect(): Promise<CommandOutcome>;
+  /** Stops a robot that moves, and closes the connection when it stands; nothing moves after the next one without a person's word. */
   disconnect(): void;
   /** Runs a program from that seat: as the controller's own text where it takes one. */
   carryOut(seat: Seat, job: StationJob): Promise<CommandOutcome>;
@@ -86,7 +91,8 @@ export interface Station {
   onLink(listen: (report: LinkReport) => void): () => void;
   onGuard(listen: (state: GuardState) => void): () => void;
   onNotice(listen: (why: Refusal) => void): () => void;
-  close(): void;
+  /** Stops a robot that moves first; `then` is called when it stands and everything is closed. */
+  close(then?: () => void): void;
 }
 
 /** A program as text on its way through the guard: no step of it is taken here. */
@@ -162,6 +168,21 @@ export function createStation(options: StationOptions): Station {
     notices.call(why);
   });
 
+  /** Calls `then` at once when the robot stands, else stops it and waits until it does, or until its braking time is over. */
+  function atStandstill(then: () => void): void {
+    if (guard.state.watching || !controller.isMoving()) {
+      then();
+      return;
+    }
+    guard.stop();
+    const until_s = options.scheduler.now_s() + (options.brakingTime_s ?? BRAKING_S);
+    const off = options.scheduler.every(LOOK_S, () => {
+      if (controller.isMoving() && real?.isConnected !== false && options.scheduler.now_s() < until_s) return;
+      off();
+      then();
+    });
+  }
+
   /** Its text, where there is one and the controller takes texts. */
   const textOf = ({ files }: StationJob): readonly EmittedFile[] | null => (real?.runText && files ? files : null);
   /** Lets the robot do it, compared with its plan all the way. */
@@ -207,7 +228,10 @@ export function createStation(options: StationOptions): Station {
     seat: who => guard.seat(who),
     connect: () => real?.connect() ?? Promise.resolve(DONE),
     disconnect() {
-      real?.disconnect();
+      atStandstill(() => {
+        real?.disconnect();
+        if (real) guard.linkLost(disconnected(name));
+      });
     },
     async carryOut(seat, job) {
       const files = textOf(job);
@@ -242,15 +266,18 @@ export function createStation(options: StationOptions): Station {
     onLink: listen => real?.onLink(listen) ?? (() => undefined),
     onGuard: listen => guard.onChange(listen),
     onNotice: listen => notices.add(listen),
-    close() {
-      unwatch();
-      unlink?.();
-      unnotice();
-      ahead.close();
-      guard.close();
-      twin.close();
-      controller.close();
-      notices.clear();
+    close(then) {
+      atStandstill(() => {
+        unwatch();
+        unlink?.();
+        unnotice();
+        ahead.close();
+        guard.close();
+        twin.close();
+        controller.close();
+        notices.clear();
+        then?.();
+      });
     },
   };
 }

@@ -31,3 +31,9 @@ export const stoppedMeanwhile = (name: string): Refusal => ({
   sentence: `${name} was stopped while its program was being planned: the program does not begin.`,
   hint: "Send the program again when the robot may move.",
 });
+
+export const disconnected = (name: string): Refusal => ({
+  code: "guard.disconnected",
+  sentence: `${name} was disconnected.`,
+  hint: "Connect it, then confirm that motion is wanted.",
+});
