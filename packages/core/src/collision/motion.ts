@@ -29,7 +29,7 @@ export type MotionVerdict =
   | { readonly kind: "undecided"; readonly at: number; readonly checks: number };
 
 export interface MotionOptions {
-  /** Wanted distance [m]; 0 asks for no contact only. `marginOf` says what comes on top. */
+  /** Wanted distance [m]; 0 asks for no contact of the true shapes. `marginOf` says what comes on top. */
   readonly margin_m?: number;
   /** Which pairs are looked at; all by default. */
   readonly watched?: (pair: SolidPair) => boolean;
@@ -179,7 +179,7 @@ function relativeTurn(pair: SolidPair, maxRate: ArrayLike<number>): number {
 }
 
 /**
- * Distance a pair must keep when `margin_m` is wanted [m]: 0 when it is 0, else the margin, and between a link and an object, held
+ * Distance a pair must keep when `margin_m` is wanted [m]: the margin, and between a link and an object, held
  * or standing, the shape error of the robot once, because only the link is drawn from fitted shapes.
  *
  * Two parts of the robot get no shape error. Twice the error (40 mm on many arms) is more than the maker leaves between links that
@@ -187,7 +187,6 @@ function relativeTurn(pair: SolidPair, maxRate: ArrayLike<number>): number {
  * maker's joint limits and `allowContactsAt` that speak for the true castings. Tools are drawn as they are.
  */
 export function marginOf({ a, b }: SolidPair, margin_m: number, shapeError_m: number): number {
-  if (!(margin_m > 0)) return 0;
   const drawnAndExact = (a.kind === "link" && b.kind === "object") || (b.kind === "link" && a.kind === "object");
-  return margin_m + (drawnAndExact ? shapeError_m : 0);
+  return Math.max(0, margin_m) + (drawnAndExact ? shapeError_m : 0);
 }

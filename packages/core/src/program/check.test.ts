@@ -3,7 +3,7 @@ import type { CellGeometry } from "../collision/cell.ts";
 import { linkSolids } from "../robots/shapes/index.ts";
 import { robotById } from "../robots/library/index.ts";
 import { boxMesh } from "../shapes/solids.ts";
-import { compose, identity, type Pose } from "../spatial/pose.ts";
+import { compose, identity, pose, type Pose } from "../spatial/pose.ts";
 import { fromAxisAngle, multiply, type Quaternion } from "../spatial/quaternion.ts";
 import { degrees, radians } from "../spatial/units.ts";
 import type { Vector3 } from "../spatial/vector.ts";
@@ -303,6 +303,45 @@ describe("collision in a program", () => {
     expect(free.clearance_m).toBeCloseTo(0.72 + 0.15 - 0.14 - 0.5, 2);
     const kept = findingOf(check(program, { cell: cell(), margin_m: 0.24 }), "above", "collision.contact");
     expect(kept.sentence).toMatch(/comes within [0-9]+ mm of “Post” at .* s; the margin is [0-9]+ mm\.$/);
+  });
+
+  test("T-64 a link beside a wall by less than the error of its drawn shape is not ok without any margin asked for, and both numbers are said", () => {
+    const ur10e = robotById("ur10e")!;
+    const q = [0, -1.2, 1.6, -2, -1.57, 0];
+    const turn: Program = {
+      ...emptyProgram(ur10e.id),
+      steps: [
+        { id: "turn", type: "move", path: "ptp", target: { q: q.with(5, 0.3) }, speed: { ratio: 0.5 }, blend_m: 0 },
+      ],
+    };
+    const beside = (x_m: number): CellGeometry => ({
+      worldFromBase: identity(),
+      links: linkSolids(ur10e),
+      allowedPairs: [],
+      shapeError_m: ur10e.shapeError_m,
+      objects: [
+        {
+          id: "wall",
+          name: "Wall",
+          mesh: boxMesh([0.1, 6, 6]),
+          worldFromObject: pose<"world", "object">([x_m + 0.05, 0, 0]),
+        },
+      ],
+    });
+    const verdictAt = (x_m: number) => checkProgram(turn, ur10e, { cell: beside(x_m), start_rad: q }).verdict;
+    // The wall is flat and stands across x: what is clear of it is a distance along x.
+    const touching_m = 1.1 - verdictAt(1.1).clearance_m!;
+    expect(ur10e.shapeError_m).toBeGreaterThan(0.02);
+    const finding = findingOf(verdictAt(touching_m + 0.002), "turn", "collision.contact");
+    expect(finding.limit).toBeCloseTo(ur10e.shapeError_m, 12);
+    expect(verdictAt(touching_m + 0.002).ok).toBe(false);
+    // Where the motion first comes nearer than that; the nearest is 2 mm.
+    expect(finding.value).toBeGreaterThan(0.0019);
+    expect(finding.value).toBeLessThan(ur10e.shapeError_m);
+    expect(finding.sentence).toMatch(
+      /comes within [0-9.]+ mm of “Wall” at .* s; the margin is 21 mm, 21 mm of it for the error of the drawn shape\.$/,
+    );
+    expect(verdictAt(touching_m + ur10e.shapeError_m + 0.002).ok).toBe(true);
   });
 
   test("the cell's place of the robot counts", () => {

@@ -36,7 +36,8 @@ const cellOf = (...objects: CellGeometry["objects"]): CellGeometry => ({
   worldFromBase: identity(),
   links: linkSolids(robot),
   allowedPairs: [],
-  shapeError_m: robot.shapeError_m,
+  // What is held is asked about here: the links as they are drawn.
+  shapeError_m: 0,
   tool: { name: "gripper", mesh: boxMesh([0.02, 0.02, 0.28]) },
   flangeFromGrip: pose([0, 0, 0.15]),
   objects,

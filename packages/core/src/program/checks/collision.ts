@@ -80,7 +80,7 @@ export function checkCollision(scene: CheckScene, options: CollisionOptions): Co
     if (verdict.kind !== "contact" || found.has(segment.step)) continue;
     found.add(segment.step);
     const at_s = segment.start_s + verdict.at;
-    const sentence = sentenceOf(verdict, cell, parts.held, at_s);
+    const sentence = sentenceOf(verdict, cell, parts.held, at_s, margin_m);
     const move = scene.layout.moves.get(segment.step);
     const repairs =
       move === undefined || repaired >= MOST_REPAIRED ? [] : collisionRepairs(scene, move, prover, segment, verdict.at);
@@ -112,14 +112,17 @@ function sentenceOf(
   cell: CellGeometry,
   held: string | undefined,
   at_s: number,
+  asked_m: number,
 ): string {
   const carried = held !== undefined && (contact.a === held || contact.b === held);
   const first = carried ? held : contact.a;
   const other = first === contact.a ? contact.b : contact.a;
   const a = carried ? `the held ${nameOf(first, cell)}` : nameOf(first, cell);
   const b = nameOf(other, cell);
+  const shape_m = contact.margin_m - Math.max(0, asked_m);
+  const because = shape_m > 1e-9 ? `, ${mm(shape_m)} of it for the error of the drawn shape` : "";
   return contact.margin_m > 0 && contact.distance_m > 0
-    ? `${capital(a)} comes within ${mm(contact.distance_m)} of ${b} at ${seconds(at_s)}; the margin is ${mm(contact.margin_m)}.`
+    ? `${capital(a)} comes within ${mm(contact.distance_m)} of ${b} at ${seconds(at_s)}; the margin is ${mm(contact.margin_m)}${because}.`
     : `${capital(a)} ${carried ? "would touch" : "touches"} ${b} at ${seconds(at_s)}.`;
 }
 
