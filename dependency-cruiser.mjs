@@ -2,7 +2,7 @@
  * Who may use what. Three floors: core knows nobody, the middle floor knows core and none of its neighbours,
  * apps join things. This table is the whole truth; there is no list of exceptions.
  */
-const middle = ["languages", "controllers", "formats", "recording", "physics", "project", "messages"];
+const middle = ["languages", "controllers", "formats", "recording", "physics", "project", "protocol"];
 const packages = ["core", ...middle];
 const mayUse = { core: [], ...Object.fromEntries(middle.map(name => [name, ["core"]])) };
 
@@ -15,7 +15,7 @@ const mayInstall = {
   recording: ["@mcap/", "@foxglove/", "@bokuweb/zstd-wasm"],
   physics: ["@mujoco/mujoco"],
   project: ["zod"],
-  messages: ["zod"],
+  protocol: ["zod"],
 };
 const any = names => names.join("|");
 const test = "[.]test[.]tsx?$|/testing/";
@@ -56,16 +56,17 @@ export default {
       from: { path: "^packages/(controllers|languages)/src/([^/]+)/", pathNot: "/testing/" },
       to: {
         path: "^packages/(controllers|languages)/src/[^/]+/",
-        pathNot: "^packages/[^/]+/src/($2|text|reading|writing|transport|http|guard|cell|twin|virtual|real|runner|testing)/",
+        pathNot:
+          "^packages/[^/]+/src/($2|parser|reading|emitter|transport|http|guard|cell|twin|virtual|driver|connection|runner|testing)/",
       },
     },
     {
-      name: "driver-and-virtual-are-strangers",
+      name: "adapter-and-virtual-are-strangers",
       severity: "error",
       comment: "they share the codec and nothing else",
-      from: { path: "^packages/controllers/src/([^/]+)/(driver|virtual)(/|[.]ts$)", pathNot: "[.]test[.]ts$" },
+      from: { path: "^packages/controllers/src/([^/]+)/(adapter|virtual)(/|[.]ts$)", pathNot: "[.]test[.]ts$" },
       to: {
-        path: "^packages/controllers/src/$1/(driver|virtual)(/|[.]ts$)",
+        path: "^packages/controllers/src/$1/(adapter|virtual)(/|[.]ts$)",
         pathNot: "^packages/controllers/src/$1/$2(/|[.]ts$)",
       },
     },
@@ -100,7 +101,7 @@ export default {
       name: "stores-see-no-picture",
       severity: "error",
       comment: "stores run in Node without React or three",
-      from: { path: "^apps/studio/src/(stores|live)/" },
+      from: { path: "^apps/studio/src/(stores|runtime)/" },
       to: { path: "node_modules/(react|three|@react-three)" },
     },
     { name: "resolves", severity: "error", from: {}, to: { couldNotResolve: true } },

@@ -1,4 +1,4 @@
-import { findWay, WayChecker, type CellCollider, type SerialArm, type Vector3 } from "@twincell/core";
+import { findPath, PathValidator, type CellCollider, type SerialArm, type Vector3 } from "@twincell/core";
 import { figure, microseconds, type Figure } from "./figure.ts";
 import { numbersOf, pythonPeer } from "./peer.ts";
 
@@ -77,22 +77,27 @@ export function planningFigures({ collider, arm, free, peer }: PlanningCell): Fi
   const inside = free.filter(q =>
     q.every((angle, k) => angle >= arm.joints[k]!.limits.lower_rad && angle <= arm.joints[k]!.limits.upper_rad),
   );
-  const checker = new WayChecker(collider, arm);
+  const checker = new PathValidator(collider, arm);
   const questions = Array.from({ length: QUESTIONS }, (_, i) => [inside[2 * i]!, inside[2 * i + 1]!] as const);
   const began_ms = performance.now();
-  const first = findWay(checker, ...questions[0]!, { seed: 1 });
+  const first = findPath(checker, ...questions[0]!, { seed: 1 });
   const first_ms = performance.now() - began_ms;
   if (first.kind !== "found") throw new Error(`No way for the first question: ${first.kind}.`);
   // Other questions than those that count: the compiler settles and what was proven is kept, as for a cell that has been open for a while.
   for (let i = 0; i < WARM_UP; i++)
-    findWay(checker, inside[i % inside.length]!, inside[(i + 3 + 2 * Math.floor(i / inside.length)) % inside.length]!, {
-      seed: i,
-    });
+    findPath(
+      checker,
+      inside[i % inside.length]!,
+      inside[(i + 3 + 2 * Math.floor(i / inside.length)) % inside.length]!,
+      {
+        seed: i,
+      },
+    );
   let found = 0;
   let straight = 0;
   const times = questions.map(([from, to], i) => {
     const begun_ms = performance.now();
-    const answer = findWay(checker, from, to, { seed: i + 1 });
+    const answer = findPath(checker, from, to, { seed: i + 1 });
     if (answer.kind === "found") {
       found++;
       if (answer.way.length === 2) straight++;

@@ -1,14 +1,14 @@
 import {
-  brandById,
+  driverKindById,
   createSharedCell,
-  openStation,
-  startTogether,
-  type BrandStation,
-  type Seat,
+  openRobotConnection,
+  startSynchronized,
+  type VendorConnection,
+  type Commander,
 } from "@twincell/controllers";
 import { emptyProgram, pose, robotById, seededRandom, type Program } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
-import { layOutElsewhere, nodeNetwork, nodeScheduler } from "@twincell/server";
+import { prepareJobInWorker, nodeNetwork, nodeScheduler } from "@twincell/server";
 import { setTimeout as pause } from "node:timers/promises";
 import { figure, settled, type Bench, type Figure } from "./figure.ts";
 
@@ -41,12 +41,12 @@ function program(id: string): Program {
 
 async function spread(): Promise<Figure[]> {
   const network = nodeNetwork();
-  const programs = layOutElsewhere();
+  const programs = prepareJobInWorker();
   const closes: (() => void)[] = [];
-  const members: { station: BrandStation; seat: Seat; program: Program }[] = [];
+  const members: { station: VendorConnection; seat: Commander; program: Program }[] = [];
   try {
     for (const [id, robotId, host] of OF) {
-      const brand = brandById(id)!;
+      const brand = driverKindById(id)!;
       const robot = robotById(robotId)!;
       const dialect = dialectById(brand.dialect)!;
       const started = await brand.virtual({
@@ -60,7 +60,7 @@ async function spread(): Promise<Figure[]> {
       closes.push(() => {
         started.virtual.close();
       });
-      const opened = await openStation({
+      const opened = await openRobotConnection({
         id,
         brand,
         robot,
@@ -74,10 +74,10 @@ async function spread(): Promise<Figure[]> {
       closes.push(() => {
         opened.station.close();
       });
-      const seat = opened.station.seat("bench");
+      const seat = opened.station.commander("bench");
       const connected = await opened.station.connect();
       if (connected.kind !== "done") throw new Error(connected.why.sentence);
-      seat.take();
+      seat.acquireLease();
       members.push({ station: opened.station, seat, program: program(robotId) });
     }
     await pause(500);
@@ -85,8 +85,8 @@ async function spread(): Promise<Figure[]> {
     const spreads_ms: number[] = [];
     // A first round that is not counted: what the compiler has not seen yet keeps the links waiting.
     for (let i = 0; spreads_ms.length < REPEATS && i < 4 * REPEATS; i++) {
-      for (const { seat } of members) seat.confirm();
-      const { outcome } = await startTogether(
+      for (const { seat } of members) seat.acknowledge();
+      const { outcome } = await startSynchronized(
         members.map(({ station, seat, program: its }) => ({
           station,
           prepare: () => station.prepare(seat, its, true),
@@ -134,24 +134,24 @@ function looks(): Figure[] {
     const ahead = Float64Array.from(ur.home_rad);
     const its = Float64Array.from(kuka.home_rad);
     const its2 = Float64Array.from(kuka.home_rad);
-    const postures: number[][] = [];
+    const configurations: number[][] = [];
     its2[0] = its2[0]! + 0.1;
     other.tell(its, its2);
     // Those at which it may go on: a stop is told once, with its exact distance, and is not what is measured.
-    for (let tries = 0; postures.length < 64 && tries < 10_000; tries++) {
+    for (let tries = 0; configurations.length < 64 && tries < 10_000; tries++) {
       const at = ur.home_rad.map(angle => angle + 1.2 * (random() - 0.5));
       mine.tell(
         at,
         at.map(angle => angle + 0.05),
       );
-      if (mine.tooNear() === null) postures.push(at);
+      if (mine.tooNear() === null) configurations.push(at);
     }
     figures.push(
       figure(
         name,
         "us",
         settled(200, 15, 10, i => {
-          const at = postures[i % postures.length]!;
+          const at = configurations[i % configurations.length]!;
           for (let k = 0; k < q.length; k++) {
             q[k] = at[k]!;
             ahead[k] = at[k]! + 0.05;

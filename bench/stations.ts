@@ -1,7 +1,7 @@
 import { spawn, type ChildProcess } from "node:child_process";
 import { createInterface } from "node:readline";
 import { fileURLToPath } from "node:url";
-import { createClient, type Client } from "@twincell/messages";
+import { createClient, type Client } from "@twincell/protocol";
 import { WebSocket } from "ws";
 import { quantile } from "../apps/studio/browser-tests/support/ledger.ts";
 import type { Page } from "../apps/studio/browser-tests/support/studio.ts";

@@ -33,13 +33,13 @@ export const stopLate: Bench = async () => {
   let studio: Studio | null = null;
   try {
     children.push(await virtual("ur", HOST));
-    for (const [brand, host] of STALLED) children.push(await virtual(brand, host));
+    for (const [kind, host] of STALLED) children.push(await virtual(kind, host));
     studio = await Studio.start();
     const { client } = await joined(studio.url, text => {
       if (text.startsWith('{"type":"link","station":"cell"') && !text.includes('"state":"open"')) line.lost++;
     });
     await openAt(client, "cell", "ur", "ur10e", HOST, { rtde: wire.port });
-    for (const [brand, host, robot] of STALLED) await openAt(client, brand, brand, robot, host);
+    for (const [kind, host, robot] of STALLED) await openAt(client, kind, kind, robot, host);
     await pause(1000);
     const { page, context } = await studio.open({ script: ledger("paced") });
     await drawn(page);

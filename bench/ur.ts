@@ -1,4 +1,4 @@
-import { createRealController, createUrFace } from "@twincell/controllers";
+import { createRealController, createUrAdapter } from "@twincell/controllers";
 import { robotById } from "@twincell/core";
 import { nodeNetwork, nodeScheduler } from "@twincell/server";
 import { spawn, spawnSync } from "node:child_process";
@@ -30,7 +30,7 @@ async function ours(): Promise<Figure[]> {
   const robot = robotById("ur10e");
   if (!robot) throw new Error("The library has no ur10e.");
   const real = createRealController({
-    face: createUrFace({ robot, scheduler: nodeScheduler, network: nodeNetwork(), host: HOST }),
+    face: createUrAdapter({ robot, scheduler: nodeScheduler, network: nodeNetwork(), host: HOST }),
     scheduler: nodeScheduler,
   });
   const arrived_s: number[] = [];

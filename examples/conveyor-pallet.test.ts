@@ -5,7 +5,7 @@ import {
   compose,
   distance,
   linkSolids,
-  palletPlaces,
+  palletSlots,
   robotById,
   type Program,
   type Vector3,
@@ -32,7 +32,7 @@ function fill(
   expect([state.kind, state.why?.sentence]).toEqual(["done", undefined]);
   const pallet = program.pallets.places!;
   const frame = program.frames.table!;
-  const off_m = palletPlaces(pallet).map((place, i) =>
+  const off_m = palletSlots(pallet).map((place, i) =>
     distance(compose(frame, place).position, [
       world.state.parts[7 * i]!,
       world.state.parts[7 * i + 1]!,

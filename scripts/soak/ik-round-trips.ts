@@ -11,7 +11,7 @@ import {
   elbowOf,
   flangePose,
   identity,
-  leastSingularValue,
+  minSingularValue,
   pose,
   robotById,
   robotFromArm,
@@ -56,7 +56,7 @@ const families: readonly Family[] = [
     name: "three-parallel",
     robot: library("ur10e"),
     band: "least singular value of the Jacobian below 1e-4: there the file's right angles, rounded to ten digits, are felt",
-    inBand: q => leastSingularValue(library("ur10e").arm, q) < 1e-4,
+    inBand: q => minSingularValue(library("ur10e").arm, q) < 1e-4,
   },
   {
     name: "spherical-seven",
@@ -74,7 +74,7 @@ const families: readonly Family[] = [
     name: "general-6r",
     robot: library("abb_crb15000_5_95"),
     band: "least singular value of the Jacobian below 1e-3",
-    inBand: q => leastSingularValue(library("abb_crb15000_5_95").arm, q) < 1e-3,
+    inBand: q => minSingularValue(library("abb_crb15000_5_95").arm, q) < 1e-3,
     most_s: seconds,
   },
 ];

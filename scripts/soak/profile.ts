@@ -1,6 +1,6 @@
 import { writeFileSync } from "node:fs";
 import { cpus } from "node:os";
-import { canBeLeft, canBeMet, JerkMotion, JerkPlanner, seededRandom } from "@twincell/core";
+import { canBeLeft, canBeReached, JerkMotion, JerkPlanner, seededRandom } from "@twincell/core";
 
 /**
  * 10,000 jerk-limited motions between seeded states of seeded limits, each looked at in 100,000 instants: how far speed,
@@ -28,7 +28,7 @@ for (let k = 0; k < MOTIONS; k++) {
     }
   };
   const [v0, a0] = state(canBeLeft);
-  const [v1, a1] = state(canBeMet);
+  const [v1, a1] = state(canBeReached);
   const from = random() * 6 - 3;
   const to = random() * 6 - 3;
   const motion = new JerkMotion(1);

@@ -1,6 +1,6 @@
 import { CAPABILITIES, LIBRARY, degrees, millimetres, pose } from "@twincell/core";
 import { DIALECTS, dialectsFor, proveText, runnableFile } from "@twincell/languages";
-import { linesOf, namesPostures } from "../../packages/languages/src/testing/lines.ts";
+import { linesOf, namesConfigurations } from "../../packages/languages/src/testing/lines.ts";
 import { randomProgram } from "../../packages/languages/src/testing/programs.ts";
 import { keptResults } from "./kept.ts";
 
@@ -37,7 +37,7 @@ for (const dialect of DIALECTS) {
     const begun_ms = performance.now();
     const refused: string[] = [];
     const differing: string[] = [];
-    const branches = namesPostures(dialect.id, robot);
+    const branches = namesConfigurations(dialect.id, robot);
     let worst_m = 0;
     let worst_rad = 0;
     let steps = 0;

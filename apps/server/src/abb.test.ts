@@ -2,7 +2,7 @@
  * ABB's externally guided motion and Robot Web Services on the system's own sockets: our driver, and a client that nobody here
  * wrote. The Python that has it is named by TWINCELL_PYTHON, or is the python3 of the path:  pip install abb-robot-client==0.4.0
  */
-import { abbFace, createRealController, createVirtualAbb, type VirtualAbb } from "@twincell/controllers";
+import { abbAdapter, createRealController, createVirtualAbb, type VirtualAbb } from "@twincell/controllers";
 import { degrees, emptyProgram, robotById } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
 import { spawn, spawnSync } from "node:child_process";
@@ -46,7 +46,7 @@ test("T-22 T-23 the driver guides the virtual controller over the loopback, on t
   const host = "127.0.0.51";
   const virtual = await virtualAbb(host, 6510);
   const real = createRealController({
-    face: abbFace({ robot, scheduler, network, host, ports: { rws: virtual.rws!.port }, stale_s: BUSY_S }),
+    face: abbAdapter({ robot, scheduler, network, host, ports: { rws: virtual.rws!.port }, stale_s: BUSY_S }),
     scheduler,
   });
   open.push(real);

@@ -2,7 +2,7 @@
  * FANUC's Remote Motion Interface on the system's own sockets: our driver, and a client that nobody here wrote. The Python that has
  * it is named by TWINCELL_PYTHON, or is the python3 of the path:  pip install fanuc-rmi==0.3.1
  */
-import { createFanucFace, createRealController, createVirtualFanuc, type VirtualFanuc } from "@twincell/controllers";
+import { createFanucAdapter, createRealController, createVirtualFanuc, type VirtualFanuc } from "@twincell/controllers";
 import { emptyProgram, robotById } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
 import { spawn } from "node:child_process";
@@ -42,7 +42,7 @@ async function virtualFanuc(host: string, own = false): Promise<VirtualFanuc> {
 test("T-22 T-23 FANUC: the driver moves the virtual controller over the loopback; the ports are the vendor's own", async () => {
   const fanuc = await virtualFanuc("127.0.0.41", true);
   const real = createRealController({
-    face: createFanucFace({ robot, scheduler, network, host: "127.0.0.41", stale_s: PATIENT_S }),
+    face: createFanucAdapter({ robot, scheduler, network, host: "127.0.0.41", stale_s: PATIENT_S }),
     scheduler,
   });
   open.push(() => {
@@ -63,7 +63,7 @@ test("a program of the studio goes to the controller as a TP listing by FTP, and
   const fanuc = await virtualFanuc(host);
   const { connect: port, files: ftpPort } = fanuc.ports;
   const real = createRealController({
-    face: createFanucFace({ robot, scheduler, network, host, port, ftpPort, stale_s: PATIENT_S }),
+    face: createFanucAdapter({ robot, scheduler, network, host, port, ftpPort, stale_s: PATIENT_S }),
     scheduler,
   });
   open.push(() => {

@@ -4,7 +4,7 @@
  */
 import {
   axisConfig,
-  createKukaRsiFace,
+  createKukaRsiAdapter,
   createRealController,
   createVirtualKuka,
   readRsiConfig,
@@ -190,7 +190,7 @@ test.skipIf(!has)(
     startLoop(kuka);
     if (kuka.listening.kind === "taken") throw new Error(kuka.listening.sentence);
     const real = createRealController({
-      face: createKukaRsiFace({
+      face: createKukaRsiAdapter({
         robot,
         scheduler,
         network,

@@ -3,7 +3,7 @@
  * TWINCELL_PYTHON, or is the python3 of the path:  pip install py-openshowvar==1.1.7
  */
 import {
-  createKukaFace,
+  createKukaAdapter,
   createRealController,
   createVirtualKuka,
   startLoop,
@@ -49,7 +49,7 @@ async function virtualKuka(host: string, port = 0): Promise<{ kuka: VirtualKuka;
 }
 async function driver(host: string, port: number) {
   const real = createRealController({
-    face: createKukaFace({ robot, scheduler, network, host, port, stale_s: PATIENT_S }),
+    face: createKukaAdapter({ robot, scheduler, network, host, port, stale_s: PATIENT_S }),
     scheduler,
   });
   open.push(real);

@@ -2,9 +2,15 @@ import { mkdirSync, mkdtempSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { setTimeout as pause } from "node:timers/promises";
-import { brandById, memoryNetwork, openCabinet } from "@twincell/controllers";
+import { driverKindById, memoryNetwork, openVirtualPendant } from "@twincell/controllers";
 import { manualScheduler, robotById, seededRandom } from "@twincell/core";
-import { createClient, readTell, write, type Ask, type Tell } from "@twincell/messages";
+import {
+  createClient,
+  readConnectionEvent,
+  write,
+  type ConnectionRequest,
+  type ConnectionEvent,
+} from "@twincell/protocol";
 import { afterEach, beforeEach, expect, test } from "vitest";
 import { WebSocket } from "ws";
 import { servePendant, type ServedPendant } from "./index.ts";
@@ -17,8 +23,8 @@ writeFileSync(join(studio, "pendant", "index.html"), "<title>pendant</title>");
 async function bench() {
   const scheduler = manualScheduler();
   const robot = robotById("ur10e")!;
-  const brand = brandById("ur")!;
-  const opened = await openCabinet({
+  const brand = driverKindById("ur")!;
+  const opened = await openVirtualPendant({
     brand,
     robot,
     scheduler,
@@ -70,7 +76,7 @@ const opening = (socket: WebSocket): Promise<"open" | "refused"> =>
 /** A page at the pendant. */
 async function visit() {
   const socket = dial();
-  const told: Tell[] = [];
+  const told: ConnectionEvent[] = [];
   const client = createClient(
     {
       send: text => {
@@ -89,7 +95,7 @@ async function visit() {
     client.hear(String(data as Buffer));
   });
   expect(await opening(socket)).toBe("open");
-  const ask = (act: Extract<Ask, { type: "pendant" }>["act"]) =>
+  const ask = (act: Extract<ConnectionRequest, { type: "pendant" }>["act"]) =>
     client.ask({ type: "pendant", station: "pendant", act });
   return { socket, client, told, ask };
 }
@@ -119,7 +125,7 @@ test("the page is served at /pendant/; pages of another origin and of another na
 
 test("X-41 T-26 whoever's connection ends while a jog key is held has let it go: the arm stands within 100 ms of the controller's time", async () => {
   const { socket, ask, client, told } = await visit();
-  const { virtual, cabinet } = here.opened;
+  const { virtual, cabinet: virtualPendant } = here.opened;
   const { scheduler } = here;
   expect(await client.ask({ type: "visit", station: "pendant", on: true })).toEqual({ kind: "done" });
   expect(told.find(message => message.type === "pendant")).toMatchObject({
@@ -128,14 +134,14 @@ test("X-41 T-26 whoever's connection ends while a jog key is held has let it go:
   await ask({ do: "key", position: "manual" });
   await ask({ do: "enable", pressed: true });
   const jog = ask({ do: "jog", joint: 1, direction: 1 });
-  await until(() => cabinet.shown.jog !== null, "jogging");
+  await until(() => virtualPendant.shown.jog !== null, "jogging");
   for (let i = 0; i < 60; i++) {
-    cabinet.alive("studio 1");
+    virtualPendant.alive("studio 1");
     await scheduler.elapse(0.01);
   }
-  expect(cabinet.shown.moving).toBe(true);
+  expect(virtualPendant.shown.moving).toBe(true);
   socket.terminate();
-  await until(() => !cabinet.shown.enabled, "let go");
+  await until(() => !virtualPendant.shown.enabled, "let go");
   await scheduler.elapse(0.1);
   const rest = virtual.jointAngles().slice();
   await scheduler.elapse(1);
@@ -146,7 +152,7 @@ test("X-41 T-26 whoever's connection ends while a jog key is held has let it go:
 
 test("any bytes on the socket: a sentence and the end of that connection, never a crash, nothing moves (400 sockets)", async () => {
   const random = seededRandom(60);
-  const whole: Ask[] = [
+  const whole: ConnectionRequest[] = [
     { type: "visit", id: 0, station: "pendant", on: true },
     { type: "pendant", id: 1, station: "pendant", act: { do: "key", position: "manual" } },
     { type: "alive", station: "pendant" },
@@ -166,7 +172,7 @@ test("any bytes on the socket: a sentence and the end of that connection, never 
       socket.terminate();
     });
     socket.on("message", data => {
-      const heard = readTell(String(data as Buffer));
+      const heard = readConnectionEvent(String(data as Buffer));
       if (heard.kind === "fault") said.push(heard.sentence);
     });
     expect(await opening(socket)).toBe("open");
@@ -190,7 +196,7 @@ test("any bytes on the socket: a sentence and the end of that connection, never 
     });
   });
   last.on("message", data => {
-    const heard = readTell(String(data as Buffer));
+    const heard = readConnectionEvent(String(data as Buffer));
     if (heard.kind === "read" && heard.message.type === "fault") sentences.push(heard.message.sentence);
   });
   expect(await opening(last)).toBe("open");

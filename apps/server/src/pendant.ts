@@ -1,11 +1,11 @@
 import { createServer } from "node:http";
 import type { AddressInfo } from "node:net";
 import type { Scheduler } from "@twincell/core";
-import { createPendantHost, type HostedPendant, type StationWords } from "@twincell/messages";
+import { createPendantHost, type ServedVirtualPendant, type ConnectionInfo } from "@twincell/protocol";
 import { isServed, LOOPBACK, studioListener } from "./pages.ts";
 import { staticFiles } from "./static-files.ts";
-import { openDoors } from "./sockets/doors.ts";
-import { stationDoor } from "./stations/socket.ts";
+import { openRoutes } from "./sockets/doors.ts";
+import { connectionRoute } from "./stations/socket.ts";
 
 export interface ServePendantOptions {
   /** Folder of the built studio, in which the page of the pendant is. */
@@ -16,8 +16,8 @@ export interface ServePendantOptions {
   readonly port: number;
   readonly version: string;
   readonly scheduler: Scheduler;
-  readonly words: StationWords;
-  readonly pendant: HostedPendant;
+  readonly words: ConnectionInfo;
+  readonly pendant: ServedVirtualPendant;
 }
 export type ServedPendant =
   | { readonly kind: "served"; readonly url: string; close(): void }
@@ -35,7 +35,7 @@ export async function servePendant({ studio, host, port, ...options }: ServePend
   });
   if (problem)
     return { kind: "taken", sentence: `The pendant's page cannot be served at ${host}:${port}: ${problem.message}.` };
-  const socket = openDoors(server, [stationDoor(createPendantHost(options))], request => isServed(hosts, request));
+  const socket = openRoutes(server, [connectionRoute(createPendantHost(options))], request => isServed(hosts, request));
   return {
     kind: "served",
     url: `http://${host}:${(server.address() as AddressInfo).port}/pendant/`,

@@ -2,17 +2,17 @@ import { createServer as createHttp } from "node:http";
 import { createServer as createHttps } from "node:https";
 import type { AddressInfo } from "node:net";
 import { join } from "node:path";
-import { createVideoRelay } from "@twincell/messages";
+import { createVideoRelay } from "@twincell/protocol";
 import { accessCode } from "./access.ts";
 import { certificate, lanAddresses } from "./lan.ts";
 import { nodeScheduler } from "./clock.ts";
 import { isServed, LOOPBACK, studioListener } from "./pages.ts";
 import { stationHost } from "./stations/host.ts";
-import { layOutElsewhere } from "./stations/lay-out.ts";
-import { recordHost } from "./stations/record-host.ts";
-import { openDoors } from "./sockets/doors.ts";
-import { stationDoor } from "./stations/socket.ts";
-import { videoDoor } from "./video/door.ts";
+import { prepareJobInWorker } from "./stations/lay-out.ts";
+import { recordServer } from "./stations/record-host.ts";
+import { openRoutes } from "./sockets/doors.ts";
+import { connectionRoute } from "./stations/socket.ts";
+import { videoRoute } from "./video/door.ts";
 import { staticFiles } from "./static-files.ts";
 
 export interface ServeOptions {
@@ -50,12 +50,12 @@ export async function serve(options: ServeOptions): Promise<Served> {
     server.once("error", reject);
     server.listen(options.port, options.host ?? (options.lan ? "0.0.0.0" : "127.0.0.1"), resolve);
   });
-  const programs = layOutElsewhere();
+  const programs = prepareJobInWorker();
   const stations = stationHost(nodeScheduler, options.version ?? "", programs.layOut);
   const recorder =
     options.data === undefined
       ? null
-      : await recordHost(stations, join(options.data, "recordings"), nodeScheduler, sentence => {
+      : await recordServer(stations, join(options.data, "recordings"), nodeScheduler, sentence => {
           console.error(sentence);
         });
   const port = (server.address() as AddressInfo).port;
@@ -65,9 +65,9 @@ export async function serve(options: ServeOptions): Promise<Served> {
     nodeScheduler.now_s,
     addresses.map(address => `${scheme}://${address}:${port}/camera/${query}`),
   );
-  const socket = openDoors(
+  const socket = openRoutes(
     server,
-    [stationDoor(stations), videoDoor(relay)],
+    [connectionRoute(stations), videoRoute(relay)],
     request =>
       isServed(hosts, request) && (access === null || access.enter(request.headers.cookie, null).kind === "welcome"),
   );

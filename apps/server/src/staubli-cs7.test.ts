@@ -3,10 +3,10 @@
  * the C++ class Rx90 of luismarzo/rx90. TWINCELL_RX90 names its folder in a checkout, `rx90/Server_Client/No_modbus`.
  */
 import {
-  createCs7Face,
+  createCs7Adapter,
   createRealController,
   createVirtualCs7,
-  openStation,
+  openRobotConnection,
   staubli,
   staubliCs7,
   type VirtualCs7,
@@ -77,7 +77,7 @@ async function typed(
 test("T-22 T-23 CS7: the driver moves the virtual controller over the loopback", async () => {
   const cs7 = await virtualCs7("127.0.0.71");
   const real = createRealController({
-    face: createCs7Face({ robot, scheduler, network, host: "127.0.0.71" }),
+    face: createCs7Adapter({ robot, scheduler, network, host: "127.0.0.71" }),
     scheduler,
   });
   open.push(() => {
@@ -134,11 +134,13 @@ test("N-62 CS7: a V+ program as it is exported is loaded from the disk and repla
 
 test("a robot that stands on another controller of the vendor's is refused with both names", async () => {
   const rx160 = robotById("staubli_rx160")!;
-  expect(await openStation({ id: "a", brand: staubliCs7, robot: rx160, scheduler, dialect: vPlus })).toMatchObject({
+  expect(
+    await openRobotConnection({ id: "a", brand: staubliCs7, robot: rx160, scheduler, dialect: vPlus }),
+  ).toMatchObject({
     kind: "refused",
     why: { sentence: "Stäubli RX160 does not stand on a controller of Stäubli CS7 (V+)." },
   });
-  expect(await openStation({ id: "b", brand: staubli, robot, scheduler, dialect: val3 })).toMatchObject({
+  expect(await openRobotConnection({ id: "b", brand: staubli, robot, scheduler, dialect: val3 })).toMatchObject({
     kind: "refused",
     why: { sentence: "Stäubli RX90L does not stand on a controller of Stäubli (VAL 3)." },
   });

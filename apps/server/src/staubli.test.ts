@@ -5,7 +5,7 @@
  */
 import {
   createRealController,
-  createStaubliFace,
+  createStaubliAdapter,
   createVirtualStaubli,
   type VirtualStaubli,
 } from "@twincell/controllers";
@@ -53,7 +53,7 @@ async function virtualStaubli(
 }
 function driver(host: string, ports: { motion: number; feedback: number }) {
   const real = createRealController({
-    face: createStaubliFace({ robot, scheduler, network, host, ports, stale_s: PATIENT_S }),
+    face: createStaubliAdapter({ robot, scheduler, network, host, ports, stale_s: PATIENT_S }),
     scheduler,
   });
   open.push(() => {

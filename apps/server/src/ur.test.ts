@@ -3,7 +3,7 @@
  * TWINCELL_PYTHON, or is the python3 of the path:  pip install ur_rtde==1.6.5 urx==0.11.0, and UR's own RTDE client from its public
  * repository.
  */
-import { createRealController, createUrFace, createVirtualUr, type VirtualUr } from "@twincell/controllers";
+import { createRealController, createUrAdapter, createVirtualUr, type VirtualUr } from "@twincell/controllers";
 import { robotById } from "@twincell/core";
 import { urScript } from "@twincell/languages";
 import { spawn, spawnSync } from "node:child_process";
@@ -45,7 +45,7 @@ async function virtualUr(host: string): Promise<{ ur: VirtualUr; log: string[] }
   return { ur: started.virtual, log };
 }
 async function driver(host: string) {
-  const real = createRealController({ face: createUrFace({ robot, scheduler, network, host }), scheduler });
+  const real = createRealController({ face: createUrAdapter({ robot, scheduler, network, host }), scheduler });
   open.push(real);
   expect(await real.connect()).toEqual({ kind: "done" });
   return real;

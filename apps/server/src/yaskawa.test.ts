@@ -7,9 +7,9 @@ import {
   createRealController,
   createVirtualYaskawa,
   YASKAWA_EXAMPLE_SCALE,
-  yaskawaFace,
+  yaskawaAdapter,
   type VirtualYaskawa,
-  type YaskawaFaceOptions,
+  type YaskawaAdapterOptions,
 } from "@twincell/controllers";
 import { emptyProgram, robotById, type EmittedFile, type Program } from "@twincell/core";
 import { inform } from "@twincell/languages";
@@ -59,9 +59,9 @@ async function virtualYaskawa(
   open.push(started.controller);
   return { virtual: started.controller, log };
 }
-async function driver(host: string, ports: VirtualYaskawa["ports"], options: Partial<YaskawaFaceOptions> = {}) {
+async function driver(host: string, ports: VirtualYaskawa["ports"], options: Partial<YaskawaAdapterOptions> = {}) {
   const real = createRealController({
-    face: yaskawaFace({
+    face: yaskawaAdapter({
       robot,
       scheduler,
       network,

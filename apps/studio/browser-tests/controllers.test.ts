@@ -37,11 +37,11 @@ const cell: CellDocument = {
   programs: [{ ...carton.programs[0]!, name: "To and fro", tools: {}, frames: {}, groups: {}, steps: TO_AND_FRO }],
 };
 
-async function add(page: Page, brand: string, robot: string): Promise<void> {
+async function add(page: Page, kind: string, robot: string): Promise<void> {
   await page.getByRole("button", { name: "Add a controller" }).first().click();
   const dialog = page.getByRole("dialog", { name: "Add a controller to the cell" });
-  await dialog.getByRole("combobox", { name: "Maker" }).click();
-  await page.getByRole("option", { name: brand }).click();
+  await dialog.getByRole("combobox", { name: "Manufacturer" }).click();
+  await page.getByRole("option", { name: kind }).click();
   if (!(await dialog.getByRole("combobox", { name: "Robot" }).innerText()).includes(robot)) {
     await dialog.getByRole("combobox", { name: "Robot" }).click();
     await page.getByRole("option", { name: robot }).click();
@@ -53,9 +53,9 @@ const stations = (page: Page) =>
   page.evaluate(() =>
     window.twincell.stores.stationStore
       .getState()
-      .stations.map(({ id, brand, link, guard, moving, running, notice, safety }) => ({
+      .stations.map(({ id, brand: kind, link, guard, moving, running, notice, safety }) => ({
         id,
-        brand,
+        brand: kind,
         link: link.state,
         guard: guard.link,
         moving,
@@ -123,40 +123,42 @@ test("T-24 T-54 X-41 three makers' controllers at once: one program on all, the 
   await add(page, "Universal Robots", "UR10e");
   await add(page, "Yaskawa", "GP8");
   await add(page, "KUKA", "KR 6 R900");
-  for (const brand of ["ur", "yaskawa", "kuka"]) await until(page, brand, "open");
+  for (const kind of ["ur", "yaskawa", "kuka"]) await until(page, kind, "open");
   await page.waitForFunction(allInside, null, { timeout: 10_000, polling: 100 });
   await page.screenshot({ path: picture("controllers-connected") });
 
   await page.getByRole("button", { name: "Run on all" }).click();
-  for (const brand of ["ur", "yaskawa", "kuka"]) await until(page, brand, "moving");
+  for (const kind of ["ur", "yaskawa", "kuka"]) await until(page, kind, "moving");
   const yaskawa = page.getByRole("article", { name: /Controller .*GP8/ });
-  await yaskawa.getByRole("button", { name: "Pull the plug" }).click();
+  await yaskawa.getByRole("button", { name: "Disconnect (simulate)" }).click();
   await until(page, "yaskawa", "lost");
   await yaskawa
     .getByText(/Nothing (came from|was heard of) .* for \d+ ms|is not connected|did not answer/)
     .first()
     .waitFor();
   await page.screenshot({ path: picture("controllers-unplugged") });
-  for (const brand of ["ur", "kuka", "yaskawa"]) await until(page, brand, "at rest");
-  expect((await stations(page)).map(({ brand, link, notice }) => [brand, link === "open", notice === ""])).toEqual([
-    ["ur", true, true],
-    ["yaskawa", false, false],
-    ["kuka", true, true],
-  ]);
+  for (const kind of ["ur", "kuka", "yaskawa"]) await until(page, kind, "at rest");
+  expect((await stations(page)).map(({ brand: kind, link, notice }) => [kind, link === "open", notice === ""])).toEqual(
+    [
+      ["ur", true, true],
+      ["yaskawa", false, false],
+      ["kuka", true, true],
+    ],
+  );
 
   // The plug goes back: the link comes by itself, motion only after a person's word.
   await yaskawa.getByRole("button", { name: "Put the plug back" }).click();
   await until(page, "yaskawa", "open");
-  expect((await stations(page)).find(({ brand }) => brand === "yaskawa")).toMatchObject({
+  expect((await stations(page)).find(({ brand: kind }) => kind === "yaskawa")).toMatchObject({
     guard: "unconfirmed",
     moving: false,
   });
   expect(await yaskawa.getByRole("button", { name: "Run here" }).isDisabled()).toBe(true);
-  await yaskawa.getByRole("button", { name: "Go on" }).click();
+  await yaskawa.getByRole("button", { name: "Resume" }).click();
   await page.waitForFunction(
     () =>
-      window.twincell.stores.stationStore.getState().stations.find(({ brand }) => brand === "yaskawa")?.guard.link ===
-      "up",
+      window.twincell.stores.stationStore.getState().stations.find(({ brand: kind }) => kind === "yaskawa")?.guard
+        .link === "up",
     null,
     { timeout: 10_000 },
   );

@@ -10,12 +10,12 @@ afterAll(async () => {
   await studio.stop();
 });
 
-async function connect(page: Page, brand: string): Promise<void> {
+async function connect(page: Page, kind: string): Promise<void> {
   await page.getByRole("radio", { name: "Run" }).click();
   await page.getByRole("button", { name: "Add a controller" }).first().click();
   const dialog = page.getByRole("dialog", { name: "Add a controller to the cell" });
-  await dialog.getByRole("combobox", { name: "Maker" }).click();
-  await page.getByRole("option", { name: brand }).click();
+  await dialog.getByRole("combobox", { name: "Manufacturer" }).click();
+  await page.getByRole("option", { name: kind }).click();
   await dialog.getByRole("button", { name: "Add and connect" }).click();
   await dialog.waitFor({ state: "detached", timeout: 30_000 });
   await page.waitForFunction(

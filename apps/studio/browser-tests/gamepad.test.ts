@@ -1,5 +1,5 @@
 import {
-  aidAxis,
+  orientationPresetAxis,
   compose,
   conjugate,
   degrees,
@@ -141,7 +141,7 @@ describe("what each control of the pad does", () => {
             Math.cos(0.001)
           );
         },
-        aidAxis(carton, index),
+        orientationPresetAxis(carton, index),
       );
     for (const [button, index] of [
       [3, 0],
@@ -385,7 +385,7 @@ test("N-50…N-57 the four top edges of the carton at 45° by pad, as V+ text th
             Math.cos(0.0005)
         );
       },
-      [aidAxis(carton, edge), edge] as const,
+      [orientationPresetAxis(carton, edge), edge] as const,
     );
     await hands.frames(3);
     await hands.steerTip({ x: from[0], y: from[1] }, BY_HAND_M);
@@ -435,7 +435,7 @@ test("N-50…N-57 the four top edges of the carton at 45° by pad, as V+ text th
     expect(offEdge(tip.position, from, to), `point ${i + 1} from its edge`).toBeLessThan(0.0005);
     expect(distance(tip.position, i % 2 === 0 ? from : to), `point ${i + 1} from its corner`).toBeLessThan(0.001);
     expect(
-      degrees(Math.acos(Math.min(1, dot(rotate(tip.quaternion, [0, 0, 1]), aidAxis(carton, outwards))))),
+      degrees(Math.acos(Math.min(1, dot(rotate(tip.quaternion, [0, 0, 1]), orientationPresetAxis(carton, outwards))))),
       `point ${i + 1} leans`,
     ).toBeLessThan(0.1);
   }

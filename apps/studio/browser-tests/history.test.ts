@@ -152,7 +152,7 @@ test("T-54 T-56 X-43 a day is scrubbed, its last alarm found, two cycles laid ov
   await page.screenshot({ path: picture("history-cycles"), timeout: 90_000 });
 
   await page.getByRole("radio", { name: "Figures" }).dispatchEvent("click");
-  await page.getByText(/2159 cycles, 40\.00 s in the middle/).waitFor();
+  await page.getByText(/2159 cycles, 40\.00 s median/).waitFor();
   await page.getByText(/The load of joint 2 rose by/).waitFor();
   expect(await page.getByText("Service intervals: not reported.").count()).toBe(1);
   // A person says what stands in the robot's papers, and is told when it is time.

@@ -3,7 +3,7 @@ import { createInterface } from "node:readline";
 import { fileURLToPath } from "node:url";
 import { setTimeout as pause } from "node:timers/promises";
 import { identity, type MoveStep, type Pose } from "@twincell/core";
-import { readTell, type TellOf } from "@twincell/messages";
+import { readConnectionEvent, type EventOf } from "@twincell/protocol";
 import { saveDocument, tracedCartonCell } from "@twincell/project";
 import type { BrowserContext, Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
@@ -102,13 +102,13 @@ async function letGo(page: Page): Promise<void> {
   await page.keyboard.up("e");
 }
 /**
- * Runs the program there with the dead-man held, until that is so. A machine that kept the link from being heard has it confirmed
+ * Runs the program there with the enabling switch held, until that is so. A machine that kept the link from being heard has it confirmed
  * first, as a person would.
  */
 async function runFromStudio(page: Page, so: () => boolean | Promise<boolean>): Promise<void> {
   await page.bringToFront();
   const run = page.getByRole("button", { name: "Run here" });
-  const goOn = page.getByRole("button", { name: "Go on" });
+  const goOn = page.getByRole("button", { name: "Resume" });
   const holding = page.getByRole("button", { name: "Hold to move" });
   const said: string[] = [];
   for (let tries = 0; tries < 40; tries++) {
@@ -154,18 +154,18 @@ async function atRest(page: Page): Promise<number[]> {
 /** What the server's station tells everybody: the twin, as any page has it. */
 class Listener {
   private readonly socket: WebSocket;
-  private last: TellOf<"sample"> | null = null;
+  private last: EventOf<"sample"> | null = null;
   constructor(url: string) {
     this.socket = new WebSocket(new URL("/stations", url.replace(/^http/, "ws")));
     this.socket.addEventListener("message", ({ data }: MessageEvent<string>) => {
-      const heard = readTell(data);
+      const heard = readConnectionEvent(data);
       if (heard.kind === "read" && heard.message.type === "sample") this.last = heard.message;
     });
   }
   get now() {
     return { ...this.last!, q_deg: this.last!.q_rad.map(q => (q * 180) / Math.PI) };
   }
-  async until(so: (sample: TellOf<"sample">) => boolean, what: string): Promise<void> {
+  async until(so: (sample: EventOf<"sample">) => boolean, what: string): Promise<void> {
     for (const end_ms = performance.now() + 15_000; !this.last || !so(this.last); ) {
       if (performance.now() > end_ms) throw new Error(`The twin is never ${what}: ${JSON.stringify(this.last)}`);
       await pause(5);

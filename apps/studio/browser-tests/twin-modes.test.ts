@@ -46,17 +46,17 @@ const cell: CellDocument = {
 
 async function add(
   page: Page,
-  brand: string,
+  kind: string,
   at: { readonly x: number; readonly turned: number; readonly watch?: boolean },
 ): Promise<void> {
   await page.getByRole("button", { name: "Add a controller" }).first().click();
   const dialog = page.getByRole("dialog", { name: "Add a controller to the cell" });
-  await dialog.getByRole("combobox", { name: "Maker" }).click();
-  await page.getByRole("option", { name: brand }).click();
+  await dialog.getByRole("combobox", { name: "Manufacturer" }).click();
+  await page.getByRole("option", { name: kind }).click();
   for (const [label, value] of [
     ["x", at.x],
     ["y", 1600],
-    ["Turned", at.turned],
+    ["Rotation", at.turned],
   ] as const) {
     const field = dialog.getByRole("textbox", { name: new RegExp(`^${label}, `) });
     await field.fill(String(value));
@@ -66,12 +66,12 @@ async function add(
   await dialog.getByRole("button", { name: "Add and connect" }).click();
   await dialog.waitFor({ state: "detached", timeout: 30_000 });
 }
-const state = (page: Page, brand: string) =>
+const state = (page: Page, kind: string) =>
   page.evaluate(
     of => window.twincell.stores.stationStore.getState().stations.find(station => station.brand === of),
-    brand,
+    kind,
   );
-const until = (page: Page, brand: string, so: string): Promise<unknown> =>
+const until = (page: Page, kind: string, so: string): Promise<unknown> =>
   page
     .waitForFunction(
       ([of, what]) => {
@@ -88,11 +88,11 @@ const until = (page: Page, brand: string, so: string): Promise<unknown> =>
             return station.link.state === what;
         }
       },
-      [brand, so] as const,
+      [kind, so] as const,
       { timeout: 30_000, polling: 50 },
     )
     .catch(async () => {
-      throw new Error(`${brand} is not ${so}: ${JSON.stringify(await state(page, brand))}`);
+      throw new Error(`${kind} is not ${so}: ${JSON.stringify(await state(page, kind))}`);
     });
 const card = (page: Page, name: RegExp) => page.getByRole("article", { name });
 
@@ -106,7 +106,7 @@ test("T-24 T-26 T-63 two robots that face each other: the ghost runs ahead, a bl
   await page.getByRole("radio", { name: "Run" }).click();
   await add(page, "Universal Robots", { x: 0, turned: 0 });
   await add(page, "KUKA", { x: 1400, turned: 180 });
-  for (const brand of ["ur", "kuka"]) await until(page, brand, "open");
+  for (const kind of ["ur", "kuka"]) await until(page, kind, "open");
   const ur = card(page, /Controller .*UR10e/);
 
   // Simulate ahead: the ghost goes through the program, and the robot stays.
@@ -115,7 +115,7 @@ test("T-24 T-26 T-63 two robots that face each other: the ghost runs ahead, a bl
   // Until it can be told from the robot in the picture.
   await page.waitForFunction(
     () => {
-      const station = window.twincell.stores.stationStore.getState().stations.find(({ brand }) => brand === "ur");
+      const station = window.twincell.stores.stationStore.getState().stations.find(({ brand: kind }) => kind === "ur");
       const live = station && window.twincell.live.station(station.id);
       return live !== undefined && live.q_rad.some((q, i) => Math.abs(q - live.ahead.q_rad[i]!) > 0.2);
     },
@@ -147,7 +147,7 @@ test("T-24 T-26 T-63 two robots that face each other: the ghost runs ahead, a bl
   await page.setViewportSize({ width: 390, height: 844 });
   await page.screenshot({ path: picture("twin-watched-phone") });
   await page.setViewportSize({ width: 1440, height: 900 });
-  await ur.getByRole("button", { name: "Take it to command" }).click();
+  await ur.getByRole("button", { name: "Take control" }).click();
   await ur.getByRole("button", { name: "Run here" }).waitFor();
   expect((await state(page, "ur"))?.guard).toMatchObject({ watching: false, holder: "you" });
   expect(problems).toEqual([]);

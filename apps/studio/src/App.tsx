@@ -31,7 +31,7 @@ import { traceStore } from "./stores/trace.ts";
 import { viewStore } from "./stores/view.ts";
 import { Segments } from "./ui/Choice.tsx";
 import { PHONE, useMedia } from "./ui/useMedia.ts";
-import { words } from "./words/index.ts";
+import { words } from "./messages/index.ts";
 import "./app.css";
 
 const TextPanel = lazy(() => import("./features/text/TextPanel.tsx"));

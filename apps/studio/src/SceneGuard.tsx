@@ -1,11 +1,11 @@
 import { Component, type ReactNode } from "react";
-import { words } from "./words/index.ts";
+import { words } from "./messages/index.ts";
 
 /** Without WebGL the page lives on: tree, pendant, program and export need no picture. */
 export class SceneGuard extends Component<{ readonly children: ReactNode }, { readonly trouble: string | null }> {
   override state: { readonly trouble: string | null } = { trouble: null };
-  static getDerivedStateFromError(trouble: unknown): { readonly trouble: string } {
-    return { trouble: trouble instanceof Error ? trouble.message : String(trouble) };
+  static getDerivedStateFromError(faultInjection: unknown): { readonly trouble: string } {
+    return { trouble: faultInjection instanceof Error ? faultInjection.message : String(faultInjection) };
   }
   override render(): ReactNode {
     if (this.state.trouble === null) return this.props.children;

@@ -15,7 +15,7 @@ import { textOf } from "./stores/document.ts";
 import { traceStore } from "./stores/trace.ts";
 import { showMode, viewStore, type SheetTab, type StudioMode } from "./stores/view.ts";
 import { Segments } from "./ui/Choice.tsx";
-import { words } from "./words/index.ts";
+import { words } from "./messages/index.ts";
 
 const Stations = lazy(() => import("./features/stations/Stations.tsx").then(part => ({ default: part.Stations })));
 const TextPanel = lazy(() => import("./features/text/TextPanel.tsx"));

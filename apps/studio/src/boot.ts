@@ -1,25 +1,25 @@
 import { del, get, keys, set } from "idb-keyval";
 import { startCommands } from "./commands/index.ts";
 import { startSounds } from "./features/sounds/sounds.ts";
-import { startChecking } from "./live/checking.ts";
-import { watchCollisions } from "./live/collision.ts";
-import { startFollowing } from "./live/follow.ts";
-import { tick } from "./live/frames.ts";
-import { endGlide } from "./live/glide.ts";
-import { startHandPath } from "./live/hand-path.ts";
-import { releaseAll } from "./live/held.ts";
-import { startJogging } from "./live/jogger.ts";
-import { hold, startPhysics } from "./live/physics.ts";
-import { pause, startPlayhead } from "./live/playhead.ts";
-import { startPreview } from "./live/preview.ts";
-import { startTexts } from "./live/text-program.ts";
+import { startChecking } from "./runtime/planning/checking.ts";
+import { watchCollisions } from "./runtime/collision/collision.ts";
+import { startFollowing } from "./runtime/robot/follow.ts";
+import { tick } from "./runtime/jog/jog-frames.ts";
+import { endInterpolation } from "./runtime/jog/joint-interpolation.ts";
+import { startHandPath } from "./runtime/jog/hand-path.ts";
+import { releaseAll } from "./runtime/jog/pressed-inputs.ts";
+import { startJogging } from "./runtime/jog/jogger.ts";
+import { hold, startPhysics } from "./runtime/physics/physics.ts";
+import { pause, startPlayhead } from "./runtime/history/playhead.ts";
+import { startPreview } from "./runtime/planning/preview.ts";
+import { startTexts } from "./runtime/text-program.ts";
 import { keepDocument, openKept } from "./stores/autosave.ts";
 import { CellLibrary, setLibrary, type KeyValueStore } from "./stores/library.ts";
 import { notify } from "./stores/notices.ts";
 import { keepPresent, onKeepFacts } from "./stores/opening.ts";
 import { keepPreferences } from "./stores/preferences.ts";
-import { words } from "./words/index.ts";
-import { presentFacts } from "./live/present-facts.ts";
+import { words } from "./messages/index.ts";
+import { presentFacts } from "./runtime/present-facts.ts";
 import { onStop } from "./stores/stop.ts";
 
 const browserStore: KeyValueStore = {
@@ -42,7 +42,7 @@ export function boot(): void {
   startHandPath();
   startPreview();
   startSounds();
-  for (const bringToRest of [releaseAll, endGlide, pause, hold]) onStop(bringToRest);
+  for (const bringToRest of [releaseAll, endInterpolation, pause, hold]) onStop(bringToRest);
   const library = new CellLibrary(browserStore, () => Date.now(), newCellId);
   setLibrary(library);
   onKeepFacts(presentFacts);
@@ -65,11 +65,14 @@ export function boot(): void {
   void library
     .load()
     // Without a library the cell that was open is still read.
-    .catch((trouble: unknown) =>
-      notify("warn", words.file.noLibrary(trouble instanceof Error ? trouble.message : String(trouble))),
+    .catch((faultInjection: unknown) =>
+      notify(
+        "warn",
+        words.file.noLibrary(faultInjection instanceof Error ? faultInjection.message : String(faultInjection)),
+      ),
     )
     .then(() => openKept(browserStore, library))
-    .then(() => import("./live/cell-control.ts"))
+    .then(() => import("./runtime/robot/cell-control.ts"))
     .then(({ startCellControl }) => {
       startCellControl();
     });

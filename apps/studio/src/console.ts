@@ -1,11 +1,11 @@
-import { hold, release, releaseAll } from "./live/held.ts";
-import { linkMeter } from "./live/link-meter.ts";
-import { stationLive } from "./live/stations.ts";
-import { showJoints, theLive, touchingNow } from "./live/live.ts";
-import { physicsNow } from "./live/physics.ts";
-import { playheadNow } from "./live/playhead.ts";
-import { shownRobot } from "./live/shown.ts";
-import { aidStore } from "./stores/aids.ts";
+import { hold, release, releaseAll } from "./runtime/jog/pressed-inputs.ts";
+import { linkMeter } from "./runtime/run/link-meter.ts";
+import { stationLive } from "./runtime/robot/stations.ts";
+import { showJoints, theLive, touchingNow } from "./runtime/live.ts";
+import { physicsNow } from "./runtime/physics/physics.ts";
+import { playheadNow } from "./runtime/history/playhead.ts";
+import { shownRobot } from "./runtime/robot/drawn-robots.ts";
+import { orientationPresetStore } from "./stores/aids.ts";
 import { bindingStore } from "./stores/bindings.ts";
 import { cellStore } from "./stores/cell.ts";
 import { commandStore, runCommand } from "./stores/commands.ts";
@@ -37,7 +37,7 @@ import { watchStore } from "./stores/watch.ts";
 /** What the browser's console and tests can reach: every store, the live state, and the commands by name. */
 const twincell = {
   stores: {
-    aidStore,
+    aidStore: orientationPresetStore,
     bindingStore,
     cellStore,
     commandStore,

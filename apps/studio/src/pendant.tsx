@@ -1,8 +1,8 @@
 import "@fontsource-variable/inter/wght.css";
 import { createRoot } from "react-dom/client";
-import { createClient } from "@twincell/messages";
-import { createCabinetLink, type CabinetLink } from "./cabinet/link.ts";
-import { PendantPage } from "./cabinet/PendantPage.tsx";
+import { createClient } from "@twincell/protocol";
+import { createVirtualPendantLink, type VirtualPendantLink } from "./virtual-pendant/link.ts";
+import { PendantPage } from "./virtual-pendant/PendantPage.tsx";
 import "./tokens.css";
 import "./app.css";
 
@@ -15,7 +15,7 @@ const root = createRoot(document.getElementById("root")!);
 const address = new URL("/stations", location.href);
 address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
 const socket = new WebSocket(address);
-let link: CabinetLink | null = null;
+let link: VirtualPendantLink | null = null;
 const show = (sentence: string | null): void => {
   root.render(<PendantPage link={link} sentence={sentence} />);
 };
@@ -36,7 +36,7 @@ const client = createClient(
           wanted === null
             ? message.stations.find(({ virtual }) => virtual)
             : message.stations.find(({ id }) => id === wanted);
-        if (station) link = createCabinetLink(station.id, client);
+        if (station) link = createVirtualPendantLink(station.id, client);
         show(station ? null : "");
         break;
       }

@@ -2,17 +2,18 @@ import { LIBRARY, type Robot } from "@twincell/core";
 import { abb } from "./abb/index.ts";
 import { fanuc } from "./fanuc/index.ts";
 import { kuka } from "./kuka/index.ts";
-import type { Brand } from "./real/index.ts";
+import type { DriverKind } from "./driver/index.ts";
 import { staubli } from "./staubli/index.ts";
 import { staubliCs7 } from "./staubli-cs7/index.ts";
 import { universalRobots } from "./ur/index.ts";
 import { yaskawa } from "./yaskawa/index.ts";
 
 /** Every brand there is a driver and a virtual controller for. */
-export const BRANDS: readonly Brand[] = [universalRobots, kuka, yaskawa, fanuc, abb, staubli, staubliCs7];
-export const brandById = (id: string): Brand | undefined => BRANDS.find(brand => brand.id === id);
+export const DRIVER_KINDS: readonly DriverKind[] = [universalRobots, kuka, yaskawa, fanuc, abb, staubli, staubliCs7];
+export const driverKindById = (id: string): DriverKind | undefined => DRIVER_KINDS.find(kind => kind.id === id);
 /** Brands whose robots that one is. */
-export const brandsFor = (vendor: string): readonly Brand[] => BRANDS.filter(brand => brand.vendor === vendor);
+export const driverKindsFor = (vendor: string): readonly DriverKind[] =>
+  DRIVER_KINDS.filter(kind => kind.vendor === vendor);
 /** Robots of the library that a brand drives. */
-export const robotsOf = ({ vendor, drives }: Pick<Brand, "vendor" | "drives">): readonly Robot[] =>
+export const robotsOf = ({ vendor, drives }: Pick<DriverKind, "vendor" | "drives">): readonly Robot[] =>
   LIBRARY.filter(robot => robot.vendor === vendor && (drives?.(robot) ?? true));

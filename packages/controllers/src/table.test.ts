@@ -2,7 +2,7 @@ import { manualScheduler } from "@twincell/core";
 import { readdirSync, readFileSync } from "node:fs";
 import { expect, test } from "vitest";
 import {
-  BRANDS,
+  DRIVER_KINDS,
   createRealController,
   driverTables,
   DRIVERS,
@@ -57,18 +57,18 @@ test.each(DRIVERS.map(driver => [driver.name, driver] as const))(
 
 test("T-21 every driver is a face that is handed in, and has what its row of the table says", () => {
   for (const driver of DRIVERS) {
-    const face = unconnected(driver);
+    const adapter = unconnected(driver);
     const lacks = (row: string): boolean => driver.cannot.some(each => each.row === row);
-    expect([driver.name, face.runText === undefined, face.setPayload === undefined]).toEqual([
+    expect([driver.name, adapter.runText === undefined, adapter.setPayload === undefined]).toEqual([
       driver.name,
       lacks("texts"),
       lacks("payload"),
     ]);
-    expect(createRealController({ face, scheduler: manualScheduler() }).jumpTo).toBeUndefined();
+    expect(createRealController({ face: adapter, scheduler: manualScheduler() }).jumpTo).toBeUndefined();
   }
 });
 
-test.each(BRANDS.map(brand => [brand.id, brand] as const))(
+test.each(DRIVER_KINDS.map(brand => [brand.id, brand] as const))(
   "signals and override of %s are taken, or refused where its row says so",
   async (id, brand) => {
     const scheduler = manualScheduler();
@@ -83,13 +83,13 @@ test.each(BRANDS.map(brand => [brand.id, brand] as const))(
       interpret: () => ({ kind: "not-understood", faults: [] }),
     });
     if (started.kind === "taken") throw new Error(started.sentence);
-    const face = brand.face({ robot, scheduler, network, host });
-    const real = createRealController({ face, scheduler });
+    const adapter = brand.face({ robot, scheduler, network, host });
+    const real = createRealController({ face: adapter, scheduler });
     const lacks = (row: string): boolean => brand.cannot.some(each => each.row === row);
     const connecting = real.connect();
     await scheduler.elapse(3);
     expect(await connecting).toEqual({ kind: "done" });
-    expect(face.setSignal(LINE[id]!, true) !== null, "signals").toBe(lacks("signals"));
+    expect(adapter.setSignal(LINE[id]!, true) !== null, "signals").toBe(lacks("signals"));
     expect(real.setSpeed(50).kind, "override").toBe(lacks("override") ? "refused" : "done");
     real.close();
     started.virtual.close();

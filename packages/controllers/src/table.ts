@@ -1,6 +1,6 @@
 import { manualScheduler, type Robot } from "@twincell/core";
-import { BRANDS, robotsOf } from "./brands.ts";
-import type { Ability, Cannot, Face, FaceOptions } from "./real/index.ts";
+import { DRIVER_KINDS, robotsOf } from "./brands.ts";
+import type { Ability, Cannot, ControllerAdapter, AdapterOptions } from "./driver/index.ts";
 import { memoryNetwork } from "./transport/index.ts";
 
 /** One driver of the table: a brand, or another way to the same controller. */
@@ -15,10 +15,10 @@ export interface Driver {
   readonly own?: readonly string[];
   /** How the names of those tests end. */
   readonly tests?: string;
-  face(options: FaceOptions): Face;
+  face(options: AdapterOptions): ControllerAdapter;
 }
 
-export const DRIVERS: readonly Driver[] = BRANDS.flatMap((brand): Driver[] => {
+export const DRIVERS: readonly Driver[] = DRIVER_KINDS.flatMap((brand): Driver[] => {
   const { name, vendor, drives, cannot, otherWays = [] } = brand;
   const driver: Driver = {
     name,
@@ -55,7 +55,7 @@ const ABILITIES: readonly { readonly row: Ability; readonly title: string }[] = 
 ];
 
 /** The face of a driver for a robot of its vendor, without a line: what it has and has not. */
-export function unconnected(driver: Driver): Face {
+export function unconnected(driver: Driver): ControllerAdapter {
   const scheduler = manualScheduler();
   const robot: Robot = robotsOf(driver).find(({ arm }) => arm.joints.length === 6)!;
   return driver.face({ robot, scheduler, network: memoryNetwork(scheduler), host: "127.0.0.1" });

@@ -143,10 +143,10 @@ export interface RealController extends RobotController {
   /** Hands the controller a program in its own language and runs it there to its end. */
   readonly runText?: (files: readonly EmittedFile[]) => Promise<CommandOutcome>;
   /** The same in two: handed over first, where nothing moves yet, and started when it is wanted. */
-  readonly handText?: (files: readonly EmittedFile[]) => Promise<HandedText>;
+  readonly handText?: (files: readonly EmittedFile[]) => Promise<UploadedProgram>;
 }
 /** A program text that a controller has taken and not yet begun. */
-export type HandedText =
+export type UploadedProgram =
   | { readonly kind: "handed"; start(): Promise<CommandOutcome> /** It is not started after all. */; drop(): void }
   | { readonly kind: "refused"; readonly why: Refusal };
 

@@ -10,7 +10,7 @@ import {
 } from "@twincell/core";
 import { expect, test } from "vitest";
 import { fanucLs, inform, proveText, runnableFile } from "./index.ts";
-import { inParts } from "./writing/index.ts";
+import { inParts } from "./emitter/index.ts";
 
 /** Up and down over the home position, passed at every point but each fortieth. */
 function long(robot: Robot, count: number): Program {

@@ -11,7 +11,7 @@ import {
   type Dialect,
   type EmittedFile,
   type Executed,
-  type Happening,
+  type FlowEvent,
   type Interpreted,
   type Pose,
   type PrimitiveStep,
@@ -206,7 +206,7 @@ function steady(run: Iterator<Executed, void>): { next(): { readonly line: numbe
 
 /** The steps of the program, each with the one after it where that is known without a decision: stops that it does not say are told as no step. */
 function* following(
-  happenings: Iterable<Happening>,
+  happenings: Iterable<FlowEvent>,
   told: Told,
 ): Generator<readonly [PrimitiveStep, PrimitiveStep | undefined], void> {
   let before: PrimitiveStep | undefined;

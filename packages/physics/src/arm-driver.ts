@@ -7,7 +7,7 @@ import {
   dynamicsScratch,
   inverseDynamics,
   massMatrix,
-  togetherCarried,
+  carriedTogether,
   type DriveGains,
   type DynamicsCommand,
   type DynamicsModel,
@@ -122,7 +122,7 @@ export class DrivenArm {
       gripper === undefined
         ? undefined
         : { mass_kg: load_kg + gripper.mass_kg, center_m: gripper.flangeFromGrip.position };
-    const all = payload !== undefined && held !== undefined ? togetherCarried(payload, held) : (payload ?? held);
+    const all = payload !== undefined && held !== undefined ? carriedTogether(payload, held) : (payload ?? held);
     const answer = dynamicsModel(robot, { worldFromBase, ...(all === undefined ? {} : { payload: all }) });
     return answer.kind === "known" ? answer.model : this.model;
   }

@@ -82,13 +82,13 @@ export function createWorld(engine: Engine, scene: PhysicalScene, signals: Signa
   let model: MjModel;
   try {
     model = engine.MjModel.from_xml_string(sceneXml(scene, masses?.model));
-  } catch (trouble) {
+  } catch (faultInjection) {
     return {
       kind: "refused",
       why: {
         code: "physics.model",
         sentence:
-          `The cell cannot be simulated: ${trouble instanceof Error ? trouble.message : String(trouble)}.`.replace(
+          `The cell cannot be simulated: ${faultInjection instanceof Error ? faultInjection.message : String(faultInjection)}.`.replace(
             /\n/g,
             " ",
           ),

@@ -55,7 +55,7 @@ const SAME_RAD = (0.001 * Math.PI) / 180;
 
 /** One thing goes wrong; then everything is put right, a person says that motion is wanted, and it must move again. */
 export async function oneCase(cell: Cell, name: string, doing: Doing, worst: Worst): Promise<Case> {
-  const { scheduler, station, seat, watched, random } = cell;
+  const { scheduler, station, seat: commander, watched, random } = cell;
   const { virtual } = watched;
   const fault = FAULTS[name]!;
   const broken: string[] = [];
@@ -71,9 +71,9 @@ export async function oneCase(cell: Cell, name: string, doing: Doing, worst: Wor
 
   const first: Pending =
     doing === "moving"
-      ? pending(seat.robot.moveJoints(cell.target()))
+      ? pending(commander.robot.moveJoints(cell.target()))
       : doing === "text"
-        ? pending(station.run(seat, cell.program(), true))
+        ? pending(station.run(commander, cell.program(), true))
         : { outcome: { kind: "done" } };
   if (doing !== "idle") await cell.until(() => !cell.stands() || first.outcome !== undefined, 6);
   await scheduler.elapse(0.7 * random());
@@ -144,7 +144,7 @@ export async function oneCase(cell: Cell, name: string, doing: Doing, worst: Wor
     station.guard.state.link !== "up" || (station.link !== null && station.link.state !== "open");
   const early = async (): Promise<void> => {
     if (!isBarred()) return;
-    const moved = pending(seat.robot.moveJoints(cell.target()));
+    const moved = pending(commander.robot.moveJoints(cell.target()));
     await scheduler.elapse(0.004);
     law(moved.outcome?.kind === "refused", "a motion was accepted before a person's act");
   };
@@ -185,13 +185,13 @@ export async function oneCase(cell: Cell, name: string, doing: Doing, worst: Wor
       void station.connect();
       await scheduler.elapse(2);
     }
-    seat.take();
-    seat.hold(true);
-    seat.confirm();
-    seat.robot.reset();
+    commander.acquireLease();
+    commander.setEnabled(true);
+    commander.acknowledge();
+    commander.robot.reset();
     await scheduler.elapse(1);
-    seat.robot.setSpeed(100);
-    const again = pending(seat.robot.moveJoints(cell.target()));
+    commander.robot.setSpeed(100);
+    const again = pending(commander.robot.moveJoints(cell.target()));
     await cell.until(() => again.outcome !== undefined, 20, 0.02);
     last = inWords(again);
   }

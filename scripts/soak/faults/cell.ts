@@ -1,4 +1,10 @@
-import { memoryNetwork, openStation, robotsOf, type Brand, type BrandStation } from "@twincell/controllers";
+import {
+  memoryNetwork,
+  openRobotConnection,
+  robotsOf,
+  type DriverKind,
+  type VendorConnection,
+} from "@twincell/controllers";
 import {
   emptyProgram,
   manualScheduler,
@@ -26,14 +32,14 @@ export const RESTED_S = 0.6;
 const TOO_FAST = 1.000001;
 const WIRE_RAD = 1e-4;
 
-export type Seat = ReturnType<BrandStation["seat"]>;
+export type Commander = ReturnType<VendorConnection["commander"]>;
 
 /** A station as people have it, with its virtual controller, and everything that is measured about it. */
 export interface Cell {
   readonly scheduler: ManualScheduler;
   readonly robot: Robot;
-  readonly station: BrandStation;
-  readonly seat: Seat;
+  readonly station: VendorConnection;
+  readonly seat: Commander;
   readonly watched: Watched;
   readonly random: () => number;
   /** The station was told where its controller is, as of a real one; else it has started a virtual one beside it. */
@@ -87,7 +93,7 @@ function counted(scheduler: ManualScheduler): { readonly scheduler: ManualSchedu
 }
 
 /** Opens and connects a station of that brand with a robot of the library, on a clock and a network of its own. */
-export async function openCell(brand: Brand, seed: number): Promise<Cell> {
+export async function openCell(brand: DriverKind, seed: number): Promise<Cell> {
   const random = seededRandom(seed);
   const { scheduler, running } = counted(manualScheduler());
   const isFar = random() < 0.5;
@@ -108,7 +114,7 @@ export async function openCell(brand: Brand, seed: number): Promise<Cell> {
     });
     if (started.kind === "taken") throw new Error(started.sentence);
   }
-  const opened = await openStation({
+  const opened = await openRobotConnection({
     id: "soak",
     brand: seen.brand,
     robot,
@@ -120,7 +126,7 @@ export async function openCell(brand: Brand, seed: number): Promise<Cell> {
   if (opened.kind === "refused") throw new Error(opened.why.sentence);
   const { station } = opened;
   const { virtual } = seen;
-  const seat = station.seat("soak");
+  const seat = station.commander("soak");
   const page = { asleep: false, alive_s: 0 };
 
   const limits = robot.arm.joints.map(({ limits: { speed_rad_s } }) => speed_rad_s * TICK_S * TOO_FAST + WIRE_RAD);

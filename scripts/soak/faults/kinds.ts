@@ -1,4 +1,4 @@
-import { calm, type Weather } from "@twincell/controllers";
+import { calm, type NetworkConditions } from "@twincell/controllers";
 import type { Cell } from "./cell.ts";
 import { pending, type Pending } from "./cell.ts";
 
@@ -14,13 +14,13 @@ export interface Fault {
   /** Does it, and says how to undo it where `mend` does not. What it promised to somebody else is waited for. */
   act(cell: Cell): Undo | undefined;
 }
-const weather = (change: (random: () => number) => Partial<Weather>): Fault => ({
+const weather = (change: (random: () => number) => Partial<NetworkConditions>): Fault => ({
   leads: "any",
   act({ watched, random }) {
     Object.assign(watched.network.weather, change(random));
   },
 });
-const line = (change: Partial<Weather>): Fault => ({
+const line = (change: Partial<NetworkConditions>): Fault => ({
   leads: "line",
   act({ watched }) {
     Object.assign(watched.network.weather, change);
@@ -116,8 +116,8 @@ export const FAULTS: Readonly<Record<string, Fault>> = {
   "a second seat": {
     leads: "any",
     act(cell) {
-      const other = cell.station.seat("another");
-      const taken = other.take();
+      const other = cell.station.commander("another");
+      const taken = other.acquireLease();
       const moved = pending(other.robot.moveJoints(cell.target()));
       return async () => {
         await cell.scheduler.elapse(0.01);
@@ -134,14 +134,14 @@ export const FAULTS: Readonly<Record<string, Fault>> = {
   "tab closed": {
     leads: "here",
     act({ seat }) {
-      seat.release();
+      seat.releaseLease();
     },
   },
   "enabling switch let go": {
     leads: "here",
     act(cell) {
-      if (cell.isFar) cell.seat.hold(false);
-      else cell.seat.release();
+      if (cell.isFar) cell.seat.setEnabled(false);
+      else cell.seat.releaseLease();
     },
   },
   stop: {

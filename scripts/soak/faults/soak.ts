@@ -1,4 +1,4 @@
-import type { Brand } from "@twincell/controllers";
+import type { DriverKind } from "@twincell/controllers";
 import { seededRandom } from "@twincell/core";
 import { DOINGS, noWorst, oneCase, type Worst } from "./case.ts";
 import { openCell } from "./cell.ts";
@@ -31,7 +31,7 @@ const STRIDE = 7919;
  * @param now_ms  of the machine, for how long it took.
  */
 export async function soak(
-  brand: Brand,
+  kind: DriverKind,
   faults: number,
   seed: number,
   now_ms: () => number,
@@ -51,9 +51,9 @@ export async function soak(
   for (let n = 0; done < faults; n++) {
     const own = seed + STRIDE * n;
     const random = seededRandom(own);
-    const cell = await openCell(brand, own);
-    cell.seat.take();
-    cell.seat.hold(true);
+    const cell = await openCell(kind, own);
+    cell.seat.acquireLease();
+    cell.seat.setEnabled(true);
     for (let i = 0; i < PER_CELL && done < faults; i++, done++) {
       const name = only[inTurn ? done % only.length : Math.floor(random() * only.length)]!;
       const doing = DOINGS[Math.floor(random() * DOINGS.length)]!;

@@ -1,8 +1,8 @@
 import {
   createRealController,
-  type Brand,
-  type BrandVirtual,
-  type Face,
+  type DriverKind,
+  type VendorVirtual,
+  type ControllerAdapter,
   type MemoryNetwork,
   type Network,
 } from "@twincell/controllers";
@@ -10,8 +10,8 @@ import type { JointSample, ManualScheduler, RealController } from "@twincell/cor
 
 /** What a driver was told and what it heard, seen between it and all that stands in front of it. */
 export interface Watched {
-  readonly brand: Brand;
-  readonly virtual: BrandVirtual;
+  readonly brand: DriverKind;
+  readonly virtual: VendorVirtual;
   readonly network: MemoryNetwork;
   /** When it last heard of its controller, and when it was last told to stop while its line was open [s]. */
   readonly heard_s: number;
@@ -28,11 +28,11 @@ type Sample = Omit<JointSample, "step">;
 const inMemory = (network: Network): network is MemoryNetwork => "weather" in network;
 
 /** The same brand, seen from between: what is opened with it shows what goes through. */
-export function watched(brand: Brand, scheduler: ManualScheduler, random: () => number): Watched {
+export function watched(brand: DriverKind, scheduler: ManualScheduler, random: () => number): Watched {
   const lies = { clock_s: 0, nan: 0 };
-  let virtual: BrandVirtual | null = null;
+  let virtual: VendorVirtual | null = null;
   let line: MemoryNetwork | null = null;
-  let again: (() => Face) | null = null;
+  let again: (() => ControllerAdapter) | null = null;
   let heard_s = NaN;
   let stopped_s = NaN;
   let isOpen = false;
@@ -85,16 +85,16 @@ export function watched(brand: Brand, scheduler: ManualScheduler, random: () => 
         if (!inMemory(options.network)) throw new Error("This soak runs in memory.");
         line = options.network;
         again = () => brand.face(options);
-        const face = brand.face(options);
-        const { runText } = face;
+        const adapter = brand.face(options);
+        const { runText } = adapter;
         return {
-          ...face,
+          ...adapter,
           // It may change with how the controller speaks just now.
           get stale_s() {
-            return face.stale_s;
+            return adapter.stale_s;
           },
           async open(events) {
-            const opened = await face.open({
+            const opened = await adapter.open({
               sample(lent) {
                 heard_s = scheduler.now_s();
                 events.sample(lied(lent));
@@ -112,21 +112,21 @@ export function watched(brand: Brand, scheduler: ManualScheduler, random: () => 
           },
           close() {
             isOpen = false;
-            face.close();
+            adapter.close();
           },
           move(motion) {
             motions++;
-            return face.move(motion);
+            return adapter.move(motion);
           },
           stop(emergency) {
             if (isOpen) stopped_s = scheduler.now_s();
-            face.stop(emergency);
+            adapter.stop(emergency);
           },
           ...(runText
             ? {
                 runText(files: Parameters<typeof runText>[0]) {
                   motions++;
-                  return runText.call(face, files);
+                  return runText.call(adapter, files);
                 },
               }
             : {}),

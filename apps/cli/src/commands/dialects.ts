@@ -12,8 +12,18 @@ One JSON line per dialect: id, brand, name, extensions, maturity, emits, parses,
   async run(args) {
     given(args, { json: { type: "boolean" } });
     const writer = lineWriter();
-    for (const { id, brand, name, extensions, maturity, cannot } of DIALECTS)
-      writer.write({ id, brand, name, extensions, maturity, emits: true, parses: true, interprets: true, cannot });
+    for (const { id, brand: kind, name, extensions, maturity, cannot } of DIALECTS)
+      writer.write({
+        id,
+        brand: kind,
+        name,
+        extensions,
+        maturity,
+        emits: true,
+        parses: true,
+        interprets: true,
+        cannot,
+      });
     await writer.end();
     return 0;
   },

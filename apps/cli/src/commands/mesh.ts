@@ -40,15 +40,15 @@ ${SHAPE_HELP}`,
     });
     const [path] = options.positionals;
     const output = options.text("output");
-    const faces = options.number("faces");
+    const adapters = options.number("faces");
     if (path === undefined) throw new UseFault("PATH is missing.", "Give a file of shapes.");
     if (output === undefined || !["glb", "stl"].includes(endingOf(output)))
       throw new UseFault("-o wants a file that ends in .glb or .stl.");
-    if (faces !== undefined && !(Number.isInteger(faces) && faces >= 4))
-      throw new UseFault(`--faces wants a whole number from 4 on, not ${faces}.`);
+    if (adapters !== undefined && !(Number.isInteger(adapters) && adapters >= 4))
+      throw new UseFault(`--faces wants a whole number from 4 on, not ${adapters}.`);
     const read = await readShapes(path, options);
     const parts = read.flatMap((each): readonly ImportedPart[] => each.parts);
-    const light = await lightened(parts, faces ?? Infinity, seededRandom(SEED));
+    const light = await lightened(parts, adapters ?? Infinity, seededRandom(SEED));
     const kept = withFewColors(light.parts, MOST_MATERIALS);
     await writeOne(
       output,

@@ -24,7 +24,7 @@ Writes PROGRAM. The dialect is taken from the file's ending when it is not named
     const dialect = dialectOf("dialect", options.text("dialect"), path);
     const parsed = dialect.parse(await readText(path), robot, undefined, { skipUnknown: options.flag("skip-unknown") });
     if (parsed.kind === "not-understood") throw notUnderstood(path, parsed.faults);
-    tellSkipped(path, parsed.skipped ?? []);
+    reportSkipped(path, parsed.skipped ?? []);
     for (const warning of parsed.warnings)
       process.stderr.write(`twincell: ${path}, line ${warning.line}: ${warning.sentence}\n`);
     process.stdout.write(`${serializeProgram(parsed.program)}\n`);
@@ -33,7 +33,7 @@ Writes PROGRAM. The dialect is taken from the file's ending when it is not named
 };
 
 /** Every place that was left out, and whether a motion or a branch is missing. */
-export function tellSkipped(path: string, skipped: readonly Skipped[]): void {
+export function reportSkipped(path: string, skipped: readonly Skipped[]): void {
   for (const { line, column, sentence } of skipped)
     process.stderr.write(`twincell: ${path}, line ${line}, column ${column}: ${sentence}\n`);
   const missing = skipped.filter(({ what }) => what !== "statement").length;

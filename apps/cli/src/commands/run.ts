@@ -6,7 +6,7 @@ import { readCell } from "../io/program.ts";
 import { robotOf, ROBOT_OPTIONS } from "../io/robot.ts";
 import { UseFault, type Command } from "../io/usage.ts";
 import { projectFault, textProject, type TextProject } from "../io/text-project.ts";
-import { tellSkipped } from "./parse.ts";
+import { reportSkipped } from "./parse.ts";
 
 /** A text that never ends is cut here. */
 const LONGEST_S = 24 * 3600;
@@ -43,7 +43,7 @@ FILE is a program text, several of one program, a folder of them, or a cell whos
       skipUnknown: options.flag("skip-unknown"),
     });
     if (interpreted.kind === "not-understood") throw projectFault(project, interpreted.faults);
-    tellSkipped(
+    reportSkipped(
       path,
       (interpreted.skipped ?? []).map(each => ({ ...each, line: project.placeOf(each.line).line })),
     );

@@ -1,7 +1,14 @@
 import { existsSync } from "node:fs";
 import { createInterface } from "node:readline";
 import { fileURLToPath } from "node:url";
-import { BRANDS, brandById, openCabinet, robotsOf, type Brand, type CabinetAct } from "@twincell/controllers";
+import {
+  DRIVER_KINDS,
+  driverKindById,
+  openVirtualPendant,
+  robotsOf,
+  type DriverKind,
+  type VirtualPendantAction,
+} from "@twincell/controllers";
 import { dialectById } from "@twincell/languages";
 import { nodeNetwork, nodeScheduler, servePendant } from "@twincell/server";
 import { given, type Given } from "../io/arguments.ts";
@@ -10,7 +17,7 @@ import { UseFault, type Command } from "../io/usage.ts";
 
 /** `realTime` is asked for as `--port-real-time`. */
 const portOption = (name: string): string => `port-${name.replace(/[A-Z]/g, letter => `-${letter.toLowerCase()}`)}`;
-const portsOf = (brand: Brand): string =>
+const portsOf = (brand: DriverKind): string =>
   Object.entries(brand.ports)
     .map(([name, port]) => `--${portOption(name)} ${port}`)
     .join(", ");
@@ -18,7 +25,7 @@ const portsOf = (brand: Brand): string =>
 const studio = fileURLToPath(new URL("../../../studio/dist", import.meta.url));
 
 /** What a word on standard input does. */
-const WORDS: ReadonlyMap<string, CabinetAct> = new Map<string, CabinetAct>([
+const WORDS: ReadonlyMap<string, VirtualPendantAction> = new Map<string, VirtualPendantAction>([
   ["manual", { do: "mode", mode: "manual" }],
   ["remote", { do: "mode", mode: "remote" }],
   ["stop", { do: "emergency-stop", pressed: true }],
@@ -38,7 +45,7 @@ export const virtualCommand: Command = {
   usage: `twincell virtual BRAND [--robot R] [--host 127.0.0.1] [--port-NAME N]… [--port-pendant N] [--json]
 
 Ports are the vendor's own unless they are given; 0 takes a free one. Several controllers on one machine stand at 127.0.0.2, 127.0.0.3, …
-${BRANDS.map(brand => `  ${brand.id.padEnd(10)} ${brand.name}: ${portsOf(brand)}`).join("\n")}
+${DRIVER_KINDS.map(brand => `  ${brand.id.padEnd(10)} ${brand.name}: ${portsOf(brand)}`).join("\n")}
 
 Its pendant is a page in the browser, at the address that is printed: mode key, enabling switch, jog keys, red button, signals, faults.
 Lines on standard input are hands on it too: ${[...WORDS.keys()].join(", ")}.
@@ -50,11 +57,13 @@ Ctrl-C ends it.`,
       [portOption("pendant")]: { type: "string" },
       json: { type: "boolean" },
       ...Object.fromEntries(
-        BRANDS.flatMap(brand => Object.keys(brand.ports).map(name => [portOption(name), { type: "string" as const }])),
+        DRIVER_KINDS.flatMap(brand =>
+          Object.keys(brand.ports).map(name => [portOption(name), { type: "string" as const }]),
+        ),
       ),
     });
     const [id] = options.positionals;
-    const brand = brandById(id ?? "");
+    const brand = driverKindById(id ?? "");
     if (!brand || options.positionals.length !== 1) {
       throw new UseFault(
         id === undefined
@@ -62,14 +71,14 @@ Ctrl-C ends it.`,
           : options.positionals.length > 1
             ? `virtual takes one brand, not "${options.positionals[1]}" as well.`
             : `There is no virtual controller of "${id}".`,
-        `Brands: ${BRANDS.map(each => each.id).join(", ")}.`,
+        `Brands: ${DRIVER_KINDS.map(each => each.id).join(", ")}.`,
       );
     }
     const wanted = options.text("robot") ?? robotsOf(brand)[0]?.id;
     const { robot } = await robotOf(options, wanted);
     const dialect = dialectById(brand.dialect);
     const host = options.text("host") ?? "127.0.0.1";
-    const opened = await openCabinet({
+    const opened = await openVirtualPendant({
       brand,
       robot,
       scheduler: nodeScheduler,
@@ -80,7 +89,7 @@ Ctrl-C ends it.`,
     });
     if (opened.kind === "taken")
       throw new UseFault(opened.sentence, "Choose another address with --host, or other ports.");
-    const { virtual, cabinet } = opened;
+    const { virtual, cabinet: virtualPendant } = opened;
     const page = existsSync(`${studio}/pendant/index.html`)
       ? await servePendant({
           // A page that moves the robot is for who sits at this machine, wherever the controller itself can be reached from.
@@ -89,7 +98,7 @@ Ctrl-C ends it.`,
           port: askedPorts(options, ["pendant"])["pendant"] ?? 0,
           version: "",
           scheduler: nodeScheduler,
-          pendant: cabinet,
+          pendant: virtualPendant,
           words: { id: "pendant", name: virtual.name, brand: brand.id, robot: robot.id, virtual: true, watchdog: "" },
         })
       : null;
@@ -109,7 +118,7 @@ Ctrl-C ends it.`,
     const hands = createInterface({ input: process.stdin });
     const carryOut = async (word: string): Promise<void> => {
       const act = WORDS.get(word);
-      const outcome = act && (await cabinet.act("console", act));
+      const outcome = act && (await virtualPendant.act("console", act));
       if (word === "") return;
       process.stdout.write(
         `${!outcome ? `There is no "${word}" at the pendant: ${[...WORDS.keys()].join(", ")}.` : outcome.kind === "done" ? word : outcome.why.sentence}\n`,

@@ -3,7 +3,7 @@ import type { Duplex } from "node:stream";
 import { WebSocketServer, type WebSocket } from "ws";
 
 /** One kind of conversation by WebSocket, at a path of its own. */
-export interface Door {
+export interface Route {
   readonly path: string;
   /** A longer message ends the connection before it is kept [bytes]. */
   readonly longest: number;
@@ -16,15 +16,18 @@ export interface Door {
  *
  * @param allowed  whether that request may come in at all: the access code of the local network.
  */
-export function openDoors(
+export function openRoutes(
   server: Server,
-  doors: readonly Door[],
+  routes: readonly Route[],
   allowed: (request: IncomingMessage) => boolean,
 ): { close(): void } {
   const rooms = new Map(
-    doors.map(door => [
-      door.path,
-      { door, sockets: new WebSocketServer({ noServer: true, maxPayload: door.longest, perMessageDeflate: false }) },
+    routes.map(route => [
+      route.path,
+      {
+        door: route,
+        sockets: new WebSocketServer({ noServer: true, maxPayload: route.longest, perMessageDeflate: false }),
+      },
     ]),
   );
   const turnAway = (socket: Duplex, status: string): void => {

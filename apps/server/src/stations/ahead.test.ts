@@ -1,4 +1,4 @@
-import { BRANDS } from "@twincell/controllers";
+import { DRIVER_KINDS } from "@twincell/controllers";
 import {
   emptyProgram,
   manualScheduler,
@@ -8,7 +8,7 @@ import {
   type Pose,
   type Program,
 } from "@twincell/core";
-import { createClient, type Client, type Request, type Tell, type TellOf } from "@twincell/messages";
+import { createClient, type Client, type Request, type ConnectionEvent, type EventOf } from "@twincell/protocol";
 import { afterEach, describe, expect, test } from "vitest";
 import { stationHost } from "./host.ts";
 
@@ -19,16 +19,16 @@ const ROBOTS: Readonly<Record<string, string>> = {
   fanuc: "fanuc_lrmate200id",
   abb: "abb_irb120",
 };
-const brands = BRANDS.map(({ id }) => id).filter(id => id in ROBOTS);
+const brands = DRIVER_KINDS.map(({ id }) => id).filter(id => id in ROBOTS);
 const DEGREE_RAD = Math.PI / 180;
 const hosts: { close(): void }[] = [];
 afterEach(() => {
   for (const host of hosts.splice(0)) host.close();
 });
 
-const through = (robotId: string, postures: readonly (readonly number[])[], ratio = 0.15): Program => ({
+const through = (robotId: string, configurations: readonly (readonly number[])[], ratio = 0.15): Program => ({
   ...emptyProgram(robotId, "Through"),
-  steps: postures.map((q, i) => ({
+  steps: configurations.map((q, i) => ({
     id: `p${i}`,
     type: "move",
     path: "ptp",
@@ -41,13 +41,13 @@ const through = (robotId: string, postures: readonly (readonly number[])[], rati
 async function bench(...of: readonly (readonly [brand: string, stand: Pose<"world", "base">])[]) {
   const scheduler = manualScheduler();
   const host = stationHost(scheduler, "test");
-  const told: { readonly at_s: number; readonly message: Tell }[] = [];
+  const told: { readonly at_s: number; readonly message: ConnectionEvent }[] = [];
   const early: string[] = [];
   hosts.push(host);
   let hear = (text: string): void => {
     early.push(text);
   };
-  const seat = host.join("you", {
+  const commander = host.join("you", {
     send: text => {
       hear(text);
     },
@@ -58,7 +58,7 @@ async function bench(...of: readonly (readonly [brand: string, stand: Pose<"worl
   const client: Client = createClient(
     {
       send: text => {
-        seat.hear(text);
+        commander.hear(text);
       },
       close() {
         /* As above. */
@@ -94,8 +94,8 @@ async function bench(...of: readonly (readonly [brand: string, stand: Pose<"worl
     expect(await ask({ type: "connect", station: brand })).toEqual({ kind: "done" });
   }
   await pass(0.5);
-  const heard = <Type extends Tell["type"]>(type: Type) =>
-    told.filter((each): each is { at_s: number; message: TellOf<Type> } => each.message.type === type);
+  const heard = <Type extends ConnectionEvent["type"]>(type: Type) =>
+    told.filter((each): each is { at_s: number; message: EventOf<Type> } => each.message.type === type);
   return { scheduler, client, ask, answered, pass, told, heard };
 }
 

@@ -10,14 +10,14 @@ import {
   type Pose,
   type Program,
 } from "@twincell/core";
-import { BRANDS } from "@twincell/controllers";
-import { createClient, write, type Client, type Request, type Tell, type TellOf } from "@twincell/messages";
+import { DRIVER_KINDS } from "@twincell/controllers";
+import { createClient, write, type Client, type Request, type ConnectionEvent, type EventOf } from "@twincell/protocol";
 import { cellGeometry, edgeTraceCell } from "@twincell/project";
 import { afterEach, describe, expect, test } from "vitest";
 import { stationHost } from "./host.ts";
 
 const ROBOTS: Readonly<Record<string, string>> = { ur: "ur10e", yaskawa: "yaskawa_gp8", kuka: "kuka_kr6r900sixx" };
-const brands = BRANDS.filter(({ id }) => id in ROBOTS).map(({ id }) => id);
+const brands = DRIVER_KINDS.filter(({ id }) => id in ROBOTS).map(({ id }) => id);
 const to = (id: string, y: number): MoveStep => ({
   id,
   type: "move",
@@ -43,14 +43,14 @@ afterEach(() => {
 function bench() {
   const scheduler = manualScheduler();
   const host = stationHost(scheduler, "test");
-  const told: Tell[] = [];
+  const told: ConnectionEvent[] = [];
   hosts.push(host);
   const join = (who: string): { client: Client; leave: () => void; hear: (text: string) => void } => {
     const lines: string[] = [];
     const client = createClient(
       {
         send: text => {
-          seat.hear(text);
+          commander.hear(text);
         },
         close() {
           /* Ends with the test. */
@@ -62,7 +62,7 @@ function bench() {
       },
     );
     let client2: Client | null = client;
-    const seat = host.join(who, {
+    const commander = host.join(who, {
       send: text => {
         if (client2) client2.hear(text);
         else lines.push(text);
@@ -76,13 +76,13 @@ function bench() {
       client,
       leave: () => {
         client2 = null;
-        seat.leave();
+        commander.leave();
       },
-      hear: seat.hear,
+      hear: commander.hear,
     };
   };
-  const samples = (station: string): TellOf<"sample">[] =>
-    told.filter((message): message is TellOf<"sample"> => message.type === "sample" && message.station === station);
+  const samples = (station: string): EventOf<"sample">[] =>
+    told.filter((message): message is EventOf<"sample"> => message.type === "sample" && message.station === station);
   return { scheduler, host, told, join, samples };
 }
 /** Lets time pass, with signs of life from who commands, until the answer is there. */
@@ -147,7 +147,7 @@ describe.each(brands)("a station of %s", brand => {
       client.alive("s");
       await scheduler.elapse(0.02);
     }
-    expect(told.findLast((message): message is TellOf<"link"> => message.type === "link")?.state).toBe("open");
+    expect(told.findLast((message): message is EventOf<"link"> => message.type === "link")?.state).toBe("open");
     expect(samples("s").at(-1)?.moving).toBe(false);
     expect(await ask({ type: "zero", station: "s" })).toMatchObject({
       kind: "refused",
@@ -238,7 +238,7 @@ const EVERY_ROBOT: Readonly<Record<string, string>> = {
   abb: "abb_irb120",
   staubli: "staubli_rx160",
 };
-const watchable = BRANDS.filter(
+const watchable = DRIVER_KINDS.filter(
   ({ id, cannot }) => id in EVERY_ROBOT && !cannot.some(({ row }) => row === "watch"),
 ).map(({ id }) => id);
 
@@ -255,7 +255,7 @@ describe.each(watchable)("a station of %s that was opened to watch", brand => {
         "s",
         scheduler.elapse(seconds).then(() => ({ kind: "done" as const })),
       );
-    const guard = () => told.findLast((message): message is TellOf<"guard"> => message.type === "guard")!;
+    const guard = () => told.findLast((message): message is EventOf<"guard"> => message.type === "guard")!;
     const refuses = async () => {
       const asked: Request[] = [
         { type: "take", station: "s" },
@@ -272,7 +272,7 @@ describe.each(watchable)("a station of %s that was opened to watch", brand => {
       for (const request of asked)
         expect(await ask(request), request.type).toMatchObject({
           kind: "refused",
-          why: { code: "guard.watching", hint: expect.stringContaining("Take it to command") as string },
+          why: { code: "guard.watching", hint: expect.stringContaining("Take control") as string },
         });
     };
     expect(await ask({ type: "open", station: "s", brand, robot, watch: true })).toEqual({ kind: "done" });
@@ -347,7 +347,7 @@ test("T-26 who gives a robot up to be watched in the middle of a motion stops it
   expect(await answered(scheduler, client, "s", moving)).toMatchObject({ kind: "stopped" });
 }, 60_000);
 
-test.each(BRANDS.filter(({ cannot }) => cannot.some(({ row }) => row === "watch")))(
+test.each(DRIVER_KINDS.filter(({ cannot }) => cannot.some(({ row }) => row === "watch")))(
   "$name cannot only be watched, and says why",
   async ({ id }) => {
     const { scheduler, join } = bench();

@@ -1,13 +1,26 @@
-import { brandById, BRANDS, createSharedCell, openStation, startTogether, type LayOut } from "@twincell/controllers";
+import {
+  driverKindById,
+  DRIVER_KINDS,
+  createSharedCell,
+  openRobotConnection,
+  startSynchronized,
+  type PrepareJob,
+} from "@twincell/controllers";
 import { robotById, type Refusal, type Scheduler } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
 import { readConnectionCell } from "@twincell/project";
-import { createHost, PLUG_IN, type AskOf, type Host, type OpenedStation } from "@twincell/messages";
+import {
+  createRobotServer,
+  PLUG_IN,
+  type RequestOf,
+  type RobotServer,
+  type OpenedConnection,
+} from "@twincell/protocol";
 import { nodeNetwork } from "../sockets/node-network.ts";
 import { plugInFor } from "./plug-in.ts";
 
-const refused = (why: Refusal): OpenedStation => ({ kind: "refused", why });
-const noRobot = (id: string): OpenedStation =>
+const refused = (why: Refusal): OpenedConnection => ({ kind: "refused", why });
+const noRobot = (id: string): OpenedConnection =>
   refused({
     code: "station.no-robot",
     sentence: `There is no robot “${id}” in the library.`,
@@ -19,19 +32,25 @@ const HEARTBEAT_S = 0.08;
 /**
  * Stations of this machine: drivers on the network, and virtual controllers beside them where no address is given.
  *
- * @param layOut  plans, checks and writes programs; where links run on real time, another thread does.
+ * @param prepareJob  plans, checks and writes programs; where links run on real time, another thread does.
  */
-export function stationHost(scheduler: Scheduler, version: string, layOut?: LayOut): Host {
+export function stationHost(scheduler: Scheduler, version: string, layOut?: PrepareJob): RobotServer {
   const network = nodeNetwork();
   const cell = createSharedCell();
-  return createHost({
+  return createRobotServer({
     scheduler,
     version,
-    brands: BRANDS.map(({ id, name, vendor, dialect, ports }) => ({ id, name, vendor, dialect, ports: { ...ports } })),
-    together: (members, onStarted) => startTogether(members, scheduler, onStarted),
-    async open(ask: AskOf<"open">): Promise<OpenedStation> {
+    brands: DRIVER_KINDS.map(({ id, name, vendor, dialect, ports }) => ({
+      id,
+      name,
+      vendor,
+      dialect,
+      ports: { ...ports },
+    })),
+    together: (members, onStarted) => startSynchronized(members, scheduler, onStarted),
+    async open(ask: RequestOf<"open">): Promise<OpenedConnection> {
       const robot = robotById(ask.robot);
-      const brand = ask.brand === PLUG_IN && robot ? plugInFor(robot) : brandById(ask.brand);
+      const brand = ask.brand === PLUG_IN && robot ? plugInFor(robot) : driverKindById(ask.brand);
       const dialect = brand && dialectById(brand.dialect);
       if (ask.brand === PLUG_IN && !robot) return noRobot(ask.robot);
       if (ask.brand === PLUG_IN && !ask.address)
@@ -44,10 +63,10 @@ export function stationHost(scheduler: Scheduler, version: string, layOut?: LayO
         return refused({
           code: "station.no-brand",
           sentence: `There is no driver for “${ask.brand}”.`,
-          hint: `There are: ${BRANDS.map(({ id }) => id).join(", ")}, ${PLUG_IN}.`,
+          hint: `There are: ${DRIVER_KINDS.map(({ id }) => id).join(", ")}, ${PLUG_IN}.`,
         });
       if (!robot) return noRobot(ask.robot);
-      return openStation({
+      return openRobotConnection({
         id: ask.station,
         brand,
         robot,

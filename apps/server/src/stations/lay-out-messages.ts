@@ -1,8 +1,8 @@
-import type { CellDefinition, LaidOut } from "@twincell/controllers";
+import type { CellDefinition, PreparedJob } from "@twincell/controllers";
 import type { Pose, Program } from "@twincell/core";
 
 /** Robots and languages go by their ids: both sides have the library. */
-export interface ToLayOut {
+export interface PrepareJobRequest {
   readonly id: number;
   readonly robot: string;
   readonly dialect: string | null;
@@ -11,6 +11,6 @@ export interface ToLayOut {
   readonly cell: CellDefinition | null;
   readonly worldFromBase: Pose<"world", "base"> | null;
 }
-export type FromLayOut =
-  | { readonly id: number; readonly laid: LaidOut }
+export type PrepareJobAnswer =
+  | { readonly id: number; readonly laid: PreparedJob }
   | { readonly id: number; readonly trouble: string };

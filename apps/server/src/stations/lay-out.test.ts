@@ -1,8 +1,8 @@
-import { layOut } from "@twincell/controllers";
+import { prepareJob } from "@twincell/controllers";
 import { emptyProgram, robotById, samplePlan, type MoveStep, type Program } from "@twincell/core";
 import { urScript } from "@twincell/languages";
 import { afterEach, expect, test } from "vitest";
-import { layOutElsewhere } from "./lay-out.ts";
+import { prepareJobInWorker } from "./lay-out.ts";
 
 const robot = robotById("ur10e")!;
 const start_rad = Float64Array.from(robot.home_rad);
@@ -23,8 +23,8 @@ const open: { close(): void }[] = [];
 afterEach(() => {
   for (const each of open.splice(0)) each.close();
 });
-function elsewhere(): ReturnType<typeof layOutElsewhere> {
-  const made = layOutElsewhere();
+function elsewhere(): ReturnType<typeof prepareJobInWorker> {
+  const made = prepareJobInWorker();
   open.push(made);
   return made;
 }
@@ -32,7 +32,7 @@ function elsewhere(): ReturnType<typeof layOutElsewhere> {
 test("a program comes back from the other thread as it would have been laid out here", async () => {
   const question = { program: program(6), robot, start_rad, dialect: urScript };
   const there = await elsewhere().layOut(question);
-  const here = layOut(question);
+  const here = prepareJob(question);
   expect({ ...there, plan: null }).toEqual({ ...here, plan: null });
   expect(there.files?.[0]?.text).toContain("movej");
   const a = new Float64Array(6);

@@ -1,12 +1,12 @@
 import { Worker } from "node:worker_threads";
-import type { LaidOut, LayOut } from "@twincell/controllers";
-import type { FromLayOut, ToLayOut } from "./lay-out-messages.ts";
+import type { PreparedJob, PrepareJob } from "@twincell/controllers";
+import type { PrepareJobAnswer, PrepareJobRequest } from "./lay-out-messages.ts";
 
 /** What came of a program that could not even be looked at. */
-const failed = (trouble: string): LaidOut => {
+const failed = (faultInjection: string): PreparedJob => {
   const why = {
     code: "station.lay-out",
-    sentence: `The program could not be planned: ${trouble}`,
+    sentence: `The program could not be planned: ${faultInjection}`,
     hint: "Send it again; if it stays so, start the server anew.",
   };
   return { plan: null, stuck: why, findings: [], files: null, unwritten: why };
@@ -16,8 +16,8 @@ const failed = (trouble: string): LaidOut => {
  * Lays programs out in a thread of its own, one after the other, so that no link of a station waits for a plan. The thread is
  * made when it is first wanted, made again after it has died, and keeps no process alive.
  */
-export function layOutElsewhere(): { readonly layOut: LayOut; close(): void } {
-  const waiting = new Map<number, (laid: LaidOut) => void>();
+export function prepareJobInWorker(): { readonly layOut: PrepareJob; close(): void } {
+  const waiting = new Map<number, (laid: PreparedJob) => void>();
   let worker: Worker | null = null;
   let count = 0;
   const end = (why: string): void => {
@@ -29,7 +29,7 @@ export function layOutElsewhere(): { readonly layOut: LayOut; close(): void } {
     if (worker) return worker;
     const mine = (worker = new Worker(new URL("./lay-out.worker.ts", import.meta.url)));
     mine.unref();
-    mine.on("message", (message: FromLayOut) => {
+    mine.on("message", (message: PrepareJobAnswer) => {
       const tell = waiting.get(message.id);
       waiting.delete(message.id);
       tell?.("laid" in message ? message.laid : failed(message.trouble));
@@ -55,7 +55,7 @@ export function layOutElsewhere(): { readonly layOut: LayOut; close(): void } {
           start_rad,
           worldFromBase: worldFromBase ?? null,
           cell: cell ?? null,
-        } satisfies ToLayOut);
+        } satisfies PrepareJobRequest);
       }),
     close() {
       void worker?.terminate();

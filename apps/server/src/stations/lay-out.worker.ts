@@ -1,13 +1,13 @@
 import { parentPort } from "node:worker_threads";
-import { layOut } from "@twincell/controllers";
+import { prepareJob } from "@twincell/controllers";
 import { robotById } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
-import type { FromLayOut, ToLayOut } from "./lay-out-messages.ts";
+import type { PrepareJobAnswer, PrepareJobRequest } from "./lay-out-messages.ts";
 
 parentPort!.on(
   "message",
-  ({ id, robot: robotId, dialect: dialectId, program, start_rad, worldFromBase, cell }: ToLayOut) => {
-    const answer = (message: FromLayOut): void => {
+  ({ id, robot: robotId, dialect: dialectId, program, start_rad, worldFromBase, cell }: PrepareJobRequest) => {
+    const answer = (message: PrepareJobAnswer): void => {
       parentPort!.postMessage(message);
     };
     try {
@@ -16,7 +16,7 @@ parentPort!.on(
       if (!robot) throw new Error(`There is no robot “${robotId}” in the library.`);
       answer({
         id,
-        laid: layOut({
+        laid: prepareJob({
           program,
           robot,
           start_rad,
@@ -25,8 +25,8 @@ parentPort!.on(
           ...(dialect ? { dialect } : {}),
         }),
       });
-    } catch (trouble) {
-      answer({ id, trouble: trouble instanceof Error ? trouble.message : String(trouble) });
+    } catch (faultInjection) {
+      answer({ id, trouble: faultInjection instanceof Error ? faultInjection.message : String(faultInjection) });
     }
   },
 );

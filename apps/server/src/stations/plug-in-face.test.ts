@@ -1,8 +1,8 @@
 import { createRealController, memoryNetwork, type ByteStream } from "@twincell/controllers";
 import { flangePose, manualScheduler, robotById, type CommandOutcome, type Pose, type Step } from "@twincell/core";
-import { readAsk, type Ask, type Tell } from "@twincell/messages";
+import { readConnectionRequest, type ConnectionRequest, type ConnectionEvent } from "@twincell/protocol";
 import { expect, test } from "vitest";
-import { createPlugInFace } from "./plug-in-face.ts";
+import { createPlugInAdapter } from "./plug-in-face.ts";
 
 const robot = robotById("yaskawa_gp8")!;
 const HOST = "127.0.0.9";
@@ -17,10 +17,10 @@ async function bench(refused: readonly string[] = []) {
   let line: ByteStream | null = null;
   let rest = "";
   let sequence = 0;
-  const tell = (message: Tell): void => {
+  const tell = (message: ConnectionEvent): void => {
     line?.send(new TextEncoder().encode(`${JSON.stringify(message)}\n`));
   };
-  const answer = (ask: Ask): void => {
+  const answer = (ask: ConnectionRequest): void => {
     if (ask.type === "ping") {
       tell({ type: "pong", sent_s: ask.sent_s, host_s: scheduler.now_s() });
       return;
@@ -57,7 +57,7 @@ async function bench(refused: readonly string[] = []) {
       const texts = (rest + new TextDecoder().decode(lent)).split("\n");
       rest = texts.pop()!;
       for (const text of texts) {
-        const heard = readAsk(text);
+        const heard = readConnectionRequest(text);
         if (heard.kind === "read") answer(heard.message);
         else faults.push(heard.sentence);
       }
@@ -83,7 +83,7 @@ async function bench(refused: readonly string[] = []) {
     });
   });
   const real = createRealController({
-    face: createPlugInFace({ robot, scheduler, network, host: HOST, ports: { "plug-in": PORT } }),
+    face: createPlugInAdapter({ robot, scheduler, network, host: HOST, ports: { "plug-in": PORT } }),
     scheduler,
   });
   const messages: string[] = [];

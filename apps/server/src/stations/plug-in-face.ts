@@ -1,4 +1,4 @@
-import type { Face, FaceEvents, FaceMotion, FaceOptions, Opened } from "@twincell/controllers";
+import type { ControllerAdapter, AdapterEvents, AdapterMotion, AdapterOptions, Opened } from "@twincell/controllers";
 import {
   emptyProgram,
   type CommandOutcome,
@@ -7,7 +7,7 @@ import {
   type Refusal,
   type Step,
 } from "@twincell/core";
-import { createClient, PLUG_IN_PORT, type Client, type Tell, type TellOf } from "@twincell/messages";
+import { createClient, PLUG_IN_PORT, type Client, type ConnectionEvent, type EventOf } from "@twincell/protocol";
 import { lines } from "./lines.ts";
 
 /** What a plug-in calls its one robot. */
@@ -43,10 +43,10 @@ interface Session {
 }
 
 /**
- * A robot whose driver is somebody else's process. It is spoken with in the messages of `@twincell/messages`, one JSON text a line, over
+ * A robot whose driver is somebody else's process. It is spoken with in the messages of `@twincell/protocol`, one JSON text a line, over
  * TCP: the process is the host of one station, this side is who commands. How it speaks with its robot is its own affair.
  */
-export function createPlugInFace({ robot, scheduler, network, host, ports }: FaceOptions): Face {
+export function createPlugInAdapter({ robot, scheduler, network, host, ports }: AdapterOptions): ControllerAdapter {
   const port = ports?.["plug-in"] ?? PLUG_IN_PORT;
   const n = robot.arm.joints.length;
   /** `complaint`: what an order without an answer of its own came to, told with the states until the next motion. */
@@ -55,7 +55,7 @@ export function createPlugInFace({ robot, scheduler, network, host, ports }: Fac
   /** Number of the last sample handed on: a plug-in that was started again counts from its beginning, and its clock may go on. */
   let last = 0;
 
-  async function open(events: FaceEvents): Promise<Opened> {
+  async function open(events: AdapterEvents): Promise<Opened> {
     const connected = await network.connect({ host, port });
     if (connected.kind === "refused")
       return failed(
@@ -131,7 +131,7 @@ export function createPlugInFace({ robot, scheduler, network, host, ports }: Fac
       message: "",
       signals,
     };
-    function sample(message: TellOf<"sample">): void {
+    function sample(message: EventOf<"sample">): void {
       if (message.q_rad.length !== n) {
         endAsUnfit(`The plug-in of “${named}” tells ${message.q_rad.length} joints; ${robot.name} has ${n}.`);
         return;
@@ -179,7 +179,7 @@ export function createPlugInFace({ robot, scheduler, network, host, ports }: Fac
       }
       taken = true;
     }
-    function hear(message: Exclude<Tell, TellOf<"answer" | "pong">>): void {
+    function hear(message: Exclude<ConnectionEvent, EventOf<"answer" | "pong">>): void {
       if (session !== mine) return;
       switch (message.type) {
         case "hello": {
@@ -275,7 +275,7 @@ export function createPlugInFace({ robot, scheduler, network, host, ports }: Fac
 }
 
 /** The base is the world here, and the flange the tool. */
-function stepOf(motion: FaceMotion): Step {
+function stepOf(motion: AdapterMotion): Step {
   const base = { id: "move", type: "move", blend_m: 0, acceleration: { ratio: motion.acceleration } } as const;
   if (motion.path === "joints")
     return { ...base, path: "ptp", target: { q: Array.from(motion.q_rad) }, speed: { ratio: motion.ratio } };

@@ -1,14 +1,14 @@
 import { robotById, type CommandOutcome, type Scheduler } from "@twincell/core";
 import {
   createClient,
-  readAsk,
-  readTell,
+  readConnectionRequest,
+  readConnectionEvent,
   write,
   type Client,
   type Request,
-  type Tell,
-  type TellOf,
-} from "@twincell/messages";
+  type ConnectionEvent,
+  type EventOf,
+} from "@twincell/protocol";
 import { spawn, spawnSync, type ChildProcess } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { createServer, type AddressInfo } from "node:net";
@@ -79,11 +79,11 @@ async function plugIn(port = 0, name = robot.id, joints = 6): Promise<{ port: nu
 function bench() {
   const clock = patientClock();
   const host = stationHost(clock, "test");
-  const told: Tell[] = [];
+  const told: ConnectionEvent[] = [];
   const client: Client = createClient(
     {
       send: text => {
-        seat.hear(text);
+        commander.hear(text);
       },
       close() {
         /* Ends with the test. */
@@ -96,7 +96,7 @@ function bench() {
   );
   const early: string[] = [];
   let ready = false;
-  const seat = host.join("you", {
+  const commander = host.join("you", {
     send: text => {
       if (ready) client.hear(text);
       else early.push(text);
@@ -112,10 +112,10 @@ function bench() {
   });
   open.push(clock, host, { close: stopBeat });
   const ask = (request: Request): Promise<CommandOutcome> => client.ask(request);
-  const last = (): TellOf<"sample"> | undefined =>
-    told.findLast((message): message is TellOf<"sample"> => message.type === "sample");
-  const link = (): TellOf<"link"> | undefined =>
-    told.findLast((message): message is TellOf<"link"> => message.type === "link");
+  const last = (): EventOf<"sample"> | undefined =>
+    told.findLast((message): message is EventOf<"sample"> => message.type === "sample");
+  const link = (): EventOf<"link"> | undefined =>
+    told.findLast((message): message is EventOf<"link"> => message.type === "link");
   const until = async (so: () => boolean, what: string): Promise<void> => {
     for (const end_ms = performance.now() + 15_000; !so(); ) {
       if (performance.now() > end_ms) throw new Error(`${what}: ${link()?.state} ${link()?.sentence}`);
@@ -163,7 +163,7 @@ describe("T-60 a maker's own driver as a process of its own", () => {
       expect(await connect(first.port)).toEqual({ kind: "done" });
       expect(await ask({ type: "move", station: "s", q_rad: TARGET })).toMatchObject({
         kind: "refused",
-        why: { code: "guard.dead-man" },
+        why: { code: "guard.enabling-switch" },
       });
       expect(await ask({ type: "hold", station: "s", pressed: true })).toEqual({ kind: "done" });
       expect(await ask({ type: "move", station: "s", q_rad: TARGET })).toEqual({ kind: "done" });
@@ -251,7 +251,7 @@ describe("T-60 a maker's own driver as a process of its own", () => {
     const session = [...text.matchAll(/^([<>]) (\{.*\})$/gm)];
     expect(session.length).toBeGreaterThan(10);
     for (const [, way, line] of session) {
-      const heard = way === ">" ? readAsk(line!) : readTell(line!);
+      const heard = way === ">" ? readConnectionRequest(line!) : readConnectionEvent(line!);
       expect(heard, line).toMatchObject({ kind: "read" });
       if (heard.kind === "read") expect(JSON.parse(write(heard.message))).toEqual(JSON.parse(line!));
     }

@@ -1,6 +1,6 @@
 import { join } from "node:path";
 import type { Scheduler } from "@twincell/core";
-import type { Host } from "@twincell/messages";
+import type { RobotServer } from "@twincell/protocol";
 import { createArchive } from "@twincell/recording";
 import { zstd } from "@twincell/recording/zstd";
 import { recordingsFolder } from "../files/recordings-folder.ts";
@@ -9,8 +9,8 @@ import { recordStations, type StationRecorder } from "./recorder.ts";
 const TICK_S = 0.1;
 
 /** Records every station of that host to a folder of its own, file after file, until it is closed. */
-export async function recordHost(
-  host: Host,
+export async function recordServer(
+  host: RobotServer,
   folder: string,
   scheduler: Scheduler,
   onTrouble: (sentence: string) => void,
@@ -19,7 +19,7 @@ export async function recordHost(
   const recorder: StationRecorder = recordStations(
     {
       send: text => {
-        seat.hear(text);
+        commander.hear(text);
       },
       close: () => undefined,
     },
@@ -38,7 +38,7 @@ export async function recordHost(
   );
   const heard: string[] = [];
   let ready = false;
-  const seat = host.join("recorder", {
+  const commander = host.join("recorder", {
     send: text => {
       if (ready) recorder.hear(text);
       else heard.push(text);
@@ -48,8 +48,10 @@ export async function recordHost(
   ready = true;
   for (const text of heard) recorder.hear(text);
   const stop = scheduler.every(TICK_S, () => {
-    recorder.tick().catch((trouble: unknown) => {
-      onTrouble(`Recordings could not be tidied: ${trouble instanceof Error ? trouble.message : String(trouble)}.`);
+    recorder.tick().catch((faultInjection: unknown) => {
+      onTrouble(
+        `Recordings could not be tidied: ${faultInjection instanceof Error ? faultInjection.message : String(faultInjection)}.`,
+      );
     });
   });
   return {
@@ -59,7 +61,7 @@ export async function recordHost(
     },
     close() {
       stop();
-      seat.leave();
+      commander.leave();
       recorder.close();
     },
   };

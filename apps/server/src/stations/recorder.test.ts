@@ -1,7 +1,7 @@
-import { BRANDS, openStation, robotsOf, startTogether } from "@twincell/controllers";
+import { DRIVER_KINDS, openRobotConnection, robotsOf, startSynchronized } from "@twincell/controllers";
 import { manualScheduler, robotById } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
-import { createClient, createHost, type Tell } from "@twincell/messages";
+import { createClient, createRobotServer, type ConnectionEvent } from "@twincell/protocol";
 import { createArchive, memoryFiles, openHistory, type Note } from "@twincell/recording";
 import { zstd } from "@twincell/recording/zstd";
 import { expect, test } from "vitest";
@@ -13,17 +13,17 @@ const packing = await zstd();
 function bench() {
   const scheduler = manualScheduler();
   const port = memoryFiles();
-  const troubles: string[] = [];
-  const told: Tell[] = [];
-  const host = createHost({
+  const faultInjections: string[] = [];
+  const told: ConnectionEvent[] = [];
+  const host = createRobotServer({
     scheduler,
     version: "test",
     brands: [],
-    together: (members, onStarted) => startTogether(members, scheduler, onStarted),
+    together: (members, onStarted) => startSynchronized(members, scheduler, onStarted),
     open: async ask => {
-      const brand = BRANDS.find(({ id }) => id === ask.brand)!;
+      const brand = DRIVER_KINDS.find(({ id }) => id === ask.brand)!;
       const robot = robotById(ask.robot)!;
-      return openStation({ id: ask.station, brand, robot, scheduler, dialect: dialectById(brand.dialect)! });
+      return openRobotConnection({ id: ask.station, brand, robot, scheduler, dialect: dialectById(brand.dialect)! });
     },
   });
   const early: string[] = [];
@@ -40,7 +40,7 @@ function bench() {
     {
       now_s: scheduler.now_s,
       onTrouble: sentence => {
-        troubles.push(sentence);
+        faultInjections.push(sentence);
       },
       archive: (station, robot) =>
         createArchive(port, {
@@ -79,14 +79,14 @@ function bench() {
   const stop = scheduler.every(0.1, () => {
     void recorder.tick();
   });
-  return { scheduler, host, recorder, client, port, troubles, told, stop };
+  return { scheduler, host, recorder, client, port, troubles: faultInjections, told, stop };
 }
 
-test.each(BRANDS.map(brand => [brand.id, brand] as const))(
+test.each(DRIVER_KINDS.map(brand => [brand.id, brand] as const))(
   "T-54 T-61 X-43 X-48 two-way telemetry of a virtual %s: every sample with its times, every command with who gave it, and how late both are",
   async (_, brand) => {
     const robot = robotsOf(brand)[0]!;
-    const { scheduler, host, recorder, client, port, troubles, told, stop } = bench();
+    const { scheduler, host, recorder, client, port, troubles: faultInjections, told, stop } = bench();
     const ask = async (request: Parameters<typeof client.ask>[0]) => {
       const asked = client.ask(request);
       // ros_server of a Stäubli says nothing for its first second.
@@ -103,14 +103,14 @@ test.each(BRANDS.map(brand => [brand.id, brand] as const))(
     const boris = createClient(
       {
         send: text => {
-          seat.hear(text);
+          commander.hear(text);
         },
         close: () => undefined,
       },
       scheduler.now_s,
       () => undefined,
     );
-    const seat = host.join("Boris", { send: () => undefined, close: () => undefined });
+    const commander = host.join("Boris", { send: () => undefined, close: () => undefined });
     const there = Array.from(robot.home_rad, (q, j) => q + (j === 0 ? 0.2 : 0));
     const before = told.length;
     const asked_s = scheduler.now_s();
@@ -128,7 +128,7 @@ test.each(BRANDS.map(brand => [brand.id, brand] as const))(
     stop();
     recorder.close();
     host.close();
-    expect(troubles).toEqual([]);
+    expect(faultInjections).toEqual([]);
 
     const opened = await openHistory(port, { packing });
     if (opened.kind !== "history") throw new Error(opened.sentence);

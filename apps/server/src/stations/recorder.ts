@@ -1,10 +1,17 @@
 import { robotById, type JointSample, type Robot } from "@twincell/core";
-import { actNote, createClient, type Channel, type Client, type StationWords, type TellOf } from "@twincell/messages";
+import {
+  auditNote,
+  createClient,
+  type Channel,
+  type Client,
+  type ConnectionInfo,
+  type EventOf,
+} from "@twincell/protocol";
 import { latencyMeter, type Archive, type LatencyMeter } from "@twincell/recording";
 
 export interface StationRecorderOptions {
   /** Where the stream of a station goes; null when it is not recorded. Closed with the station. */
-  readonly archive: (station: StationWords, robot: Robot) => Archive | null;
+  readonly archive: (station: ConnectionInfo, robot: Robot) => Archive | null;
   /** Seconds of the same clock for both ends of this recorder. */
   readonly now_s: () => number;
   readonly onTrouble?: (sentence: string) => void;
@@ -29,8 +36,8 @@ interface Recorded {
   signals: ReadonlyMap<string, boolean | number>;
   holder: string | null;
   pressed: boolean;
-  trip: TellOf<"guard">["trip"];
-  link: TellOf<"link">["state"] | "";
+  trip: EventOf<"guard">["trip"];
+  link: EventOf<"link">["state"] | "";
   told: string;
   readonly late: LatencyMeter;
   readonly back: LatencyMeter;
@@ -45,7 +52,7 @@ export function recordStations(channel: Channel, options: StationRecorderOptions
   const roundTrip = latencyMeter("host and back", "round-trip");
   let asking = false;
 
-  function open(words: StationWords): void {
+  function open(words: ConnectionInfo): void {
     if (stations.has(words.id)) return;
     const robot = robotById(words.robot);
     const archive = robot ? options.archive(words, robot) : null;
@@ -67,7 +74,7 @@ export function recordStations(channel: Channel, options: StationRecorderOptions
     stations.get(id)?.archive.close();
     stations.delete(id);
   }
-  function sample(to: Recorded, { q_rad, signals, ...said }: TellOf<"sample">): void {
+  function sample(to: Recorded, { q_rad, signals, ...said }: EventOf<"sample">): void {
     // Lines are told when they change.
     if (signals) to.signals = new Map(Object.entries(signals));
     const { sequence, time_s, moving, mode, safety, override, gripperClosed, step, message } = said;
@@ -85,7 +92,7 @@ export function recordStations(channel: Channel, options: StationRecorderOptions
       signals: to.signals,
     } satisfies JointSample);
   }
-  function guard(to: Recorded, { holder, pressed, trip }: TellOf<"guard">): void {
+  function guard(to: Recorded, { holder, pressed, trip }: EventOf<"guard">): void {
     if (holder !== to.holder)
       to.archive.note("operator", {
         who: holder ?? to.holder ?? "",
@@ -110,7 +117,7 @@ export function recordStations(channel: Channel, options: StationRecorderOptions
       });
     Object.assign(to, { holder, pressed, trip });
   }
-  function link(to: Recorded, { state, sentence, late_s, roundTrip_s }: TellOf<"link">): void {
+  function link(to: Recorded, { state, sentence, late_s, roundTrip_s }: EventOf<"link">): void {
     if (state !== to.link) {
       if (state === "lost" || to.link === "lost")
         to.archive.note("alarm", {
@@ -127,7 +134,7 @@ export function recordStations(channel: Channel, options: StationRecorderOptions
     if (roundTrip_s !== null) to.back.add(1000 * roundTrip_s);
   }
 
-  function group(message: TellOf<"began"> | TellOf<"ended">): void {
+  function group(message: EventOf<"began"> | EventOf<"ended">): void {
     if (message.type === "began")
       for (const id of message.stations)
         stations
@@ -148,8 +155,8 @@ export function recordStations(channel: Channel, options: StationRecorderOptions
   }
 
   /** What somebody asked for, and what became of it (rows T-54, X-43). */
-  function act(to: Recorded, message: TellOf<"act">): void {
-    const said = actNote(message);
+  function act(to: Recorded, message: EventOf<"act">): void {
+    const said = auditNote(message);
     if (said?.kind === "command") to.archive.note("command", said.note);
     // Lease and switch are told by the guard, however that came about.
     else if (said && !GUARD_TELLS.has(said.note.action)) to.archive.note("operator", said.note);

@@ -1,6 +1,6 @@
-import { BRANDS, START_WITHIN_S } from "@twincell/controllers";
+import { DRIVER_KINDS, START_WITHIN_S } from "@twincell/controllers";
 import { emptyProgram, manualScheduler, pose, robotById, type CommandOutcome, type Program } from "@twincell/core";
-import { createClient, type Request, type Tell, type TellOf } from "@twincell/messages";
+import { createClient, type Request, type ConnectionEvent, type EventOf } from "@twincell/protocol";
 import { afterEach, describe, expect, test } from "vitest";
 import { stationHost } from "./host.ts";
 
@@ -11,7 +11,7 @@ const ROBOTS: Readonly<Record<string, string>> = {
   fanuc: "fanuc_lrmate200id",
   abb: "abb_irb120",
 };
-const brands = BRANDS.map(({ id }) => id).filter(id => id in ROBOTS);
+const brands = DRIVER_KINDS.map(({ id }) => id).filter(id => id in ROBOTS);
 const pairs = brands.flatMap((a, i) => brands.slice(i).map(b => [a, b] as const));
 const hosts: { close(): void }[] = [];
 afterEach(() => {
@@ -39,14 +39,14 @@ function program(robotId: string, times = 1, by_rad = 0.4): Program {
 async function bench(of: readonly string[]) {
   const scheduler = manualScheduler();
   const host = stationHost(scheduler, "test");
-  const told: Tell[] = [];
+  const told: ConnectionEvent[] = [];
   hosts.push(host);
   const join = (who: string) => {
     const early: string[] = [];
     let hear = (text: string): void => {
       early.push(text);
     };
-    const seat = host.join(who, {
+    const commander = host.join(who, {
       send: text => {
         hear(text);
       },
@@ -57,7 +57,7 @@ async function bench(of: readonly string[]) {
     const client = createClient(
       {
         send: text => {
-          seat.hear(text);
+          commander.hear(text);
         },
         close() {
           /* As above. */
@@ -108,9 +108,9 @@ async function bench(of: readonly string[]) {
   const members = (times = 1) =>
     of.map((brand, i) => ({ station: ids[i]!, program: program(ROBOTS[brand]!, times), asText: true }));
   const moved = () =>
-    told.filter((message): message is TellOf<"sample"> => message.type === "sample" && message.moving).length;
+    told.filter((message): message is EventOf<"sample"> => message.type === "sample" && message.moving).length;
   const last = (station: string) =>
-    told.findLast((message): message is TellOf<"sample"> => message.type === "sample" && message.station === station)!;
+    told.findLast((message): message is EventOf<"sample"> => message.type === "sample" && message.station === station)!;
   told.length = 0;
   return { scheduler, host, you, join, ask, answered, pass, ids, members, told, moved, last };
 }
@@ -119,12 +119,12 @@ describe.each(pairs)("started together: %s and %s", (a, b) => {
   test("T-24 T-53 both are ready before either moves, begin within the stated time on one clock, and end", async () => {
     const { ask, members, told, ids } = await bench([a, b]);
     expect(await ask({ type: "together", members: members() })).toEqual({ kind: "done" });
-    const began = told.filter((message): message is TellOf<"began"> => message.type === "began");
+    const began = told.filter((message): message is EventOf<"began"> => message.type === "began");
     expect(began.map(({ stations }) => stations)).toEqual([ids]);
     expect(began[0]!.spread_s).toBeLessThanOrEqual(START_WITHIN_S);
     expect(
       told
-        .findLast((message): message is TellOf<"ended"> => message.type === "ended")!
+        .findLast((message): message is EventOf<"ended"> => message.type === "ended")!
         .stations.map(({ outcome }) => outcome.kind),
     ).toEqual(["done", "done"]);
   }, 60_000);
@@ -166,7 +166,7 @@ describe("a group", () => {
       expect((await answered(running, 3)).kind).toBe("stopped");
       await pass(0.3);
       expect(ids.map(id => last(id).moving)).toEqual([false, false, false]);
-      const ended = told.findLast((message): message is TellOf<"ended"> => message.type === "ended")!;
+      const ended = told.findLast((message): message is EventOf<"ended"> => message.type === "ended")!;
       expect(ended.stations.map(({ outcome }) => outcome.kind)).toEqual(["stopped", "stopped", "stopped"]);
       expect(
         ended.stations.filter(({ outcome }) => outcome.kind === "stopped" && outcome.why.code === "group.stopped")

@@ -7,8 +7,8 @@ import {
   readPictureHead,
   writePictureHead,
   writeVideo,
-  type VideoAsk,
-} from "@twincell/messages";
+  type VideoRequest,
+} from "@twincell/protocol";
 import { afterEach, expect, test } from "vitest";
 import { WebSocket } from "ws";
 import { serve, type Served } from "../index.ts";
@@ -38,7 +38,7 @@ async function line(path: string, headers: Record<string, string> = {}): Promise
   });
   return socket;
 }
-const say = (socket: WebSocket, ask: VideoAsk): void => {
+const say = (socket: WebSocket, ask: VideoRequest): void => {
   socket.send(writeVideo(ask));
 };
 function picture(sequence: number, bytes: number): Uint8Array {

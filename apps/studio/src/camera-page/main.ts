@@ -1,6 +1,6 @@
-import { openCamera } from "../live/video/camera.ts";
-import { startSender, type Sender } from "../live/video/sender.ts";
-import { videoWords } from "../words/video.ts";
+import { openCamera } from "../runtime/video/camera.ts";
+import { startSender, type Sender } from "../runtime/video/sender.ts";
+import { videoWords } from "../messages/video.ts";
 import "../tokens.css";
 import "./camera-page.css";
 

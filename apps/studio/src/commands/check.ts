@@ -1,10 +1,10 @@
-import type { Checking } from "../live/checking.ts";
+import type { Checking } from "../runtime/planning/checking.ts";
 import type { Command } from "../stores/commands.ts";
 import { theProgram } from "../stores/document.ts";
 import { notify } from "../stores/notices.ts";
 import { playStore } from "../stores/play.ts";
 import { firstRepairs, repairAll } from "../stores/program.ts";
-import { words } from "../words/index.ts";
+import { words } from "../messages/index.ts";
 
 export const checkCommands = (checking: Checking): readonly Command[] => [
   {

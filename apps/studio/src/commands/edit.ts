@@ -5,7 +5,7 @@ import { notify } from "../stores/notices.ts";
 import { stopEverything } from "../stores/stop.ts";
 import { select, selectionStore } from "../stores/selection.ts";
 import { traceStore } from "../stores/trace.ts";
-import { words } from "../words/index.ts";
+import { words } from "../messages/index.ts";
 
 export const editCommands = (): readonly Command[] => [
   { id: "stop", group: "jog", words: words.commands.stop, keys: ["Pause"], run: stop },
@@ -71,7 +71,7 @@ function leave(): void {
   else if (selectionStore.getState().selected) select(null);
 }
 function stop(): void {
-  const troubles = stopEverything();
-  if (troubles.length > 0) notify("bad", `${words.top.stopTrouble} ${troubles.join(" ")}`);
+  const faultInjections = stopEverything();
+  if (faultInjections.length > 0) notify("bad", `${words.top.stopTrouble} ${faultInjections.join(" ")}`);
   notify("warn", words.top.stopped, words.top.stoppedHint);
 }

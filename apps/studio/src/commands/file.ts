@@ -8,7 +8,7 @@ import { openCell } from "../stores/opening.ts";
 import { selectionStore } from "../stores/selection.ts";
 import { cardOf, shapeStore } from "../stores/shapes.ts";
 import { download } from "../ui/download.ts";
-import { words } from "../words/index.ts";
+import { words } from "../messages/index.ts";
 
 /** What a person does with whole cells; `chooseFile` lets them pick one from the disk. */
 export const fileCommands = (chooseFile: () => void): readonly Command[] => [

@@ -1,4 +1,4 @@
-import type { Checking } from "../live/checking.ts";
+import type { Checking } from "../runtime/planning/checking.ts";
 import { registerCommands } from "../stores/commands.ts";
 import { checkCommands } from "./check.ts";
 import { editCommands } from "./edit.ts";

@@ -1,12 +1,12 @@
-import { goThere } from "../live/go.ts";
+import { goThere } from "../runtime/jog/go-to-point.ts";
 import type { Command } from "../stores/commands.ts";
-import { cycleAid } from "../live/aids.ts";
-import { cancelTrace, makeTrace } from "../live/trace-command.ts";
+import { cycleOrientationPreset } from "../runtime/jog/orientation-presets.ts";
+import { cancelTrace, makeTrace } from "../runtime/planning/trace-command.ts";
 import { theRobot } from "../stores/document.ts";
 import { jogStore, type JogFrame } from "../stores/jog.ts";
 import { traceStore } from "../stores/trace.ts";
 import { showMode } from "../stores/view.ts";
-import { words } from "../words/index.ts";
+import { words } from "../messages/index.ts";
 
 const FRAMES: readonly JogFrame[] = ["joint", "base", "tool", "user", "world"];
 
@@ -45,7 +45,7 @@ export const jogCommands = (): readonly Command[] => [
     words: words.commands.aidNext,
     keys: ["N"],
     can: () => theRobot() !== null,
-    run: () => cycleAid(1),
+    run: () => cycleOrientationPreset(1),
   },
   {
     id: "jog.aid-previous",
@@ -53,7 +53,7 @@ export const jogCommands = (): readonly Command[] => [
     words: words.commands.aidPrevious,
     keys: ["B"],
     can: () => theRobot() !== null,
-    run: () => cycleAid(-1),
+    run: () => cycleOrientationPreset(-1),
   },
   ...FRAMES.map(
     (frame): Command => ({

@@ -1,11 +1,11 @@
-import { hold, playOrHold, resume } from "../live/physics.ts";
-import { pause, playheadNow, playOrPause } from "../live/playhead.ts";
+import { hold, playOrHold, resume } from "../runtime/physics/physics.ts";
+import { pause, playheadNow, playOrPause } from "../runtime/history/playhead.ts";
 import type { Command } from "../stores/commands.ts";
 import { physicsStore } from "../stores/physics.ts";
 import { playStore } from "../stores/play.ts";
 import { seek } from "../stores/seek.ts";
 import { select } from "../stores/selection.ts";
-import { words } from "../words/index.ts";
+import { words } from "../messages/index.ts";
 
 const can = (): boolean => (playStore.getState().plan?.duration_s ?? 0) > 0;
 

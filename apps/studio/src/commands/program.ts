@@ -1,8 +1,8 @@
-import { goThere } from "../live/go.ts";
-import { contactAt, namesOf } from "../live/hand.ts";
-import { theLive } from "../live/live.ts";
-import { solveStep } from "../live/solve.ts";
-import { touchUpSelected } from "../live/text-program.ts";
+import { goThere } from "../runtime/jog/go-to-point.ts";
+import { contactAt, namesOf } from "../runtime/jog/hand-motion.ts";
+import { theLive } from "../runtime/live.ts";
+import { solveStep } from "../runtime/jog/solve.ts";
+import { touchUpSelected } from "../runtime/text-program.ts";
 import { cellStore } from "../stores/cell.ts";
 import { collideStore } from "../stores/collide.ts";
 import type { Command } from "../stores/commands.ts";
@@ -27,7 +27,7 @@ import { recordMoving, recordStore } from "../stores/record.ts";
 import { seekStep } from "../stores/seek.ts";
 import { selectionStore } from "../stores/selection.ts";
 import { sound } from "../stores/sound.ts";
-import { words } from "../words/index.ts";
+import { words } from "../messages/index.ts";
 
 const selectedStep = (): string | null => {
   const { selected } = selectionStore.getState();

@@ -11,7 +11,7 @@ import {
   wishHeadset,
   type StudioMode,
 } from "../stores/view.ts";
-import { words } from "../words/index.ts";
+import { words } from "../messages/index.ts";
 
 const MODES: readonly StudioMode[] = ["teach", "check", "run", "history"];
 

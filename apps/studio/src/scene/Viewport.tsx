@@ -3,7 +3,7 @@ import { Canvas } from "@react-three/fiber";
 import { lazy, Suspense, useEffect, useMemo, useRef, useState } from "react";
 import { type Group, type Mesh, NeutralToneMapping, PCFShadowMap, PerspectiveCamera } from "three";
 import { useStore } from "zustand";
-import { dragFollows } from "../live/drag.ts";
+import { dragFollows } from "../runtime/jog/drag.ts";
 import { cellStore } from "../stores/cell.ts";
 import { registerCommands } from "../stores/commands.ts";
 import { physicsStore } from "../stores/physics.ts";
@@ -31,7 +31,7 @@ import { WatchedView } from "./physical/watched-view.tsx";
 import { RenderLoop } from "./render-loop.tsx";
 import { RobotView } from "./robot/robot-view.tsx";
 import { Probe } from "./scene-probe.tsx";
-import { Stage } from "./stage/stage.tsx";
+import { RunContext } from "./stage/stage.tsx";
 import "./scene.css";
 import { readTheme } from "./theme.ts";
 import { Thumbnail } from "./thumbnail.tsx";
@@ -95,7 +95,7 @@ export function Viewport() {
           <Thumbnail />
           {document && <Controls wishes={wishes} world={world} document={document} interaction={interaction} />}
           <group rotation-x={-Math.PI / 2} ref={world}>
-            {document && <Stage theme={colours} document={document} />}
+            {document && <RunContext theme={colours} document={document} />}
             {document && robot && <RobotView robot={robot} worldFromBase={document.robot.worldFromBase} />}
             {stations > 0 && (
               <Suspense fallback={null}>

@@ -12,7 +12,7 @@ const GRAIN_M = 1e-6;
 export function meshGeometry(mesh: TriangleMesh): BufferGeometry {
   const corners = mesh.indices.length;
   const { positions, indices } = mesh;
-  const faces = new Float32Array(corners); // area-weighted normal per triangle
+  const adapters = new Float32Array(corners); // area-weighted normal per triangle
   const at = new Map<string, number[]>();
   const keys: string[] = Array.from(
     { length: positions.length / 3 },
@@ -29,9 +29,9 @@ export function meshGeometry(mesh: TriangleMesh): BufferGeometry {
     const vx = positions[c]! - positions[a]!;
     const vy = positions[c + 1]! - positions[a + 1]!;
     const vz = positions[c + 2]! - positions[a + 2]!;
-    faces[t] = uy * vz - uz * vy;
-    faces[t + 1] = uz * vx - ux * vz;
-    faces[t + 2] = ux * vy - uy * vx;
+    adapters[t] = uy * vz - uz * vy;
+    adapters[t + 1] = uz * vx - ux * vz;
+    adapters[t + 2] = ux * vy - uy * vx;
     for (let k = 0; k < 3; k++) {
       const key = keys[indices[t + k]!]!;
       const list = at.get(key);
@@ -45,16 +45,16 @@ export function meshGeometry(mesh: TriangleMesh): BufferGeometry {
   for (let i = 0; i < corners; i++) {
     const t = i - (i % 3);
     const v = indices[i]!;
-    const size = Math.hypot(faces[t]!, faces[t + 1]!, faces[t + 2]!) || 1;
+    const size = Math.hypot(adapters[t]!, adapters[t + 1]!, adapters[t + 2]!) || 1;
     let nx = 0;
     let ny = 0;
     let nz = 0;
     for (const other of at.get(keys[v]!)!) {
-      const ox = faces[other]!;
-      const oy = faces[other + 1]!;
-      const oz = faces[other + 2]!;
+      const ox = adapters[other]!;
+      const oy = adapters[other + 1]!;
+      const oz = adapters[other + 2]!;
       const otherSize = Math.hypot(ox, oy, oz);
-      if (ox * faces[t]! + oy * faces[t + 1]! + oz * faces[t + 2]! >= cosine * size * otherSize) {
+      if (ox * adapters[t]! + oy * adapters[t + 1]! + oz * adapters[t + 2]! >= cosine * size * otherSize) {
         nx += ox;
         ny += oy;
         nz += oz;

@@ -1,5 +1,5 @@
 import { Color, Mesh, type Material, MeshStandardMaterial, type Object3D } from "three";
-import { onTouching, touchingNow } from "../live/live.ts";
+import { onTouching, touchingNow } from "../runtime/live.ts";
 
 const originals = new WeakMap<Mesh, Material | Material[]>();
 const red = new MeshStandardMaterial({

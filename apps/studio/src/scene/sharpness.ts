@@ -1,5 +1,5 @@
 import { type Camera, Matrix4, type WebGLRenderer } from "three";
-import { theLive } from "../live/live.ts";
+import { theLive } from "../runtime/live.ts";
 import { drawsInSoftware } from "./software.ts";
 
 const COARSE = 0.5;

@@ -1,6 +1,6 @@
 import { useThree } from "@react-three/fiber";
 import { useEffect } from "react";
-import { onDrawThumbnail, THUMBNAIL } from "../live/thumbnail.ts";
+import { onDrawThumbnail, THUMBNAIL } from "../runtime/thumbnail.ts";
 
 const TYPE = "image/webp";
 const QUALITY = 0.82;

@@ -3,7 +3,7 @@ import type { ToolRecord } from "@twincell/project";
 import { useFrame } from "@react-three/fiber";
 import { useEffect, useMemo, useRef } from "react";
 import { BufferAttribute, type BufferGeometry, Color, type Group } from "three";
-import { shownRobot } from "../live/shown.ts";
+import { shownRobot } from "../runtime/robot/drawn-robots.ts";
 import { Fingers } from "./physical/fingers.tsx";
 import { shapeGeometry } from "./objects/shape-geometry.ts";
 import { paintTouching } from "./paint.ts";

@@ -1,5 +1,5 @@
 import { edgeTraceCell, openDocument, saveDocument, type CellDocument } from "@twincell/project";
-import { words } from "../words/index.ts";
+import { words } from "../messages/index.ts";
 import { cellStore } from "./cell.ts";
 import { showDocument } from "./document.ts";
 import type { Keeper } from "./keeper.ts";
@@ -84,11 +84,11 @@ export function keepDocument(keeper: Keeper, clock: Clock, library?: CellLibrary
       told = "";
       if (library) putSoon(library);
       cellStore.setState(state => ({ saving: { kind: state.document === document ? "saved" : "unsaved" } }));
-    } catch (trouble) {
-      const full = trouble instanceof Error && trouble.name === "QuotaExceededError";
+    } catch (faultInjection) {
+      const full = faultInjection instanceof Error && faultInjection.name === "QuotaExceededError";
       const sentence = full
         ? words.file.fullDisk
-        : words.file.noKeep(trouble instanceof Error ? trouble.message : String(trouble));
+        : words.file.noKeep(faultInjection instanceof Error ? faultInjection.message : String(faultInjection));
       cellStore.setState({ saving: { kind: "problem", sentence } });
       if (told !== sentence) notify("bad", sentence, full ? words.file.fullDiskHint : words.file.noKeepHint);
       told = sentence;

@@ -10,12 +10,12 @@ export type PadAction = HeldAction | PressedAction | "turn-back" | "tilt";
 /** "x": the stick's coordinate; a leading "-" turns it round. */
 export type StickAction = AxisName | `-${AxisName}`;
 
-export const HELD_ACTIONS: readonly HeldAction[] = AXIS_NAMES.flatMap(axis => [
+export const PRESSED_ACTIONS: readonly HeldAction[] = AXIS_NAMES.flatMap(axis => [
   `${axis}+` as const,
   `${axis}-` as const,
 ]);
 export const PAD_ACTIONS: readonly PadAction[] = [
-  ...HELD_ACTIONS,
+  ...PRESSED_ACTIONS,
   "turn-back",
   "aid-next",
   "aid-previous",
@@ -107,7 +107,7 @@ export const bindingStore = createStore<BindingState>(() => ({
   ...DEFAULT_BINDINGS,
   accept(keyboard, buttons, axes) {
     const kept = {
-      keyboard: known(keyboard, HELD_ACTIONS),
+      keyboard: known(keyboard, PRESSED_ACTIONS),
       buttons: known(buttons, PAD_ACTIONS),
       axes: known(axes, STICK_ACTIONS),
     };

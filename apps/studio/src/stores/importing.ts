@@ -1,6 +1,6 @@
 import { withFreshIds, type Parsed, type Program } from "@twincell/core";
-import { readText } from "../live/reading.ts";
-import { words } from "../words/index.ts";
+import { readText } from "../runtime/planning/reading.ts";
+import { words } from "../messages/index.ts";
 import { cellStore } from "./cell.ts";
 import { robotOf } from "./document.ts";
 import { notify } from "./notices.ts";

@@ -13,17 +13,17 @@ export const chooseLanguage = (robot: string, dialect: string): void =>
   languageStore.setState(({ chosen }) => ({ chosen: { ...chosen, [robot]: dialect } }));
 
 /** A language, and why a robot's controller does not understand it; null when it does. */
-export interface Spoken {
+export interface SupportedRobot {
   readonly dialect: Dialect;
   readonly why: string | null;
 }
-const known = new Map<Robot, readonly Spoken[]>();
+const known = new Map<Robot, readonly SupportedRobot[]>();
 
 /** Every language: those of the robot's controller first, then the others with the reason. */
-export function languagesOf(robot: Robot): readonly Spoken[] {
+export function languagesOf(robot: Robot): readonly SupportedRobot[] {
   let all = known.get(robot);
   if (!all) {
-    const asked = DIALECTS.map((dialect): Spoken => {
+    const asked = DIALECTS.map((dialect): SupportedRobot => {
       const empty = dialect.emit(emptyProgram(robot.id), robot);
       return { dialect, why: empty.kind === "cannot" ? empty.sentence : null };
     });

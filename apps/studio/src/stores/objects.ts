@@ -1,5 +1,5 @@
 import type { ObjectRecord } from "@twincell/project";
-import { words } from "../words/index.ts";
+import { words } from "../messages/index.ts";
 import { cellStore } from "./cell.ts";
 import { commit, objectOf, withObject } from "./document.ts";
 import { select } from "./selection.ts";

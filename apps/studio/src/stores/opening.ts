@@ -1,5 +1,5 @@
 import { emptyCell, openDocument, type CellDocument } from "@twincell/project";
-import { words } from "../words/index.ts";
+import { words } from "../messages/index.ts";
 import { cellStore } from "./cell.ts";
 import { showDocument } from "./document.ts";
 import { libraryStore, theLibrary, type CellFacts, type Fetched } from "./library.ts";
@@ -54,9 +54,9 @@ export function openCellText(text: string, name: string): boolean {
       return false;
   }
 }
-const notRead = (trouble: unknown): Fetched => ({
+const notRead = (faultInjection: unknown): Fetched => ({
   kind: "missing",
-  sentence: words.file.noKeep(trouble instanceof Error ? trouble.message : String(trouble)),
+  sentence: words.file.noKeep(faultInjection instanceof Error ? faultInjection.message : String(faultInjection)),
 });
 /** Moves a cell to the trash. The open one makes place for the newest other, or for an empty one. */
 export async function trashCell(id: string): Promise<void> {

@@ -1,7 +1,7 @@
 import { loadPoses, savePoses } from "@twincell/languages";
 import { addCoords, editCoords, removeCoords, savedCoords, trajectoryThroughCoords } from "@twincell/project";
 import type { Pose } from "@twincell/core";
-import { words } from "../words/index.ts";
+import { words } from "../messages/index.ts";
 import { cellStore } from "./cell.ts";
 import { commit } from "./document.ts";
 

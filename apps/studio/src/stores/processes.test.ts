@@ -17,9 +17,9 @@ import {
 } from "@twincell/core";
 import { cellGeometry, edgeTraceCell, shapeMesh } from "@twincell/project";
 import { expect, test } from "vitest";
-import { addTrace } from "../live/trace-command.ts";
-import { traceProgram } from "../live/tracing.ts";
-import { words } from "../words/index.ts";
+import { addTrace } from "../runtime/planning/trace-command.ts";
+import { traceProgram } from "../runtime/planning/tracing.ts";
+import { words } from "../messages/index.ts";
 import { showDocument, theProgram } from "./document.ts";
 import { PROCESS_NAMES, PROCESSES, processOf } from "./processes.ts";
 import { SHARP_RAD, traceStore } from "./trace.ts";

@@ -25,7 +25,7 @@ import {
   type Step,
   type Verdict,
 } from "@twincell/core";
-import { words } from "../words/index.ts";
+import { words } from "../messages/index.ts";
 import { commit, theProgram, withProgram } from "./document.ts";
 import { select, selectionStore } from "./selection.ts";
 

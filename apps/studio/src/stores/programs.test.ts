@@ -1,9 +1,9 @@
 import { manualScheduler, robotById } from "@twincell/core";
 import { emptyCell } from "@twincell/project";
 import { beforeEach, expect, test } from "vitest";
-import { showJoints, theLive } from "../live/live.ts";
-import { controlCell } from "../live/run.ts";
-import { writeProgram } from "../live/written.ts";
+import { showJoints, theLive } from "../runtime/live.ts";
+import { controlCell } from "../runtime/run/run.ts";
+import { writeProgram } from "../runtime/run/written-program.ts";
 import { cellStore } from "./cell.ts";
 import { showDocument, theProgram, undo } from "./document.ts";
 import { languageOf } from "./languages.ts";

@@ -1,6 +1,6 @@
 import { emptyProgram } from "@twincell/core";
 import { addProgram, duplicateProgram, removeProgram, renameProgram, selectProgram } from "@twincell/project";
-import { words } from "../words/index.ts";
+import { words } from "../messages/index.ts";
 import { cellStore } from "./cell.ts";
 import { commit } from "./document.ts";
 import { notify } from "./notices.ts";

@@ -1,8 +1,8 @@
 import { LIBRARY, robotById } from "@twincell/core";
 import { openDocument, saveDocument, tracedCartonCell } from "@twincell/project";
 import { beforeEach, expect, test } from "vitest";
-import { startFollowing } from "../live/follow.ts";
-import { theLive } from "../live/live.ts";
+import { startFollowing } from "../runtime/robot/follow.ts";
+import { theLive } from "../runtime/live.ts";
 import { cellStore } from "./cell.ts";
 import { showDocument, theProgram, undo } from "./document.ts";
 import { noticeStore } from "./notices.ts";

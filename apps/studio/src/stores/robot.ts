@@ -1,6 +1,6 @@
 import { retargetProgram, robotById, type Robot } from "@twincell/core";
 import { withStepPrograms } from "@twincell/project";
-import { words } from "../words/index.ts";
+import { words } from "../messages/index.ts";
 import { cellStore } from "./cell.ts";
 import { commit, robotOf } from "./document.ts";
 import { notify } from "./notices.ts";

@@ -1,19 +1,19 @@
 import type { Pose } from "@twincell/core";
-import type { StationWords, TellOf } from "@twincell/messages";
+import type { ConnectionInfo, EventOf } from "@twincell/protocol";
 import { createStore } from "zustand/vanilla";
 
 /** Where the host of a station runs: in a worker of this page, or on the server that served it. */
-export type HostPlace = "page" | "server";
+export type ServerAddress = "page" | "server";
 
 /** Another controller of the cell, as slowly as people read. Its joint angles are in `live/stations.ts`. */
-export interface StationState extends StationWords {
-  readonly place: HostPlace;
+export interface StationState extends ConnectionInfo {
+  readonly place: ServerAddress;
   /** Where its robot is drawn. */
   readonly stand: Pose<"world", "base">;
-  readonly link: Omit<TellOf<"link">, "type" | "station">;
-  readonly guard: Omit<TellOf<"guard">, "type" | "station">;
+  readonly link: Omit<EventOf<"link">, "type" | "station">;
+  readonly guard: Omit<EventOf<"guard">, "type" | "station">;
   readonly mode: "manual" | "automatic" | "remote";
-  readonly safety: TellOf<"sample">["safety"];
+  readonly safety: EventOf<"sample">["safety"];
   readonly moving: boolean;
   readonly override: number;
   readonly step: string;
@@ -34,7 +34,7 @@ export interface StationState extends StationWords {
 }
 export interface StationsState {
   readonly stations: readonly StationState[];
-  readonly brands: TellOf<"hello">["brands"];
+  readonly brands: EventOf<"hello">["brands"];
   /** Whether the page was served by a server that hosts stations; null until it was asked. */
   readonly server: boolean | null;
 }

@@ -17,14 +17,14 @@ export function afterStop(listen: () => void): () => void {
 
 /** Returns the sentences of stoppers that could not do it. */
 export function stopEverything(): readonly string[] {
-  const troubles: string[] = [];
+  const faultInjections: string[] = [];
   for (const bringToRest of stoppers) {
     try {
       bringToRest();
-    } catch (trouble) {
-      troubles.push(trouble instanceof Error ? trouble.message : String(trouble));
+    } catch (faultInjection) {
+      faultInjections.push(faultInjection instanceof Error ? faultInjection.message : String(faultInjection));
     }
   }
   for (const listen of listeners) listen();
-  return troubles;
+  return faultInjections;
 }

@@ -1,5 +1,5 @@
 import { Hand } from "lucide-react";
-import { words } from "../words/index.ts";
+import { words } from "../messages/index.ts";
 import type { EnablingSwitch as Switch } from "./useEnablingSwitch.ts";
 
 /** The enabling switch of a panel: outlined when released, filled while held. */

@@ -1,7 +1,7 @@
 import { X } from "lucide-react";
 import { Dialog } from "radix-ui";
 import type { ReactNode } from "react";
-import { words } from "../words/index.ts";
+import { words } from "../messages/index.ts";
 
 /**
  * A dialog that leaves the top bar alone: not modal in the DOM's sense, so STOP and the controller chip stay

@@ -2,7 +2,7 @@ import type { Robot } from "@twincell/core";
 import { useStore } from "zustand";
 import { chooseLanguage, languageOf, languagesOf, languageStore } from "../stores/languages.ts";
 import { Chooser } from "./Choice.tsx";
-import { words } from "../words/index.ts";
+import { words } from "../messages/index.ts";
 
 /** The languages that the robot's controller understands; the others are there, greyed, with the reason. */
 export function LanguageChoice({ robot, disabled = false }: { readonly robot: Robot; readonly disabled?: boolean }) {

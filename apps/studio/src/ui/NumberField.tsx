@@ -1,5 +1,5 @@
 import { useId, useRef, useState, type PointerEvent } from "react";
-import { words } from "../words/index.ts";
+import { words } from "../messages/index.ts";
 import { parseTyped, shownFactor, shownUnit, showNumber, type Quantity } from "./expression.ts";
 
 interface Props {

@@ -1,6 +1,6 @@
 import { useEffect, useRef } from "react";
-import { onFrame } from "../live/frames.ts";
-import { theLive, type Live } from "../live/live.ts";
+import { onFrame } from "../runtime/jog/jog-frames.ts";
+import { theLive, type Live } from "../runtime/live.ts";
 
 /** Calls `write` once now and in every frame in which the robot moved, outside React. */
 export function useLive(write: (live: Readonly<Live>) => void): void {

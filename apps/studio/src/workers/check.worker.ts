@@ -1,5 +1,5 @@
 import { checkProgram, robotById, type CellGeometry } from "@twincell/core";
-import { tcpPath } from "../live/tcp-path.ts";
+import { tcpPath } from "../runtime/planning/tcp-path.ts";
 import type { FromChecker, ToChecker } from "./check-messages.ts";
 
 let cell: CellGeometry | undefined;
@@ -38,7 +38,11 @@ addEventListener("message", ({ data }: MessageEvent<ToChecker>) => {
       path: tcpPath(plan, verdict, program, robot, cell.worldFromBase),
       took_ms: performance.now() - began,
     });
-  } catch (trouble) {
-    answer({ kind: "trouble", id, sentence: trouble instanceof Error ? trouble.message : String(trouble) });
+  } catch (faultInjection) {
+    answer({
+      kind: "trouble",
+      id,
+      sentence: faultInjection instanceof Error ? faultInjection.message : String(faultInjection),
+    });
   }
 });

@@ -26,10 +26,10 @@ addEventListener("message", ({ data }: MessageEvent<ToWatcher>) => {
       nearest: [clearance.a, clearance.b],
       took_ms: performance.now() - began,
     });
-  } catch (trouble) {
+  } catch (faultInjection) {
     answer({
       kind: "trouble",
-      sentence: `The collision check stopped: ${trouble instanceof Error ? trouble.message : String(trouble)}.`,
+      sentence: `The collision check stopped: ${faultInjection instanceof Error ? faultInjection.message : String(faultInjection)}.`,
     });
   }
 });

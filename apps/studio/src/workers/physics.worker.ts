@@ -77,11 +77,11 @@ function advance(dt_s: number, override: number): void {
 
 addEventListener("message", ({ data }: MessageEvent<ToPhysics>) => {
   if (data.kind === "start") {
-    start(data).catch((trouble: unknown) => {
+    start(data).catch((faultInjection: unknown) => {
       answer({
         kind: "refused",
         edition: data.edition,
-        sentence: `Physics stopped: ${trouble instanceof Error ? trouble.message : String(trouble)}.`,
+        sentence: `Physics stopped: ${faultInjection instanceof Error ? faultInjection.message : String(faultInjection)}.`,
         hint: "Reload the page; nothing is lost.",
       });
     });

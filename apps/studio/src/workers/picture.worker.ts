@@ -1,5 +1,5 @@
-import { packed } from "../live/video/packing.ts";
-import type { PackRequest, PackAnswer } from "../live/video/packing.ts";
+import { packed } from "../runtime/video/packing.ts";
+import type { PackRequest, PackAnswer } from "../runtime/video/packing.ts";
 
 /** Makes a JPEG of a picture, beside the page. */
 addEventListener("message", ({ data }: MessageEvent<PackRequest>) => {

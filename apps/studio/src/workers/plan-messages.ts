@@ -1,4 +1,4 @@
-import type { CellGeometry, PairMatrix, Program, Untangled, WayRound } from "@twincell/core";
+import type { CellGeometry, PairMatrix, Program, SelfCollisionEscape, Detour } from "@twincell/core";
 
 /** Searches that take a while. Cancelling ends the worker. */
 export type PlanTask =
@@ -25,7 +25,7 @@ export interface ToPlanner {
 
 export type FromPlanner =
   | { readonly kind: "progress"; readonly id: number; readonly share: number }
-  | { readonly kind: "way"; readonly id: number; readonly answer: WayRound }
-  | { readonly kind: "go"; readonly id: number; readonly answer: Untangled }
+  | { readonly kind: "way"; readonly id: number; readonly answer: Detour }
+  | { readonly kind: "go"; readonly id: number; readonly answer: SelfCollisionEscape }
   | { readonly kind: "learnt"; readonly id: number; readonly matrix: PairMatrix }
   | { readonly kind: "trouble"; readonly id: number; readonly sentence: string };

@@ -1,4 +1,4 @@
-import { planTask } from "../live/plan-task.ts";
+import { planTask } from "../runtime/planning/plan-task.ts";
 import type { FromPlanner, ToPlanner } from "./plan-messages.ts";
 
 addEventListener("message", ({ data }: MessageEvent<ToPlanner>) => {
@@ -7,7 +7,11 @@ addEventListener("message", ({ data }: MessageEvent<ToPlanner>) => {
   };
   try {
     answer(planTask(data, () => performance.now() / 1000, answer));
-  } catch (trouble) {
-    answer({ kind: "trouble", id: data.id, sentence: trouble instanceof Error ? trouble.message : String(trouble) });
+  } catch (faultInjection) {
+    answer({
+      kind: "trouble",
+      id: data.id,
+      sentence: faultInjection instanceof Error ? faultInjection.message : String(faultInjection),
+    });
   }
 });

@@ -1,6 +1,6 @@
 import type { Pose, Program } from "@twincell/core";
 import type { Proof } from "@twincell/languages";
-import type { Written } from "../live/written.ts";
+import type { Written } from "../runtime/run/written-program.ts";
 
 /** `dialect` null: no language speaks for the robot. With `prove` the text is read back after it was answered. */
 export interface ToPoster {

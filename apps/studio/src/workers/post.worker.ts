@@ -1,6 +1,6 @@
 import { robotById } from "@twincell/core";
 import { dialectById, proveText, runnableFile } from "@twincell/languages";
-import { writeProgram } from "../live/written.ts";
+import { writeProgram } from "../runtime/run/written-program.ts";
 import type { FromPoster, ToPoster } from "./post-messages.ts";
 
 const answer = (message: FromPoster): void => {
@@ -27,8 +27,12 @@ addEventListener(
         id,
         proof: dialect && runnable ? proveText(dialect, runnable, written.program, robot, worldFromBase) : null,
       });
-    } catch (trouble) {
-      answer({ kind: "trouble", id, sentence: trouble instanceof Error ? trouble.message : String(trouble) });
+    } catch (faultInjection) {
+      answer({
+        kind: "trouble",
+        id,
+        sentence: faultInjection instanceof Error ? faultInjection.message : String(faultInjection),
+      });
     }
   },
 );

@@ -1,6 +1,6 @@
 import { catalogue } from "@twincell/recording";
 import { zstd } from "@twincell/recording/zstd";
-import { blobFiles } from "../live/recordings.ts";
+import { blobFiles } from "../runtime/history/recordings.ts";
 import type { FromRecordingReader, ToRecordingReader } from "./recording-messages.ts";
 
 addEventListener("message", ({ data: file }: MessageEvent<ToRecordingReader>) => {
@@ -9,10 +9,10 @@ addEventListener("message", ({ data: file }: MessageEvent<ToRecordingReader>) =>
   };
   zstd()
     .then(packing => catalogue(blobFiles([file]), { name: file.name, bytes: file.blob.size }, packing))
-    .then(answer, (trouble: unknown) => {
+    .then(answer, (faultInjection: unknown) => {
       answer({
         kind: "not-a-recording",
-        sentence: `The recording cannot be read: ${trouble instanceof Error ? trouble.message : String(trouble)}.`,
+        sentence: `The recording cannot be read: ${faultInjection instanceof Error ? faultInjection.message : String(faultInjection)}.`,
       });
     });
 });

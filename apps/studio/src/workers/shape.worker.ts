@@ -22,9 +22,9 @@ const SEED = 1;
 addEventListener("message", ({ data }: MessageEvent<ShapeRequest>) => {
   void answerTo(data)
     .catch(
-      (trouble: unknown): ShapeAnswer => ({
+      (faultInjection: unknown): ShapeAnswer => ({
         kind: "not-understood",
-        sentence: trouble instanceof Error ? trouble.message : String(trouble),
+        sentence: faultInjection instanceof Error ? faultInjection.message : String(faultInjection),
       }),
     )
     .then(answer => postMessage(answer));
@@ -96,7 +96,7 @@ async function readStep(bytes: Uint8Array): Promise<OcctResult> {
   }
 }
 
-async function light(objects: readonly ObjectRecord[], faces: number): Promise<ShapeAnswer> {
+async function light(objects: readonly ObjectRecord[], adapters: number): Promise<ShapeAnswer> {
   const parts = objects.map(
     ({ id, color, shape, worldFromObject }): ImportedPart => ({
       name: id,
@@ -105,7 +105,7 @@ async function light(objects: readonly ObjectRecord[], faces: number): Promise<S
       mesh: transformMesh(shapeMesh(shape), worldFromObject as Pose),
     }),
   );
-  const { parts: fewer, report } = await lightened(parts, faces, seededRandom(SEED));
+  const { parts: fewer, report } = await lightened(parts, adapters, seededRandom(SEED));
   const byId = new Map(fewer.map(part => [part.name, part]));
   return {
     kind: "light",

@@ -1,8 +1,14 @@
-import { brandById, BRANDS, createSharedCell, openStation, startTogether } from "@twincell/controllers";
+import {
+  driverKindById,
+  DRIVER_KINDS,
+  createSharedCell,
+  openRobotConnection,
+  startSynchronized,
+} from "@twincell/controllers";
 import { manualScheduler, robotById, type Refusal } from "@twincell/core";
 import { dialectById } from "@twincell/languages";
 import { readConnectionCell } from "@twincell/project";
-import { createHost, type OpenedStation } from "@twincell/messages";
+import { createRobotServer, type OpenedConnection } from "@twincell/protocol";
 
 /** How often the world of the page goes on, and the most it goes on by at once [s]. */
 const TICK_S = 0.004;
@@ -22,15 +28,21 @@ setInterval(() => {
 
 /** All robots of the page that stand in the cell. */
 const cell = createSharedCell();
-const refused = (why: Refusal): OpenedStation => ({ kind: "refused", why });
+const refused = (why: Refusal): OpenedConnection => ({ kind: "refused", why });
 
-const host = createHost({
+const host = createRobotServer({
   scheduler,
   version: "",
-  brands: BRANDS.map(({ id, name, vendor, dialect, ports }) => ({ id, name, vendor, dialect, ports: { ...ports } })),
-  together: (members, onStarted) => startTogether(members, scheduler, onStarted),
-  async open(ask): Promise<OpenedStation> {
-    const brand = brandById(ask.brand);
+  brands: DRIVER_KINDS.map(({ id, name, vendor, dialect, ports }) => ({
+    id,
+    name,
+    vendor,
+    dialect,
+    ports: { ...ports },
+  })),
+  together: (members, onStarted) => startSynchronized(members, scheduler, onStarted),
+  async open(ask): Promise<OpenedConnection> {
+    const brand = driverKindById(ask.brand);
     const robot = robotById(ask.robot);
     const dialect = brand && dialectById(brand.dialect);
     if (!brand || !dialect || !robot)
@@ -45,7 +57,7 @@ const host = createHost({
         sentence: "A page has no network of its own: real controllers are reached through the server.",
         hint: "Start Twincell with npx twincell serve and open its address.",
       });
-    return openStation({
+    return openRobotConnection({
       id: ask.station,
       brand,
       robot,

@@ -9,7 +9,9 @@ import { STEP_PARAMETERS, type OcctResult } from "@twincell/formats";
 addEventListener("message", ({ data }: MessageEvent<Uint8Array>) => {
   void load({ locateFile: () => new URL(kernelAddress, import.meta.url).href })
     .then(kernel => compact(kernel.ReadStepFile(data, STEP_PARAMETERS)))
-    .catch((trouble: unknown) => (trouble instanceof Error ? trouble.message : String(trouble)))
+    .catch((faultInjection: unknown) =>
+      faultInjection instanceof Error ? faultInjection.message : String(faultInjection),
+    )
     .then((answer: OcctResult | string) => postMessage(answer));
 });
 

@@ -1,4 +1,4 @@
-import { textTask } from "../live/text-task.ts";
+import { textTask } from "../runtime/text-task.ts";
 import type { FromTextWorker, ToTextWorker } from "./text-messages.ts";
 
 const answer = (message: FromTextWorker): void => {
@@ -8,7 +8,11 @@ const answer = (message: FromTextWorker): void => {
 addEventListener("message", ({ data }: MessageEvent<ToTextWorker>) => {
   try {
     answer(textTask(data));
-  } catch (trouble) {
-    answer({ kind: "trouble", id: data.id, sentence: trouble instanceof Error ? trouble.message : String(trouble) });
+  } catch (faultInjection) {
+    answer({
+      kind: "trouble",
+      id: data.id,
+      sentence: faultInjection instanceof Error ? faultInjection.message : String(faultInjection),
+    });
   }
 });

@@ -1,5 +1,5 @@
-import { findCode, grayOf } from "../live/video/code-finder.ts";
-import type { SightingAnswer, SightingRequest } from "../live/video/sightings.ts";
+import { findCode, grayOf } from "../runtime/video/code-finder.ts";
+import type { SightingAnswer, SightingRequest } from "../runtime/video/sightings.ts";
 
 /** Looks for a time code in pictures, beside the page. */
 let canvas: OffscreenCanvas | null = null;

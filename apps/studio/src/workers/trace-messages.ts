@@ -1,4 +1,4 @@
-import type { TraceAnswer, TraceTask } from "../live/tracing.ts";
+import type { TraceAnswer, TraceTask } from "../runtime/planning/tracing.ts";
 
 export interface ToTracer {
   readonly id: number;

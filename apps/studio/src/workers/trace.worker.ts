@@ -1,4 +1,4 @@
-import { traceProgram, type TraceAnswer } from "../live/tracing.ts";
+import { traceProgram, type TraceAnswer } from "../runtime/planning/tracing.ts";
 import type { FromTracer, ToTracer } from "./trace-messages.ts";
 
 addEventListener("message", ({ data: { id, task } }: MessageEvent<ToTracer>) => {
@@ -6,8 +6,12 @@ addEventListener("message", ({ data: { id, task } }: MessageEvent<ToTracer>) => 
   let answer: TraceAnswer;
   try {
     answer = traceProgram(task);
-  } catch (trouble) {
-    answer = { kind: "cannot", edge: 0, sentence: trouble instanceof Error ? trouble.message : String(trouble) };
+  } catch (faultInjection) {
+    answer = {
+      kind: "cannot",
+      edge: 0,
+      sentence: faultInjection instanceof Error ? faultInjection.message : String(faultInjection),
+    };
   }
   const message: FromTracer = { id, answer, took_ms: performance.now() - began };
   postMessage(message);

@@ -1,13 +1,13 @@
 import { manualScheduler, robotById } from "@twincell/core";
 import { expect, test } from "vitest";
-import { brandById } from "../brands.ts";
-import { createRealController } from "../real/index.ts";
+import { driverKindById } from "../brands.ts";
+import { createRealController } from "../driver/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
 
 test("the brand's driver and virtual controller find each other, two pairs on one machine; pendant and restart", async () => {
   const scheduler = manualScheduler();
   const network = memoryNetwork(scheduler);
-  const brand = brandById("abb")!;
+  const brand = driverKindById("abb")!;
   const robot = robotById("abb_irb120")!;
   const pair = async (host: string) => {
     const started = await brand.virtual({

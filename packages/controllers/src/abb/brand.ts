@@ -1,7 +1,7 @@
-import type { Brand } from "../real/index.ts";
+import type { DriverKind } from "../driver/index.ts";
 import { ABB_CANNOT, ABB_EGM_CANNOT } from "./cannot.ts";
 import { EGM_PORT, RWS_PORT } from "./codec/index.ts";
-import { abbEgmFace, abbFace } from "./driver/index.ts";
+import { abbEgmAdapter, abbAdapter } from "./adapter/index.ts";
 import { abbPendant } from "./pendant.ts";
 import { createVirtualAbb } from "./virtual/index.ts";
 
@@ -9,7 +9,7 @@ const PORTS = { egm: EGM_PORT, rws: RWS_PORT };
 const REBOOT_S = 2;
 
 /** IRC5 controllers with RobotWare 6: externally guided motion, to a port of this machine, and Robot Web Services, on one of theirs. */
-export const abb: Brand = {
+export const abb: DriverKind = {
   id: "abb",
   name: "ABB",
   dialect: "rapid",
@@ -21,11 +21,11 @@ export const abb: Brand = {
       name: "ABB (EGM alone)",
       cannot: ABB_EGM_CANNOT,
       shows: ["T-19", "T-20", "T-21", "T-23", "T-24", "T-25", "T-26", "T-27"],
-      tests: "egm-face.test.ts",
-      face: abbEgmFace,
+      tests: "egm-adapter.test.ts",
+      face: abbEgmAdapter,
     },
   ],
-  face: ({ ports, ...options }) => abbFace({ ...options, ports: { ...PORTS, ...ports } }),
+  face: ({ ports, ...options }) => abbAdapter({ ...options, ports: { ...PORTS, ...ports } }),
   async virtual({ ports, robot, scheduler, network, host, start_rad, maxSpeed, interpret }) {
     const started = await createVirtualAbb({
       robot,

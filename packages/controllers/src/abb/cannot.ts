@@ -1,4 +1,4 @@
-import type { Cannot } from "../real/index.ts";
+import type { Cannot } from "../driver/index.ts";
 
 /** Over EGM and Robot Web Services 1.0. */
 export const ABB_CANNOT: readonly Cannot[] = [

@@ -1,9 +1,9 @@
 import { manualScheduler, robotById } from "@twincell/core";
-import { createRealController } from "../real/index.ts";
+import { createRealController } from "../driver/index.ts";
 import { describeController } from "../testing/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
 import { ABB_CANNOT, ABB_EGM_CANNOT } from "./cannot.ts";
-import { abbEgmFace, abbFace } from "./driver/index.ts";
+import { abbEgmAdapter, abbAdapter } from "./adapter/index.ts";
 import { createVirtualAbb } from "./virtual/index.ts";
 
 const HOST = "127.0.0.1";
@@ -32,9 +32,9 @@ for (const [name, cannot, rws] of [
       });
       if (started.kind === "taken") throw new Error(started.sentence);
       const options = { robot, scheduler, network, host: HOST, ...(maxSpeed === undefined ? {} : { maxSpeed }) };
-      const face = rws === undefined ? abbEgmFace(options) : abbFace(options);
+      const adapter = rws === undefined ? abbEgmAdapter(options) : abbAdapter(options);
       const controller = createRealController({
-        face,
+        face: adapter,
         scheduler,
         ...(initialize ? { initialize } : {}),
         ...(onMotion ? { onMotion } : {}),

@@ -1,5 +1,5 @@
 export { abb } from "./brand.ts";
-export { abbEgmFace, abbFace, type AbbEgmFaceOptions, type AbbFaceOptions } from "./driver/index.ts";
+export { abbEgmAdapter, abbAdapter, type AbbEgmAdapterOptions, type AbbAdapterOptions } from "./adapter/index.ts";
 export {
   createVirtualAbb,
   type AbbPendant,

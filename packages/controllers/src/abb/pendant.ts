@@ -1,6 +1,6 @@
 import { identity, type SafetyState } from "@twincell/core";
 import { jointMoveSpeed } from "../guard/index.ts";
-import type { KeyPosition, Pendant, PendantShown } from "../real/index.ts";
+import type { KeyPosition, Pendant, PendantShown } from "../driver/index.ts";
 import { neutralPendant } from "../virtual/index.ts";
 import type { VirtualAbb } from "./virtual/index.ts";
 
@@ -14,16 +14,16 @@ const FLANGE = identity<"flange", "tcp">();
 
 /** FlexPendant and operator panel of a virtual ABB controller. */
 export function abbPendant(controller: VirtualAbb): Pendant {
-  const { neutral, robot, pendant, cabinet, programs, lines } = controller;
+  const { neutral, robot, pendant, cabinet: virtualPendant, programs, lines } = controller;
   const common = neutralPendant(neutral, { keys: KEYS });
   const digital = (kind: "DI" | "DO"): readonly string[] =>
     lines.all.filter(line => line.kind === kind).map(({ name }) => name);
   let pressed = false;
-  const isManual = (): boolean => cabinet.key !== "AUTO";
+  const isManual = (): boolean => virtualPendant.key !== "AUTO";
   const safety = (): SafetyState =>
-    cabinet.state === "emergencystop"
+    virtualPendant.state === "emergencystop"
       ? "emergency-stop"
-      : cabinet.state === "guardstop"
+      : virtualPendant.state === "guardstop"
         ? "guard-stop"
         : controller.hasFailed
           ? "protective-stop"
@@ -31,7 +31,7 @@ export function abbPendant(controller: VirtualAbb): Pendant {
   const alarms = (): readonly string[] =>
     safety() === "normal" && (isManual() || programs.isRunning)
       ? []
-      : cabinet.events
+      : virtualPendant.events
           .filter(({ kind }) => kind > 1)
           .slice(0, 1)
           .map(({ code, text }) => `${code} ${text}`);
@@ -41,10 +41,10 @@ export function abbPendant(controller: VirtualAbb): Pendant {
     lines: { inputs: digital("DI"), outputs: digital("DO"), read: signal => lines.find(signal)?.value === true },
     get shown(): PendantShown {
       return {
-        key: cabinet.key,
-        servo: cabinet.motorsOn ? "on" : "off",
+        key: virtualPendant.key,
+        servo: virtualPendant.motorsOn ? "on" : "off",
         safety: safety(),
-        override: cabinet.speedRatio / 100,
+        override: virtualPendant.speedRatio / 100,
         program: programs.names.at(-1) ?? "",
         running: programs.isRunning,
         alarms: alarms(),
@@ -52,10 +52,10 @@ export function abbPendant(controller: VirtualAbb): Pendant {
     },
     turnKey(position) {
       const to = KEYS.find(({ id }) => id === position);
-      if (!to || to.id === cabinet.key) return;
+      if (!to || to.id === virtualPendant.key) return;
       common.stopJog();
       if ((to.mode === "manual") !== isManual()) pendant.setMode(to.mode);
-      if (to.mode === "manual") cabinet.setKey(to.id);
+      if (to.mode === "manual") virtualPendant.setKey(to.id);
     },
     setMode(mode) {
       pendant.setMode(mode);
@@ -64,21 +64,21 @@ export function abbPendant(controller: VirtualAbb): Pendant {
       if (!held) common.stopJog();
     },
     setServo(on) {
-      if (on) return cabinet.switchOn();
-      cabinet.motorsOff("The motors were switched off.");
+      if (on) return virtualPendant.switchOn();
+      virtualPendant.motorsOff("The motors were switched off.");
       return null;
     },
     setOverride: ratio =>
-      cabinet.setSpeedRatio(100 * ratio) ? common.setOverride(ratio) : "The speed goes from 0 to 100 %.",
+      virtualPendant.setSpeedRatio(100 * ratio) ? common.setOverride(ratio) : "The speed goes from 0 to 100 %.",
     /** Off manual this is also the start of the program, which waits for targets again. */
     reset() {
       if (pressed) return "The emergency stop is pressed.";
-      if (cabinet.state === "guardstop") return "The guard is open.";
+      if (virtualPendant.state === "guardstop") return "The guard is open.";
       pendant.setMode(isManual() ? "manual" : "automatic");
       return null;
     },
     async jog(q_rad, most = 1) {
-      if (!cabinet.motorsOn)
+      if (!virtualPendant.motorsOn)
         return {
           kind: "refused",
           why: {
@@ -87,7 +87,7 @@ export function abbPendant(controller: VirtualAbb): Pendant {
             hint: "Turn the red button out, and press the enabling switch.",
           },
         };
-      const full_mps = cabinet.key === "MANR" ? jointMoveSpeed(robot, neutral.jointAngles(), q_rad, FLANGE) : 0;
+      const full_mps = virtualPendant.key === "MANR" ? jointMoveSpeed(robot, neutral.jointAngles(), q_rad, FLANGE) : 0;
       return common.jog(q_rad, Math.min(most, full_mps > 0 ? REDUCED_MPS / full_mps : 1));
     },
     emergencyStop(is) {

@@ -2,7 +2,7 @@ export {
   BETWEEN_ROBOTS_M,
   createSharedCell,
   YIELDED_M,
-  type Place,
+  type CellMember,
   type PlaceOptions,
   type Seen,
   type SharedCell,

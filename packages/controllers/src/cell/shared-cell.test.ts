@@ -32,13 +32,13 @@ function put(
   const real = createVirtualController({ robot, scheduler, start_rad });
   const place = cell.join({ id, name: id, robot, worldFromBase, brakingTime_s: real.brakingTime_s });
   const guard = createGuard({ controller: real, scheduler, deadMan: false, place, brakingTime_s: real.brakingTime_s });
-  const seat = guard.seat("me");
+  const commander = guard.seat("me");
   const notices: string[] = [];
   guard.onNotice(why => {
     notices.push(why.code);
   });
-  seat.take();
-  return { real, place, guard, seat, notices, robot, worldFromBase };
+  commander.acquireLease();
+  return { real, place, guard, seat: commander, notices, robot, worldFromBase };
 }
 type Put = ReturnType<typeof put>;
 

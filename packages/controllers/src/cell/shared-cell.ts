@@ -5,7 +5,7 @@ import {
   linkSolids,
   OtherArm,
   robotAndCell,
-  SolidShelf,
+  FileRunStorage,
   type CellObject,
   type LinkSolid,
   type Pose,
@@ -38,7 +38,7 @@ export interface PlaceOptions {
 }
 
 /** One robot's place among the others. */
-export interface Place {
+export interface CellMember {
   readonly id: string;
   /** Where it is, and where it would stand if it were stopped now. Copied. */
   tell(q_rad: ArrayLike<number>, ahead_rad: ArrayLike<number>): void;
@@ -74,10 +74,10 @@ export interface Seen {
   readonly error_m: number;
 }
 export interface SharedCell {
-  join(options: PlaceOptions): Place;
+  join(options: PlaceOptions): CellMember;
 }
 
-interface Member extends Place {
+interface Member extends CellMember {
   readonly options: PlaceOptions;
   readonly rank: number;
   readonly q_rad: Float64Array;
@@ -110,7 +110,7 @@ export function createSharedCell({
   yielded_m = YIELDED_M,
 }: SharedCellOptions = {}): SharedCell {
   const members = new Set<Member>();
-  const shelf = new SolidShelf();
+  const runStorage = new FileRunStorage();
   const solids = new Map<string, LinkSolid[]>();
   let opened = 0;
   const solidsOf = (robot: Robot): LinkSolid[] => {
@@ -119,7 +119,7 @@ export function createSharedCell({
     return known;
   };
 
-  function join(options: PlaceOptions): Place {
+  function join(options: PlaceOptions): CellMember {
     const { robot, name, id } = options;
     const n = robot.arm.joints.length;
     const stand = copyPose(options.worldFromBase);
@@ -129,7 +129,7 @@ export function createSharedCell({
     const collider = new CellCollider(
       { worldFromBase: stand, links: solidsOf(robot), objects: [], allowedPairs: [], shapeError_m: robot.shapeError_m },
       robot.arm,
-      shelf,
+      runStorage,
     );
     const braking_s = options.brakingTime_s ?? hardBrakingTime_s(robot);
 

@@ -1,15 +1,15 @@
-import type { Brand } from "../real/index.ts";
+import type { DriverKind } from "../driver/index.ts";
 import { FANUC_CANNOT } from "./cannot.ts";
 import { FTP_PORT } from "./codec-ftp.ts";
 import { RMI_PORT, RMI_SESSION_PORT } from "./codec-rmi.ts";
-import { createFanucFace } from "./driver.ts";
+import { createFanucAdapter } from "./driver.ts";
 import { fanucPendant } from "./pendant.ts";
 import { createVirtualFanuc } from "./virtual/controller.ts";
 
 const PORTS = { connect: RMI_PORT, session: RMI_SESSION_PORT, files: FTP_PORT };
 
 /** FANUC as apps meet it: the Remote Motion Interface of R-30iB controllers and later. */
-export const fanuc: Brand = {
+export const fanuc: DriverKind = {
   id: "fanuc",
   name: "FANUC",
   dialect: "fanuc-ls",
@@ -19,7 +19,7 @@ export const fanuc: Brand = {
   terminal: ({ kind, address }) =>
     kind === "digital-in" ? `DI[${address}]` : kind === "digital-out" ? `DO[${address}]` : undefined,
   face: ({ robot, scheduler, network, host, ports }) =>
-    createFanucFace({
+    createFanucAdapter({
       robot,
       scheduler,
       network,

@@ -1,4 +1,4 @@
-import type { Cannot } from "../real/index.ts";
+import type { Cannot } from "../driver/index.ts";
 
 /** Over the Remote Motion Interface. */
 export const FANUC_CANNOT: readonly Cannot[] = [

@@ -7,7 +7,7 @@ export const FTP_PORT = 21;
 const LONGEST = 1024;
 const MOST_LINES = 100;
 /** Bytes of a file. */
-export const MOST_FILE = 4_000_000;
+export const MAX_FILE = 4_000_000;
 
 export interface FtpReply {
   readonly code: number;

@@ -7,7 +7,7 @@
 export const RMI_PORT = 16_001;
 export const RMI_SESSION_PORT = 16_002;
 /** Instructions that may wait at the controller. */
-export const MOST_WAITING = 8;
+export const MAX_WAITING = 8;
 
 /** RMIT-001 is 2556929. Anchors 2556938 and 2556957 are from records of real controllers, the order of the others from the list of the manual as remembered. */
 export const RMI_ERROR = {

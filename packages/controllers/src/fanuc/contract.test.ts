@@ -1,9 +1,9 @@
 import { manualScheduler, robotById } from "@twincell/core";
-import { createRealController } from "../real/index.ts";
+import { createRealController } from "../driver/index.ts";
 import { describeController } from "../testing/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
 import { FANUC_CANNOT } from "./cannot.ts";
-import { createFanucFace, createVirtualFanuc, fanucJoints } from "./index.ts";
+import { createFanucAdapter, createVirtualFanuc, fanucJoints } from "./index.ts";
 
 const robot = robotById("fanuc_lrmate200id")!;
 const HOST = "127.0.0.5";
@@ -25,9 +25,9 @@ describeController("FANUC driver on its virtual controller, over RMI", {
       digits: 12,
       ...(maxSpeed === undefined ? {} : { maxSpeed }),
     });
-    const face = createFanucFace({ robot: driven, scheduler, network, host: HOST, joints, period_s: 0.004 });
+    const adapter = createFanucAdapter({ robot: driven, scheduler, network, host: HOST, joints, period_s: 0.004 });
     const controller = createRealController({
-      face,
+      face: adapter,
       scheduler,
       ...(initialize ? { initialize } : {}),
       ...(onMotion ? { onMotion } : {}),

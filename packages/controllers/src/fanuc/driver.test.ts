@@ -45,13 +45,13 @@ async function lines({ scheduler, network }: Awaited<ReturnType<typeof bench>>, 
 describe("the controller", () => {
   test("one client is let in: asked for at one port, served at another; the second is told so", async () => {
     const made = await bench();
-    const door = await lines(made, 16_001);
-    expect(await door.ask('{"Communication":"FRC_Connect"}\r\n')).toEqual([
+    const route = await lines(made, 16_001);
+    expect(await route.ask('{"Communication":"FRC_Connect"}\r\n')).toEqual([
       { Communication: "FRC_Connect", ErrorID: 2556954, PortNumber: 0, MajorVersion: 5, MinorVersion: 0 },
     ]);
     made.real.disconnect();
     await made.scheduler.elapse(0.1);
-    expect(await door.ask('{"Communication":"FRC_Connect"}\r\n')).toMatchObject([{ ErrorID: 0, PortNumber: 16_002 }]);
+    expect(await route.ask('{"Communication":"FRC_Connect"}\r\n')).toMatchObject([{ ErrorID: 0, PortNumber: 16_002 }]);
     const session = await lines(made, 16_002);
     expect(await session.ask('{"Instruction":"FRC_WaitTime","SequenceID":1,"Time":0.1}\r\n')).toEqual([
       { Instruction: "FRC_WaitTime", ErrorID: 2556937, SequenceID: 1 },
@@ -81,8 +81,8 @@ describe("the controller", () => {
     expect(farthest(made.real.jointAngles(), [0, 0.5, 0.2, 0, 0, 0])).toBeLessThan(1e-6);
     made.real.disconnect();
     await made.scheduler.elapse(0.1);
-    const door = await lines(made, 16_001);
-    await door.ask('{"Communication":"FRC_Connect"}\r\n');
+    const route = await lines(made, 16_001);
+    await route.ask('{"Communication":"FRC_Connect"}\r\n');
     const session = await lines(made, 16_002);
     const [said] = await session.ask('{"Command":"FRC_ReadJointAngles"}\r\n');
     expect((said as { JointAngle: { J3: number } }).JointAngle.J3).toBeCloseTo((-0.3 * 180) / Math.PI, 4);
@@ -104,8 +104,8 @@ describe("the controller", () => {
       client.close();
     }
     expect(made.log.length).toBeGreaterThan(100);
-    const door = await lines(made, 16_001);
-    expect(await door.ask('{"Communication":"FRC_Connect"}\r\n')).toMatchObject([{ ErrorID: 0 }]);
+    const route = await lines(made, 16_001);
+    expect(await route.ask('{"Communication":"FRC_Connect"}\r\n')).toMatchObject([{ ErrorID: 0 }]);
   });
 });
 

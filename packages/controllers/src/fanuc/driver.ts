@@ -1,5 +1,13 @@
-import type { CommandOutcome, EmittedFile, HandedText, JointSample, Refusal, Robot, Scheduler } from "@twincell/core";
-import type { Face, FaceEvents, FaceMotion, Opened } from "../real/index.ts";
+import type {
+  CommandOutcome,
+  EmittedFile,
+  UploadedProgram,
+  JointSample,
+  Refusal,
+  Robot,
+  Scheduler,
+} from "@twincell/core";
+import type { ControllerAdapter, AdapterEvents, AdapterMotion, Opened } from "../driver/index.ts";
 import type { ByteStream, Network } from "../transport/index.ts";
 import { FTP_PORT, programOf } from "./codec-ftp.ts";
 import {
@@ -18,7 +26,7 @@ import { putFiles } from "./ftp-client.ts";
 import { fanucJoints, JOINTS, jointsOf, shownOf, type FanucJoints } from "./joints.ts";
 import { DONE, refused, stopped } from "../outcomes.ts";
 
-export interface FanucFaceOptions {
+export interface FanucAdapterOptions {
   readonly robot: Robot;
   readonly scheduler: Scheduler;
   readonly network: Network;
@@ -70,7 +78,7 @@ const AT_PENDANT = "Look at the messages on its pendant, reset the robot, then c
  * ending the program RMI_MOVE. The interface has no way to the servos: after an emergency stop from here this client, the only
  * one that is let in, refuses to move until it is reset. It says nothing of the robot's model.
  */
-export function createFanucFace(options: FanucFaceOptions): Face {
+export function createFanucAdapter(options: FanucAdapterOptions): ControllerAdapter {
   const { robot, scheduler, network, host } = options;
   const joints = options.joints ?? fanucJoints(robot);
   const period_s = options.period_s ?? 0.02;
@@ -91,7 +99,7 @@ export function createFanucFace(options: FanucFaceOptions): Face {
     signals: values,
   };
   let stream: ByteStream | null = null;
-  let events: FaceEvents | null = null;
+  let events: AdapterEvents | null = null;
   let stopPolling: (() => void) | null = null;
   let life = 0;
   let polling = false;
@@ -260,7 +268,7 @@ export function createFanucFace(options: FanucFaceOptions): Face {
     );
   }
 
-  async function open(to: FaceEvents): Promise<Opened> {
+  async function open(to: AdapterEvents): Promise<Opened> {
     close();
     const mine = life;
     const fail = (why: Refusal, again: boolean): Opened => {
@@ -285,14 +293,14 @@ export function createFanucFace(options: FanucFaceOptions): Face {
         ),
         false,
       );
-    const door = await network.connect({ host, port: options.port ?? RMI_PORT });
-    if (door.kind === "refused") return fail(noAnswer(door.sentence), true);
+    const route = await network.connect({ host, port: options.port ?? RMI_PORT });
+    if (route.kind === "refused") return fail(noAnswer(route.sentence), true);
     if (mine !== life) {
-      door.stream.close();
+      route.stream.close();
       return fail(closedHere, true);
     }
-    stream = door.stream;
-    listen(door.stream, mine);
+    stream = route.stream;
+    listen(route.stream, mine);
     const reply = await ask("Communication", "FRC_Connect");
     const port = reply ? rmiNumber(reply, "PortNumber") : NaN;
     const id = reply ? rmiNumber(reply, "ErrorID") : NaN;
@@ -300,7 +308,7 @@ export function createFanucFace(options: FanucFaceOptions): Face {
     if (id !== RMI_ERROR.ok || !(port > 0))
       return fail(said(id, "One client at a time is let in: close the other one."), true);
     life++;
-    door.stream.close();
+    route.stream.close();
     const here = life;
     const connected = await network.connect({ host, port });
     if (connected.kind === "refused") {
@@ -329,7 +337,7 @@ export function createFanucFace(options: FanucFaceOptions): Face {
     return { kind: "open" };
   }
 
-  async function move(motion: FaceMotion): Promise<CommandOutcome> {
+  async function move(motion: AdapterMotion): Promise<CommandOutcome> {
     if (motion.path === "arc")
       return refused(
         refusal(
@@ -390,7 +398,7 @@ export function createFanucFace(options: FanucFaceOptions): Face {
     });
   }
   /** Puts the listings on the controller; started, the first one is called and runs to its end. */
-  async function handText(files: readonly EmittedFile[]): Promise<HandedText> {
+  async function handText(files: readonly EmittedFile[]): Promise<UploadedProgram> {
     const listings = files
       .filter(({ name }) => /\.ls$/i.test(name))
       .map(({ text }) => ({ program: programOf(text), text }));

@@ -1,5 +1,5 @@
 export { fanuc } from "./brand.ts";
-export { createFanucFace, type FanucFaceOptions } from "./driver.ts";
+export { createFanucAdapter, type FanucAdapterOptions } from "./driver.ts";
 export { fanucJoints, type FanucJoints } from "./joints.ts";
 export {
   createVirtualFanuc,

@@ -1,5 +1,5 @@
 import type { SafetyState } from "@twincell/core";
-import type { KeyPosition, Pendant, PendantShown } from "../real/index.ts";
+import type { KeyPosition, Pendant, PendantShown } from "../driver/index.ts";
 import { fanucInput, type VirtualFanuc } from "./virtual/controller.ts";
 import type { FanucKey } from "./virtual/machine.ts";
 import { jogKeys } from "../virtual/jog-keys.ts";

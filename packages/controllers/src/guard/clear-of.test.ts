@@ -60,7 +60,7 @@ describe.each([
     const guard = createGuard({ controller: real, scheduler, isSafe: clear.isSafe });
     const me = guard.seat("me");
     const collider = new CellCollider(cell, robot.arm);
-    me.take();
+    me.acquireLease();
     collider.allowContactsAt(robot.home_rad);
     const seen = { least_m: Infinity, stoppedAt: 0 };
     real.onSample(({ q_rad }) => {

@@ -2,7 +2,7 @@ import {
   CellCollider,
   marginOf,
   robotAndCell,
-  WayChecker,
+  PathValidator,
   type CellGeometry,
   type Contact,
   type Robot,
@@ -38,7 +38,7 @@ export function clearOf(
   const collider = new CellCollider(cell, robot.arm);
   const wanted_m = margin_m + registrationError_m;
   collider.allowContactsAt(robot.home_rad);
-  const checker = new WayChecker(collider, robot.arm, { margin_m: wanted_m, keepsMargin: robotAndCell });
+  const checker = new PathValidator(collider, robot.arm, { margin_m: wanted_m, keepsMargin: robotAndCell });
   const pair = collider.pairs.find(each => each.a.kind === "link" && each.b.kind === "object");
   return {
     isSafe: q_rad => checker.free(q_rad),

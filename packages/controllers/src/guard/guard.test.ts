@@ -24,26 +24,26 @@ describeController("guarded virtual RX90L", {
   robot,
   scheduler: manualScheduler,
   make: options => {
-    const seat = createGuard({ controller: createVirtualController(options), scheduler: options.scheduler }).seat(
+    const commander = createGuard({ controller: createVirtualController(options), scheduler: options.scheduler }).seat(
       "test",
     );
-    seat.take();
-    return seat.robot;
+    commander.acquireLease();
+    return commander.robot;
   },
 });
 
-describeController("guarded twin of a virtual RX90L, dead-man pressed", {
+describeController("guarded twin of a virtual RX90L, enabling switch pressed", {
   robot,
   scheduler: manualScheduler,
   make: options => {
     const { scheduler } = options;
-    const seat = createGuard({
+    const commander = createGuard({
       controller: createTwin({ real: createVirtualController(options), scheduler }),
       scheduler,
     }).seat("test");
-    seat.take();
-    seat.hold(true);
-    return seat.robot;
+    commander.acquireLease();
+    commander.setEnabled(true);
+    return commander.robot;
   },
 });
 
@@ -74,15 +74,15 @@ function bench(options: Partial<GuardOptions> = {}) {
   const other = guard.seat("other");
   const notices: string[] = [];
   guard.onNotice(why => notices.push(why.code));
-  me.take();
-  me.hold(true);
+  me.acquireLease();
+  me.setEnabled(true);
   return { scheduler, real, link, guard, me, other, notices };
 }
 
 describe("guard", () => {
   test("one commander at a time; anyone may stop", async () => {
     const { scheduler, me, other } = bench();
-    expect(other.take()).toMatchObject({
+    expect(other.acquireLease()).toMatchObject({
       kind: "refused",
       why: { code: "guard.lease-taken", sentence: `${robot.name} is commanded by me.` },
     });
@@ -93,27 +93,27 @@ describe("guard", () => {
     other.robot.stop();
     await scheduler.elapse(1);
     expect((await command).kind).toBe("stopped");
-    me.release();
+    me.releaseLease();
     expect(await me.robot.moveToZero()).toMatchObject({ kind: "refused", why: { code: "guard.no-lease" } });
-    expect(other.take().kind).toBe("done");
+    expect(other.acquireLease().kind).toBe("done");
   });
 
-  test("letting the dead-man go stops, and nothing moves without it", async () => {
+  test("letting the enabling switch go stops, and nothing moves without it", async () => {
     const { scheduler, real, me } = bench();
     const command = me.robot.moveJoints(turned(1));
     await scheduler.elapse(0.2);
-    me.hold(false);
+    me.setEnabled(false);
     await scheduler.elapse(real.brakingTime_s + 0.01);
     expect(real.isMoving()).toBe(false);
-    expect(await command).toMatchObject({ kind: "stopped", why: { code: "guard.dead-man" } });
-    expect(await me.robot.moveToZero()).toMatchObject({ kind: "refused", why: { code: "guard.dead-man" } });
-    me.hold(true);
+    expect(await command).toMatchObject({ kind: "stopped", why: { code: "guard.enabling-switch" } });
+    expect(await me.robot.moveToZero()).toMatchObject({ kind: "refused", why: { code: "guard.enabling-switch" } });
+    me.setEnabled(true);
     const again = me.robot.moveJoints(turned(0.1));
     await scheduler.elapse(3);
     expect(await again).toEqual({ kind: "done" });
   });
 
-  test("a real robot wants a dead-man unless told otherwise, a virtual one does not", async () => {
+  test("a real robot wants a enabling switch unless told otherwise, a virtual one does not", async () => {
     const scheduler = manualScheduler();
     const virtual = createVirtualController({ robot, scheduler });
     for (const [kind, outcome] of [
@@ -121,9 +121,9 @@ describe("guard", () => {
       ["real", "refused"],
       ["twin", "refused"],
     ] as const) {
-      const seat = createGuard({ controller: { ...virtual, kind }, scheduler }).seat("me");
-      seat.take();
-      const command = seat.robot.moveJoint(1, 0.1);
+      const commander = createGuard({ controller: { ...virtual, kind }, scheduler }).seat("me");
+      commander.acquireLease();
+      const command = commander.robot.moveJoint(1, 0.1);
       await scheduler.elapse(3);
       expect((await command).kind).toBe(outcome);
     }
@@ -150,7 +150,7 @@ describe("guard", () => {
       expect(real.jointAngles()).toEqual(rest);
       expect(guard.state.link).toBe("unconfirmed");
       expect(await me.robot.moveToZero()).toMatchObject({ kind: "refused", why: { code: "guard.link-unconfirmed" } });
-      expect(me.confirm().kind).toBe("done");
+      expect(me.acknowledge().kind).toBe("done");
       const again = me.robot.moveJoints(START);
       await scheduler.elapse(5);
       expect(await again).toEqual({ kind: "done" });
@@ -215,7 +215,7 @@ describe("guard", () => {
       expect(await away).toEqual({ kind: "done" });
     });
 
-    test("T-43 without the dead-man it does not go back by itself; a person's word sends it", async () => {
+    test("T-43 without the enabling switch it does not go back by itself; a person's word sends it", async () => {
       const { scheduler, real, me, guard } = bench({ isSafe });
       const command = me.robot.moveJoints(turned(2));
       let before = -1;
@@ -223,16 +223,16 @@ describe("guard", () => {
         before = scheduler.now_s();
         await scheduler.elapse(0.004);
       }
-      me.hold(false);
+      me.setEnabled(false);
       await scheduler.elapse(2);
       expect((await command).kind).toBe("stopped");
       expect(guard.state).toMatchObject({ motion: "at-rest", trip: "return-wanted" });
       const stood = real.jointAngles();
-      me.hold(true);
+      me.setEnabled(true);
       expect(await me.robot.moveJoints(START)).toMatchObject({ kind: "refused", why: { code: "guard.return-wanted" } });
       await scheduler.elapse(1);
       expect(real.jointAngles()).toEqual(stood);
-      me.confirm();
+      me.acknowledge();
       await scheduler.elapse(2);
       expect(guard.state).toMatchObject({ motion: "at-rest", trip: "none" });
       expect(real.jointAngles()[0]).toBeLessThan(stood[0]!);
@@ -316,7 +316,7 @@ describe("guard", () => {
         },
       });
       const me = guard.seat("me");
-      me.take();
+      me.acquireLease();
       return { scheduler, real, me, most: fastest(real) };
     };
 
@@ -366,7 +366,7 @@ describe("guard", () => {
         },
       });
       const me = guard.seat("me");
-      me.take();
+      me.acquireLease();
       await scheduler.elapse(0.1);
       const command = me.robot.moveJoints(turned(2));
       await scheduler.elapse(2);
@@ -414,7 +414,7 @@ describe("guard", () => {
     };
     const guard = createGuard({ controller, scheduler });
     const me = guard.seat("me");
-    me.take();
+    me.acquireLease();
     await expect(me.robot.moveJoints(START)).rejects.toThrow("The cable was pulled.");
     expect(stops.length).toBe(1);
     expect(guard.state.motion).toBe("at-rest");

@@ -10,7 +10,7 @@ import {
   type Scheduler,
   type Signals,
 } from "@twincell/core";
-import type { Place } from "../cell/index.ts";
+import type { CellMember } from "../cell/index.ts";
 import { listeners } from "../listeners.ts";
 import { jointNumberRefusal, jointRefusal, percentRefusal } from "../refusals.ts";
 import { jointMoveSpeed, speedBound, tcpOf } from "./speed.ts";
@@ -47,7 +47,7 @@ export interface GuardOptions {
   readonly linkDelay_s?: number;
   readonly flangeFromTcp?: Pose<"flange", "tcp">;
   /** The other robots of the cell; see `createSharedCell`. */
-  readonly place?: Place;
+  readonly place?: CellMember;
   /** Begins as one that is only watched; see `Seat.watch`. */
   readonly watching?: boolean;
   /** Speed of the tool in manual mode. */
@@ -63,15 +63,15 @@ export interface GuardedCell {
 }
 
 /** One who may command: mouse, headset, gamepad, server. */
-export interface Seat {
+export interface Commander {
   readonly name: string;
   /** Takes the motion lease. One at a time has it. */
-  take(): CommandOutcome;
-  release(): CommandOutcome;
-  /** The dead-man switch: pressed or let go. */
-  hold(pressed: boolean): CommandOutcome;
+  acquireLease(): CommandOutcome;
+  releaseLease(): CommandOutcome;
+  /** The enabling switch: pressed or let go. */
+  setEnabled(pressed: boolean): CommandOutcome;
   /** A person's word that motion is wanted again, after a lost link or beside an obstacle. */
-  confirm(): CommandOutcome;
+  acknowledge(): CommandOutcome;
   /** Only to look at what others do with the robot, or to command it again. While it is watched only a stop is sent. */
   watch(on: boolean): CommandOutcome;
   /** Why a command would be turned down now; nothing is sent and nothing changes. */
@@ -84,7 +84,7 @@ export interface Seat {
 
 export interface Guard {
   readonly state: GuardState;
-  seat(name: string): Seat;
+  seat(name: string): Commander;
   /** Anyone may stop. */
   stop(emergency?: boolean): void;
   /** Who keeps the link knows that it is gone, maybe before it was silent for long, and maybe back before that. */
@@ -352,18 +352,18 @@ export function createGuard(options: GuardOptions): Guard {
     return denied ? refused(denied) : DONE;
   };
 
-  function seat(who: string): Seat {
+  function seat(who: string): Commander {
     return {
       name: who,
-      take() {
+      acquireLease() {
         alive_s = scheduler.now_s();
         return act({ type: "take", who });
       },
-      release() {
+      releaseLease() {
         if (state.holder === who && state.motion === "moving") because = leaseGivenBack;
         return act({ type: "release", who });
       },
-      hold(pressed) {
+      setEnabled(pressed) {
         if (!pressed && rules.deadMan && state.holder === who && state.motion === "moving") because = switchLetGo;
         return act({ type: pressed ? "press" : "let-go", who });
       },
@@ -375,7 +375,7 @@ export function createGuard(options: GuardOptions): Guard {
         const { denied } = guardStep(state, { type: "ask", who }, rules);
         return denied ? denialRefusal(denied, robot.name, state.holder) : null;
       },
-      confirm() {
+      acknowledge() {
         alive_s = scheduler.now_s();
         return act({ type: "confirm", who });
       },

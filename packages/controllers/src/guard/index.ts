@@ -1,4 +1,4 @@
-export { createGuard, GUARD_NOTICE, type Guard, type GuardOptions, type Seat } from "./guard.ts";
+export { createGuard, GUARD_NOTICE, type Guard, type GuardOptions, type Commander } from "./guard.ts";
 export {
   AT_FIRST,
   guardStep,

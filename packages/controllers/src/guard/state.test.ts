@@ -43,14 +43,14 @@ function explore(rules: GuardRules): { states: GuardState[]; edges: Edge[] } {
 }
 const underWay = (state: GuardState): boolean => state.motion === "moving" || state.motion === "returning";
 
-describe.each([{ deadMan: true }, { deadMan: false }])("guard, all states × all events, dead-man %o", rules => {
+describe.each([{ deadMan: true }, { deadMan: false }])("guard, all states × all events, enabling switch %o", rules => {
   const { states, edges } = explore(rules);
 
   test("there are many states and the walk is closed", () => {
     expect(states.length).toBeGreaterThan(50);
     expect(edges.length).toBe(states.length * EVENTS.length);
   });
-  test("nothing moves without lease, dead-man and link, nor with the drives off", () => {
+  test("nothing moves without lease, enabling switch and link, nor with the drives off", () => {
     for (const state of states) if (underWay(state)) expect(mayMove(state, rules), JSON.stringify(state)).toBe(true);
     for (const { answer } of edges) {
       if (answer.effects.includes("forward") || answer.effects.includes("return"))

@@ -5,7 +5,7 @@
 export interface GuardState {
   /** Who holds the motion lease; null when nobody does. */
   readonly holder: string | null;
-  /** The holder keeps the dead-man pressed. */
+  /** The holder keeps the enabling switch pressed. */
   readonly pressed: boolean;
   /** "unconfirmed": back after a loss, and nobody has said yet that motion is wanted. */
   readonly link: "up" | "lost" | "unconfirmed";
@@ -47,7 +47,7 @@ export type GuardEffect = "forward" | "return" | "stop" | "emergency-stop";
 export type GuardDenial =
   | "lease-taken"
   | "no-lease"
-  | "dead-man"
+  | "enabling-switch"
   | "link-lost"
   | "link-unconfirmed"
   | "emergency"
@@ -173,5 +173,5 @@ function whyNot(state: GuardState, who: string, rules: GuardRules): GuardDenial 
   if (state.emergency) return "emergency";
   if (state.holder !== who) return state.holder === null ? "no-lease" : "lease-taken";
   if (state.link === "unconfirmed") return "link-unconfirmed";
-  return rules.deadMan && !state.pressed ? "dead-man" : null;
+  return rules.deadMan && !state.pressed ? "enabling-switch" : null;
 }

@@ -14,9 +14,9 @@ export function denialRefusal(denied: GuardDenial, robot: string, holder: string
       };
     case "no-lease":
       return { code: "guard.no-lease", sentence: `Nobody has taken command of ${robot}.`, hint: "Take command first." };
-    case "dead-man":
+    case "enabling-switch":
       return {
-        code: "guard.dead-man",
+        code: "guard.enabling-switch",
         sentence: "The enabling switch is not pressed.",
         hint: "Keep it pressed for as long as the robot is to move.",
       };
@@ -64,7 +64,7 @@ export function denialRefusal(denied: GuardDenial, robot: string, holder: string
 export const onlyWatched = (robot: string): Refusal => ({
   code: "guard.watching",
   sentence: `${robot} was opened to watch: nothing is commanded from here.`,
-  hint: "Take it to command first. A stop works all the same.",
+  hint: "Take control first. A stop works all the same.",
 });
 export const watchedLinkDown = (robot: string, silent_s: number): Refusal => ({
   code: "guard.link-lost",
@@ -97,7 +97,7 @@ export const commanderWentSilent = (who: string, silent_s: number): Refusal => (
   hint: "Reconnect, then confirm that motion is wanted.",
 });
 export const switchLetGo: Refusal = {
-  code: "guard.dead-man",
+  code: "guard.enabling-switch",
   sentence: "The enabling switch was let go.",
   hint: "Keep it pressed for as long as the robot is to move.",
 };

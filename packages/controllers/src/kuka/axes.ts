@@ -36,15 +36,15 @@ const OUTER = ["E1", "E2", "E3", "E4", "E5", "E6"].map(name => [name, 0] as cons
 /** `{E6POS: X …, S, T, E1 …}` in mm and degrees; S and T only where they are given. */
 export function e6pos(
   { position, quaternion }: Pose,
-  posture: { readonly s: number; readonly t: number } | null,
+  configuration: { readonly s: number; readonly t: number } | null,
   digits = REAL_DIGITS,
 ): string {
   const [a, b, c] = toKukaAbc(quaternion);
   const values = [1000 * position[0], 1000 * position[1], 1000 * position[2], a, b, c];
-  const turn = posture
+  const turn = configuration
     ? ([
-        ["S", posture.s],
-        ["T", posture.t],
+        ["S", configuration.s],
+        ["T", configuration.t],
       ] as const)
     : [];
   return krlStruct("E6POS", [...FRAME_NAMES.map((name, i) => [name, values[i]!] as const), ...turn, ...OUTER], digits, [

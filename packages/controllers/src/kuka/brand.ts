@@ -1,11 +1,17 @@
 import type { SignalLine } from "@twincell/core";
-import type { Brand, BrandStarted, BrandVirtualOptions, Face, FaceOptions } from "../real/index.ts";
+import type {
+  DriverKind,
+  StartedDriver,
+  VendorVirtualOptions,
+  ControllerAdapter,
+  AdapterOptions,
+} from "../driver/index.ts";
 import { kukaAxes } from "./axes.ts";
 import { KUKA_CANNOT, KUKA_RSI_CANNOT } from "./cannot.ts";
 import { C3_PORT } from "./codec-c3.ts";
 import { axisConfig } from "./codec-rsi.ts";
-import { createKukaFace } from "./driver/face.ts";
-import { createKukaRsiFace } from "./driver/rsi-face.ts";
+import { createKukaAdapter } from "./adapter/adapter.ts";
+import { createKukaRsiAdapter } from "./adapter/rsi-adapter.ts";
 import { RSI_NAME } from "./loop.ts";
 import { kukaPendant } from "./pendant.ts";
 import { createVirtualKuka, startLoop } from "./virtual/controller.ts";
@@ -18,11 +24,11 @@ const TERMINALS: Readonly<Record<SignalLine["kind"], string>> = {
 };
 
 const RSI = axisConfig("127.0.0.2", 49_152);
-const overRsi = ({ robot, scheduler, network, host, ports }: FaceOptions): Face =>
-  createKukaRsiFace({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT, config: RSI });
+const overRsi = ({ robot, scheduler, network, host, ports }: AdapterOptions): ControllerAdapter =>
+  createKukaRsiAdapter({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT, config: RSI });
 
 /** KUKA as apps meet it. The virtual controller begins in EXT with its drives on and the program TWINCELL running. */
-export const kuka: Brand = {
+export const kuka: DriverKind = {
   id: "kuka",
   name: "KUKA",
   dialect: "krl",
@@ -41,11 +47,11 @@ export const kuka: Brand = {
   ],
   terminal: ({ kind, address }) => `${TERMINALS[kind]}[${address}]`,
   face: ({ robot, scheduler, network, host, ports }) =>
-    createKukaFace({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT }),
+    createKukaAdapter({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT }),
   virtual: options => start(options, false),
 };
 /** The same controllers, moved by increments of RSI where its sensor file names this computer; a virtual one sends to 127.0.0.2. */
-export const kukaOverRsi: Brand = {
+export const kukaOverRsi: DriverKind = {
   ...kuka,
   id: "kuka-rsi",
   name: "KUKA over RSI",
@@ -55,9 +61,9 @@ export const kukaOverRsi: Brand = {
 };
 
 async function start(
-  { robot, scheduler, network, host, ports, interpret, start_rad, maxSpeed }: BrandVirtualOptions,
+  { robot, scheduler, network, host, ports, interpret, start_rad, maxSpeed }: VendorVirtualOptions,
   overRsi: boolean,
-): Promise<BrandStarted> {
+): Promise<StartedDriver> {
   if (!kukaAxes(robot))
     return { kind: "taken", sentence: `How a KUKA controller counts the axes of ${robot.name} is not known.` };
   const virtual = await createVirtualKuka({

@@ -1,4 +1,4 @@
-import type { Cannot } from "../real/index.ts";
+import type { Cannot } from "../driver/index.ts";
 
 /** Over variables, with the program TWINCELL running. */
 export const KUKA_CANNOT: readonly Cannot[] = [

@@ -1,7 +1,7 @@
 /** Messages written out by hand from the samples of the protocol specification, not by our encoder. */
 import { seededRandom } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { C3_MOST_BYTES, C3Reader, C3Writer, isC3Type } from "./codec-c3.ts";
+import { C3_MAX_BYTES, C3Reader, C3Writer, isC3Type } from "./codec-c3.ts";
 import { readC3Reply, writeC3Reply, type C3Reply } from "./codec-c3-replies.ts";
 import { readC3Request, writeC3Request, type C3Request } from "./codec-c3-requests.ts";
 
@@ -178,7 +178,7 @@ describe("messages of the C3 Bridge Interface", () => {
       );
       const reader = new C3Reader();
       reader.push(bytes, (_, type, payload) => {
-        expect(payload.length).toBeLessThan(C3_MOST_BYTES);
+        expect(payload.length).toBeLessThan(C3_MAX_BYTES);
         readC3Request(type, payload);
         readC3Reply(type, payload);
         return true;

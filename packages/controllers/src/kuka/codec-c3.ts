@@ -73,13 +73,13 @@ export const FILE_STEP = { begin: 1, data: 2, size: 3, end: 4 } as const;
 const HEADER = 4;
 const MOST = 0xffff;
 /** Most bytes of one message: the length field says no more. */
-export const C3_MOST_BYTES = HEADER + MOST;
+export const C3_MAX_BYTES = HEADER + MOST;
 
 /**
  * Cuts a stream into messages, however it arrives. Holds at most one message. One per connection.
  */
 export class C3Reader {
-  private readonly buffer = new Uint8Array(C3_MOST_BYTES);
+  private readonly buffer = new Uint8Array(C3_MAX_BYTES);
   private filled = 0;
   /** Whether a message has begun that is not complete. */
   get partial(): boolean {
@@ -114,7 +114,7 @@ export class C3Reader {
 
 /** Writes one message after the other into the same bytes. `take` lends them until the next `begin`. */
 export class C3Writer {
-  private readonly bytes = new Uint8Array(C3_MOST_BYTES);
+  private readonly bytes = new Uint8Array(C3_MAX_BYTES);
   private at = 0;
   private tooLong = false;
 
@@ -124,7 +124,7 @@ export class C3Writer {
     return this.u16(tag).u16(0).u8(type);
   }
   u8(value: number): this {
-    if (this.at >= C3_MOST_BYTES) this.tooLong = true;
+    if (this.at >= C3_MAX_BYTES) this.tooLong = true;
     else this.bytes[this.at++] = value;
     return this;
   }

@@ -1,12 +1,12 @@
 import { manualScheduler } from "@twincell/core";
-import { createRealController } from "../real/index.ts";
+import { createRealController } from "../driver/index.ts";
 import { describeController } from "../testing/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
 import { KUKA_CANNOT, KUKA_RSI_CANNOT } from "./cannot.ts";
 import {
   axisConfig,
-  createKukaFace,
-  createKukaRsiFace,
+  createKukaAdapter,
+  createKukaRsiAdapter,
   createVirtualKuka,
   kukaAxes,
   RSI_NAME,
@@ -36,9 +36,9 @@ describeController("KUKA driver on its virtual controller, over variables", {
       ...(maxSpeed === undefined ? {} : { maxSpeed }),
     });
     startLoop(kuka);
-    const face = createKukaFace({ robot, scheduler, network, host: HOST, axes, model, period_s: 0.004 });
+    const adapter = createKukaAdapter({ robot, scheduler, network, host: HOST, axes, model, period_s: 0.004 });
     const controller = createRealController({
-      face,
+      face: adapter,
       scheduler,
       ...(initialize ? { initialize } : {}),
       ...(onMotion ? { onMotion } : {}),
@@ -74,7 +74,7 @@ describeController("KUKA driver on its virtual controller, over RSI", {
       ...(maxSpeed === undefined ? {} : { maxSpeed }),
     });
     startLoop(kuka, RSI_NAME);
-    const face = createKukaRsiFace({
+    const adapter = createKukaRsiAdapter({
       robot,
       scheduler,
       network,
@@ -86,7 +86,7 @@ describeController("KUKA driver on its virtual controller, over RSI", {
       decimals: 10,
     });
     const controller = createRealController({
-      face,
+      face: adapter,
       scheduler,
       ...(initialize ? { initialize } : {}),
       ...(onMotion ? { onMotion } : {}),

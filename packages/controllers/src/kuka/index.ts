@@ -8,8 +8,8 @@ export {
   type VirtualKuka,
   type VirtualKukaOptions,
 } from "./virtual/controller.ts";
-export { createKukaFace, type KukaFaceOptions } from "./driver/face.ts";
-export { createKukaRsiFace, type KukaRsiFaceOptions } from "./driver/rsi-face.ts";
+export { createKukaAdapter, type KukaAdapterOptions } from "./adapter/adapter.ts";
+export { createKukaRsiAdapter, type KukaRsiAdapterOptions } from "./adapter/rsi-adapter.ts";
 export { axisConfig, readRsiConfig, rsiConfigText, type RsiConfig } from "./codec-rsi.ts";
 export type { RsiOptions } from "./virtual/rsi-run.ts";
 export type { KukaFaults } from "./virtual/faults.ts";

@@ -1,5 +1,5 @@
 import type { OperatingMode, SafetyState, Scheduler } from "@twincell/core";
-import type { KeyPosition, Pendant, PendantShown } from "../real/index.ts";
+import type { KeyPosition, Pendant, PendantShown } from "../driver/index.ts";
 import type { VirtualKuka } from "./virtual/controller.ts";
 import type { KukaMode } from "./virtual/machine.ts";
 import { jogKeys } from "../virtual/jog-keys.ts";

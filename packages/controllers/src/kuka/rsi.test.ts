@@ -1,12 +1,12 @@
 import { flangePose, type CommandOutcome } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { createRealController } from "../real/index.ts";
+import { createRealController } from "../driver/index.ts";
 import { manualScheduler } from "../testing/index.ts";
 import { memoryNetwork, type DatagramSocket } from "../transport/index.ts";
 import { readRsi, rsiNumber, type RsiConfig, type RsiElement } from "./codec-rsi.ts";
 import {
   axisConfig,
-  createKukaRsiFace,
+  createKukaRsiAdapter,
   createVirtualKuka,
   RSI_FILE,
   RSI_NAME,
@@ -45,7 +45,7 @@ async function driven(rsi: Partial<RsiOptions> = {}) {
   const { scheduler, network } = bench;
   startLoop(bench.kuka, RSI_NAME);
   const real = createRealController({
-    face: createKukaRsiFace({ robot: KR6, scheduler, network, host: HOST, config: CONFIG }),
+    face: createKukaRsiAdapter({ robot: KR6, scheduler, network, host: HOST, config: CONFIG }),
     scheduler,
   });
   const connecting = real.connect();

@@ -1,7 +1,7 @@
-import type { Brand } from "../real/index.ts";
+import type { DriverKind } from "../driver/index.ts";
 import { CS7_CANNOT } from "./cannot.ts";
 import { LINE_PORT } from "./codec.ts";
-import { createCs7Face } from "./driver/index.ts";
+import { createCs7Adapter } from "./adapter/index.ts";
 import { vPlusJoints } from "./joints.ts";
 import { cs7Pendant } from "./pendant.ts";
 import { createVirtualCs7 } from "./virtual/index.ts";
@@ -9,7 +9,7 @@ import { createVirtualCs7 } from "./virtual/index.ts";
 const PORTS = { line: LINE_PORT };
 
 /** CS7 and Adept MV as apps meet them: the monitor of V+ on a raw line. */
-export const staubliCs7: Brand = {
+export const staubliCs7: DriverKind = {
   id: "staubli-cs7",
   name: "Stäubli CS7 (V+)",
   dialect: "v-plus",
@@ -28,7 +28,7 @@ export const staubliCs7: Brand = {
   ],
   face({ robot, scheduler, network, host, ports, data }) {
     const baud = data?.["baud"]?.[0];
-    return createCs7Face({
+    return createCs7Adapter({
       robot,
       scheduler,
       network,

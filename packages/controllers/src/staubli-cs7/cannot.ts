@@ -1,4 +1,4 @@
-import type { Cannot } from "../real/index.ts";
+import type { Cannot } from "../driver/index.ts";
 
 /** Over the monitor of V+, with the program TWC.MOVE in memory. */
 export const CS7_CANNOT: readonly Cannot[] = [

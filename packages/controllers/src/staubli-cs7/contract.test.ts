@@ -1,9 +1,9 @@
 import { manualScheduler, robotById } from "@twincell/core";
-import { createRealController } from "../real/index.ts";
+import { createRealController } from "../driver/index.ts";
 import { describeController } from "../testing/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
 import { CS7_CANNOT } from "./cannot.ts";
-import { createCs7Face, createVirtualCs7, vPlusJoints } from "./index.ts";
+import { createCs7Adapter, createVirtualCs7, vPlusJoints } from "./index.ts";
 
 const robot = robotById("staubli_rx90l")!;
 const joints = vPlusJoints(robot)!;
@@ -32,9 +32,9 @@ describeController("Stäubli CS7 driver on its virtual controller, over the moni
       interpret: () => ({ kind: "not-understood", faults: [] }),
       ...(maxSpeed === undefined ? {} : { maxSpeed }),
     });
-    const face = createCs7Face({ robot: driven, scheduler, network, host: HOST, joints, period_s: POLL_S });
+    const adapter = createCs7Adapter({ robot: driven, scheduler, network, host: HOST, joints, period_s: POLL_S });
     const controller = createRealController({
-      face,
+      face: adapter,
       scheduler,
       ...(initialize ? { initialize } : {}),
       ...(onMotion ? { onMotion } : {}),

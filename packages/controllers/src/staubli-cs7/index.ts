@@ -1,5 +1,5 @@
 export { staubliCs7 } from "./brand.ts";
-export { createCs7Face, type Cs7FaceOptions } from "./driver/index.ts";
+export { createCs7Adapter, type Cs7FaceOptions } from "./adapter/index.ts";
 export { vPlusJoints, type VPlusJoints } from "./joints.ts";
 export {
   createVirtualCs7,

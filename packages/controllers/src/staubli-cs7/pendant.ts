@@ -1,5 +1,5 @@
 import type { SafetyState, Scheduler } from "@twincell/core";
-import type { KeyPosition, Pendant, PendantShown } from "../real/index.ts";
+import type { KeyPosition, Pendant, PendantShown } from "../driver/index.ts";
 import { stateName } from "./codec.ts";
 import type { VirtualCs7 } from "./virtual/index.ts";
 import { jogKeys } from "../virtual/jog-keys.ts";

@@ -1,7 +1,7 @@
-import type { Brand } from "../real/index.ts";
+import type { DriverKind } from "../driver/index.ts";
 import { STAUBLI_CANNOT } from "./cannot.ts";
 import { FEEDBACK_PORT, MOTION_PORT } from "./codec.ts";
-import { createStaubliFace } from "./driver/index.ts";
+import { createStaubliAdapter } from "./adapter/index.ts";
 import { staubliPendant } from "./pendant.ts";
 import { JOINTS, speaksSimpleMessage } from "./robots.ts";
 import { createVirtualStaubli } from "./virtual/index.ts";
@@ -9,7 +9,7 @@ import { createVirtualStaubli } from "./virtual/index.ts";
 const PORTS = { motion: MOTION_PORT, feedback: FEEDBACK_PORT };
 
 /** CS8 and CS9 as apps meet them: simple_message with the open VAL 3 program ros_server. */
-export const staubli: Brand = {
+export const staubli: DriverKind = {
   id: "staubli",
   name: "Stäubli (VAL 3)",
   dialect: "val3",
@@ -18,7 +18,7 @@ export const staubli: Brand = {
   cannot: STAUBLI_CANNOT,
   drives: speaksSimpleMessage,
   face: ({ robot, scheduler, network, host, ports }) =>
-    createStaubliFace({ robot, scheduler, network, host, ports: { ...PORTS, ...ports } }),
+    createStaubliAdapter({ robot, scheduler, network, host, ports: { ...PORTS, ...ports } }),
   async virtual({ robot, scheduler, network, host, ports, interpret, start_rad, maxSpeed }) {
     if (robot.arm.joints.length === JOINTS && !speaksSimpleMessage(robot))
       return { kind: "taken", sentence: `${robot.name} counts its joints as V+ does: it stands on a CS7.` };

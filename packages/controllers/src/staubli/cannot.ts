@@ -1,4 +1,4 @@
-import type { Cannot } from "../real/index.ts";
+import type { Cannot } from "../driver/index.ts";
 
 /** Over simple_message, with the VAL 3 program ros_server running. */
 export const STAUBLI_CANNOT: readonly Cannot[] = [

@@ -1,9 +1,9 @@
 import { manualScheduler, robotById } from "@twincell/core";
-import { createRealController } from "../real/index.ts";
+import { createRealController } from "../driver/index.ts";
 import { describeController } from "../testing/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
 import { STAUBLI_CANNOT } from "./cannot.ts";
-import { createStaubliFace, createVirtualStaubli } from "./index.ts";
+import { createStaubliAdapter, createVirtualStaubli } from "./index.ts";
 
 const robot = robotById("staubli_rx160")!;
 const HOST = "127.0.0.6";
@@ -31,9 +31,9 @@ describeController("Stäubli driver on its virtual controller, over simple_messa
       interpret: () => ({ kind: "not-understood", faults: [] }),
       ...(maxSpeed === undefined ? {} : { maxSpeed }),
     });
-    const face = createStaubliFace({ robot: driven, scheduler, network, host: HOST });
+    const adapter = createStaubliAdapter({ robot: driven, scheduler, network, host: HOST });
     const controller = createRealController({
-      face,
+      face: adapter,
       scheduler,
       ...(initialize ? { initialize } : {}),
       ...(onMotion ? { onMotion } : {}),

@@ -1,5 +1,5 @@
 export { staubli } from "./brand.ts";
-export { createStaubliFace, type StaubliFaceOptions } from "./driver/index.ts";
+export { createStaubliAdapter, type StaubliAdapterOptions } from "./adapter/index.ts";
 export {
   createVirtualStaubli,
   type StaubliMode,

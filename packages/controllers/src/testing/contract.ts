@@ -6,8 +6,8 @@ import {
   type RobotController,
 } from "@twincell/core";
 import { afterEach, describe, expect, test } from "vitest";
-import type { Cannot } from "../real/index.ts";
-import { onSpoiledSample } from "./spoiled.ts";
+import type { Cannot } from "../driver/index.ts";
+import { onCorruptSample } from "./spoiled.ts";
 
 /** What a bench must be able to set up for a controller under test. */
 export interface BenchOptions {
@@ -117,7 +117,7 @@ export function describeController(name: string, contract: Contract): void {
       const flags: boolean[] = [];
       await scheduler.elapse(0.05);
       expect(controller.isMoving()).toBe(true);
-      const stop = onSpoiledSample(controller, sample => flags.push(sample.moving));
+      const stop = onCorruptSample(controller, sample => flags.push(sample.moving));
       await carryOut(command);
       await scheduler.elapse(0.05);
       stop();
@@ -192,7 +192,7 @@ export function describeController(name: string, contract: Contract): void {
     row("T-10 a stop leaves the drives on, an emergency stop takes them off until reset", async () => {
       const { controller, scheduler, carryOut } = await bench();
       const safety: string[] = [];
-      const stopListening = onSpoiledSample(controller, sample => {
+      const stopListening = onCorruptSample(controller, sample => {
         if (safety.at(-1) !== sample.safety) safety.push(sample.safety);
       });
       const first = controller.moveJoints(at(0.9));
@@ -273,7 +273,7 @@ export function describeController(name: string, contract: Contract): void {
       let cycle_s = 0;
       let time_s = NaN;
       let steady = true;
-      const stop = onSpoiledSample(controller, sample => {
+      const stop = onCorruptSample(controller, sample => {
         if (samples++ > 0) {
           cycle_s = Math.max(cycle_s, sample.time_s - time_s);
           steady &&= sample.time_s > time_s;

@@ -2,7 +2,7 @@ export { manualScheduler } from "@twincell/core";
 export * from "./contract.ts";
 export * from "./ended.ts";
 export * from "./network.ts";
-export * from "./near-face.ts";
+export * from "./in-memory-adapter.ts";
 export * from "./numeric.ts";
 export * from "./rows.ts";
 export * from "./spoiled.ts";

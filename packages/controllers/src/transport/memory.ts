@@ -1,7 +1,7 @@
 import { seededRandom, type Scheduler } from "@twincell/core";
 import { addressText, type Address, type ByteStream, type DatagramSocket, type Ending, type Network } from "./port.ts";
 import { spoiled } from "./spoil.ts";
-import { calm, type Side, type Weather } from "./weather.ts";
+import { calm, type Side, type NetworkConditions } from "./weather.ts";
 
 /** How often the memory network looks for what is due [s]. */
 const TICK_S = 0.0005;
@@ -15,7 +15,7 @@ const MOST_RESENDS = 5;
 
 export interface MemoryNetwork extends Network {
   /** Of everything, both ways. */
-  readonly weather: Weather;
+  readonly weather: NetworkConditions;
   /** Ends every stream without a word to the others when `halfOpen`, or with the ending a broken line has. */
   cut(halfOpen?: boolean): void;
   /** Bytes under way. */
@@ -40,7 +40,7 @@ interface Parcel {
  * @param seed  of everything that happens by chance.
  */
 export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
-  const weather = calm();
+  const conditions = calm();
   const random = seededRandom(seed);
   const servers = new Map<string, (stream: ByteStream) => void>();
   const sockets = new Map<
@@ -63,20 +63,20 @@ export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
 
   /** Puts something on its way. `line` keeps its order; without one it may be overtaken. */
   const post = (bytes: number, deliver: () => void, line: object | null, towards: Side | "both"): void => {
-    let due_s = scheduler.now_s() + weather.delay_s + weather.jitter_s * random();
+    let due_s = scheduler.now_s() + conditions.delay_s + conditions.jitter_s * random();
     if (line) {
-      for (let again = 0; weather.loss > 0 && again < MOST_RESENDS && random() < weather.loss; again++)
+      for (let again = 0; conditions.loss > 0 && again < MOST_RESENDS && random() < conditions.loss; again++)
         due_s += RESEND_S;
       due_s = Math.max(due_s, latest.get(line) ?? 0);
       latest.set(line, due_s);
     }
-    parcels.push({ due_s, order: order++, line: line ?? weather, deliver, bytes, datagram: line === null, towards });
+    parcels.push({ due_s, order: order++, line: line ?? conditions, deliver, bytes, datagram: line === null, towards });
     underWay += bytes;
   };
 
   const stop = scheduler.every(TICK_S, () => {
     if (parcels.length === 0) return;
-    if (weather.frozen || weather.deaf !== null) {
+    if (conditions.frozen || conditions.deaf !== null) {
       for (const parcel of parcels) if (parcel.datagram && isHeld(parcel)) underWay -= parcel.bytes;
       parcels = parcels.filter(parcel => !(parcel.datagram && isHeld(parcel)));
     }
@@ -93,7 +93,7 @@ export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
 
   /** Whoever calls needs an answer: a connection that is half open is not made. */
   const isHeld = ({ towards }: Parcel): boolean =>
-    weather.frozen || (weather.deaf !== null && (towards === "both" || towards === weather.deaf));
+    conditions.frozen || (conditions.deaf !== null && (towards === "both" || towards === conditions.deaf));
 
   function pair(client: Address, server: Address): readonly [ByteStream, ByteStream] {
     const one = half(server, "listener");
@@ -157,8 +157,8 @@ export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
           waiting += bytes.length;
           return;
         }
-        const whole = spoiled(bytes, weather, random);
-        const step = weather.pieces > 0 ? weather.pieces : whole.length;
+        const whole = spoiled(bytes, conditions, random);
+        const step = conditions.pieces > 0 ? conditions.pieces : whole.length;
         for (let at = 0; at < whole.length; at += step) {
           const piece = whole.subarray(at, at + step);
           waiting += piece.length;
@@ -219,7 +219,7 @@ export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
   }
 
   return {
-    weather,
+    weather: conditions,
     get underWay() {
       return underWay;
     },
@@ -229,7 +229,7 @@ export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
           0,
           () => {
             const accept = servers.get(addressText(to));
-            if (!accept || weather.refusing) {
+            if (!accept || conditions.refusing) {
               resolve({ kind: "refused", sentence: `Nobody answers at ${addressText(to)}.` });
               return;
             }
@@ -268,9 +268,9 @@ export function memoryNetwork(scheduler: Scheduler, seed = 1): MemoryNetwork {
       const socket: DatagramSocket = {
         address: at,
         send(bytes, to) {
-          if (sockets.get(key) !== own || random() < weather.loss) return;
-          for (let copies = random() < weather.duplicates ? 2 : 1; copies > 0; copies--) {
-            const parcel = spoiled(bytes, weather, random);
+          if (sockets.get(key) !== own || random() < conditions.loss) return;
+          for (let copies = random() < conditions.duplicates ? 2 : 1; copies > 0; copies--) {
+            const parcel = spoiled(bytes, conditions, random);
             post(
               parcel.length,
               () => {

@@ -1,16 +1,16 @@
-import type { Weather } from "./weather.ts";
+import type { NetworkConditions } from "./weather.ts";
 
 /** A number in a text, with its sign and its digits behind the point. */
 const NUMBER = /-?\d+(\.\d+)?/g;
 const NUMBER_BYTES = 8;
 
 /** What the weather makes of a chunk; the chunk itself stays as it is, and so does its length. */
-export function spoiled(bytes: Uint8Array, weather: Weather, random: () => number): Uint8Array {
+export function spoiled(bytes: Uint8Array, conditions: NetworkConditions, random: () => number): Uint8Array {
   const copy = bytes.slice();
   if (copy.length === 0) return copy;
-  if (weather.garbage > 0 && random() < weather.garbage)
+  if (conditions.garbage > 0 && random() < conditions.garbage)
     copy[Math.floor(random() * copy.length)] = Math.floor(random() * 256);
-  if (weather.absurd > 0 && random() < weather.absurd) absurd(copy, random);
+  if (conditions.absurd > 0 && random() < conditions.absurd) absurd(copy, random);
   return copy;
 }
 

@@ -2,7 +2,7 @@ import { seededRandom, type Scheduler } from "@twincell/core";
 import { addressText, type Address, type ByteStream, type DatagramSocket, type Network } from "./port.ts";
 
 /** What befalls a controller that stands on a network, by switch. All at rest by default. */
-export interface Trouble {
+export interface FaultInjection {
   /** Everything it says and hears comes so much later [s]. */
   delay_s: number;
   /** Part of the datagrams that are lost, and of the chunks of a connection that have to be sent again, 0 … 1. */
@@ -12,10 +12,10 @@ export interface Trouble {
   /** The network plug is out: nothing comes or goes, nobody is told. */
   unplugged: boolean;
 }
-export interface Surroundings {
+export interface NetworkEmulator {
   readonly network: Network;
   readonly scheduler: Scheduler;
-  readonly trouble: Trouble;
+  readonly trouble: FaultInjection;
   /** Who is connected, and who has sent datagrams lately. */
   peers(): readonly string[];
   close(): void;
@@ -39,8 +39,8 @@ interface Parcel {
  * Puts a network and a clock between a controller and the world, on which things go wrong by switch: whatever the brand, and
  * whatever the network is. A controller made on `network` and `scheduler` need not know of it.
  */
-export function surround(inner: Network, clock: Scheduler, seed = 1): Surroundings {
-  const trouble: Trouble = { delay_s: 0, loss: 0, hangs: false, unplugged: false };
+export function emulateNetwork(inner: Network, clock: Scheduler, seed = 1): NetworkEmulator {
+  const faultInjection: FaultInjection = { delay_s: 0, loss: 0, hangs: false, unplugged: false };
   const random = seededRandom(seed);
   const streams = new Map<ByteStream, string>();
   const heard = new Map<string, number>();
@@ -48,7 +48,7 @@ export function surround(inner: Network, clock: Scheduler, seed = 1): Surroundin
   let hung_s = 0;
   let since_s = 0;
   let wasHung = false;
-  const still = (): boolean => trouble.hangs || trouble.unplugged;
+  const still = (): boolean => faultInjection.hangs || faultInjection.unplugged;
 
   /** Parcels of one direction of one connection, in order. */
   class Line {
@@ -56,8 +56,9 @@ export function surround(inner: Network, clock: Scheduler, seed = 1): Surroundin
     private readonly parcels: Parcel[] = [];
     /** False when too much waits: the connection is to be cut. */
     post(bytes: Uint8Array, deliver: (bytes: Uint8Array) => void, lossy: boolean): boolean {
-      if (lossy && (still() || random() < trouble.loss)) return true;
-      const late_s = trouble.delay_s + (!lossy && trouble.loss > 0 && random() < trouble.loss ? AGAIN_S : 0);
+      if (lossy && (still() || random() < faultInjection.loss)) return true;
+      const late_s =
+        faultInjection.delay_s + (!lossy && faultInjection.loss > 0 && random() < faultInjection.loss ? AGAIN_S : 0);
       if (this.parcels.length === 0 && late_s === 0 && !still()) {
         deliver(bytes);
         return true;
@@ -88,8 +89,8 @@ export function surround(inner: Network, clock: Scheduler, seed = 1): Surroundin
   }
 
   const stop = clock.every(TICK_S, () => {
-    if (trouble.hangs !== wasHung) {
-      wasHung = trouble.hangs;
+    if (faultInjection.hangs !== wasHung) {
+      wasHung = faultInjection.hangs;
       if (wasHung) since_s = clock.now_s();
       else hung_s += clock.now_s() - since_s;
     }
@@ -195,7 +196,7 @@ export function surround(inner: Network, clock: Scheduler, seed = 1): Surroundin
   }
 
   return {
-    trouble,
+    trouble: faultInjection,
     scheduler,
     network: {
       connect: async to => {

@@ -2,7 +2,7 @@
 export type Side = "listener" | "caller";
 
 /** What the line does to what is sent over it. All at rest by default; changed at any time, in force for what is sent from then on. */
-export interface Weather {
+export interface NetworkConditions {
   /** Least time under way [s], and how much more it may be by chance. */
   delay_s: number;
   jitter_s: number;
@@ -24,7 +24,7 @@ export interface Weather {
   refusing: boolean;
 }
 
-export const calm = (): Weather => ({
+export const calm = (): NetworkConditions => ({
   delay_s: 0,
   jitter_s: 0,
   loss: 0,

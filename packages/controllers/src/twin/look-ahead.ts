@@ -1,5 +1,5 @@
 import { samplePlan, type Finding, type Plan, type Refusal } from "@twincell/core";
-import type { Place } from "../cell/index.ts";
+import type { CellMember } from "../cell/index.ts";
 
 /** Looked at along the way ahead [s]. */
 const STEP_S = 0.1;
@@ -8,8 +8,8 @@ export const PREVIEW_S = 60;
 /** Findings that keep a program from being sent; the others are told. */
 const BLOCKS = /^(collision\.|limits\.joint$|reach\.)/;
 /** How far ahead a person may look [s]. */
-export const LEAST_AHEAD_S = 0.5;
-export const MOST_AHEAD_S = 10;
+export const MIN_AHEAD_S = 0.5;
+export const MAX_AHEAD_S = 10;
 
 /** What stands in the way ahead, and when it is reached as fast as the robot goes now. */
 export interface Foreseen {
@@ -25,7 +25,7 @@ export interface LookAheadOptions {
   /** What the check found on the plan, in order of time. */
   readonly findings: readonly Finding[];
   /** Among the other robots of the cell. */
-  readonly place: Place | null;
+  readonly place: CellMember | null;
 }
 
 /**
@@ -141,7 +141,7 @@ const earlier = (a: Foreseen | null, b: Foreseen | null): Foreseen | null =>
   !a ? b : !b ? a : b.in_s < a.in_s ? b : a;
 
 /** Why a way is not begun. */
-export const wayBlocked = ({ code, sentence, in_s }: Foreseen): Refusal => ({
+export const pathBlocked = ({ code, sentence, in_s }: Foreseen): Refusal => ({
   code,
   sentence: `After ${in_s.toFixed(1)} s: ${sentence}`,
   hint: "It was not sent. Clear the way, or change the program.",

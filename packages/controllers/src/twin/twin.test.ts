@@ -1,6 +1,6 @@
 import { manualScheduler, robotById, type JointSample } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { describeController, onSpoiledSample } from "../testing/index.ts";
+import { describeController, onCorruptSample } from "../testing/index.ts";
 import { createVirtualController } from "../virtual/index.ts";
 import { createTwin, type Mirror } from "./twin.ts";
 
@@ -54,7 +54,7 @@ describe("twin", () => {
   test("T-24 what moves the real robot moves the twin, sample by sample", async () => {
     const { scheduler, real, twin } = bench();
     const pairs: [number[], number[]][] = [];
-    onSpoiledSample(twin, lent => {
+    onCorruptSample(twin, lent => {
       pairs.push([[...lent.q_rad], [...real.jointAngles()]]);
     });
     void real.moveJoints(near(0.5));
@@ -109,7 +109,7 @@ describe("twin", () => {
   test("T-27 a sensor in the stand stops both at equal joints; anyone may still stop while it lasts", async () => {
     const { scheduler, real, twin } = bench();
     const seen: JointSample["safety"][] = [];
-    onSpoiledSample(twin, lent => {
+    onCorruptSample(twin, lent => {
       if (seen.at(-1) !== lent.safety) seen.push(lent.safety);
     });
     const command = twin.moveJoints(near(0.8));

@@ -1,16 +1,16 @@
-import type { Brand } from "../real/index.ts";
+import type { DriverKind } from "../driver/index.ts";
 import { UR_CANNOT } from "./cannot.ts";
 import { UR_PORTS } from "./codec/models.ts";
-import { createUrFace } from "./driver/index.ts";
+import { createUrAdapter } from "./adapter/index.ts";
 import { createVirtualUr } from "./virtual/index.ts";
 
-export const universalRobots: Brand = {
+export const universalRobots: DriverKind = {
   id: "ur",
   name: "Universal Robots",
   dialect: "urscript",
   ports: { ...UR_PORTS },
   vendor: "Universal Robots",
   cannot: UR_CANNOT,
-  face: createUrFace,
+  face: createUrAdapter,
   virtual: createVirtualUr,
 };

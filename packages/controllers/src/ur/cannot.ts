@@ -1,4 +1,4 @@
-import type { Cannot } from "../real/index.ts";
+import type { Cannot } from "../driver/index.ts";
 
 /** A UR takes all of it. */
 export const UR_CANNOT: readonly Cannot[] = [];

@@ -1,11 +1,11 @@
 import { flangePose, manualScheduler, posesAgree, type CommandOutcome, type Step, type Target } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { createRealController } from "../real/index.ts";
+import { createRealController } from "../driver/index.ts";
 import { describeController } from "../testing/contract.ts";
 import { memoryNetwork } from "../transport/index.ts";
 import { createTwin } from "../twin/index.ts";
 import { UR_CANNOT } from "./cannot.ts";
-import { createUrFace, createVirtualUr, ROBOT_MODE, SAFETY_MODE } from "./index.ts";
+import { createUrAdapter, createVirtualUr, ROBOT_MODE, SAFETY_MODE } from "./index.ts";
 import { HOST, robot, urBench } from "./testing/bench.ts";
 
 describeController("UR driver on its virtual controller", {
@@ -28,9 +28,9 @@ describeController("UR driver on its virtual controller", {
       ...(maxSpeed === undefined ? {} : { maxSpeed }),
     });
     if (started.kind === "taken") throw new Error(started.sentence);
-    const face = createUrFace({ robot: driven, scheduler, network, host: HOST });
+    const adapter = createUrAdapter({ robot: driven, scheduler, network, host: HOST });
     const controller = createRealController({
-      face,
+      face: adapter,
       scheduler,
       ...(initialize ? { initialize } : {}),
       ...(onMotion ? { onMotion } : {}),
@@ -62,7 +62,7 @@ describe("UR driver", () => {
     const { scheduler, network, driver } = await urBench();
     const controller = await driver();
     const watching = createRealController({
-      face: createUrFace({ robot, scheduler, network, host: HOST, isWatched: () => true }),
+      face: createUrAdapter({ robot, scheduler, network, host: HOST, isWatched: () => true }),
       scheduler,
     });
     const seen: number[] = [];
@@ -87,7 +87,7 @@ describe("UR driver", () => {
   test("T-19 is connected while the link is open, and neither before nor after", async () => {
     const { scheduler, network } = await urBench();
     const controller = createRealController({
-      face: createUrFace({ robot, scheduler, network, host: HOST }),
+      face: createUrAdapter({ robot, scheduler, network, host: HOST }),
       scheduler,
     });
     expect(controller.isConnected).toBe(false);

@@ -1,8 +1,8 @@
 import { manualScheduler, robotById, seededRandom, type CommandOutcome } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { createRealController } from "../real/index.ts";
+import { createRealController } from "../driver/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
-import { createUrFace, createVirtualUr, ROBOT_MODE, RUNTIME } from "./index.ts";
+import { createUrAdapter, createVirtualUr, ROBOT_MODE, RUNTIME } from "./index.ts";
 import { HOST, robot, urBench } from "./testing/bench.ts";
 
 const FAR = [2.5, -1.2, 1.4, -1.4, -1.2, 0.4];
@@ -22,7 +22,7 @@ describe("UR driver: who answers", () => {
   test("a robot of another model is refused with both names, and not asked again", async () => {
     const { scheduler, network } = await urBench({ model: "UR5" });
     const controller = createRealController({
-      face: createUrFace({ robot, scheduler, network, host: HOST }),
+      face: createUrAdapter({ robot, scheduler, network, host: HOST }),
       scheduler,
     });
     const outcome = watched(controller.connect());
@@ -42,7 +42,7 @@ describe("UR driver: who answers", () => {
     const scheduler = manualScheduler();
     const network = memoryNetwork(scheduler);
     const controller = createRealController({
-      face: createUrFace({ robot: iiwa, scheduler, network, host: HOST }),
+      face: createUrAdapter({ robot: iiwa, scheduler, network, host: HOST }),
       scheduler,
     });
     const sentence = expect.stringContaining("has 7 joints; robots of Universal Robots have 6.") as string;
@@ -73,7 +73,7 @@ describe("UR driver: who answers", () => {
     const { scheduler, network, ur } = await urBench();
     if (typeof fault === "string") ur.faults[fault] = true;
     const controller = createRealController({
-      face: createUrFace({ robot, scheduler, network, host: typeof fault === "string" ? HOST : "127.0.0.9" }),
+      face: createUrAdapter({ robot, scheduler, network, host: typeof fault === "string" ? HOST : "127.0.0.9" }),
       scheduler,
     });
     const outcome = watched(controller.connect());

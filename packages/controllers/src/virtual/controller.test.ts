@@ -14,7 +14,7 @@ import {
   type Vector3,
 } from "@twincell/core";
 import { describe, expect, test } from "vitest";
-import { describeController, numericSolver, onSpoiledSample } from "../testing/index.ts";
+import { describeController, numericSolver, onCorruptSample } from "../testing/index.ts";
 import { createTwin } from "../twin/index.ts";
 import { createVirtualController } from "./controller.ts";
 
@@ -59,7 +59,7 @@ describe("virtual controller", () => {
     };
     const controller = createVirtualController({ robot, scheduler: late });
     const times: number[] = [];
-    onSpoiledSample(controller, sample => times.push(sample.time_s));
+    onCorruptSample(controller, sample => times.push(sample.time_s));
     for (const to of [0.004, 0.011, 0.1, 0.1]) {
       now_s = to;
       tick();
@@ -94,7 +94,7 @@ describe("virtual controller", () => {
     await scheduler.elapse(0.3);
     const speeds: number[][] = [];
     let last = controller.jointAngles();
-    onSpoiledSample(controller, sample => {
+    onCorruptSample(controller, sample => {
       speeds.push([...sample.q_rad].map((q, i) => (q - last[i]!) / 0.004));
       last = Float64Array.from(sample.q_rad);
     });
@@ -186,7 +186,7 @@ describe("virtual controller", () => {
   test("T-31 the gripper follows: true closes, false opens; samples name the step", async () => {
     const { scheduler, robot: controller } = bench();
     const seen: string[] = [];
-    onSpoiledSample(controller, ({ step, gripperClosed }) => {
+    onCorruptSample(controller, ({ step, gripperClosed }) => {
       const line = `${step} ${gripperClosed}`;
       if (seen.at(-1) !== line) seen.push(line);
     });
@@ -206,7 +206,7 @@ describe("virtual controller", () => {
   test("outputs, inputs and pulses are in the samples; the program waits for an input", async () => {
     const { scheduler, robot: controller } = bench();
     const seen: string[] = [];
-    onSpoiledSample(controller, ({ step, signals }) => {
+    onCorruptSample(controller, ({ step, signals }) => {
       const line = `${step} ${[...signals!].map(([name, value]) => `${name}=${value}`).join(",")}`;
       if (seen.at(-1) !== line) seen.push(line);
     });
@@ -260,7 +260,7 @@ describe("virtual controller", () => {
         const controller = kind === "twin" ? createTwin({ real, scheduler }) : real;
         const seen: string[] = [];
         const outcomes: string[] = [];
-        onSpoiledSample(controller, ({ step, gripperClosed, q_rad }) => {
+        onCorruptSample(controller, ({ step, gripperClosed, q_rad }) => {
           seen.push(`${step} ${gripperClosed} ${q_rad.join()}`);
         });
         void controller.run(unrolled(program), program).then(({ kind: outcome }) => outcomes.push(outcome));
@@ -321,7 +321,7 @@ describe("virtual controller", () => {
       tool: "flange",
     });
     const seen: Vector3[] = [];
-    onSpoiledSample(controller, lent => {
+    onCorruptSample(controller, lent => {
       if (lent.step === "line") seen.push([...flangePose(robot.arm, lent.q_rad).position]);
     });
     const command = controller.run(
@@ -406,7 +406,7 @@ describe("virtual controller", () => {
         let jumped = false;
         let last = controller.jointAngles();
         const faults: string[] = [];
-        onSpoiledSample(controller, lent => {
+        onCorruptSample(controller, lent => {
           joints.forEach(({ limits }, i) => {
             const q = lent.q_rad[i]!;
             if (!(q >= limits.lower_rad - slack && q <= limits.upper_rad + slack))
@@ -529,7 +529,7 @@ describe("virtual controller", () => {
   test("closing ends what runs and refuses what comes", async () => {
     const { scheduler, robot: controller } = bench();
     let samples = 0;
-    onSpoiledSample(controller, () => {
+    onCorruptSample(controller, () => {
       samples++;
     });
     const running = controller.moveToZero();

@@ -1,5 +1,5 @@
 import type { CommandOutcome } from "@twincell/core";
-import type { Pendant } from "../real/brand.ts";
+import type { Pendant } from "../driver/brand.ts";
 
 /** The jog keys of a cabinet. Let go, they stop what they have begun and nothing else. */
 export function jogKeys(jog: Pendant["jog"], stop: () => void): Pick<Pendant, "jog" | "stopJog"> {

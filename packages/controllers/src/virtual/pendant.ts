@@ -1,5 +1,5 @@
 import type { OperatingMode, SafetyState } from "@twincell/core";
-import type { KeyPosition, Pendant, PendantShown } from "../real/brand.ts";
+import type { KeyPosition, Pendant, PendantShown } from "../driver/brand.ts";
 import type { VirtualController } from "./controller.ts";
 import { jogKeys } from "./jog-keys.ts";
 

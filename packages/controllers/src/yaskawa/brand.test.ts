@@ -1,14 +1,14 @@
 import { manualScheduler } from "@twincell/core";
 import { expect, test } from "vitest";
-import { brandById } from "../brands.ts";
-import { createRealController } from "../real/index.ts";
+import { driverKindById } from "../brands.ts";
+import { createRealController } from "../driver/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
 import { gp8, interpret, turned } from "./testing/bench.ts";
 
 async function opened() {
   const scheduler = manualScheduler();
   const network = memoryNetwork(scheduler);
-  const brand = brandById("yaskawa")!;
+  const brand = driverKindById("yaskawa")!;
   const host = "127.0.0.7";
   const started = await brand.virtual({ robot: gp8, scheduler, network, host, interpret });
   if (started.kind === "taken") throw new Error(started.sentence);

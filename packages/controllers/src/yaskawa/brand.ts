@@ -1,7 +1,7 @@
-import type { Brand } from "../real/index.ts";
+import type { DriverKind } from "../driver/index.ts";
 import { YASKAWA_CANNOT } from "./cannot.ts";
 import { FILE_PORT, ROBOT_PORT } from "./codec/index.ts";
-import { yaskawaFace } from "./driver/index.ts";
+import { yaskawaAdapter } from "./adapter/index.ts";
 import { yaskawaPendant } from "./pendant.ts";
 import { createVirtualYaskawa } from "./virtual/index.ts";
 
@@ -10,7 +10,7 @@ const PORTS = { robot: ROBOT_PORT, files: FILE_PORT };
 const REBOOT_S = 2;
 
 /** Controllers with the high-speed Ethernet server: FS100, DX200, YRC1000. */
-export const yaskawa: Brand = {
+export const yaskawa: DriverKind = {
   id: "yaskawa",
   name: "Yaskawa",
   dialect: "inform",
@@ -28,7 +28,7 @@ export const yaskawa: Brand = {
     kind === "digital-in" ? `IN#(${address})` : kind === "digital-out" ? `OT#(${address})` : undefined,
   face: ({ ports, data, ...options }) => {
     const pulsesPerDegree = data?.["pulses_per_degree"];
-    return yaskawaFace({
+    return yaskawaAdapter({
       ...options,
       ports: { ...PORTS, ...ports },
       ...(pulsesPerDegree ? { scale: { pulsesPerDegree, source: "said by a person" } } : {}),

@@ -1,4 +1,4 @@
-import type { Cannot } from "../real/index.ts";
+import type { Cannot } from "../driver/index.ts";
 
 /** Over the high-speed Ethernet server. */
 export const YASKAWA_CANNOT: readonly Cannot[] = [

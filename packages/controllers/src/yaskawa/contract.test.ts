@@ -1,10 +1,10 @@
 import { manualScheduler, robotById } from "@twincell/core";
-import { createRealController } from "../real/index.ts";
+import { createRealController } from "../driver/index.ts";
 import { describeController } from "../testing/index.ts";
 import { memoryNetwork } from "../transport/index.ts";
 import { YASKAWA_CANNOT } from "./cannot.ts";
 import { EXAMPLE_SCALE, resolution_rad } from "./codec/index.ts";
-import { yaskawaFace } from "./driver/index.ts";
+import { yaskawaAdapter } from "./adapter/index.ts";
 import { createVirtualYaskawa } from "./virtual/index.ts";
 
 const half_rad = resolution_rad(EXAMPLE_SCALE);
@@ -36,9 +36,9 @@ describeController("Yaskawa driver on its virtual controller", {
       ...(maxSpeed === undefined ? {} : { maxSpeed }),
     });
     if (started.kind === "taken") throw new Error(started.sentence);
-    const face = yaskawaFace({ robot, scheduler, network, host: HOST, scale: EXAMPLE_SCALE, poll_s: 0.002 });
+    const adapter = yaskawaAdapter({ robot, scheduler, network, host: HOST, scale: EXAMPLE_SCALE, poll_s: 0.002 });
     const controller = createRealController({
-      face,
+      face: adapter,
       scheduler,
       ...(initialize ? { initialize } : {}),
       ...(onMotion ? { onMotion } : {}),

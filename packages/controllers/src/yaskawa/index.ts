@@ -4,10 +4,10 @@ export {
   type PulseScale as YaskawaPulseScale,
 } from "./codec/index.ts";
 export {
-  yaskawaFace,
-  type YaskawaFace,
-  type YaskawaFaceOptions,
+  yaskawaAdapter,
+  type YaskawaAdapter,
+  type YaskawaAdapterOptions,
   type FileClient as YaskawaFiles,
-} from "./driver/index.ts";
+} from "./adapter/index.ts";
 export * from "./virtual/index.ts";
 export { yaskawa } from "./brand.ts";

@@ -1,5 +1,5 @@
 import type { OperatingMode, SafetyState } from "@twincell/core";
-import type { KeyPosition, Pendant, PendantShown } from "../real/index.ts";
+import type { KeyPosition, Pendant, PendantShown } from "../driver/index.ts";
 import { refusalSentence } from "./codec/index.ts";
 import type { VirtualYaskawa, YaskawaKeySwitch } from "./virtual/index.ts";
 import { jogKeys } from "../virtual/jog-keys.ts";

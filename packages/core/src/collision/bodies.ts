@@ -9,7 +9,7 @@ import { rigid, rigidFromPose, type Rigid } from "./relative.ts";
 import { buildSolid, type Solid } from "./solid.ts";
 
 /** Trees already built, kept as long as their meshes are: the same mesh twice in a cell, or a cell edited, costs nothing. */
-export class SolidShelf {
+export class FileRunStorage {
   readonly #solids = new WeakMap<TriangleMesh, Solid>();
 
   of(mesh: TriangleMesh): Solid {
@@ -44,7 +44,7 @@ export interface Body {
   reach_m: readonly number[];
 }
 
-export function bodiesOf(cell: CellGeometry, arm: SerialArm, shelf: SolidShelf): Body[] {
+export function bodiesOf(cell: CellGeometry, arm: SerialArm, runStorage: FileRunStorage): Body[] {
   const bodies: Body[] = [];
   for (const link of [...new Set(cell.links.map(solid => solid.link))].sort((a, b) => a - b)) {
     const meshes = cell.links.filter(solid => solid.link === link).map(solid => solid.mesh);
@@ -53,7 +53,7 @@ export function bodiesOf(cell: CellGeometry, arm: SerialArm, shelf: SolidShelf):
         `link ${link}`,
         "link",
         meshes.length === 1 ? meshes[0]! : mergeMeshes(meshes.map(mesh => ({ mesh }))),
-        shelf,
+        runStorage,
         link,
         identity(),
       ),
@@ -65,31 +65,31 @@ export function bodiesOf(cell: CellGeometry, arm: SerialArm, shelf: SolidShelf):
         "tool",
         "tool",
         cell.tool.mesh,
-        shelf,
+        runStorage,
         arm.joints.length,
         compose(arm.lastJointFromFlange as Pose, identity()),
       ),
     );
-  for (const object of cell.objects) bodies.push(objectBody(object, shelf));
+  for (const object of cell.objects) bodies.push(objectBody(object, runStorage));
   for (const each of bodies) each.reach_m = reachesOf(each, arm);
   return bodies;
 }
 
-export const objectBody = ({ id, mesh, worldFromObject }: CellObject, shelf: SolidShelf): Body =>
-  body(id, "object", mesh, shelf, WORLD, compose(identity(), worldFromObject as Pose));
+export const objectBody = ({ id, mesh, worldFromObject }: CellObject, runStorage: FileRunStorage): Body =>
+  body(id, "object", mesh, runStorage, WORLD, compose(identity(), worldFromObject as Pose));
 
 function body(
   name: string,
   kind: Body["kind"],
   mesh: TriangleMesh,
-  shelf: SolidShelf,
+  runStorage: FileRunStorage,
   carrier: number,
   carrierFromBody: Pose,
 ): Body {
   return {
     name,
     kind,
-    solid: shelf.of(mesh),
+    solid: runStorage.of(mesh),
     carrier,
     carrierFromBody,
     worldFromBody: rigid(),

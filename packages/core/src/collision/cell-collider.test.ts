@@ -8,7 +8,7 @@ import {
   LIBRARY,
   pose,
   seededRandom,
-  SolidShelf,
+  FileRunStorage,
   sphereMesh,
   transformMesh,
   type CellObject,
@@ -142,9 +142,9 @@ describe("objects come, go and are gripped", () => {
   });
 
   test("trees are built once for a mesh", () => {
-    const shelf = new SolidShelf();
+    const runStorage = new FileRunStorage();
     const mesh = sphereMesh(0.1);
-    expect(shelf.of(mesh)).toBe(shelf.of(mesh));
+    expect(runStorage.of(mesh)).toBe(runStorage.of(mesh));
   });
 });
 

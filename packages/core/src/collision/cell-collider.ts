@@ -2,12 +2,12 @@ import { armScratch, linkPoses } from "../kinematics/forward.ts";
 import type { SerialArm } from "../robots/arm.ts";
 import { compose, copyPose, identity, type Pose } from "../spatial/pose.ts";
 import type { Vector3 } from "../spatial/vector.ts";
-import { bodiesOf, farApart, objectBody, placeBody, reachesOf, SolidShelf, WORLD, type Body } from "./bodies.ts";
+import { bodiesOf, farApart, objectBody, placeBody, reachesOf, FileRunStorage, WORLD, type Body } from "./bodies.ts";
 import type { CellGeometry, CellObject, Contact } from "./cell.ts";
 import { pairScratch } from "./intersect.ts";
 import { between, movePoints, rigidFromPose } from "./relative.ts";
 import { solidDistance, solidKeepsApart, solidsTouch } from "./solid.ts";
-import { POINT_MESH } from "./tip.ts";
+import { POINT_MESH } from "./contact-probe.ts";
 
 /** The tool touches a work piece when it is nearer than this (row N-51) [m]. */
 export const TOUCH_M = 0.0005;
@@ -53,7 +53,7 @@ export interface SolidPair {
 export class CellCollider {
   readonly shapeError_m: number;
   readonly #arm: SerialArm;
-  readonly #shelf: SolidShelf;
+  readonly #shelf: FileRunStorage;
   readonly #bodies: Body[];
   readonly #allowed = new Set<string>();
   readonly #decided = new Set<string>();
@@ -67,14 +67,14 @@ export class CellCollider {
   #pairs: SolidPair[] = [];
   #edition = 0;
 
-  /** @param shelf  where built trees are kept; pass the same one when a cell is built again after an edit. */
-  constructor(cell: CellGeometry, arm: SerialArm, shelf = new SolidShelf()) {
+  /** @param runStorage  where built trees are kept; pass the same one when a cell is built again after an edit. */
+  constructor(cell: CellGeometry, arm: SerialArm, runStorage = new FileRunStorage()) {
     this.shapeError_m = cell.shapeError_m;
     this.#arm = arm;
-    this.#shelf = shelf;
+    this.#shelf = runStorage;
     this.#worldFromBase = copyPose(cell.worldFromBase);
     this.#baseFromLinks = Array.from({ length: arm.joints.length + 1 }, () => identity<"base", "link">());
-    this.#bodies = bodiesOf(cell, arm, shelf);
+    this.#bodies = bodiesOf(cell, arm, runStorage);
     for (const [a, b] of cell.allowedPairs) this.#allowed.add(keyOf(a, b));
     for (const { a, b, watched } of cell.pairs?.entries ?? []) {
       this.#decided.add(keyOf(a, b));

@@ -44,7 +44,7 @@ const posesAt = (q: readonly number[]): Pose[] => {
   return poses as Pose[];
 };
 const key = ({ a, b }: Contact): string => [a, b].sort().join(" / ");
-const randomPosture = ({ arm }: Robot, random: () => number): number[] =>
+const randomConfiguration = ({ arm }: Robot, random: () => number): number[] =>
   arm.joints.map(({ limits: { lower_rad, upper_rad } }) => lower_rad + random() * (upper_rad - lower_rad));
 
 describe("X-13 UR10e: the upper group (lower arm, three wrists) stops at the lower group (base, shoulder, upper arm)", () => {
@@ -59,7 +59,7 @@ describe("X-13 UR10e: the upper group (lower arm, three wrists) stops at the low
     "%s and %s",
     (_, __, lower, upper) => {
       const random = seededRandom(31);
-      const q = randomPosture(ur10e, random);
+      const q = randomConfiguration(ur10e, random);
       const poses = posesAt(q);
       const gap_m = norm(poses[upper]!.position.map((v, k) => v - poses[lower]!.position[k]!) as Vector3);
       const cell = (radius_m: number): CellGeometry =>
@@ -91,7 +91,7 @@ describe("X-14 connected parts never stop falsely", () => {
     const random = seededRandom(32);
     let met = 0;
     for (let i = 0; i < 2000; i++)
-      for (const { a, b } of collider.check(randomPosture(robot, random))) {
+      for (const { a, b } of collider.check(randomConfiguration(robot, random))) {
         met++;
         expect(Math.abs(Number(a.slice(5)) - Number(b.slice(5)))).toBeGreaterThan(1);
       }

@@ -3,7 +3,7 @@ import type { SerialArm } from "../robots/arm.ts";
 import { compose, identity, type Pose } from "../spatial/pose.ts";
 import { CellCollider, clearance, robotAndCell, TOUCH_M, type Clearance } from "./cell-collider.ts";
 import type { CellGeometry, Contact } from "./cell.ts";
-import { TipFeeler } from "./tip.ts";
+import { ContactProbe } from "./contact-probe.ts";
 
 /** What a cell must be told of to be watched; crosses a worker's border by structured clone. */
 export interface WatchedCell {
@@ -34,7 +34,7 @@ export function watchCell({
   cutoff_m,
 }: WatchedCell): (q_rad: ArrayLike<number>) => Sight {
   const collider = new CellCollider(geometry, arm);
-  const feeler = new TipFeeler(geometry.objects);
+  const probe = new ContactProbe(geometry.objects);
   collider.allowContactsAt(free_rad);
   const contacts: Contact[] = [];
   const touched: string[] = [];
@@ -49,7 +49,7 @@ export function watchCell({
       compose(flangePose(arm, q_rad, flange, scratch), flangeFromTcp) as Pose,
       tcp,
     );
-    feeler.touches(tcp.position, TOUCH_M, touched);
+    probe.touches(tcp.position, TOUCH_M, touched);
     collider.clearance(q_rad, cutoff_m, near, robotAndCell);
     return { contacts, touched, clearance: near };
   };

@@ -15,7 +15,7 @@ export interface Payload {
 }
 
 /** Two loads as one: masses add, centres average by mass, inertias move to the common centre,  I = Σ I_i + m_i (d·d 1 − d dᵀ). */
-export function togetherCarried(a: Payload, b: Payload): Payload {
+export function carriedTogether(a: Payload, b: Payload): Payload {
   const mass_kg = a.mass_kg + b.mass_kg;
   if (!(mass_kg > 0)) return a;
   const center_m = a.center_m.map(

@@ -40,11 +40,11 @@ const SLIDE = 5;
  */
 export function chainOf(arm: SerialArm, q: ArrayLike<number>, scratch: ArmScratch): Float64Array {
   if (q.length !== arm.joints.length) throw new JointCountFault(arm.name, arm.joints.length, q.length);
-  return scratch.arm === arm ? scratch.chain : layOut(arm, scratch);
+  return scratch.arm === arm ? scratch.chain : prepareJob(arm, scratch);
 }
 
 /** Apart from `chainOf`: what a closure keeps is allocated on entry, used or not. */
-function layOut(arm: SerialArm, scratch: ArmScratch): Float64Array {
+function prepareJob(arm: SerialArm, scratch: ArmScratch): Float64Array {
   const rows = [
     ...arm.joints.map(joint => ({
       fixed: joint.parentFromJoint as Pose,

@@ -5,7 +5,7 @@ import {
   distance,
   flangePose,
   fromAxisAngle,
-  leastSingularValue,
+  minSingularValue,
   pose,
   refine,
   refineScratch,
@@ -90,7 +90,7 @@ describe("N-66 axes as a FANUC CRX has them", () => {
       const start = Float64Array.from({ length: 6 }, () => 2 * Math.PI * (random() - 0.5));
       const wanted = flangePose(crx, start);
       const branches = allBranches(robot, wanted, undefined, scratch);
-      if (leastSingularValue(crx, start) < 1e-3) continue;
+      if (minSingularValue(crx, start) < 1e-3) continue;
       for (const branch of branches) {
         const is = flangePose(crx, branch);
         expect(
@@ -100,7 +100,7 @@ describe("N-66 axes as a FANUC CRX has them", () => {
       expect(branches.some(branch => apart(branch, start) < 1e-5)).toBe(true);
       for (let k = 0; k < STARTS; k++) {
         for (let j = 0; j < 6; j++) q[j] = 2 * Math.PI * (random() - 0.5);
-        if (!(refine(crx, q, wanted, newton) < 1e-10) || leastSingularValue(crx, q) < 1e-3) continue;
+        if (!(refine(crx, q, wanted, newton) < 1e-10) || minSingularValue(crx, q) < 1e-3) continue;
         found++;
         expect(branches.some(branch => apart(branch, q) < 1e-5)).toBe(true);
       }

@@ -13,9 +13,9 @@ import {
   flangePose,
   fromAxisAngle,
   fromMatrix,
-  fromTurns,
+  fromEulerAngles,
   generalSixFlange,
-  leastSingularValue,
+  minSingularValue,
   nearestSolution,
   pose,
   robotById,
@@ -94,7 +94,7 @@ describe.each([
       for (const solution of solutions) {
         const nearest = got.toSorted((a, b) => apart(a, solution) - apart(b, solution))[0]!;
         // The matrices carry 15 digits: nearer to a singularity the angles carry fewer.
-        expect(apart(nearest, solution)).toBeLessThan(1e-9 + 3e-14 / leastSingularValue(robot.arm, solution) ** 2);
+        expect(apart(nearest, solution)).toBeLessThan(1e-9 + 3e-14 / minSingularValue(robot.arm, solution) ** 2);
       }
     }
   });
@@ -130,7 +130,7 @@ describe("L-21, M-43 the joints one came from are among the answers, every answe
         Math.abs(Math.sin(q[1]!)) > 2e-3 &&
         Math.max(Math.abs(Math.sin(q[1]!)), Math.abs(Math.sin(q[3]!))) > 0.1,
     ],
-    ["general-6r", gofa, 300, q => leastSingularValue(gofa.arm, q) > 1e-3],
+    ["general-6r", gofa, 300, q => minSingularValue(gofa.arm, q) > 1e-3],
   ];
   test.each(cases)("%s, seed 21", (_, robot, count, outsideBand) => {
     const random = seededRandom(21);
@@ -169,7 +169,7 @@ describe("N-16, N-25 near", () => {
       for (let k = 0; k < 30; k++) {
         const q = inLimits(robot, random).map(angle => 0.9 * angle);
         const start = q.map(angle => angle + 0.02 * (random() - 0.5));
-        if (leastSingularValue(robot.arm, q) < 0.05 || (n === 7 && Math.abs(Math.sin(q[1]!)) < 0.2)) continue;
+        if (minSingularValue(robot.arm, q) < 0.05 || (n === 7 && Math.abs(Math.sin(q[1]!)) < 0.2)) continue;
         const wanted = flangePose(robot.arm, q);
         const reach = solveAll(robot, wanted, { near: start }, scratch);
         expect(nearestSolution(robot, wanted, start, out, scratch)).toBe(true);
@@ -325,7 +325,7 @@ describe("N-66 any arm of a family is recognised by its axes alone, however its 
   const sign = (): number => (random() < 0.5 ? -1 : 1);
   const length = (): number => 0.2 + random();
   const anyPose = (): Pose<"parent", "joint"> =>
-    pose([any(), any(), any()], fromTurns("zyx", 3 * any(), 1.5 * any(), 3 * any()));
+    pose([any(), any(), any()], fromEulerAngles("zyx", 3 * any(), 1.5 * any(), 3 * any()));
   const X: Vector3 = [1, 0, 0];
   const Y: Vector3 = [0, 1, 0];
   const Z: Vector3 = [0, 0, 1];
@@ -342,7 +342,7 @@ describe("N-66 any arm of a family is recognised by its axes alone, however its 
         limits: { lower_rad: -3, upper_rad: 3, speed_rad_s: 1, acceleration_rad_s2: 4 },
       };
     }),
-    lastJointFromFlange: pose([0.1 * any(), 0.1 * any(), 0.1 * any()], fromTurns("zyx", 3 * any(), any(), any())),
+    lastJointFromFlange: pose([0.1 * any(), 0.1 * any(), 0.1 * any()], fromEulerAngles("zyx", 3 * any(), any(), any())),
   });
   const flangeOf = (robot: Robot, q: ArrayLike<number>): Pose => {
     const { family } = robot;

@@ -16,8 +16,8 @@ import { nearestDamped } from "./numeric/damped.ts";
 import { numericBranches, numericReach } from "./numeric-reach.ts";
 import { outOfReach } from "./out-of-reach.ts";
 import type { Reach, Solution } from "./reach.ts";
-import { isSingularPosture } from "./singularity.ts";
-import { LIMIT_SLACK_RAD, nearestTurn, turnsInside } from "./turns.ts";
+import { isSingularConfiguration } from "./singularity.ts";
+import { LIMIT_SLACK_RAD, nearestTurn, revolutionsInside } from "./turns.ts";
 import { insideWorkspace } from "./workspace.ts";
 
 export { elbowOf, outOfReach, solverScratch, VERIFIED, type SolverScratch };
@@ -121,7 +121,7 @@ function withinLimits(robot: Robot, found: readonly Float64Array[], branch: Bran
   const inside: Solution[] = [];
   for (const q of wanted) {
     const named = branchOf(robot, q);
-    for (const copy of turnsInside(robot, q)) inside.push({ q_rad: copy, branch: named });
+    for (const copy of revolutionsInside(robot, q)) inside.push({ q_rad: copy, branch: named });
   }
   return { inside, pool: wanted };
 }
@@ -135,7 +135,7 @@ function answer(robot: Robot, { inside, pool }: Sorted, near: ArrayLike<number> 
   return {
     kind: "reached",
     solutions: sorted,
-    singular: pool.some(q => isSingularPosture(robot, q)),
+    singular: pool.some(q => isSingularConfiguration(robot, q)),
     considered: pool.length * 3 ** robot.arm.joints.length,
   };
 }

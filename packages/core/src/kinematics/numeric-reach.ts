@@ -4,7 +4,7 @@ import type { Pose } from "../spatial/pose.ts";
 import { explainNumeric, solveDamped } from "./numeric/damped.ts";
 import { dampedScratch } from "./numeric/damped-scratch.ts";
 import type { Reach } from "./reach.ts";
-import { leastSingularValue } from "./singularity.ts";
+import { minSingularValue } from "./singularity.ts";
 
 /** Starts of the search: `near` or the home posture, then drawn evenly from inside the limits. Always the same ones. */
 const STARTS = 24;
@@ -78,7 +78,7 @@ export function numericReach(
     kind: "reached",
     method: "numeric",
     considered: STARTS,
-    singular: found.some(q => leastSingularValue(robot.arm, q) < SINGULAR),
+    singular: found.some(q => minSingularValue(robot.arm, q) < SINGULAR),
     solutions: found.toSorted((a, b) => distance(a) - distance(b)).map(q_rad => ({ q_rad, branch: undefined })),
   };
 }

@@ -40,7 +40,7 @@ export function isSingular(geometry: OrthoParallelGeometry, q_rad: ArrayLike<num
 }
 
 /** The same for the other families: of arms whose singularities have no formula, by the least singular value of the Jacobian. */
-export function isSingularPosture(robot: Robot, q_rad: ArrayLike<number>): boolean {
+export function isSingularConfiguration(robot: Robot, q_rad: ArrayLike<number>): boolean {
   const family = robot.family;
   switch (family.kind) {
     case "ortho-parallel":
@@ -52,12 +52,12 @@ export function isSingularPosture(robot: Robot, q_rad: ArrayLike<number>): boole
     case "spherical-seven":
     case "general-6r":
     case "general":
-      return leastSingularValue(robot.arm, q_rad) < BAND;
+      return minSingularValue(robot.arm, q_rad) < BAND;
   }
 }
 
 /** The sixth singular value of the Jacobian, of fewer joints the last [m or rad per rad]: 0 where a direction of motion is lost. */
-export const leastSingularValue = (arm: SerialArm, q_rad: ArrayLike<number>): number =>
+export const minSingularValue = (arm: SerialArm, q_rad: ArrayLike<number>): number =>
   singularValues(jacobian(arm, q_rad))[Math.min(6, arm.joints.length) - 1] ?? 0;
 
 /** As of an ortho-parallel arm: axes 4 and 6 parallel, the arm stretched or folded, the meeting of axes 5 and 6 above axis 1. */

@@ -18,7 +18,7 @@ export function nearestTurn(angle: number, near: number, lower: number, upper: n
 }
 
 /** All copies of q by whole turns of each joint that turns, as far as they lie inside the limits. */
-export function turnsInside(robot: Pick<Robot, "arm">, q: Float64Array): Float64Array[] {
+export function revolutionsInside(robot: Pick<Robot, "arm">, q: Float64Array): Float64Array[] {
   let copies: Float64Array[] = [new Float64Array(q.length)];
   for (let j = 0; j < q.length; j++) {
     const joint = robot.arm.joints[j]!;

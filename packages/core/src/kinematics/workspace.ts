@@ -8,7 +8,7 @@ import type { Reach, Solution } from "./reach.ts";
 /** Rounding that a pose at the very edge may carry [m]. */
 const SLACK_M = 1e-9;
 
-/** Working memory of `reachOfPosture`, for an arm of that many joints. */
+/** Working memory of `reachOfConfiguration`, for an arm of that many joints. */
 export interface WorkspaceScratch {
   readonly arm: ArmScratch;
   readonly links: Pose<"base", "link">[];
@@ -24,7 +24,7 @@ export const workspaceScratch = (joints: number): WorkspaceScratch => ({
  * Distance of the wrist centre from axis 2 [m]: what a declared reach is measured by. The wrist of a UR stands aside of the
  * shoulder's plane; that step is along axis 2 and does not count.
  */
-export function reachOfPosture(
+export function reachOfConfiguration(
   robot: Robot,
   { wristInFlange_m }: DeclaredWorkspace,
   q_rad: ArrayLike<number>,
@@ -40,7 +40,7 @@ export function reachOfPosture(
 /** Whether joint angles keep to the declared workspace; true where none is declared. */
 export const isInsideWorkspace = (robot: Robot, q_rad: ArrayLike<number>, scratch?: WorkspaceScratch): boolean =>
   robot.workspace === undefined ||
-  reachOfPosture(robot, robot.workspace, q_rad, scratch) <= robot.workspace.reach_m + SLACK_M;
+  reachOfConfiguration(robot, robot.workspace, q_rad, scratch) <= robot.workspace.reach_m + SLACK_M;
 
 /**
  * Row X-08: the solutions inside the workspace that the maker declares. The links may reach farther than that: then the answer
@@ -55,7 +55,7 @@ export function insideWorkspace(
   const scratch = workspaceScratch(robot.arm.joints.length);
   let least_m = Infinity;
   const inside = solutions.filter(({ q_rad }) => {
-    const distance_m = reachOfPosture(robot, workspace, q_rad, scratch);
+    const distance_m = reachOfConfiguration(robot, workspace, q_rad, scratch);
     least_m = Math.min(least_m, distance_m);
     return distance_m <= workspace.reach_m + SLACK_M;
   });

@@ -1,5 +1,5 @@
 import { describe, expect, test } from "vitest";
-import { palletCount, palletIndices, palletPlaces, type Pallet } from "./pallet.ts";
+import { palletCount, palletIndices, palletSlots, type Pallet } from "./pallet.ts";
 
 const pallet: Pallet = {
   frame: "world",
@@ -12,7 +12,7 @@ const pallet: Pallet = {
   layer_m: 0,
 };
 const places = (changes: Partial<Pallet> = {}): number[][] =>
-  palletPlaces({ ...pallet, ...changes }).map(({ position }) => position.map(x => Math.round(x * 1e9) / 1e9));
+  palletSlots({ ...pallet, ...changes }).map(({ position }) => position.map(x => Math.round(x * 1e9) / 1e9));
 const order = (changes: Partial<Pallet>): string =>
   Array.from(palletIndices({ ...pallet, ...changes }), ({ row, column }) => `${row}${column}`).join(" ");
 
@@ -24,7 +24,7 @@ describe("pallet patterns", () => {
       [1.05, 2.2, 3.01], [1.15, 2.2, 3.01], [1.25, 2.2, 3.01],
       [1.1, 2.4, 3.02], [1.2, 2.4, 3.02], [1.3, 2.4, 3.02],
     ]);
-    expect(palletPlaces(pallet).every(({ quaternion }) => quaternion.join() === "1,0,0,0")).toBe(true);
+    expect(palletSlots(pallet).every(({ quaternion }) => quaternion.join() === "1,0,0,0")).toBe(true);
   });
 
   test("layers stack along z of the frame, upwards or downwards", () => {

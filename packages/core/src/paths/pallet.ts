@@ -87,7 +87,7 @@ export function* palletIndices(pallet: Pallet): Generator<PalletIndex, void> {
  *
  *   p = origin + (column + s) · pitch_column + row · pitch_row + layer · pitch_layer,   s = ½ in shifted rows, else 0
  */
-export function palletPlace(
+export function palletSlot(
   pallet: Pallet,
   { layer, row, column }: PalletIndex,
   pitch: PalletPitch = palletPitch(pallet),
@@ -108,7 +108,7 @@ export function palletPlace(
 }
 
 /** Every place of the pattern, in the order in which they are visited. */
-export function palletPlaces(pallet: Pallet): Pose<"frame", "place">[] {
+export function palletSlots(pallet: Pallet): Pose<"frame", "place">[] {
   const pitch = palletPitch(pallet);
-  return Array.from(palletIndices(pallet), index => palletPlace(pallet, index, pitch));
+  return Array.from(palletIndices(pallet), index => palletSlot(pallet, index, pitch));
 }

@@ -11,7 +11,7 @@ import {
   personAt,
   personInZone,
   robotById,
-  togetherCarried,
+  carriedTogether,
   type GraspSignal,
   type PeopleZone,
   type Person,
@@ -143,7 +143,7 @@ describe("people in the cell", () => {
 });
 
 test("two loads as one weigh and turn as both", () => {
-  const both = togetherCarried({ mass_kg: 1, center_m: [0, 0, 0.1] }, { mass_kg: 3, center_m: [0, 0, 0.5] });
+  const both = carriedTogether({ mass_kg: 1, center_m: [0, 0, 0.1] }, { mass_kg: 3, center_m: [0, 0, 0.5] });
   expect(both.mass_kg).toBe(4);
   expect(both.center_m[2]).toBeCloseTo(0.4, 12);
   expect(both.inertia_kgm2![0]).toBeCloseTo(1 * 0.3 ** 2 + 3 * 0.1 ** 2, 12);

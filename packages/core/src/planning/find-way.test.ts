@@ -4,7 +4,7 @@ import {
   CellCollider,
   certifyMotion,
   checkJointLine,
-  findWay,
+  findPath,
   jointLine,
   lengthOf,
   linkSolids,
@@ -14,10 +14,10 @@ import {
   shorten,
   transformMesh,
   verifyCertificate,
-  WayChecker,
+  PathValidator,
   type CellGeometry,
   type SerialArm,
-  type WayOutcome,
+  type PathOutcome,
 } from "../index.ts";
 import { box, planarArm, planarCell } from "../collision/testing/test-arm.ts";
 
@@ -25,9 +25,9 @@ import { box, planarArm, planarCell } from "../collision/testing/test-arm.ts";
 const POST = box("post", [1.6, 0, 0], [0.1, 0.1, 0.2]);
 const FROM = [-0.6, 0, 0];
 const TO = [0.6, 0, 0];
-const checkerOf = (objects = [POST], margin_m = 0): WayChecker =>
-  new WayChecker(new CellCollider(planarCell(objects), planarArm), planarArm, { margin_m });
-const wayOf = (outcome: WayOutcome): readonly Float64Array[] => {
+const checkerOf = (objects = [POST], margin_m = 0): PathValidator =>
+  new PathValidator(new CellCollider(planarCell(objects), planarArm), planarArm, { margin_m });
+const wayOf = (outcome: PathOutcome): readonly Float64Array[] => {
   if (outcome.kind !== "found") throw new Error(outcome.kind);
   return outcome.way;
 };
@@ -47,7 +47,7 @@ function confirmed(cell: CellGeometry, arm: SerialArm, way: readonly Float64Arra
 describe("a way from one posture to another that touches nothing", () => {
   test("goes round a post that the straight line meets, and a second proof confirms every line of it", () => {
     expect(checkJointLine(checkerOf().collider, FROM, TO).kind).toBe("contact");
-    const way = wayOf(findWay(checkerOf(), FROM, TO, { seed: 3 }));
+    const way = wayOf(findPath(checkerOf(), FROM, TO, { seed: 3 }));
     expect([...way[0]!]).toEqual(FROM);
     expect([...way.at(-1)!]).toEqual(TO);
     expect(way.length).toBeGreaterThan(2);
@@ -55,19 +55,19 @@ describe("a way from one posture to another that touches nothing", () => {
   });
 
   test("is the straight line where that is free", () => {
-    expect(wayOf(findWay(checkerOf([]), FROM, TO)).length).toBe(2);
+    expect(wayOf(findPath(checkerOf([]), FROM, TO)).length).toBe(2);
   });
 
   test("the same seed gives the same way, also from a checker that has worked before", () => {
-    const fresh = findWay(checkerOf(), FROM, TO, { seed: 5 });
+    const fresh = findPath(checkerOf(), FROM, TO, { seed: 5 });
     const used = checkerOf();
-    for (let seed = 10; seed < 14; seed++) findWay(used, FROM, TO, { seed });
-    expect(findWay(used, FROM, TO, { seed: 5 })).toEqual(fresh);
-    expect(wayOf(findWay(used, FROM, TO, { seed: 6 }))).not.toEqual(wayOf(fresh));
+    for (let seed = 10; seed < 14; seed++) findPath(used, FROM, TO, { seed });
+    expect(findPath(used, FROM, TO, { seed: 5 })).toEqual(fresh);
+    expect(wayOf(findPath(used, FROM, TO, { seed: 6 }))).not.toEqual(wayOf(fresh));
   });
 
   test("keeps the margin asked for, and says so of an end that does not", () => {
-    const way = wayOf(findWay(checkerOf([POST], 0.05), FROM, TO, { seed: 3 }));
+    const way = wayOf(findPath(checkerOf([POST], 0.05), FROM, TO, { seed: 3 }));
     const { collider } = checkerOf();
     for (let i = 1; i < way.length; i++)
       for (let t = 0; t <= 1; t += 0.02) {
@@ -80,7 +80,7 @@ describe("a way from one posture to another that touches nothing", () => {
           ).distance_m,
         ).toBeGreaterThan(0.05);
       }
-    expect(findWay(checkerOf([box("near", [2, 0.06, 0], [0.1, 0.01, 0.1])], 0.05), [0, 0, 0], TO)).toMatchObject({
+    expect(findPath(checkerOf([box("near", [2, 0.06, 0], [0.1, 0.01, 0.1])], 0.05), [0, 0, 0], TO)).toMatchObject({
       kind: "blocked",
       end: "start",
       contact: { b: "near" },
@@ -97,32 +97,32 @@ describe("a way from one posture to another that touches nothing", () => {
       ),
     }));
     expect(checkJointLine(checkerOf(fence).collider, FROM, TO).kind).toBe("contact");
-    const way = wayOf(findWay(checkerOf(fence), FROM, TO, { seed }));
+    const way = wayOf(findPath(checkerOf(fence), FROM, TO, { seed }));
     expect(confirmed(planarCell(fence), planarArm, way)).toBe(true);
   });
 });
 
 describe("why there is no way", () => {
   test("an end in contact is named with both solids, an end outside the limits with the joint", () => {
-    expect(findWay(checkerOf(), [0, 0, 0], TO)).toEqual({
+    expect(findPath(checkerOf(), [0, 0, 0], TO)).toEqual({
       kind: "blocked",
       end: "start",
       contact: { a: "link 2", b: "post", between: "other" },
     });
-    expect(findWay(checkerOf(), FROM, [0, 0, 0])).toMatchObject({ kind: "blocked", end: "goal" });
-    expect(findWay(checkerOf(), [0, 3.1, 0], TO)).toMatchObject({
+    expect(findPath(checkerOf(), FROM, [0, 0, 0])).toMatchObject({ kind: "blocked", end: "goal" });
+    expect(findPath(checkerOf(), [0, 3.1, 0], TO)).toMatchObject({
       kind: "blocked",
       end: "start",
       contact: { between: "self" },
     });
-    expect(findWay(checkerOf(), FROM, [0, -4.5, 0])).toEqual({
+    expect(findPath(checkerOf(), FROM, [0, -4.5, 0])).toEqual({
       kind: "outside-limits",
       end: "goal",
       joint: 2,
       wanted_rad: -4.5,
       limit_rad: -4,
     });
-    expect(findWay(checkerOf(), [NaN, 0, 0], TO)).toMatchObject({ kind: "outside-limits", end: "start", joint: 1 });
+    expect(findPath(checkerOf(), [NaN, 0, 0], TO)).toMatchObject({ kind: "outside-limits", end: "start", joint: 1 });
   });
 
   // The first bar is shut in between two posts: no posture beyond them can be reached.
@@ -130,7 +130,7 @@ describe("why there is no way", () => {
   const OUT = [2.5, 0, 0];
 
   test("a goal that is shut in is given up with the looks that were spent", () => {
-    const answer = findWay(checkerOf(shut), [0, 0, 0], OUT, { maxLooks: 3000 });
+    const answer = findPath(checkerOf(shut), [0, 0, 0], OUT, { maxLooks: 3000 });
     expect(answer).toMatchObject({ kind: "not-found" });
     expect(answer.kind === "not-found" && answer.looks >= 3000 && answer.looks < 4000).toBe(true);
   });
@@ -139,7 +139,7 @@ describe("why there is no way", () => {
     const shares: number[] = [];
     let now_s = 100;
     expect(
-      findWay(checkerOf(shut), [0, 0, 0], OUT, {
+      findPath(checkerOf(shut), [0, 0, 0], OUT, {
         now_s: () => (now_s += 0.1),
         within_s: 2,
         onProgress: share => shares.push(share),
@@ -152,7 +152,7 @@ describe("why there is no way", () => {
 
   test("cancelled, it stops at the next question", () => {
     let asked = 0;
-    const answer = findWay(checkerOf(shut), [0, 0, 0], OUT, { cancelled: () => ++asked >= 3 });
+    const answer = findPath(checkerOf(shut), [0, 0, 0], OUT, { cancelled: () => ++asked >= 3 });
     expect(answer.kind).toBe("cancelled");
     expect(asked).toBe(3);
   });
@@ -174,7 +174,7 @@ test("a UR10e reaches between two shelves from 30 seeded postures without contac
       box("post", [0.2, 0.7, 0.5], [0.1, 0.1, 1]),
     ],
   };
-  const checker = new WayChecker(new CellCollider(cell, robot.arm), robot.arm);
+  const checker = new PathValidator(new CellCollider(cell, robot.arm), robot.arm);
   const goal = robot.home_rad;
   expect(checker.inTheWay(goal)).toBe(null);
   let turned = 0;
@@ -183,7 +183,7 @@ test("a UR10e reaches between two shelves from 30 seeded postures without contac
     const q = robot.arm.joints.map(() => (2 * random() - 1) * 2.8);
     if (!checker.free(q)) continue;
     tried++;
-    const way = wayOf(findWay(checker, q, goal, { seed: tried }));
+    const way = wayOf(findPath(checker, q, goal, { seed: tried }));
     if (way.length > 2) turned++;
     if (tried % 6 === 0) expect(confirmed(cell, robot.arm, way)).toBe(true);
   }

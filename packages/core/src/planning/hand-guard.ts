@@ -2,7 +2,7 @@ import type { Contact } from "../collision/cell.ts";
 import { robotAndCell, type CellCollider, type SolidPair } from "../collision/cell-collider.ts";
 import type { MotionVerdict } from "../collision/motion.ts";
 import type { SerialArm } from "../robots/arm.ts";
-import { alongLine, distanceBetween, WayChecker } from "./way-checker.ts";
+import { alongLine, distanceBetween, PathValidator } from "./path-validator.ts";
 
 /**
  * What a motion by hand does where it would touch something: only an alert (rows N-47 … N-50); the same, but the point cannot be
@@ -36,9 +36,9 @@ const MOVED: HandStep = { kind: "moved" };
 export class HandGuard {
   readonly #collider: CellCollider;
   /** With the margin, with ample room, and without any. */
-  readonly #kept: WayChecker;
-  readonly #safe: WayChecker;
-  readonly #bare: WayChecker;
+  readonly #kept: PathValidator;
+  readonly #safe: PathValidator;
+  readonly #bare: PathValidator;
   readonly #wanted: Float64Array;
   readonly #probe: Float64Array;
   readonly #slope: Float64Array;
@@ -47,9 +47,9 @@ export class HandGuard {
   constructor(collider: CellCollider, arm: SerialArm) {
     const n = arm.joints.length;
     this.#collider = collider;
-    this.#kept = new WayChecker(collider, arm, { margin_m: KEPT_M, keepsMargin: robotAndCell });
-    this.#safe = new WayChecker(collider, arm, { margin_m: SAFE_M, keepsMargin: robotAndCell });
-    this.#bare = new WayChecker(collider, arm);
+    this.#kept = new PathValidator(collider, arm, { margin_m: KEPT_M, keepsMargin: robotAndCell });
+    this.#safe = new PathValidator(collider, arm, { margin_m: SAFE_M, keepsMargin: robotAndCell });
+    this.#bare = new PathValidator(collider, arm);
     this.#wanted = new Float64Array(n);
     this.#probe = new Float64Array(n);
     this.#slope = new Float64Array(n);
@@ -92,7 +92,7 @@ export class HandGuard {
    * Takes out of the step what leads into each surface it meets:  dq ← dq − (∇d · dq / |∇d|²) ∇d  where ∇d · dq < 0, with ∇d the
    * slope of the pair's distance over the joints. Returns whether something is left that is proven clear.
    */
-  #slide(rules: WayChecker, from: ArrayLike<number>, wanted: Float64Array): boolean {
+  #slide(rules: PathValidator, from: ArrayLike<number>, wanted: Float64Array): boolean {
     const asked = distanceBetween(from, wanted);
     for (let surface = 0; surface < MOST_SURFACES; surface++) {
       const verdict = rules.prove(from, wanted);

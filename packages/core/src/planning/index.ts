@@ -1,5 +1,5 @@
-export { WayChecker, distanceBetween, type WayRules } from "./way-checker.ts";
-export { findWay, lengthOf, type WayOptions, type WayOutcome } from "./find-way.ts";
+export { PathValidator, distanceBetween, type PathRules } from "./path-validator.ts";
+export { findPath, lengthOf, type PathOptions, type PathOutcome } from "./find-path.ts";
 export { shorten } from "./shorten.ts";
-export { untangle, type Untangled } from "./untangle.ts";
+export { escapeSelfCollision, type SelfCollisionEscape } from "./escape-self-collision.ts";
 export { COLLISION_BEHAVIOURS, HandGuard, type CollisionBehaviour, type HandStep } from "./hand-guard.ts";

@@ -1,5 +1,5 @@
 import type { Random } from "../random.ts";
-import { alongLine, distanceBetween } from "./way-checker.ts";
+import { alongLine, distanceBetween } from "./path-validator.ts";
 
 /** Pairs of random places on the way between which a straight line is tried, for each of its corners. */
 const TRIES_PER_CORNER = 6;

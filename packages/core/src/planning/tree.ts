@@ -1,5 +1,5 @@
 /** Postures that are joined to a root by free lines. Grows in place; a posture is named by its number, the root is 0. */
-export class PostureTree {
+export class ConfigurationTree {
   readonly #joints: number;
   #q: Float64Array;
   #parents: Int32Array;

@@ -4,7 +4,7 @@ import {
   checkJointLine,
   checkProgram,
   emptyProgram,
-  findWay,
+  findPath,
   HandGuard,
   jointLine,
   linkSolids,
@@ -12,8 +12,8 @@ import {
   robotById,
   samplePlan,
   seededRandom,
-  untangle,
-  WayChecker,
+  escapeSelfCollision,
+  PathValidator,
   type CellGeometry,
   type MoveStep,
   type Program,
@@ -83,7 +83,9 @@ describe("E-25 two modes for a robot that would run into itself", () => {
     "X-28 untangle: it reaches its target without contact and without stopping (seed %i)",
     seed => {
       const [start, goal] = tangled(seed);
-      const answer = untangle(new WayChecker(new CellCollider(cell, robot.arm), robot.arm), start, goal, { seed });
+      const answer = escapeSelfCollision(new PathValidator(new CellCollider(cell, robot.arm), robot.arm), start, goal, {
+        seed,
+      });
       if (answer.kind !== "found") throw new Error(answer.kind);
       expect(answer.how).not.toBe("straight");
       const end = answer.way.at(-1)!;
@@ -106,7 +108,9 @@ describe("E-25 two modes for a robot that would run into itself", () => {
 
   test("X-28 driven as a program with blends the robot is in contact nowhere and stands still nowhere on the way", () => {
     const [start, goal] = tangled(31);
-    const answer = untangle(new WayChecker(new CellCollider(cell, robot.arm), robot.arm), start, goal, { seed: 1 });
+    const answer = escapeSelfCollision(new PathValidator(new CellCollider(cell, robot.arm), robot.arm), start, goal, {
+      seed: 1,
+    });
     if (answer.kind !== "found") throw new Error(answer.kind);
     const steps = [Float64Array.from(start), ...answer.way.slice(1)].map(
       (q, i): MoveStep => ({
@@ -138,9 +142,9 @@ describe("E-25 two modes for a robot that would run into itself", () => {
   });
 
   test("what is free is left straight, what is blocked at an end is said as the search says it", () => {
-    const checker = new WayChecker(new CellCollider(cell, robot.arm), robot.arm);
+    const checker = new PathValidator(new CellCollider(cell, robot.arm), robot.arm);
     expect(
-      untangle(
+      escapeSelfCollision(
         checker,
         robot.home_rad,
         robot.home_rad.map(q => q + 0.1),
@@ -148,7 +152,7 @@ describe("E-25 two modes for a robot that would run into itself", () => {
     ).toMatchObject({ kind: "found", how: "straight" });
     const folded = [0, -1.2, 2.9, 0, 0, 0];
     expect(checker.free(folded)).toBe(false);
-    expect(untangle(checker, robot.home_rad, folded)).toEqual(findWay(checker, robot.home_rad, folded));
+    expect(escapeSelfCollision(checker, robot.home_rad, folded)).toEqual(findPath(checker, robot.home_rad, folded));
   });
 });
 

@@ -4,7 +4,7 @@ import type { ProgramCertificate, SegmentCertificate } from "./certificate.ts";
 const FORMAT = "twincell.certificate";
 const VERSION = 1;
 /** More pieces than this are no certificate of ours. */
-const MOST_PIECES = 5_000_000;
+const MAX_PIECES = 5_000_000;
 
 export type ReadCertificate =
   | { readonly kind: "certificate"; readonly certificate: ProgramCertificate }
@@ -60,8 +60,8 @@ export function readCertificate(text: string): ReadCertificate {
       return not(`${where}.clearance_m: a number or null is expected.`);
     if (!Array.isArray(segment.pieces)) return not(`${where}.pieces: a list is expected.`);
     const pieces: CertifiedPiece[] = [];
-    if ((count += segment.pieces.length) > MOST_PIECES)
-      return not(`${where}: more than ${MOST_PIECES} pieces are not read.`);
+    if ((count += segment.pieces.length) > MAX_PIECES)
+      return not(`${where}: more than ${MAX_PIECES} pieces are not read.`);
     for (const [k, piece] of (segment.pieces as unknown[]).entries()) {
       if (!Array.isArray(piece) || piece.length !== 5 || !piece.every(isNumber))
         return not(`${where}.pieces[${k}]: five numbers are expected.`);

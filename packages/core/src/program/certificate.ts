@@ -5,7 +5,7 @@ import { marginOf, type JointMotion } from "../collision/motion.ts";
 import type { Robot } from "../robots/robot.ts";
 import type { MotionSegment, Plan } from "../trajectory/plan.ts";
 import { sampleSegment } from "../trajectory/sample.ts";
-import { HeldParts } from "./held.ts";
+import { GraspedParts } from "./grasped-parts.ts";
 import type { Program } from "./program.ts";
 
 /** The proof of one motion of a plan: t is seconds after its start. */
@@ -67,7 +67,7 @@ export function verifyProgram(
   const collider = new CellCollider(cell, robot.arm);
   const rates = new Float64Array(robot.arm.joints.length);
   collider.allowContactsAt(robot.home_rad);
-  const parts = new HeldParts(collider, cell, program, robot.arm, plan.segments, certificate.margin_m);
+  const parts = new GraspedParts(collider, cell, program, robot.arm, plan.segments, certificate.margin_m);
   let segments = 0;
   let looks = 0;
   for (const segment of plan.segments) {

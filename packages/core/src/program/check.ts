@@ -7,13 +7,13 @@ import { GRIPPER_S } from "../trajectory/planner.ts";
 import { motionAssumptions } from "../robots/jerk.ts";
 import { checkBranch, checkImpasses } from "./checks/branch.ts";
 import { checkCollision, type Collisions } from "./checks/collision.ts";
-import { layOut, type Layout } from "./checks/layout.ts";
+import { prepareJob, type Layout } from "./checks/layout.ts";
 import { checkLimits } from "./checks/limits.ts";
 import { checkReach } from "./checks/reach.ts";
 import type { CheckScene } from "./checks/scene.ts";
 import { checkSingular } from "./checks/singular.ts";
 import { checkSpeed } from "./checks/speed.ts";
-import { Book } from "./checks/book.ts";
+import { FindingCollector } from "./checks/finding-collector.ts";
 import { checkFlow } from "./checks/flow.ts";
 import { checkPayload } from "./checks/payload.ts";
 import { checkSignals } from "./checks/signals.ts";
@@ -21,7 +21,7 @@ import { checkStand } from "./checks/stand.ts";
 import { checkTorque } from "./checks/torque.ts";
 import { checkWorkspace } from "./checks/workspace.ts";
 import type { ProgramCertificate, SegmentCertificate } from "./certificate.ts";
-import { GRIP_REACH_M, partsAreFollowed } from "./held.ts";
+import { GRIP_REACH_M, partsAreFollowed } from "./grasped-parts.ts";
 import type { Program, Step } from "./program.ts";
 import type { Verdict } from "./verdict.ts";
 import { everyStep } from "./walk.ts";
@@ -64,7 +64,7 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
   const { cell, onProgress, cancelled } = options;
   const worldFromBase = options.worldFromBase ?? cell?.worldFromBase;
   const layoutShare = cell === undefined ? 1 : LAYOUT_SHARE;
-  const layout = layOut(program, robot, {
+  const layout = prepareJob(program, robot, {
     ...(worldFromBase === undefined ? {} : { worldFromBase }),
     ...(options.start_rad === undefined ? {} : { start_rad: options.start_rad }),
     ...(onProgress === undefined
@@ -76,7 +76,7 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
         }),
     ...(cancelled === undefined ? {} : { cancelled }),
   });
-  const book = new Book(program);
+  const book = new FindingCollector(program);
   const scene: CheckScene = {
     program,
     robot,

@@ -1,6 +1,6 @@
 import { describe, expect, test } from "vitest";
 import { compose, type Pose } from "../spatial/pose.ts";
-import { palletPlaces } from "../paths/pallet.ts";
+import { palletSlots } from "../paths/pallet.ts";
 import { LOOK_AGAIN_S, flow, unrolled } from "./flow.ts";
 import { emptyProgram, type MoveStep, type Program, type Step } from "./program.ts";
 import { SignalTable, holds } from "./signals.ts";
@@ -110,7 +110,7 @@ describe("flow of a program", () => {
     };
     const steps = [...unrolled(program)].filter(step => step.type === "move");
     expect(steps.length).toBe(18);
-    palletPlaces(pallet).forEach((frameFromPlace, i) => {
+    palletSlots(pallet).forEach((frameFromPlace, i) => {
       const { target } = steps[2 * i]!;
       const wanted = compose(frameFromPlace, { position: [0, 0, 0.1], quaternion: [0, 0, 0, 1] } as Pose as Pose<
         "place",

@@ -1,5 +1,5 @@
 import type { Signals } from "../ports.ts";
-import { palletCount, palletIndices, palletPitch, palletPlace } from "../paths/pallet.ts";
+import { palletCount, palletIndices, palletPitch, palletSlot } from "../paths/pallet.ts";
 import { compose, type Pose } from "../spatial/pose.ts";
 import type {
   Condition,
@@ -15,7 +15,7 @@ import type {
 import { SignalTable, holds } from "./signals.ts";
 
 /** A place of a pallet that is being visited; `number` counts from 1. */
-export interface Visit {
+export interface PendantVisitor {
   readonly pallet: string;
   readonly number: number;
   readonly of: number;
@@ -23,14 +23,14 @@ export interface Visit {
 }
 
 /** What a program does, in the order in which it does it. */
-export type Happening =
+export type FlowEvent =
   /** `written` is the step as the program has it; in `step` places have become poses. `stands` marks what the program does not say: a stop, or the time a loop takes to look again. */
   | {
       readonly kind: "step";
       readonly step: PrimitiveStep;
       readonly written: Step;
       readonly stands: boolean;
-      readonly visits: readonly Visit[];
+      readonly visits: readonly PendantVisitor[];
     }
   /** A comment, a call or a block is come to. */
   | { readonly kind: "passed"; readonly step: Step }
@@ -56,7 +56,7 @@ export const LOOK_AGAIN_S = 0.004;
  * A step is made when it is asked for, so a decision is taken when the robot is there: a move that would be passed
  * stops before a block, before a call and at the end of a list.
  */
-export function* flow(program: Program, options: FlowOptions = {}): Generator<Happening, void> {
+export function* flow(program: Program, options: FlowOptions = {}): Generator<FlowEvent, void> {
   yield* new Flow(program, options).list(program.steps, false);
 }
 
@@ -76,7 +76,7 @@ const passesOn = (step: MoveStep): boolean =>
 class Flow {
   private readonly program: Program;
   private readonly options: FlowOptions;
-  private visits: readonly Visit[] = [];
+  private visits: readonly PendantVisitor[] = [];
   private made = 0;
   private ended = false;
 
@@ -86,7 +86,7 @@ class Flow {
   }
 
   /** @param inside  the list is not the main one: it ends with a stop. */
-  *list(steps: readonly Step[], inside: boolean): Generator<Happening, void> {
+  *list(steps: readonly Step[], inside: boolean): Generator<FlowEvent, void> {
     let passing: MoveStep | undefined;
     for (const step of steps) {
       if (step.type === "comment") {
@@ -138,16 +138,16 @@ class Flow {
     if (passing !== undefined && inside) yield this.stand(passing, 0);
   }
 
-  private step(step: PrimitiveStep, written: Step): Happening {
+  private step(step: PrimitiveStep, written: Step): FlowEvent {
     this.made++;
     return { kind: "step", step, written, stands: false, visits: this.visits };
   }
 
-  private stand(at: Step, s: number): Happening {
+  private stand(at: Step, s: number): FlowEvent {
     return { kind: "step", step: { id: at.id, type: "wait", s }, written: at, stands: true, visits: this.visits };
   }
 
-  private *repeat(step: RepeatStep): Generator<Happening, void> {
+  private *repeat(step: RepeatStep): Generator<FlowEvent, void> {
     yield { kind: "passed", step };
     const { rounds = Number.POSITIVE_INFINITY, mostSteps = Number.POSITIVE_INFINITY } = this.options;
     const times = step.times === "forever" ? rounds : step.times;
@@ -163,7 +163,7 @@ class Flow {
     if (step.times === "forever") yield { kind: "end" };
   }
 
-  private *decide(step: IfStep): Generator<Happening, void> {
+  private *decide(step: IfStep): Generator<FlowEvent, void> {
     yield { kind: "passed", step };
     const { decide } = this.options;
     const otherwise = step.else ?? [];
@@ -178,7 +178,7 @@ class Flow {
     yield { kind: "join", step };
   }
 
-  private *pallet(step: PalletStep): Generator<Happening, void> {
+  private *pallet(step: PalletStep): Generator<FlowEvent, void> {
     yield { kind: "passed", step };
     const pallet = Object.hasOwn(this.program.pallets, step.pallet) ? this.program.pallets[step.pallet] : undefined;
     if (pallet === undefined) return;
@@ -189,7 +189,7 @@ class Flow {
     for (const index of palletIndices(pallet)) {
       this.visits = [
         ...before,
-        { pallet: step.pallet, number: ++number, of, frameFromPlace: palletPlace(pallet, index, pitch) },
+        { pallet: step.pallet, number: ++number, of, frameFromPlace: palletSlot(pallet, index, pitch) },
       ];
       yield* this.list(step.steps, true);
       if (this.ended) return;

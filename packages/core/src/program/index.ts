@@ -12,7 +12,7 @@ export * from "./stepper.ts";
 export * from "./check.ts";
 export * from "./certificate.ts";
 export * from "./certificate-file.ts";
-export * from "./way-round.ts";
+export * from "./detour.ts";
 export { standOf } from "./checks/stand.ts";
 export * from "./with-branches.ts";
 export { NEAR_LIMIT_RAD } from "./checks/limits.ts";

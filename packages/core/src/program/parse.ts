@@ -5,7 +5,7 @@ import { readPallets } from "./read/pallets.ts";
 import { Reader, keys, type Fields } from "./read/reader.ts";
 import { readSignals } from "./read/signals.ts";
 import { readSteps } from "./read/steps.ts";
-import type { Surroundings } from "./read/surroundings.ts";
+import type { NetworkEmulator } from "./read/surroundings.ts";
 import { readGroups, readPoses } from "./read/tables.ts";
 import { callCycle } from "./walk.ts";
 
@@ -108,7 +108,7 @@ function read(value: unknown, jointsOf: (robot: string) => number | undefined): 
   const pallets = readPallets(reader, top.pallets, frames);
   const written =
     top.routines === undefined ? {} : (reader.object(top.routines, "routines", "the table of routines") ?? {});
-  const around: Surroundings = {
+  const around: NetworkEmulator = {
     robot,
     joints: jointsOf(robot),
     tools,
@@ -140,7 +140,7 @@ function read(value: unknown, jointsOf: (robot: string) => number | undefined): 
   };
 }
 
-function readRoutines(reader: Reader, written: Fields, around: Surroundings): Program["routines"] {
+function readRoutines(reader: Reader, written: Fields, around: NetworkEmulator): Program["routines"] {
   const routines = Object.fromEntries(
     Object.entries(written).map(([name, list]) => {
       if (name === "") reader.fault("routines.", "A routine has a name that is not empty.");

@@ -1,4 +1,4 @@
-import { palletPlace } from "../paths/pallet.ts";
+import { palletSlot } from "../paths/pallet.ts";
 import { compose, type Pose } from "../spatial/pose.ts";
 import type { Program, Step, Target } from "./program.ts";
 import { withLists } from "./walk.ts";
@@ -12,7 +12,7 @@ export function settled(program: Program): Program {
   const firsts = new Map(
     Object.entries(program.pallets).map(([name, pallet]) => [
       name,
-      palletPlace(pallet, { layer: 0, row: 0, column: 0 }),
+      palletSlot(pallet, { layer: 0, row: 0, column: 0 }),
     ]),
   );
   const moved = (target: Target, open: readonly string[]): Target => {

@@ -7,7 +7,7 @@ import {
   linkSolids,
   pose,
   robotById,
-  wayRound,
+  detour,
   type CellGeometry,
   type MoveStep,
   type Program,
@@ -59,7 +59,7 @@ describe("a way round for a step that collides", () => {
     "points are inserted with which the whole program is ok, one edit, the target as it was taught (seed %i)",
     seed => {
       expect(checkProgram(program, robot, { cell }).verdict.ok).toBe(false);
-      const found = wayRound(program, "across", robot, { cell, seed });
+      const found = detour(program, "across", robot, { cell, seed });
       if (found.kind !== "found") throw new Error(JSON.stringify(found));
       expect(found.points).toBeGreaterThan(0);
       expect(found.repair.insertBefore).toHaveLength(found.points);
@@ -82,31 +82,31 @@ describe("a way round for a step that collides", () => {
       ...program,
       steps: [{ id: "twice", type: "repeat", times: 2, steps: [left, across, right] }],
     };
-    const found = wayRound(looped, "across", robot, { cell, seed: 1 });
+    const found = detour(looped, "across", robot, { cell, seed: 1 });
     if (found.kind !== "found") throw new Error(JSON.stringify(found));
     expect(checkProgram(applyRepair(looped, "across", found.repair), robot, { cell }).verdict.ok).toBe(true);
   });
 
   test("a target in contact is named with both solids; so is a start", () => {
     const into = move("into", "ptp", [0.55, 0.2, 0.19]);
-    expect(wayRound(programOf(left, into), "into", robot, { cell })).toMatchObject({
+    expect(detour(programOf(left, into), "into", robot, { cell })).toMatchObject({
       kind: "none",
       why: {
         code: "way.goal-in-contact",
         sentence: "At the target the tool is in contact with “Plate”; no way leads into that.",
       },
     });
-    expect(wayRound(programOf(into, right), "right", robot, { cell })).toMatchObject({
+    expect(detour(programOf(into, right), "right", robot, { cell })).toMatchObject({
       kind: "none",
       why: { code: "way.start-in-contact" },
     });
   });
 
   test("cancelled it says nothing; a step that is no move says so; a limit that is used up is named", () => {
-    expect(wayRound(program, "across", robot, { cell, cancelled: () => true })).toEqual({ kind: "cancelled" });
+    expect(detour(program, "across", robot, { cell, cancelled: () => true })).toEqual({ kind: "cancelled" });
     const waits: Program = { ...program, steps: [left, { id: "w", type: "wait", s: 1 }] };
-    expect(wayRound(waits, "w", robot, { cell })).toMatchObject({ kind: "none", why: { code: "way.no-move" } });
-    expect(wayRound(program, "across", robot, { cell, maxLooks: 1 })).toMatchObject({
+    expect(detour(waits, "w", robot, { cell })).toMatchObject({ kind: "none", why: { code: "way.no-move" } });
+    expect(detour(program, "across", robot, { cell, maxLooks: 1 })).toMatchObject({
       kind: "none",
       why: { code: "way.not-found" },
     });

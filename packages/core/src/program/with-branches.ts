@@ -1,11 +1,11 @@
 import { branchOf, sameBranch, type Branch } from "../kinematics/branch.ts";
-import { isSingularPosture } from "../kinematics/singularity.ts";
+import { isSingularConfiguration } from "../kinematics/singularity.ts";
 import type { Robot } from "../robots/robot.ts";
 import type { Pose } from "../spatial/pose.ts";
 import { Follower } from "../trajectory/follow.ts";
 import { GoalFinder } from "../trajectory/goal.ts";
 import type { Move } from "../trajectory/moves.ts";
-import { layOut, type Ends } from "./checks/layout.ts";
+import { prepareJob, type Ends } from "./checks/layout.ts";
 import type { MoveStep, Program, Step, Target } from "./program.ts";
 import { withLists } from "./walk.ts";
 
@@ -38,7 +38,7 @@ interface Wish {
  */
 export function withBranches(program: Program, robot: Robot, options: WithBranchesOptions = {}): Program {
   const { where = "everywhere", worldFromBase, start_rad } = options;
-  const layout = layOut(program, robot, {
+  const layout = prepareJob(program, robot, {
     ...(worldFromBase === undefined ? {} : { worldFromBase }),
     ...(start_rad === undefined ? {} : { start_rad }),
   });
@@ -81,7 +81,7 @@ export function withBranches(program: Program, robot: Robot, options: WithBranch
 }
 
 function wishFor(move: Move, { from_rad, to_rad }: Ends, robot: Robot, goals: GoalFinder, byJoints: boolean): Wish {
-  const branch = isSingularPosture(robot, to_rad) ? undefined : branchOf(robot, to_rad);
+  const branch = isSingularConfiguration(robot, to_rad) ? undefined : branchOf(robot, to_rad);
   // A path keeps the posture it begins with, whatever its target says.
   if (move.step.path !== "ptp") return { needed: false, addition: branch === undefined ? undefined : { branch } };
   const endsThere = (told: Move): boolean => {

@@ -8,7 +8,7 @@ import {
   flangePose,
   fromAxisAngle,
   fromMatrix,
-  fromTurns,
+  fromEulerAngles,
   identity,
   orthoParallelFlange,
   orthoParallelFromArm,
@@ -52,7 +52,7 @@ function armOf(file: ArmFile): SerialArm {
   const joints: Joint[] = [];
   let running: Pose = identity();
   for (const { name, type, xyz, rpy, axis, limits, speed } of file.joints) {
-    running = compose(running, pose(xyz, fromTurns("zyx", rpy[2], rpy[1], rpy[0])));
+    running = compose(running, pose(xyz, fromEulerAngles("zyx", rpy[2], rpy[1], rpy[0])));
     if (type === "fixed" || !axis || !limits) continue;
     joints.push({
       name,
@@ -164,7 +164,7 @@ test("any sign, zero and flange of the family is recognised, seed 9", () => {
         ),
         limits: { lower_rad: -3, upper_rad: 3, speed_rad_s: 1, acceleration_rad_s2: 4 },
       })),
-      lastJointFromFlange: pose([0.02 * any(), 0.02 * any(), c4], fromTurns("zyx", 3 * any(), any(), any())),
+      lastJointFromFlange: pose([0.02 * any(), 0.02 * any(), c4], fromEulerAngles("zyx", 3 * any(), any(), any())),
     };
     const geometry = orthoParallelFromArm(arm);
     if (geometry === null) throw new Error(`Arm ${n} was not recognised.`);

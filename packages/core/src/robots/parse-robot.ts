@@ -1,5 +1,5 @@
 import { pose, type Pose } from "../spatial/pose.ts";
-import { fromTurns } from "../spatial/turns.ts";
+import { fromEulerAngles } from "../spatial/turns.ts";
 import { norm, scale, type Vector3 } from "../spatial/vector.ts";
 import { Reader, type Fields } from "../program/read/reader.ts";
 import type { Joint } from "./arm.ts";
@@ -199,7 +199,7 @@ function placed<Into extends string, From extends string>(
   if (xyz === undefined || rpy === undefined) return undefined;
   return pose<Into, From>(
     xyz as Vector3,
-    rpy.every(angle => angle === 0) ? [0, 0, 0, 1] : fromTurns("zyx", rpy[2]!, rpy[1]!, rpy[0]!),
+    rpy.every(angle => angle === 0) ? [0, 0, 0, 1] : fromEulerAngles("zyx", rpy[2]!, rpy[1]!, rpy[0]!),
   );
 }
 

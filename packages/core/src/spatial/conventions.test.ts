@@ -8,7 +8,7 @@ import {
   fromKukaAbc,
   fromMatrix,
   fromPaperXyz,
-  fromTurns,
+  fromEulerAngles,
   fromUnity,
   fromUnityAngles,
   fromUrVector,
@@ -24,7 +24,7 @@ import {
   toFanucWpr,
   toKukaAbc,
   toMatrix,
-  toTurns,
+  toEulerAngles,
   toUnity,
   toUrVector,
   toVal3,
@@ -32,7 +32,7 @@ import {
   toYaskawaRxyz,
   type Matrix3,
   type Quaternion,
-  type TurnSequence,
+  type EulerSequence,
   type Vector3,
 } from "../index.ts";
 
@@ -129,21 +129,21 @@ test("L-24 all twelve sequences are the product of their three matrices, and com
     "yzy",
     "zxz",
     "zyz",
-  ] as const satisfies readonly TurnSequence[]) {
+  ] as const satisfies readonly EulerSequence[]) {
     for (let n = 0; n < 300; n++) {
       const b = n < 200 ? any() : [0, Math.PI / 2, -Math.PI / 2, Math.PI, 1e-8, Math.PI / 2 - 1e-8][n % 6]!;
       const a = any();
       const c = any();
-      const q = fromTurns(sequence, a, b, c);
+      const q = fromEulerAngles(sequence, a, b, c);
       const product = times(
         times(elementary[sequence[0]!]!(a), elementary[sequence[1]!]!(b)),
         elementary[sequence[2]!]!(c),
       );
       expect(largestGap(toMatrix(q), product)).toBeLessThan(1e-14);
-      const back = toTurns(sequence, q);
+      const back = toEulerAngles(sequence, q);
       expect(back.every(Number.isFinite)).toBe(true);
-      expect(angleBetween(fromTurns(sequence, ...back), q)).toBeLessThan(3e-9);
-      if (n < 200) expect(angleBetween(fromTurns(sequence, ...back), q)).toBeLessThan(1e-12);
+      expect(angleBetween(fromEulerAngles(sequence, ...back), q)).toBeLessThan(3e-9);
+      if (n < 200) expect(angleBetween(fromEulerAngles(sequence, ...back), q)).toBeLessThan(1e-12);
     }
   }
 });
@@ -177,13 +177,13 @@ test("N-20 the mapping has determinant −1; orientations map by S R Sᵀ and st
 
 test("L-23, N-20 a turn Unity calls positive about its own up axis is clockwise from above to the robot", () => {
   const up = fromUnity(pose([0, 0, 0], fromUnityAngles(0, 10, 0)), identity()).quaternion;
-  expect(degrees(toTurns("zyx", up)[0])).toBeCloseTo(-10, 12);
+  expect(degrees(toEulerAngles("zyx", up)[0])).toBeCloseTo(-10, 12);
   expect(
     largestGap(
       fromUnityAngles(10, 20, 30),
       multiply(
-        multiply(fromTurns("yxz", Math.PI / 9, 0, 0), fromTurns("xyz", Math.PI / 18, 0, 0)),
-        fromTurns("zyx", Math.PI / 6, 0, 0),
+        multiply(fromEulerAngles("yxz", Math.PI / 9, 0, 0), fromEulerAngles("xyz", Math.PI / 18, 0, 0)),
+        fromEulerAngles("zyx", Math.PI / 6, 0, 0),
       ),
     ),
   ).toBeLessThan(1e-15);

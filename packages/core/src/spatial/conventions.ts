@@ -1,6 +1,6 @@
 import type { Pose } from "./pose.ts";
 import { normalizeQuaternion, type Quaternion } from "./quaternion.ts";
-import { fromTurns, toTurns } from "./turns.ts";
+import { fromEulerAngles, toEulerAngles } from "./turns.ts";
 import { degrees, radians } from "./units.ts";
 import type { Vector3 } from "./vector.ts";
 
@@ -12,9 +12,10 @@ export type Angles_deg = Vector3;
 
 /** KUKA: A, B, C.  R = Rz(A) · Ry(B) · Rx(C). */
 export const fromKukaAbc = (a_deg: number, b_deg: number, c_deg: number, out: Quaternion = [0, 0, 0, 1]): Quaternion =>
-  fromTurns("zyx", radians(a_deg), radians(b_deg), radians(c_deg), out);
+  fromEulerAngles("zyx", radians(a_deg), radians(b_deg), radians(c_deg), out);
 /** KUKA: A, C in (−180, 180], B in [−90, 90]; at B = ±90 C is 0. */
-export const toKukaAbc = (q: Quaternion, out: Angles_deg = [0, 0, 0]): Angles_deg => inDegrees(toTurns("zyx", q, out));
+export const toKukaAbc = (q: Quaternion, out: Angles_deg = [0, 0, 0]): Angles_deg =>
+  inDegrees(toEulerAngles("zyx", q, out));
 
 /** FANUC: W, P, R.  R = Rz(R) · Ry(P) · Rx(W). */
 export const fromFanucWpr = (w_deg: number, p_deg: number, r_deg: number, out: Quaternion = [0, 0, 0, 1]): Quaternion =>
@@ -38,15 +39,17 @@ export const fromVplusYpr = (
   pitch_deg: number,
   roll_deg: number,
   out: Quaternion = [0, 0, 0, 1],
-): Quaternion => fromTurns("zyz", radians(yaw_deg), radians(pitch_deg), radians(roll_deg), out);
+): Quaternion => fromEulerAngles("zyz", radians(yaw_deg), radians(pitch_deg), radians(roll_deg), out);
 /** V+: yaw, roll in (−180, 180], pitch in [0, 180]; at pitch 0 and 180 roll is 0. */
-export const toVplusYpr = (q: Quaternion, out: Angles_deg = [0, 0, 0]): Angles_deg => inDegrees(toTurns("zyz", q, out));
+export const toVplusYpr = (q: Quaternion, out: Angles_deg = [0, 0, 0]): Angles_deg =>
+  inDegrees(toEulerAngles("zyz", q, out));
 
 /** VAL 3: rx, ry, rz about the turned axes.  R = Rx(rx) · Ry(ry) · Rz(rz). */
 export const fromVal3 = (rx_deg: number, ry_deg: number, rz_deg: number, out: Quaternion = [0, 0, 0, 1]): Quaternion =>
-  fromTurns("xyz", radians(rx_deg), radians(ry_deg), radians(rz_deg), out);
+  fromEulerAngles("xyz", radians(rx_deg), radians(ry_deg), radians(rz_deg), out);
 /** VAL 3: rx, rz in (−180, 180], ry in [−90, 90]; at ry = ±90 rz is 0. */
-export const toVal3 = (q: Quaternion, out: Angles_deg = [0, 0, 0]): Angles_deg => inDegrees(toTurns("xyz", q, out));
+export const toVal3 = (q: Quaternion, out: Angles_deg = [0, 0, 0]): Angles_deg =>
+  inDegrees(toEulerAngles("xyz", q, out));
 
 /** ABB: q1 … q4 = w, x, y, z. Brought to length 1, as digits of a printed quaternion are cut. */
 export function fromAbbQuaternion(
@@ -118,7 +121,7 @@ export const fromUnityAngles = (
   y_deg: number,
   z_deg: number,
   out: Quaternion = [0, 0, 0, 1],
-): Quaternion => fromTurns("yxz", radians(y_deg), radians(x_deg), radians(z_deg), out);
+): Quaternion => fromEulerAngles("yxz", radians(y_deg), radians(x_deg), radians(z_deg), out);
 
 /**
  * Unity's left-handed axes to the robot's (rows N-20, N-22, golden G-12):  S = [−x, −z, y], det S = −1, S (1, 2, 3) = (−1, −3, 2).

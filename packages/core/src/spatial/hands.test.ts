@@ -6,7 +6,7 @@ import {
   degrees,
   fromAxisAngle,
   fromMatrix,
-  fromTurns,
+  fromEulerAngles,
   fromUnity,
   fromUnityAngles,
   fromPaperXyz,
@@ -17,12 +17,12 @@ import {
   seededRandom,
   toMatrix,
   toOtherHand,
-  toTurns,
+  toEulerAngles,
   transformPoint,
   type FlippedAxis,
   type Matrix3,
   type Quaternion,
-  type TurnSequence,
+  type EulerSequence,
   type Vector3,
 } from "../index.ts";
 
@@ -125,7 +125,7 @@ test("L-23 the nine entries of Rot(y, B) Rot(x, A) Rot(z, C)", () => {
       sB * sC + cB * sA * cC,
       cB * cA,
     ];
-    expect(largestGap(toMatrix(fromTurns("yxz", B, A, C)), entries)).toBeLessThan(1e-14);
+    expect(largestGap(toMatrix(fromEulerAngles("yxz", B, A, C)), entries)).toBeLessThan(1e-14);
     expect(largestGap(toMatrix(fromUnityAngles(degrees(A), degrees(B), degrees(C))), entries)).toBeLessThan(1e-14);
   }
 });
@@ -133,13 +133,13 @@ test("L-23 the nine entries of Rot(y, B) Rot(x, A) Rot(z, C)", () => {
 /** Witness: SciPy's intrinsic sequences. */
 const golden = JSON.parse(
   readFileSync(new URL("../../../../fixtures/conventions/sequences.json", import.meta.url), "utf8"),
-) as { cases: { sequence: TurnSequence; turns_rad: Vector3; matrix: Matrix3 }[] };
+) as { cases: { sequence: EulerSequence; turns_rad: Vector3; matrix: Matrix3 }[] };
 
 test("L-24 all twelve sequences agree with SciPy, there and back", () => {
   expect(new Set(golden.cases.map(({ sequence }) => sequence)).size).toBe(12);
   for (const { sequence, turns_rad, matrix } of golden.cases) {
-    expect(largestGap(toMatrix(fromTurns(sequence, ...turns_rad)), matrix)).toBeLessThan(1e-14);
-    expect(largestGap(toTurns(sequence, fromMatrix(matrix)), turns_rad)).toBeLessThan(1e-7);
+    expect(largestGap(toMatrix(fromEulerAngles(sequence, ...turns_rad)), matrix)).toBeLessThan(1e-14);
+    expect(largestGap(toEulerAngles(sequence, fromMatrix(matrix)), turns_rad)).toBeLessThan(1e-7);
   }
 });
 

@@ -3,7 +3,7 @@ import { wrapAngle } from "./units.ts";
 import type { Vector3 } from "./vector.ts";
 
 /** Three turns one after the other, each about an axis of the frame as turned so far (intrinsic): "zyx" is Rz · Ry · Rx. */
-export type TurnSequence =
+export type EulerSequence =
   | "xyz"
   | "xzy"
   | "yxz"
@@ -23,8 +23,8 @@ const INDEX: Readonly<Record<string, 0 | 1 | 2>> = { x: 0, y: 1, z: 2 };
 const BORDER_RAD = 1e-9;
 
 /** R = R_first(a) · R_second(b) · R_third(c). Radians. */
-export function fromTurns(
-  sequence: TurnSequence,
+export function fromEulerAngles(
+  sequence: EulerSequence,
   a_rad: number,
   b_rad: number,
   c_rad: number,
@@ -43,7 +43,7 @@ export function fromTurns(
  * @param out  receives first, second, third and is returned.
  * @see Bernardes, Viollet, Quaternion to Euler angles conversion: a direct, general and computationally efficient method, PLoS ONE 17(11) 2022.
  */
-export function toTurns(sequence: TurnSequence, q: Quaternion, out: Vector3 = [0, 0, 0]): Vector3 {
+export function toEulerAngles(sequence: EulerSequence, q: Quaternion, out: Vector3 = [0, 0, 0]): Vector3 {
   // The method counts turns about fixed axes: the same three in reverse order.
   const i = INDEX[sequence[2]!]!;
   const j = INDEX[sequence[1]!]!;

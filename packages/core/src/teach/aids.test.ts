@@ -1,14 +1,14 @@
 import { expect, test } from "vitest";
 import {
-  aidAxis,
-  aidOrientation,
+  orientationPresetAxis,
+  orientationPreset,
   alignToolAxis,
   angleBetween,
   degrees,
   dot,
   fromAxisAngle,
   multiply,
-  nextAid,
+  nextOrientationPreset,
   pose,
   rotate,
   type Pose,
@@ -31,18 +31,18 @@ test("N-52 each aid holds the tool axis 45° to the top, 45° to its side and 90
   for (const object of [piece, tilted]) {
     for (const [index, side] of sides.entries()) {
       for (const near of [undefined, anyOrientation]) {
-        const toolAxis = rotate(aidOrientation(object, index, near), [0, 0, 1]);
+        const toolAxis = rotate(orientationPreset(object, index, near), [0, 0, 1]);
         const up = rotate(object.quaternion, [0, 0, 1]);
         const out = rotate(object.quaternion, side);
         const edge = rotate(object.quaternion, [-side[1], side[0], 0]);
         expect(Math.abs(between_deg(toolAxis, up) - 135)).toBeLessThan(0.01); // into the piece from above
         expect(Math.abs(between_deg(toolAxis, out) - 135)).toBeLessThan(0.01); // inward across the edge
         expect(Math.abs(between_deg(toolAxis, edge) - 90)).toBeLessThan(0.01);
-        expect(between_deg(toolAxis, aidAxis(object, index))).toBeLessThan(1e-5);
+        expect(between_deg(toolAxis, orientationPresetAxis(object, index))).toBeLessThan(1e-5);
       }
       expect(
         between_deg(
-          rotate(aidOrientation(object, index), [1, 0, 0]),
+          rotate(orientationPreset(object, index), [1, 0, 0]),
           rotate(object.quaternion, [-side[1], side[0], 0]),
         ),
       ).toBeLessThan(1e-5);
@@ -51,8 +51,8 @@ test("N-52 each aid holds the tool axis 45° to the top, 45° to its side and 90
 });
 
 test("N-31, N-35 aids are cycled forwards and backwards", () => {
-  expect([0, 1, 2, 3].map(index => nextAid(index, 1))).toEqual([1, 2, 3, 0]);
-  expect([0, 1, 2, 3].map(index => nextAid(index, -1))).toEqual([3, 0, 1, 2]);
+  expect([0, 1, 2, 3].map(index => nextOrientationPreset(index, 1))).toEqual([1, 2, 3, 0]);
+  expect([0, 1, 2, 3].map(index => nextOrientationPreset(index, -1))).toEqual([3, 0, 1, 2]);
 });
 
 test("the turn about the tool axis is the least one from the present orientation, also from the opposite direction", () => {

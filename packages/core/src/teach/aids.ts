@@ -10,7 +10,7 @@ import {
 import { cross, dot, norm, normalize, type Vector3 } from "../spatial/vector.ts";
 
 /** One direction for each top edge of a box-like piece, counter-clockwise from above, from the edge on its +x side (row N-52). */
-export const AID_COUNT = 4;
+export const ORIENTATION_PRESET_COUNT = 4;
 
 const SQUARE_ROOT_HALF = Math.SQRT1_2;
 /** Outward normals of the four sides in the piece's frame, z up. */
@@ -22,11 +22,16 @@ const OUTWARD: readonly Vector3[] = [
 ];
 
 /** The aid after (+1) or before (−1) that one, round and round. */
-export const nextAid = (index: number, step: 1 | -1): number => (((index + step) % AID_COUNT) + AID_COUNT) % AID_COUNT;
+export const nextOrientationPreset = (index: number, step: 1 | -1): number =>
+  (((index + step) % ORIENTATION_PRESET_COUNT) + ORIENTATION_PRESET_COUNT) % ORIENTATION_PRESET_COUNT;
 
 /** Tool axis of an aid in the world: 45° down and inward across the edge, square to it. Unit vector. */
-export function aidAxis(worldFromObject: Pose<"world", "object">, index: number, out: Vector3 = [0, 0, 0]): Vector3 {
-  const n = OUTWARD[nextAid(index - 1, 1)]!;
+export function orientationPresetAxis(
+  worldFromObject: Pose<"world", "object">,
+  index: number,
+  out: Vector3 = [0, 0, 0],
+): Vector3 {
+  const n = OUTWARD[nextOrientationPreset(index - 1, 1)]!;
   out[0] = -n[0] * SQUARE_ROOT_HALF;
   out[1] = -n[1] * SQUARE_ROOT_HALF;
   out[2] = -SQUARE_ROOT_HALF;
@@ -42,15 +47,15 @@ export function aidAxis(worldFromObject: Pose<"world", "object">, index: number,
  * @param worldFromObject  piece with z up. Read only.
  * @param near             present orientation of the tip in the world.
  */
-export function aidOrientation(
+export function orientationPreset(
   worldFromObject: Pose<"world", "object">,
   index: number,
   near?: Quaternion,
   out: Quaternion = [0, 0, 0, 1],
 ): Quaternion {
-  const axis = aidAxis(worldFromObject, index);
+  const axis = orientationPresetAxis(worldFromObject, index);
   if (near !== undefined) return alignToolAxis(near, axis, out);
-  const n = OUTWARD[nextAid(index - 1, 1)]!;
+  const n = OUTWARD[nextOrientationPreset(index - 1, 1)]!;
   const along = rotate(worldFromObject.quaternion, [-n[1], n[0], 0]);
   const side = cross(axis, along);
   return fromMatrix([along[0], side[0], axis[0], along[1], side[1], axis[1], along[2], side[2], axis[2]], out);

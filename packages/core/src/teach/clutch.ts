@@ -3,7 +3,7 @@ import { angleBetween, slerp } from "../spatial/quaternion.ts";
 import { distance, lerp, type Vector3 } from "../spatial/vector.ts";
 
 /** How a grip follows the hand. `limits` bound one frame's motion, so that a hand lost and found again never makes the tip leap. */
-export interface ClutchManner {
+export interface ClutchMode {
   /** Tip travel per hand travel. Angles are never scaled. */
   readonly scale: number;
   readonly position: "follows" | "locked";
@@ -11,7 +11,7 @@ export interface ClutchManner {
   readonly maxStep_m: number;
   readonly maxTurn_rad: number;
 }
-export const FREE_HAND: ClutchManner = {
+export const FREE_HAND: ClutchMode = {
   scale: 1,
   position: "follows",
   orientation: "follows",
@@ -54,7 +54,7 @@ export function takeGrip(worldFromHand: Pose<"world", "hand">, worldFromTcp: Pos
 export function clutchStep(
   grip: Grip,
   worldFromHand: Pose<"world", "hand">,
-  manner: ClutchManner,
+  manner: ClutchMode,
   out: Pose<"world", "tcp"> = identity(),
 ): Pose<"world", "tcp"> {
   const last = grip.worldFromTcp;

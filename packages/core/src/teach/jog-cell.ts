@@ -135,4 +135,4 @@ export function nearestLimit(robot: Robot, q: Float64Array, joint: number, branc
 }
 
 /** A turn in place below this share of the joint speeds is rounding. */
-export const LEAST_TURN = 1e-3;
+export const MIN_TURN = 1e-3;

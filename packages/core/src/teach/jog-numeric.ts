@@ -7,7 +7,7 @@ import type { Robot } from "../robots/robot.ts";
 import type { SerialArm } from "../robots/arm.ts";
 import { copyPose, identity, type Pose } from "../spatial/pose.ts";
 import { symmetricEigen } from "../spatial/eigen.ts";
-import { LEAST_TURN, speedLoad, type JogScratch, type NumericJog } from "./jog-cell.ts";
+import { MIN_TURN, speedLoad, type JogScratch, type NumericJog } from "./jog-cell.ts";
 
 const numericJog = (arm: SerialArm): NumericJog => ({
   arm,
@@ -111,7 +111,7 @@ export function turnNumeric(robot: Robot, jog: NumericJog, dt_s: number, scratch
     if (!descend(robot.arm, baseFromStart, aim, damped)) continue;
     const load = speedLoad(robot, start, damped.q, dt_s);
     if (load > 1) continue;
-    if (load < LEAST_TURN) return false;
+    if (load < MIN_TURN) return false;
     best.set(damped.q);
     return true;
   }

@@ -7,7 +7,7 @@ import { singularDistances } from "../kinematics/singularity.ts";
 import { wristCentre } from "../kinematics/span.ts";
 import type { OrthoParallelGeometry, Robot } from "../robots/robot.ts";
 import { wrapAngle } from "../spatial/units.ts";
-import { jointOutside, LEAST_TURN, nearestLimit, ON_SINGULARITY, speedLoad, type JogScratch } from "./jog-cell.ts";
+import { jointOutside, MIN_TURN, nearestLimit, ON_SINGULARITY, speedLoad, type JogScratch } from "./jog-cell.ts";
 
 /** At a singularity two branches meet; within this travel they are the same posture. */
 const SAME_TRAVEL_RAD = 1e-6;
@@ -96,7 +96,7 @@ function turnShoulder(robot: Robot, family: OrthoParallelGeometry, dt_s: number,
     const reach = count === 0 ? undefined : nearest(robot, family, count, scratch);
     if (reach !== undefined) return reach;
     const load = speedLoad(robot, start, best, dt_s);
-    if (load <= 1) return load > LEAST_TURN;
+    if (load <= 1) return load > MIN_TURN;
   }
   return false;
 }
@@ -113,7 +113,7 @@ function turnWrist(robot: Robot, family: OrthoParallelGeometry, dt_s: number, sc
   if (Math.abs(bend) < ON_SINGULARITY) best[4] = start[4]! - family.signs[4] * bend;
   const outside = jointOutside(robot, best, 0, start);
   return outside === 0
-    ? speedLoad(robot, start, best, dt_s) > LEAST_TURN
+    ? speedLoad(robot, start, best, dt_s) > MIN_TURN
     : nearestLimit(robot, best, outside, branchOfOrthoParallel(family, best));
 }
 

@@ -5,7 +5,7 @@ import type { Reach } from "../kinematics/reach.ts";
 import { refine } from "../kinematics/refine.ts";
 import { solveThreeParallel } from "../kinematics/three-parallel.ts";
 import type { Robot, ThreeParallelGeometry } from "../robots/robot.ts";
-import { jointOutside, LEAST_TURN, nearestLimit, ON_SINGULARITY, speedLoad, type JogScratch } from "./jog-cell.ts";
+import { jointOutside, MIN_TURN, nearestLimit, ON_SINGULARITY, speedLoad, type JogScratch } from "./jog-cell.ts";
 
 /** Two branches are the same posture where they meet; elsewhere going over costs this much per sine of the elbow or metre of the shoulder. */
 const STAYS = 1000;
@@ -121,7 +121,7 @@ export function turnThreeParallel(
     if (!turnLinkage(family, straight, turn * part, start, start, best)) break;
     const load = speedLoad(robot, start, best, dt_s);
     if (load <= 1) {
-      if (load > LEAST_TURN) return true;
+      if (load > MIN_TURN) return true;
       break;
     }
     part *= 0.95 / load;

@@ -4,7 +4,7 @@ import { nearestSolution } from "../kinematics/inverse.ts";
 import { robotById } from "../robots/library/index.ts";
 import type { Pose } from "../spatial/pose.ts";
 import { distance, type Vector3 } from "../spatial/vector.ts";
-import { jointMoveDeviation, posturesAlongLine } from "./deviation.ts";
+import { jointMoveDeviation, configurationsAlongLine } from "./deviation.ts";
 
 const robot = robotById("staubli_rx90l")!;
 const at = (position: Vector3): Pose<"base", "tcp"> => ({ position, quaternion: [1, 0, 0, 0] });
@@ -45,7 +45,7 @@ describe("joint interpolation beside a straight line", () => {
   });
 
   test.each([1e-3, 1e-4, 1e-5])("N-58 points are put in until %f m is kept", tolerance_m => {
-    const found = posturesAlongLine(robot, posture(A), A, B, tolerance_m);
+    const found = configurationsAlongLine(robot, posture(A), A, B, tolerance_m);
     if (found.kind !== "postures") throw new Error("out of reach");
     expect(found.deviation_m).toBeLessThanOrEqual(tolerance_m);
     let before = posture(A);
@@ -63,6 +63,8 @@ describe("joint interpolation beside a straight line", () => {
   });
 
   test("a line that leaves the reach says where", () => {
-    expect(posturesAlongLine(robot, posture(A), A, at([1.5, 0, 0.4]), 1e-3)).toMatchObject({ kind: "out-of-reach" });
+    expect(configurationsAlongLine(robot, posture(A), A, at([1.5, 0, 0.4]), 1e-3)).toMatchObject({
+      kind: "out-of-reach",
+    });
   });
 });

@@ -14,7 +14,7 @@ export interface LineDeviation {
 /** Places looked at along a joint move before the worst is refined. */
 const PLACES = 32;
 /** Points put in between two taught ones at most. */
-const MOST_POINTS = 4096;
+const MAX_POINTS = 4096;
 
 /**
  * How far the TCP leaves the straight line between two postures when the joints are interpolated (row N-58).
@@ -64,7 +64,7 @@ export function jointMoveDeviation(
 }
 
 /** Postures along a straight TCP line between which joint interpolation keeps to the line; or the share of the line that has none. */
-export type LinePostures =
+export type LineConfigurations =
   | { readonly kind: "postures"; readonly q_rad: readonly Float64Array[]; readonly deviation_m: number }
   | { readonly kind: "out-of-reach"; readonly share: number };
 
@@ -75,18 +75,18 @@ export type LinePostures =
  * @param q0  posture at `from`.
  * @returns   the postures after q0, the last of them at `to`, and the largest deviation that is left.
  */
-export function posturesAlongLine(
+export function configurationsAlongLine(
   robot: Robot,
   q0: Float64Array,
   from: Pose<"base", "tcp">,
   to: Pose<"base", "tcp">,
   tolerance_m: number,
   flangeFromTcp: Pose<"flange", "tcp"> = identity(),
-): LinePostures {
+): LineConfigurations {
   const tcpFromFlange = inverse(flangeFromTcp);
   const scratch = solverScratch();
   const found: Float64Array[] = [];
-  const posture = (share: number, near: Float64Array): Float64Array | undefined => {
+  const configuration = (share: number, near: Float64Array): Float64Array | undefined => {
     const tcp: Pose<"base", "tcp"> = {
       position: lerp(from.position, to.position, share),
       quaternion: slerp(from.quaternion, to.quaternion, share),
@@ -99,10 +99,10 @@ export function posturesAlongLine(
   let left_m = 0;
   let step = 1;
   while (share < 1 - 1e-12) {
-    if (found.length >= MOST_POINTS) return { kind: "out-of-reach", share };
+    if (found.length >= MAX_POINTS) return { kind: "out-of-reach", share };
     step = Math.min(step * 2, 1 - share);
     for (;;) {
-      const next = posture(share + step, q);
+      const next = configuration(share + step, q);
       const deviation = next === undefined ? undefined : jointMoveDeviation(robot, q, next, flangeFromTcp).deviation_m;
       if (next !== undefined && deviation !== undefined && deviation <= tolerance_m) {
         found.push(next);

@@ -293,9 +293,9 @@ describe("planProgram", () => {
     );
     expect(duration_s).toBeGreaterThanOrEqual(Math.max(...alone));
     expect(duration_s).toBeLessThan(Math.max(...alone) * 1.02);
-    const posture = new Float64Array(6);
-    samplePlan(plan, duration_s / 2, posture);
-    for (let j = 0; j < 6; j++) expect(posture[j]).toBeCloseTo((q[j]! + robot.home_rad[j]!) / 2, 9);
+    const configuration = new Float64Array(6);
+    samplePlan(plan, duration_s / 2, configuration);
+    for (let j = 0; j < 6; j++) expect(configuration[j]).toBeCloseTo((q[j]! + robot.home_rad[j]!) / 2, 9);
   });
 
   test("N-64 every plan says what its duration rests on", () => {

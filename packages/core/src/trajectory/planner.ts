@@ -1,4 +1,4 @@
-import { flow, type Happening } from "../program/flow.ts";
+import { flow, type FlowEvent } from "../program/flow.ts";
 import type { MoveStep, PrimitiveStep, Program, SetStep } from "../program/program.ts";
 import { SignalTable, holds } from "../program/signals.ts";
 import { motionAssumptions } from "../robots/jerk.ts";
@@ -152,16 +152,16 @@ export const durationAssumptions = (program: Program, robot: Robot, gripper_s = 
     : []),
 ];
 
-type StepHappening = Extract<Happening, { kind: "step" }>;
+type StepFlowEvent = Extract<FlowEvent, { kind: "step" }>;
 /** A move that happens, with the step it comes from. */
-export type MoveHappening = StepHappening & { readonly step: MoveStep };
+export type MoveFlowEvent = StepFlowEvent & { readonly step: MoveStep };
 
 /** What is laid out at once: a happening, or moves that are passed without a stop in between. */
-export type FlowPart = Happening | { readonly kind: "run"; readonly moves: readonly MoveHappening[] };
+export type FlowPart = FlowEvent | { readonly kind: "run"; readonly moves: readonly MoveFlowEvent[] };
 
 /** The same happenings with moves that are passed without a stop in between as one. */
-export function* inRuns(happenings: Iterable<Happening>): Generator<FlowPart, void> {
-  let moves: MoveHappening[] = [];
+export function* inRuns(happenings: Iterable<FlowEvent>): Generator<FlowPart, void> {
+  let moves: MoveFlowEvent[] = [];
   for (const happening of happenings) {
     const last = moves.at(-1);
     if (happening.kind === "passed" && happening.step.type === "comment") {
@@ -179,7 +179,7 @@ export function* inRuns(happenings: Iterable<Happening>): Generator<FlowPart, vo
   if (moves.length > 0) yield { kind: "run", moves };
 }
 
-const isMove = (happening: Happening): happening is MoveHappening =>
+const isMove = (happening: FlowEvent): happening is MoveFlowEvent =>
   happening.kind === "step" && happening.step.type === "move";
 
 /** Appends segments and keeps the time and the posture they end at. */

@@ -4,7 +4,7 @@ import { seededRandom } from "../random.ts";
 import { robotById } from "../robots/library/index.ts";
 import type { Pose } from "../spatial/pose.ts";
 import { angleBetween, fromAxisAngle, multiply, type Quaternion } from "../spatial/quaternion.ts";
-import { fromTurns, toTurns } from "../spatial/turns.ts";
+import { fromEulerAngles, toEulerAngles } from "../spatial/turns.ts";
 import { distance, subtract, type Vector3 } from "../spatial/vector.ts";
 import { FrameCheck, TimedLine, type FrameVerdict } from "./timed-line.ts";
 
@@ -57,10 +57,10 @@ describe("the timed line of the lead-through paper", () => {
   });
 
   test("L-52 E-24 turn angles go by the same cubic, or evenly when asked", () => {
-    const a = toTurns("yxz", A.quaternion);
-    const b = toTurns("yxz", B.quaternion);
+    const a = toEulerAngles("yxz", A.quaternion);
+    const b = toEulerAngles("yxz", B.quaternion);
     const mixed = (share: number): Quaternion =>
-      fromTurns(
+      fromEulerAngles(
         "yxz",
         ...([0, 1, 2].map(i => {
           const d = b[i]! - a[i]!;

@@ -3,7 +3,7 @@ import { explainReach } from "../kinematics/explain.ts";
 import type { Reach } from "../kinematics/reach.ts";
 import type { Robot } from "../robots/robot.ts";
 import { identity, type Pose } from "../spatial/pose.ts";
-import { fromTurns, toTurns, type TurnSequence } from "../spatial/turns.ts";
+import { fromEulerAngles, toEulerAngles, type EulerSequence } from "../spatial/turns.ts";
 import { degrees, wrapAngle } from "../spatial/units.ts";
 import type { Vector3 } from "../spatial/vector.ts";
 import { cubicLaw, type LawPoint } from "./laws.ts";
@@ -11,7 +11,7 @@ import { cubicLaw, type LawPoint } from "./laws.ts";
 export interface TimedLineOptions {
   /** How the turn angles go over time: by the same cubic as the position, or evenly (the paper says both, erratum E-24). */
   readonly angles?: "cubic" | "linear";
-  readonly sequence?: TurnSequence;
+  readonly sequence?: EulerSequence;
 }
 
 /**
@@ -28,7 +28,7 @@ export class TimedLine {
   readonly to: Pose;
   readonly duration_s: number;
   private readonly linear: boolean;
-  private readonly sequence: TurnSequence;
+  private readonly sequence: EulerSequence;
   private readonly begin: Vector3;
   private readonly sweep: Vector3;
   private readonly law: LawPoint = { value: 0, speed: 0, acceleration: 0 };
@@ -39,8 +39,8 @@ export class TimedLine {
     this.duration_s = duration_s;
     this.linear = angles === "linear";
     this.sequence = sequence;
-    this.begin = toTurns(sequence, from.quaternion);
-    const end = toTurns(sequence, to.quaternion);
+    this.begin = toEulerAngles(sequence, from.quaternion);
+    const end = toEulerAngles(sequence, to.quaternion);
     this.sweep = [
       wrapAngle(end[0] - this.begin[0]),
       wrapAngle(end[1] - this.begin[1]),
@@ -55,7 +55,7 @@ export class TimedLine {
     const turn = this.linear ? tau : share;
     for (let i = 0; i < 3; i++)
       out.position[i] = this.from.position[i]! + (this.to.position[i]! - this.from.position[i]!) * share;
-    fromTurns(
+    fromEulerAngles(
       this.sequence,
       this.begin[0] + this.sweep[0] * turn,
       this.begin[1] + this.sweep[1] * turn,

@@ -18,8 +18,8 @@ const inflate = (packed: Uint8Array, size: number): Uint8Array => inflateRawSync
 const stl = writeStl(boxMesh([0.1, 0.2, 0.3]));
 const claims = new Uint8Array(stl);
 new DataView(claims.buffer).setUint32(80, 1_000_000_000, true);
-const ply = (vertices: number, faces: number): string =>
-  `ply\nformat ascii 1.0\nelement vertex ${vertices}\nproperty float x\nproperty float y\nproperty float z\nelement face ${faces}\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n`;
+const ply = (vertices: number, adapters: number): string =>
+  `ply\nformat ascii 1.0\nelement vertex ${vertices}\nproperty float x\nproperty float y\nproperty float z\nelement face ${adapters}\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n`;
 const gltf = (count: number): string =>
   JSON.stringify({
     asset: { version: "2.0" },

@@ -45,15 +45,15 @@ const MOST_MATERIALS = 20;
  * Each part gets its share by its triangles; corners are moved to where the sum of squared distances to the old planes is least
  * (Garland, Heckbert 1997). Bodies whose faces wear several colours keep the lines between the colours.
  *
- * @param faces   triangles wanted, at least 4.
+ * @param adapters   triangles wanted, at least 4.
  * @param random  numbers in [0, 1) for the samples: the same numbers give the same report.
  */
-export async function lightened(parts: readonly ImportedPart[], faces: number, random: Random): Promise<Lightened> {
-  if (!(faces >= FEWEST))
-    throw new PlainFault("formats.faces", `${faces} triangles are too few.`, `Ask for at least ${FEWEST}.`);
+export async function lightened(parts: readonly ImportedPart[], adapters: number, random: Random): Promise<Lightened> {
+  if (!(adapters >= FEWEST))
+    throw new PlainFault("formats.faces", `${adapters} triangles are too few.`, `Ask for at least ${FEWEST}.`);
   await MeshoptSimplifier.ready;
   const before = countOf(parts);
-  const share = Math.min(1, faces / before);
+  const share = Math.min(1, adapters / before);
   const bodies = new Map<string, number>();
   for (const part of parts) bodies.set(bodyOf(part), (bodies.get(bodyOf(part)) ?? 0) + 1);
   const light = withFewColors(parts, MOST_MATERIALS).map((part, i) => ({
@@ -110,8 +110,8 @@ const openEdges = (parts: readonly ImportedPart[]): number =>
   parts.reduce((sum, { mesh }) => sum + censusOfEdges(mesh).open, 0);
 
 /** The part with fewer triangles; its own where the simplifier finds no way to the goal. */
-function simplified(mesh: TriangleMesh, faces: number, keepsBorder: boolean): TriangleMesh {
-  if (mesh.indices.length / 3 <= faces) return mesh;
+function simplified(mesh: TriangleMesh, adapters: number, keepsBorder: boolean): TriangleMesh {
+  if (mesh.indices.length / 3 <= adapters) return mesh;
   // Single precision counts from the middle of the part, where its digits are worth most.
   const { lower, upper } = boundsOf([mesh]);
   const middle = [0, 1, 2].map(k => (lower[k]! + upper[k]!) / 2);
@@ -119,7 +119,7 @@ function simplified(mesh: TriangleMesh, faces: number, keepsBorder: boolean): Tr
   const attributes = new Float32Array(positions.length / 3);
   let indices: Uint32Array = Uint32Array.from(mesh.indices);
   for (const step of STEPS) {
-    const goal = Math.round(faces * step) * 3;
+    const goal = Math.round(adapters * step) * 3;
     if (goal >= indices.length) continue;
     const [count] = MeshoptSimplifier.simplifyWithUpdate(
       indices,

@@ -1,5 +1,5 @@
 import { Refusal } from "../refusal.ts";
-import { addPolygon, MOST_CORNERS } from "../mesh/polygon.ts";
+import { addPolygon, MAX_CORNERS } from "../mesh/polygon.ts";
 import { latin1 } from "../mesh/text.ts";
 import { utf8 } from "../utf8.ts";
 import { shorten } from "../xml.ts";
@@ -115,8 +115,8 @@ function coordinate(word: string | undefined, line: number): number {
 function addFace(words: readonly string[], positions: readonly number[], indices: number[], line: number): void {
   const count = positions.length / 3;
   if (words.length < 4) throw new Refusal(`A face has ${words.length - 1} corners.`, line);
-  if (words.length - 1 > MOST_CORNERS)
-    throw new Refusal(`A face has ${words.length - 1} corners; at most ${MOST_CORNERS} are read.`, line);
+  if (words.length - 1 > MAX_CORNERS)
+    throw new Refusal(`A face has ${words.length - 1} corners; at most ${MAX_CORNERS} are read.`, line);
   const corners = words.slice(1).map(word => {
     const written = word.split("/", 1)[0]!;
     const number = Number(written);

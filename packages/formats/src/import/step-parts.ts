@@ -79,9 +79,9 @@ function partsOf(mesh: OcctMesh, path: readonly string[]): RawPart[] {
     return group.indices;
   };
   const index = mesh.index.array;
-  const faces = mesh.brep_faces ?? [];
+  const adapters = mesh.brep_faces ?? [];
   const colorOfTriangle = new Array<Rgb | undefined>(index.length / 3).fill(colorOf(mesh.color));
-  for (const { first, last, color } of faces) {
+  for (const { first, last, color } of adapters) {
     const own = colorOf(color);
     if (own) for (let t = first; t <= last; t++) colorOfTriangle[t] = own;
   }

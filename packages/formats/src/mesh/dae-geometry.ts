@@ -1,7 +1,7 @@
 import { Refusal } from "../refusal.ts";
 import { childOf, childrenOf, shorten, type Element } from "../xml.ts";
 import { triangleRun } from "./placed.ts";
-import { addPolygon, MOST_CORNERS } from "./polygon.ts";
+import { addPolygon, MAX_CORNERS } from "./polygon.ts";
 
 /** Corners and triangles of a <geometry>. */
 export interface DaeGeometry {
@@ -59,8 +59,8 @@ function faces(
   { points, triangles }: { readonly points: number[]; readonly triangles: number[] },
 ): void {
   const add = (corners: readonly number[]): void => {
-    if (corners.length > MOST_CORNERS)
-      throw new Refusal(`A face has ${corners.length} corners; at most ${MOST_CORNERS} are read.`, primitive.line);
+    if (corners.length > MAX_CORNERS)
+      throw new Refusal(`A face has ${corners.length} corners; at most ${MAX_CORNERS} are read.`, primitive.line);
     if (corners.length > 2) addPolygon(corners, points, triangles);
   };
   for (const p of childrenOf(primitive, "p")) {

@@ -11,7 +11,7 @@ export interface Picture {
 }
 
 /** A surface with what it wears, where the file puts it: metres, z up. */
-export interface DressedSurface {
+export interface FittedSurface {
   /** Names of the nodes it hangs on, the nearest first. */
   readonly nodes: readonly string[];
   readonly positions: Float64Array;
@@ -24,7 +24,7 @@ export interface DressedSurface {
 }
 export interface SurfacesRead {
   readonly kind: "read";
-  readonly surfaces: readonly DressedSurface[];
+  readonly surfaces: readonly FittedSurface[];
 }
 
 const DEEPEST = 256;
@@ -41,7 +41,7 @@ export function readGltfSurfaces(
 ): SurfacesRead | NotUnderstood {
   return answering(() => {
     const { root, buffers } = openGltf(bytes, other);
-    const surfaces: DressedSurface[] = [];
+    const surfaces: FittedSurface[] = [];
     let visits = 0;
     const visit = (index: unknown, outer: Matrix4, names: readonly string[]): void => {
       if (typeof index !== "number") throw new Refusal("A node of the glTF is not named by its number.");
@@ -78,7 +78,7 @@ function surfaceOf(
   primitive: GltfEntry,
   matrix: Matrix4,
   nodes: readonly string[],
-): DressedSurface | undefined {
+): FittedSurface | undefined {
   const attributes = primitive.child("attributes");
   const mode = primitive.whole("mode", 4);
   if (mode < 4 || mode > 6 || !attributes.has("POSITION")) return undefined;

@@ -156,8 +156,8 @@ describe("OBJ", () => {
       ([x, y]: number[]) => [y, x, 0],
     ]) {
       const points = outline.map(place);
-      const faces = "f 1 2 3 4 5 6";
-      const answer = readObj(bytesOf(`${points.map(p => `v ${p.join(" ")}`).join("\n")}\n${faces}`));
+      const adapters = "f 1 2 3 4 5 6";
+      const answer = readObj(bytesOf(`${points.map(p => `v ${p.join(" ")}`).join("\n")}\n${adapters}`));
       if (answer.kind !== "read") throw new Error(answer.sentence);
       let area = [0, 0, 0];
       const { positions: p, indices } = answer.mesh;

@@ -1,6 +1,6 @@
 import { answering, Refusal, type NotUnderstood } from "../refusal.ts";
 import { shorten } from "../xml.ts";
-import { addPolygon, MOST_CORNERS } from "./polygon.ts";
+import { addPolygon, MAX_CORNERS } from "./polygon.ts";
 import { finishMesh, type MeshRead } from "./report.ts";
 import { latin1 } from "./text.ts";
 
@@ -43,8 +43,8 @@ function coordinate(word: string | undefined, line: number): number {
 function addFace(words: readonly string[], positions: readonly number[], indices: number[], line: number): void {
   const count = positions.length / 3;
   if (words.length < 3) throw new Refusal(`A face has ${words.length} corners.`, line);
-  if (words.length > MOST_CORNERS)
-    throw new Refusal(`A face has ${words.length} corners; at most ${MOST_CORNERS} are read.`, line);
+  if (words.length > MAX_CORNERS)
+    throw new Refusal(`A face has ${words.length} corners; at most ${MAX_CORNERS} are read.`, line);
   const corners = words.map(word => {
     const written = word.split("/", 1)[0]!;
     const number = Number(written);

@@ -3,7 +3,7 @@ import { boxMesh, meshVolume, seededRandom, sphereMesh, type TriangleMesh } from
 import { readPly } from "../index.ts";
 
 const bytesOf = (text: string): Uint8Array => Uint8Array.from(text, character => character.charCodeAt(0));
-const head = (format: string, vertices: number, faces: number): string =>
+const head = (format: string, vertices: number, adapters: number): string =>
   [
     "ply",
     `format ${format} 1.0`,
@@ -13,7 +13,7 @@ const head = (format: string, vertices: number, faces: number): string =>
     "property float y",
     "property float z",
     "property uchar red",
-    `element face ${faces}`,
+    `element face ${adapters}`,
     "property list uchar int vertex_indices",
     "property float quality",
     "end_header",
@@ -22,9 +22,9 @@ const head = (format: string, vertices: number, faces: number): string =>
 
 function binary(mesh: TriangleMesh, little: boolean): Uint8Array {
   const vertices = mesh.positions.length / 3;
-  const faces = mesh.indices.length / 3;
-  const header = bytesOf(head(`binary_${little ? "little" : "big"}_endian`, vertices, faces));
-  const bytes = new Uint8Array(header.length + 13 * vertices + 17 * faces);
+  const adapters = mesh.indices.length / 3;
+  const header = bytesOf(head(`binary_${little ? "little" : "big"}_endian`, vertices, adapters));
+  const bytes = new Uint8Array(header.length + 13 * vertices + 17 * adapters);
   const view = new DataView(bytes.buffer);
   bytes.set(header);
   let at = header.length;
@@ -32,7 +32,7 @@ function binary(mesh: TriangleMesh, little: boolean): Uint8Array {
     for (let k = 0; k < 3; k++) view.setFloat32(at + 4 * k, mesh.positions[3 * v + k]!, little);
     view.setUint8(at + 12, 200);
   }
-  for (let f = 0; f < faces; f++, at += 17) {
+  for (let f = 0; f < adapters; f++, at += 17) {
     view.setUint8(at, 3);
     for (let k = 0; k < 3; k++) view.setInt32(at + 1 + 4 * k, mesh.indices[3 * f + k]!, little);
     view.setFloat32(at + 13, 0.5, little);

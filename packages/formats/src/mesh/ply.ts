@@ -1,7 +1,7 @@
 import { answering, Refusal, type NotUnderstood } from "../refusal.ts";
 import { shorten } from "../xml.ts";
 import { plyHeader, sizeOf, type PlyElement, type PlyHeader, type PlyNumber } from "./ply-header.ts";
-import { addPolygon, MOST_CORNERS } from "./polygon.ts";
+import { addPolygon, MAX_CORNERS } from "./polygon.ts";
 import { finishMesh, type MeshRead } from "./report.ts";
 import { latin1 } from "./text.ts";
 
@@ -105,8 +105,8 @@ function readFaces(
     for (const property of properties) {
       const isFace = name === "face" && property.count !== undefined && /^vertex_ind(ex|ices)$/.test(property.name);
       const values = property.count === undefined ? 1 : length(numbers.next(property.count), numbers);
-      if (isFace && (values < 3 || values > MOST_CORNERS))
-        throw new Refusal(`Face ${f + 1} has ${values} corners; 3 to ${MOST_CORNERS} are read.`, numbers.where());
+      if (isFace && (values < 3 || values > MAX_CORNERS))
+        throw new Refusal(`Face ${f + 1} has ${values} corners; 3 to ${MAX_CORNERS} are read.`, numbers.where());
       corners.length = 0;
       for (let i = 0; i < values; i++) {
         const value = numbers.next(property.type);

@@ -1,7 +1,7 @@
 import { triangulate, type Point2 } from "@twincell/core";
 
 /** Faces with more corners than this are refused: cutting them takes time that grows with the square. */
-export const MOST_CORNERS = 2000;
+export const MAX_CORNERS = 2000;
 
 /** Adds a face to `indices` as triangles of the same winding. @param corners  three or more indices of vertices. */
 export function addPolygon(corners: readonly number[], positions: ArrayLike<number>, indices: number[]): void {

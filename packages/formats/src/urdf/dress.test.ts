@@ -1,5 +1,5 @@
 import { describe, expect, test } from "vitest";
-import { armFromUrdf, dressArm, readGltfSurfaces, readUrdf, type DressedSurface, type UrdfChain } from "../index.ts";
+import { armFromUrdf, fitArm, readGltfSurfaces, readUrdf, type FittedSurface, type UrdfChain } from "../index.ts";
 
 const link = (name: string): string =>
   `<link name="${name}"><visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual></link>`;
@@ -55,7 +55,7 @@ function gltf(change: (whole: Record<string, unknown[]>) => void = () => undefin
   change(whole as unknown as Record<string, unknown[]>);
   return new TextEncoder().encode(JSON.stringify(whole));
 }
-function surfacesOf(bytes: Uint8Array): readonly DressedSurface[] {
+function surfacesOf(bytes: Uint8Array): readonly FittedSurface[] {
   const answer = readGltfSurfaces(bytes);
   if (answer.kind !== "read") throw new Error(answer.sentence);
   return answer.surfaces;
@@ -63,7 +63,7 @@ function surfacesOf(bytes: Uint8Array): readonly DressedSurface[] {
 
 describe("L-09 a glTF robot dresses the URDF robot and is gone", () => {
   test("a surface goes to the link its node is named after, at the place where it stood with all joints at zero", () => {
-    const { surfaces, bare, spare } = dressArm(chainOf(), surfacesOf(gltf()));
+    const { surfaces, bare, spare } = fitArm(chainOf(), surfacesOf(gltf()));
     expect(surfaces).toHaveLength(1);
     expect(surfaces[0]).toMatchObject({
       link: 1,
@@ -85,7 +85,7 @@ describe("L-09 a glTF robot dresses the URDF robot and is gone", () => {
       ["shell", [1, 1, 1, 1]],
       ["logo", [1, 0.5, 0, 1]],
     ]);
-    expect(dressArm(chainOf(), []).surfaces).toEqual([]);
+    expect(fitArm(chainOf(), []).surfaces).toEqual([]);
   });
   test.each<[string, (whole: Record<string, unknown[]>) => void, string]>([
     [

@@ -1,15 +1,15 @@
 import { identity, inverse, linkPoses, rotate, type Pose } from "@twincell/core";
-import type { DressedSurface } from "../mesh/gltf-surfaces.ts";
+import type { FittedSurface } from "../mesh/gltf-surfaces.ts";
 import type { UrdfChain } from "./chain.ts";
 
 /** A surface on a moving link of the arm: its positions are in that link's frame. */
-export interface LinkSurface extends DressedSurface {
+export interface LinkSurface extends FittedSurface {
   readonly link: number;
   readonly name: string;
 }
 
 /** One robot: the arm of the URDF in the surfaces of the glTF. */
-export interface DressedArm {
+export interface FittedArm {
   readonly surfaces: readonly LinkSurface[];
   /** Links of the URDF that have a shape and got nothing to wear: their own shape stays. */
   readonly bare: readonly string[];
@@ -22,7 +22,7 @@ export interface DressedArm {
  * each other with all joints at zero, each surface goes to the link its node is named after, and what is left of the
  * second robot is dropped. Spelling with or without capitals, blanks and exporters' suffixes (“.001”) is the same name.
  */
-export function dressArm(chain: UrdfChain, surfaces: readonly DressedSurface[]): DressedArm {
+export function fitArm(chain: UrdfChain, surfaces: readonly FittedSurface[]): FittedArm {
   const n = chain.arm.joints.length;
   const atZero = Array.from({ length: n + 1 }, () => identity<"base", "link">());
   linkPoses(chain.arm, new Float64Array(n), atZero);

@@ -5,7 +5,7 @@ import { shorten } from "../xml.ts";
 import type { Value } from "./expression/values.ts";
 
 /** What `$(…)` may ask for. */
-export interface Surroundings {
+export interface NetworkEmulator {
   readonly files: FileSource;
   /** The file being expanded at this moment. */
   file(): string;
@@ -18,7 +18,7 @@ export interface Surroundings {
  * `arg`, `find`, `dirname`, `eval`, `optenv` with its default. There are no environment variables here: `env` is refused, so
  * that a file means the same everywhere. A package that is not at hand stays `package://name`, and only what is in it is missing.
  */
-export function substitute(inside: string, around: Surroundings): Value {
+export function substitute(inside: string, around: NetworkEmulator): Value {
   const [command = "", ...words] = inside.trim().split(/\s+/);
   const [name] = words;
   switch (command) {

@@ -7,7 +7,7 @@ import {
   type Program,
   type Robot,
 } from "@twincell/core";
-import { Place, TooLong, inParts, tellsRobot, undeclared, writtenOr } from "../writing/index.ts";
+import { Place, TooLong, inParts, tellsRobot, undeclared, writtenOr } from "../emitter/index.ts";
 import { GRIPPER_OUTPUT, pendantConvention } from "./robots.ts";
 import { ProgramWriter } from "./write/program.ts";
 

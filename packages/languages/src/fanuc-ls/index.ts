@@ -1,5 +1,5 @@
 import { identity, type Dialect, type EmittedFile } from "@twincell/core";
-import { skippingDialect } from "../text/index.ts";
+import { skippingDialect } from "../parser/index.ts";
 import { CANNOT, FASTEST_MMPS, emitFanucLs } from "./emit.ts";
 import { interpretFanucLs, parseFanucLs } from "./interpret.ts";
 import { LINES } from "./lines.ts";

@@ -1,6 +1,6 @@
 import type { Step } from "@twincell/core";
-import { TextError, textFault } from "../text/index.ts";
-import { blockDoors, type BlockReader } from "../text/structured/index.ts";
+import { TextError, textFault } from "../parser/index.ts";
+import { blockEntryPoints, type BlockReader } from "../parser/structured/index.ts";
 import { readSource } from "./read/source.ts";
 import { hasPendant } from "./run/arm.ts";
 import { Machine } from "./run/machine.ts";
@@ -12,14 +12,14 @@ const MOST_STEPS = 200_000;
  * Executes and reads one listing, or several one behind the other of which the first is started. Pallets are read from shifted
  * points. A program with jumps other than those of loops and decisions is executed with every input off and comes out as what it does.
  */
-export const { interpret: interpretFanucLs, parse: parseFanucLs }: BlockReader = blockDoors({
+export const { interpret: interpretFanucLs, parse: parseFanucLs }: BlockReader = blockEntryPoints({
   name: "FANUC TP",
   speaks: hasPendant,
   read: readSource,
   script: (source, robot, worldFromBase) => ({
     title: source.title,
-    machine: (surroundings, signals) => new Machine(source, robot, worldFromBase, surroundings, signals, false),
-    writer: surroundings => new Machine(source, robot, worldFromBase, surroundings, undefined, true),
+    machine: (emulator, signals) => new Machine(source, robot, worldFromBase, emulator, signals, false),
+    writer: emulator => new Machine(source, robot, worldFromBase, emulator, undefined, true),
     run: machine => machine.main(),
     block: machine => machine.open(),
     unrolled: source.hasJumps ? executed : undefined,

@@ -13,8 +13,8 @@ import { axisConvention, type AxisConvention, type PulseData } from "./robots.ts
 import { Controller } from "./write/controller.ts";
 import { JobWriter } from "./write/job.ts";
 import { jobName } from "./write/names.ts";
-import { INFORM_LINES, WalkedPlace, inParts, outOfRange } from "../writing/index.ts";
-import { posturesOf } from "./write/postures.ts";
+import { INFORM_LINES, WalkedPlace, inParts, outOfRange } from "../emitter/index.ts";
+import { configurationsOf } from "./write/postures.ts";
 import { FASTEST_MPS, pathSpeed } from "./write/speed.ts";
 
 /** What INFORM has no instruction for. */
@@ -103,14 +103,14 @@ function written(
 ): Emitted | { readonly kind: "too-long"; readonly sentence: string } {
   const steps = [...everyStep(program)];
   const place = new WalkedPlace(program, robot, worldFromBase);
-  const postures = posturesOf(place, convention, pulses !== undefined);
-  if (postures.kind === "cannot") return postures;
+  const configurations = configurationsOf(place, convention, pulses !== undefined);
+  if (configurations.kind === "cannot") return configurations;
 
   const controller = new Controller(place);
   const taken = new Set<string>();
   const main = jobName(program.name, taken);
   const jobs = new Map(Object.keys(program.routines).map(name => [name, jobName(name, taken)]));
-  const setting = { place, controller, convention, pulses, postures: postures.of, jobs };
+  const setting = { place, controller, convention, pulses, postures: configurations.of, jobs };
   const files = [new JobWriter(setting, true).write(main, program.name, program.steps)];
   for (const [name, job] of jobs) files.push(new JobWriter(setting, false).write(job, name, program.routines[name]!));
   for (const what of controller.spent)

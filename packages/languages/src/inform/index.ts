@@ -1,5 +1,5 @@
 import { identity, type Dialect, type EmittedFile, type Resolution, type Robot } from "@twincell/core";
-import { skippingDialect } from "../text/index.ts";
+import { skippingDialect } from "../parser/index.ts";
 import { CANNOT, emitInform } from "./emit.ts";
 import { interpretInform } from "./interpret.ts";
 import { LINES } from "./lines.ts";

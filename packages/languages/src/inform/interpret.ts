@@ -1,5 +1,5 @@
 import type { Executed, Interpreted, Pose, Robot, Signals, TextFault, TextPlace } from "@twincell/core";
-import { rehearse, textFault } from "../text/index.ts";
+import { dryRun, textFault } from "../parser/index.ts";
 import { readSource } from "./read/source.ts";
 import type { PulseData } from "./robots.ts";
 import { Arm } from "./run/arm.ts";
@@ -54,7 +54,7 @@ export function interpretInform(
 ): Interpreted {
   const opened = openInform(text, robot, worldFromBase, pulses);
   if (opened.kind === "not-understood") return opened;
-  const fault = rehearse(opened.start().steps);
+  const fault = dryRun(opened.start().steps);
   if (fault !== undefined) return { kind: "not-understood", faults: [fault] };
   return { kind: "ready", run: signals => opened.start(signals).steps, context: opened.context };
 }

@@ -1,5 +1,5 @@
 import { emptyProgram, type Pose, type Robot, type Signals } from "@twincell/core";
-import { headingOr, plainText, textFault, textLines, unrolled, withComments, type Comment } from "../text/index.ts";
+import { headingOr, plainText, textFault, textLines, unrolled, withComments, type Comment } from "../parser/index.ts";
 import type { ReadSteps } from "../reading/checked-import.ts";
 import { openInform, type Run } from "./interpret.ts";
 import type { PulseData } from "./robots.ts";

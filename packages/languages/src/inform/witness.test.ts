@@ -7,7 +7,7 @@ import {
   compose,
   degrees,
   emptyProgram,
-  palletPlaces,
+  palletSlots,
   pose,
   radians,
   robotById,
@@ -442,7 +442,7 @@ describe("what is written", () => {
             seen.push(compose((answer.context.frames[step.target.frame] ?? pose()) as Pose, step.target.pose as Pose));
         }
         const world = frame === "world" ? pose<"world", "frame">() : frames.table;
-        const should = palletPlaces(shifted).map(
+        const should = palletSlots(shifted).map(
           each => compose(world as Pose as Pose<"world", "table">, each as Pose as Pose<"table", "place">).position,
         );
         expect(seen).toHaveLength(2 * should.length);

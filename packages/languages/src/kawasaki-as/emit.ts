@@ -1,7 +1,7 @@
 import type { Dialect, Emitted, Pose, Program, Robot } from "@twincell/core";
 import { everyStep } from "@twincell/core";
-import { Place, tellsRobot, undeclared, writtenOr } from "../writing/index.ts";
-import { spokenBy } from "./robots.ts";
+import { Place, tellsRobot, undeclared, writtenOr } from "../emitter/index.ts";
+import { supportedBy } from "./robots.ts";
 import { ProgramWriter } from "./write/program.ts";
 
 export const CANNOT: Dialect["cannot"] = [
@@ -20,7 +20,7 @@ export const CANNOT: Dialect["cannot"] = [
 
 /** One file with the program and its routines, or the step that stands in the way: never a part of a program. */
 export function emitAs(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
-  const spoken = spokenBy(robot);
+  const spoken = supportedBy(robot);
   if (spoken === undefined) {
     return {
       kind: "cannot",

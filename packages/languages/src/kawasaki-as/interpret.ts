@@ -1,9 +1,9 @@
-import { blockDoors, constantsOf, mainScript, type BlockReader } from "../text/structured/index.ts";
+import { blockEntryPoints, constantsOf, mainScript, type BlockReader } from "../parser/structured/index.ts";
 import { readSource } from "./read/grammar.ts";
 import { Machine, speaksAs } from "./run/machine.ts";
 
 /** Executes and reads AS: the first program of the text that no other one calls, with the locations that stand in the text's own lists. */
-export const { interpret: interpretAs, parse: parseAs }: BlockReader = blockDoors({
+export const { interpret: interpretAs, parse: parseAs }: BlockReader = blockEntryPoints({
   name: "AS",
   speaks: speaksAs,
   read: readSource,
@@ -11,7 +11,7 @@ export const { interpret: interpretAs, parse: parseAs }: BlockReader = blockDoor
     const constants = constantsOf(source.main, source.routines.values());
     return mainScript(
       source,
-      (surroundings, signals) => new Machine(source, constants, robot, worldFromBase, surroundings, signals),
+      (emulator, signals) => new Machine(source, constants, robot, worldFromBase, emulator, signals),
     );
   },
 });

@@ -10,8 +10,8 @@ import {
   type Step,
 } from "@twincell/core";
 import { axisConvention } from "./robots.ts";
-import { KRL_LINES, WalkedPlace, outOfRange } from "../writing/index.ts";
-import { posturesOf } from "./write/postures.ts";
+import { KRL_LINES, WalkedPlace, outOfRange } from "../emitter/index.ts";
+import { configurationsOf } from "./write/postures.ts";
 import { ModuleWriter } from "./write/program.ts";
 import { percentOf } from "./write/settings.ts";
 
@@ -46,10 +46,10 @@ export function emitKrl(program: Program, robot: Robot, worldFromBase: Pose<"wor
   const refusal = refused(steps) ?? unresolved(program, steps);
   if (refusal !== undefined) return refusal;
   const place = new WalkedPlace(program, robot, worldFromBase);
-  const postures = posturesOf(place, convention);
-  if (postures.kind === "cannot") return postures;
+  const configurations = configurationsOf(place, convention);
+  if (configurations.kind === "cannot") return configurations;
   const gripper = gripperOutput(program);
-  const files = new ModuleWriter(place, convention, postures.of, gripper).write();
+  const files = new ModuleWriter(place, convention, configurations.of, gripper).write();
   for (const { name, text, lines } of files) {
     const long = text.split("\r\n").findIndex(line => line.length > LINE_LENGTH);
     if (long >= 0)

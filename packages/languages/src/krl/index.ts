@@ -1,5 +1,5 @@
 import { identity, type Dialect, type EmittedFile } from "@twincell/core";
-import { skippingDialect } from "../text/index.ts";
+import { skippingDialect } from "../parser/index.ts";
 import { CANNOT, emitKrl } from "./emit.ts";
 import { interpretKrl } from "./interpret.ts";
 import { parseKrl } from "./parse.ts";

@@ -1,5 +1,5 @@
 import type { Executed, Interpreted, Pose, Robot, Signals, TextFault, TextPlace } from "@twincell/core";
-import { rehearse, textFault } from "../text/index.ts";
+import { dryRun, textFault } from "../parser/index.ts";
 import { readSource } from "./read/source.ts";
 import type { Source } from "./read/syntax.ts";
 import { Axes } from "./run/axes.ts";
@@ -53,7 +53,7 @@ export function openKrl(text: string, robot: Robot, worldFromBase: Pose<"world",
 export function interpretKrl(text: string, robot: Robot, worldFromBase: Pose<"world", "base">): Interpreted {
   const opened = openKrl(text, robot, worldFromBase);
   if (opened.kind === "not-understood") return opened;
-  const fault = rehearse(opened.start().steps);
+  const fault = dryRun(opened.start().steps);
   if (fault !== undefined) return { kind: "not-understood", faults: [fault] };
   return { kind: "ready", run: signals => opened.start(signals).steps, context: opened.context };
 }

@@ -1,5 +1,5 @@
 import { emptyProgram, type Pose, type Robot, type Signals } from "@twincell/core";
-import { plainText, textFault, textLines, unrolled, withComments, type Comment } from "../text/index.ts";
+import { plainText, textFault, textLines, unrolled, withComments, type Comment } from "../parser/index.ts";
 import type { ReadSteps } from "../reading/checked-import.ts";
 import { openKrl, type Run } from "./interpret.ts";
 

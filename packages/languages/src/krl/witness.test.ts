@@ -7,7 +7,7 @@ import {
   compose,
   degrees,
   emptyProgram,
-  palletPlaces,
+  palletSlots,
   pose,
   radians,
   robotById,
@@ -450,7 +450,7 @@ describe("structure is kept", () => {
       Array.from({ length: 9 }, () => ["move", "move", "move", "gripper"]).flat(),
     );
     const on = steps.filter((_, i) => i % 4 === 2) as MoveStep[];
-    for (const [i, wanted] of palletPlaces(tray).entries()) {
+    for (const [i, wanted] of palletSlots(tray).entries()) {
       const target = on[i]!.target;
       if (!("pose" in target)) throw new Error("no pose");
       const world = compose(answer.context.frames[target.frame] ?? pose<"world", "frame">(), target.pose);
@@ -473,7 +473,7 @@ describe("structure is kept", () => {
         if (step?.type === "move" && "pose" in step.target && step.target.frame.startsWith("tray"))
           seen.push(compose(answer.context.frames[step.target.frame]!, step.target.pose) as Pose);
       }
-      const should = palletPlaces(shifted).map(
+      const should = palletSlots(shifted).map(
         each =>
           compose(frames.table as Pose as Pose<"world", "table">, each as Pose as Pose<"table", "place">).position,
       );

@@ -1,5 +1,5 @@
 import type { Emitted, Pose, Program, Robot } from "@twincell/core";
-import { undeclared, writtenOr } from "../writing/index.ts";
+import { undeclared, writtenOr } from "../emitter/index.ts";
 import { CANNOT } from "./words.ts";
 import { ListWriter } from "./write.ts";
 

@@ -1,5 +1,5 @@
 import { identity, type Dialect } from "@twincell/core";
-import { skippingDialect } from "../text/index.ts";
+import { skippingDialect } from "../parser/index.ts";
 import { emitPoseList } from "./emit.ts";
 import { interpretPoseList } from "./interpret.ts";
 import { isListOfPlaces, parsePoseList } from "./parse.ts";

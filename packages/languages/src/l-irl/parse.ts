@@ -1,5 +1,5 @@
 import { emptyProgram, type Parsed, type Pose, type Robot, type Step } from "@twincell/core";
-import { textFault } from "../text/index.ts";
+import { textFault } from "../parser/index.ts";
 import { LINES } from "./lines.ts";
 import { readPoseList } from "./read/list.ts";
 import type { PoseList } from "./read/pose-list.ts";

@@ -15,8 +15,8 @@ import {
   type Step,
   type Target,
 } from "@twincell/core";
-import { asciiText } from "../text/index.ts";
-import { BlockWriter, CannotSay, Names, called, fixed } from "../writing/index.ts";
+import { asciiText } from "../parser/index.ts";
+import { BlockWriter, UnsupportedStep, Names, called, fixed } from "../emitter/index.ts";
 
 /** First line of every list: version, unit of length and of angle, order of the turns, what poses count from. */
 export const headerLine = (from: "BASE" | "WORLD"): string => `POSES 1 MM DEG ZYX ${from}`;
@@ -62,7 +62,7 @@ export class ListWriter {
     this.baseFromWorld = inverse(worldFromBase);
   }
 
-  /** @throws {CannotSay} at the first step that has no line. */
+  /** @throws {UnsupportedStep} at the first step that has no line. */
   write(): EmittedFile {
     const { program, out, names } = this;
     out.add(headerLine("BASE"));
@@ -93,7 +93,7 @@ export class ListWriter {
       case "comment":
         return `${commentText(step)}${this.labels(step)}`;
       default:
-        throw new CannotSay(
+        throw new UnsupportedStep(
           step.id,
           `${called(step)} is a ${step.type} step, for which the pose list has no line.`,
           "Say it in another way, or take the step out.",
@@ -115,7 +115,11 @@ export class ListWriter {
 
   private arc(step: MoveStep): string {
     if (step.via === undefined)
-      throw new CannotSay(step.id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
+      throw new UnsupportedStep(
+        step.id,
+        `${called(step)} has no point to pass through.`,
+        "Teach the point on the arc.",
+      );
     return `VIA ${this.target(step.via, step)} TO ${this.target(step.target, step)}`;
   }
 
@@ -123,7 +127,7 @@ export class ListWriter {
     if ("q" in target) {
       const count = this.robot.arm.joints.length;
       if (target.q.length !== count)
-        throw new CannotSay(
+        throw new UnsupportedStep(
           step.id,
           `${called(step)} holds ${target.q.length} joint values; the ${this.robot.name} has ${count} joints.`,
           "Teach the step again on this robot.",
@@ -138,7 +142,7 @@ export class ListWriter {
     const { frame, tool, branch } = target;
     const isFree = frame === "world";
     if (!isFree && !Object.hasOwn(this.program.frames, frame))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} uses the frame ${frame}, which the program does not have.`,
         "Choose another frame.",
@@ -154,7 +158,7 @@ export class ListWriter {
   private tool(name: string, step: Step): string {
     if (name === "flange") return name;
     if (!Object.hasOwn(this.program.tools, name))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} uses the tool ${name}, which the program does not have.`,
         "Choose another tool.",
@@ -173,7 +177,7 @@ function pace(step: MoveStep): string {
     PACE_DECIMALS,
   );
   if (!(Number(value) > 0))
-    throw new CannotSay(
+    throw new UnsupportedStep(
       step.id,
       `${called(step)} has a speed of ${value}, with which it never arrives.`,
       "Give the step a speed.",

@@ -1,6 +1,6 @@
 import { everyStep, type Dialect, type Program } from "@twincell/core";
-import { emitterOf } from "../writing/index.ts";
-import { spokenBy } from "./robots.ts";
+import { emitterOf } from "../emitter/index.ts";
+import { supportedBy } from "./robots.ts";
 import { MelfaProgram } from "./write/program.ts";
 
 export const CANNOT: Dialect["cannot"] = [
@@ -20,7 +20,7 @@ export const CANNOT: Dialect["cannot"] = [
 /** One file with the program, its routines and its positions, or the step that stands in the way: never a part of a program. */
 export const emitMelfa = emitterOf({
   language: "MELFA-BASIC",
-  spokenBy,
+  spokenBy: supportedBy,
   cannot: CANNOT,
   write: (place, spoken) => new MelfaProgram(place, spoken).write(),
   warnings,

@@ -1,6 +1,6 @@
 import { everyStep, type Dialect, type Program } from "@twincell/core";
-import { emitterOf } from "../writing/index.ts";
-import { GRIPPER, spokenBy } from "./robots.ts";
+import { emitterOf } from "../emitter/index.ts";
+import { GRIPPER, supportedBy } from "./robots.ts";
 import { PacProgram } from "./write/program.ts";
 
 export const CANNOT: Dialect["cannot"] = [
@@ -15,7 +15,7 @@ export const CANNOT: Dialect["cannot"] = [
 /** One file with `Main` and the subs that it calls, or the step that stands in the way: never a part of a program. */
 export const emitPac = emitterOf({
   language: "PacScript",
-  spokenBy,
+  spokenBy: supportedBy,
   cannot: CANNOT,
   write: (place, spoken) => new PacProgram(place, spoken).write(),
   warnings,

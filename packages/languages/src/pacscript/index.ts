@@ -1,5 +1,5 @@
 import type { Dialect } from "@twincell/core";
-import { skippingDialect } from "../text/index.ts";
+import { skippingDialect } from "../parser/index.ts";
 import { CANNOT, emitPac } from "./emit.ts";
 import { interpretPac, parsePac } from "./interpret.ts";
 import { LINES } from "./lines.ts";

@@ -1,15 +1,15 @@
 import type { Robot } from "@twincell/core";
 
 /** What the figure of a place means. */
-export interface Spoken {
+export interface SupportedRobot {
   /** The sign of the library's wrist that is not flipped. */
   readonly nonFlip: "positive" | "negative";
 }
 /** Robots whose controllers speak PacScript. Joint angles are those of the library in degrees: the maker's own driver sends those of its URDF. */
-const SPOKEN: Readonly<Record<string, Spoken>> = { denso_vs060: { nonFlip: "positive" } };
+const SPOKEN: Readonly<Record<string, SupportedRobot>> = { denso_vs060: { nonFlip: "positive" } };
 
 /** What is known of the robot's controller, or undefined for a robot whose controller does not speak PacScript. */
-export const spokenBy = (robot: Robot): Spoken | undefined =>
+export const supportedBy = (robot: Robot): SupportedRobot | undefined =>
   Object.hasOwn(SPOKEN, robot.id) ? SPOKEN[robot.id] : undefined;
 
 /** Numbers of lines: inputs and outputs are counted in one row. */

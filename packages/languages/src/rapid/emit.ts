@@ -1,5 +1,5 @@
 import { everyStep, type Dialect, type Emitted, type Pose, type Program, type Robot } from "@twincell/core";
-import { Place, tellsRobot, undeclared, writtenOr } from "../writing/index.ts";
+import { Place, tellsRobot, undeclared, writtenOr } from "../emitter/index.ts";
 import { GRIPPER_SIGNAL, configurationOf } from "./robots.ts";
 import { ProgramWriter } from "./write/program.ts";
 

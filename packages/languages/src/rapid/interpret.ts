@@ -1,4 +1,4 @@
-import { blockDoors, changedNames, routineScript, type BlockReader } from "../text/structured/index.ts";
+import { blockEntryPoints, changedNames, routineScript, type BlockReader } from "../parser/structured/index.ts";
 import { readSource } from "./read/grammar.ts";
 import { Machine } from "./run/machine.ts";
 
@@ -6,7 +6,7 @@ import { Machine } from "./run/machine.ts";
 const SPEAKS: ReadonlySet<string> = new Set(["abb_irb120", "abb_crb15000_5_95"]);
 
 /** Executes and reads RAPID: PROC main, or the only routine of the text. */
-export const { interpret: interpretRapid, parse: parseRapid }: BlockReader = blockDoors({
+export const { interpret: interpretRapid, parse: parseRapid }: BlockReader = blockEntryPoints({
   name: "RAPID",
   speaks: ({ id }) => SPEAKS.has(id),
   read: readSource,
@@ -14,7 +14,7 @@ export const { interpret: interpretRapid, parse: parseRapid }: BlockReader = blo
     const changing = changedNames([...source.routines.values()].map(({ body }) => body));
     return routineScript(
       source.title,
-      (surroundings, signals) => new Machine(source, changing, robot, worldFromBase, surroundings, signals),
+      (emulator, signals) => new Machine(source, changing, robot, worldFromBase, emulator, signals),
     );
   },
 });

@@ -9,7 +9,7 @@ import {
   type TextFault,
   identity,
 } from "@twincell/core";
-import { textFault } from "../text/faults.ts";
+import { textFault } from "../parser/faults.ts";
 import { checkImport, type ImportDifference } from "./import-check.ts";
 import { numberedSteps, writtenOut } from "./written-out.ts";
 

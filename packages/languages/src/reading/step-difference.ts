@@ -19,7 +19,7 @@ import {
   type Step,
   type Target,
 } from "@twincell/core";
-import { asciiText } from "../text/lines.ts";
+import { asciiText } from "../parser/lines.ts";
 
 /** Where the tip of a target is in the world. */
 export class StepTips {
@@ -124,10 +124,10 @@ export function stepDifference(
     )
       return "searches otherwise.";
   }
-  const posture = postureOf(wanted.target, robot);
+  const configuration = postureOf(wanted.target, robot);
   const other = postureOf(done.target, robot);
   // Off a joint move the posture is that of the start: a language may leave it unsaid.
-  if (posture !== undefined && (other === undefined ? wanted.path === "ptp" : !sameBranch(posture, other)))
+  if (configuration !== undefined && (other === undefined ? wanted.path === "ptp" : !sameBranch(configuration, other)))
     return "reaches its target in another posture.";
   return undefined;
 }

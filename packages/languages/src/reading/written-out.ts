@@ -1,6 +1,6 @@
 import { type Executed, type SignalLine, type Signals, type Step, type TextFault } from "@twincell/core";
-import { TextError, textFault } from "../text/faults.ts";
-import { WaitsOutside } from "../text/waits-outside.ts";
+import { TextError, textFault } from "../parser/faults.ts";
+import { WaitsOutside } from "../parser/waits-outside.ts";
 
 /** Executions of the text, and steps and lines in all of them together. */
 const EXECUTIONS = 600;

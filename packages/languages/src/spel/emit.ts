@@ -1,6 +1,6 @@
 import { everyStep, type Dialect, type Program } from "@twincell/core";
-import { emitterOf } from "../writing/index.ts";
-import { GRIPPER, spokenBy } from "./robots.ts";
+import { emitterOf } from "../emitter/index.ts";
+import { GRIPPER, supportedBy } from "./robots.ts";
 import { SpelProgram } from "./write/program.ts";
 
 export const CANNOT: Dialect["cannot"] = [
@@ -21,7 +21,7 @@ export const CANNOT: Dialect["cannot"] = [
 /** One file with `main` and the functions that it calls, or the step that stands in the way: never a part of a program. */
 export const emitSpel = emitterOf({
   language: "SPEL+",
-  spokenBy,
+  spokenBy: supportedBy,
   cannot: CANNOT,
   write: (place, spoken) => new SpelProgram(place, spoken).write(),
   warnings,

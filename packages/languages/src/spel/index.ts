@@ -1,5 +1,5 @@
 import type { Dialect } from "@twincell/core";
-import { skippingDialect } from "../text/index.ts";
+import { skippingDialect } from "../parser/index.ts";
 import { CANNOT, emitSpel } from "./emit.ts";
 import { interpretSpel, parseSpel } from "./interpret.ts";
 import { LINES } from "./lines.ts";

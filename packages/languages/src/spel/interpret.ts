@@ -1,9 +1,9 @@
-import { basicDoors } from "../text/basic/index.ts";
+import { basicEntryPoints } from "../parser/basic/index.ts";
 import { readSpel } from "./read/grammar.ts";
 import { SpelMachine, hasSpel } from "./run/machine.ts";
 
 /** Reads and executes SPEL+: `main` and the functions that it calls. */
-export const { interpret: interpretSpel, parse: parseSpel } = basicDoors({
+export const { interpret: interpretSpel, parse: parseSpel } = basicEntryPoints({
   name: "SPEL+",
   speaks: ({ id }) => hasSpel(id),
   read: readSpel,

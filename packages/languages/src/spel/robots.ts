@@ -1,15 +1,15 @@
 import type { Robot } from "@twincell/core";
 
 /** What the words for the postures of a robot mean. */
-export interface Spoken {
+export interface SupportedRobot {
   /** The sign of the library's wrist that is called NoFlip. */
   readonly noFlip: "positive" | "negative";
 }
 /** Robots whose controllers speak SPEL+. Joint angles are those of the library in degrees: its zeros are the maker's. */
-const SPOKEN: Readonly<Record<string, Spoken>> = { epson_c4_a601s: { noFlip: "positive" } };
+const SPOKEN: Readonly<Record<string, SupportedRobot>> = { epson_c4_a601s: { noFlip: "positive" } };
 
 /** What is known of the robot's controller, or undefined for a robot whose controller does not speak SPEL+. */
-export const spokenBy = (robot: Robot): Spoken | undefined =>
+export const supportedBy = (robot: Robot): SupportedRobot | undefined =>
   Object.hasOwn(SPOKEN, robot.id) ? SPOKEN[robot.id] : undefined;
 
 /** Numbers of inputs and of outputs. */

@@ -2,7 +2,7 @@ import { emptyProgram, identity, pose, robotById, type Robot } from "@twincell/c
 import { describe, expect, test } from "vitest";
 import { randomProgram } from "../testing/programs.ts";
 import { ALL_ON, near, testHundredPrograms, testLongText, witnessOf } from "../testing/witness.ts";
-import { on, rigid, sixNumbers } from "../text/basic/index.ts";
+import { on, rigid, sixNumbers } from "../parser/basic/index.ts";
 import { spel } from "./index.ts";
 
 const robot: Robot = robotById("epson_c4_a601s")!;

@@ -1,7 +1,7 @@
 import {
   PALLET_ORDERS,
   listsOf,
-  palletPlaces,
+  palletSlots,
   type Dialect,
   type EmittedFile,
   type Pallet,
@@ -82,8 +82,8 @@ export function describeStructure(dialect: Dialect, bench: DialectBench): void {
         const proof = proveText(dialect, file, program, robot, worldFromBase);
         expect(proof.kind, proof.sentence).toBe("proven");
         expect(emit(again).text).toBe(file.text);
-        const wanted = palletPlaces(program.pallets.tray!);
-        const got = palletPlaces(Object.values(again.pallets)[0]!);
+        const wanted = palletSlots(program.pallets.tray!);
+        const got = palletSlots(Object.values(again.pallets)[0]!);
         expect(got).toHaveLength(wanted.length);
         for (const [i, { position }] of got.entries())
           expect(Math.hypot(...position.map((v, k) => v - wanted[i]!.position[k]!))).toBeLessThan(1e-5);

@@ -6,7 +6,7 @@ import {
   flangePose,
   identity,
   inverse,
-  palletPlaces,
+  palletSlots,
   seededRandom,
   solveAll,
   type Capability,
@@ -109,7 +109,7 @@ class Maker {
   private move(base: { readonly id: string }): MoveStep {
     const { random, robot, tools, frames } = this;
     const { worldFromBase, paths, can } = this.choices;
-    const q = easyPosture(robot, random, EASE_M);
+    const q = easyConfiguration(robot, random, EASE_M);
     const tool = pick(random, ["flange", ...Object.keys(tools)]);
     const frame = pick(random, ["world", ...Object.keys(frames)]);
     const worldFromTcp = compose(
@@ -257,7 +257,7 @@ class Maker {
     let q: number[];
     let pallet: Pallet;
     do {
-      q = easyPosture(robot, random, ROOM_M, 0.1);
+      q = easyConfiguration(robot, random, ROOM_M, 0.1);
       pallet = this.pattern(q);
     } while (!this.reachesAll(pallet, q));
     this.pallets[name] = pallet;
@@ -318,7 +318,7 @@ class Maker {
     const { robot, frames } = this;
     const branch = branchOf(robot, q);
     if (branch === undefined) return true;
-    return palletPlaces(pallet).every(place =>
+    return palletSlots(pallet).every(place =>
       [0, -0.003].every(z_m => {
         const worldFromFlange = compose(compose(frames[pallet.frame] ?? identity<"world", "frame">(), place) as Pose, {
           position: [0, 0, z_m],
@@ -352,7 +352,7 @@ const OTHERS = [
 const DEEPEST = 2;
 
 /** Joint angles a little inside the limits, with the arm not stretched: the text's resolution must not push them out of reach. */
-function easyPosture(robot: Robot, random: Random, ease_m: number, inside = 0.01): number[] {
+function easyConfiguration(robot: Robot, random: Random, ease_m: number, inside = 0.01): number[] {
   for (;;) {
     const q = robot.arm.joints.map(
       ({ limits: { lower_rad, upper_rad } }) =>

@@ -1,5 +1,5 @@
 import type { Dialect, Emitted, Pose, Program, Robot } from "@twincell/core";
-import { Place, tellsRobot, undeclared, writtenOr } from "../writing/index.ts";
+import { Place, tellsRobot, undeclared, writtenOr } from "../emitter/index.ts";
 import { fullJointSpeed } from "./robots.ts";
 import { ProgramWriter } from "./write/program.ts";
 

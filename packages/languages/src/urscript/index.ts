@@ -1,5 +1,5 @@
 import { identity, type Dialect } from "@twincell/core";
-import { skippingDialect } from "../text/index.ts";
+import { skippingDialect } from "../parser/index.ts";
 import { CANNOT, emitUrScript } from "./emit.ts";
 import { interpretUrScript, parseUrScript } from "./interpret.ts";
 import { LINES } from "./lines.ts";

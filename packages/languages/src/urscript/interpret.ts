@@ -1,9 +1,9 @@
-import { blockDoors, constantsOf, mainScript, type BlockReader } from "../text/structured/index.ts";
+import { blockEntryPoints, constantsOf, mainScript, type BlockReader } from "../parser/structured/index.ts";
 import { readSource } from "./read/grammar.ts";
 import { Machine, speaksUrScript } from "./run/machine.ts";
 
 /** Executes and reads URScript: one program `def … end` with the routines inside it, or the statements of a bare script. */
-export const { interpret: interpretUrScript, parse: parseUrScript }: BlockReader = blockDoors({
+export const { interpret: interpretUrScript, parse: parseUrScript }: BlockReader = blockEntryPoints({
   name: "URScript",
   speaks: speaksUrScript,
   read: readSource,
@@ -11,7 +11,7 @@ export const { interpret: interpretUrScript, parse: parseUrScript }: BlockReader
     const constants = constantsOf(source.main, source.routines.values());
     return mainScript(
       source,
-      (surroundings, signals) => new Machine(source, constants, robot, worldFromBase, surroundings, signals),
+      (emulator, signals) => new Machine(source, constants, robot, worldFromBase, emulator, signals),
     );
   },
 });

@@ -10,9 +10,9 @@ import {
   type Step,
 } from "@twincell/core";
 import { jointConvention } from "./robots.ts";
-import { VPLUS_LINES, outOfRange } from "../writing/index.ts";
-import { MOST_POINTS, pointList } from "./write/point-list.ts";
-import { posturesOf, type Place } from "./write/postures.ts";
+import { VPLUS_LINES, outOfRange } from "../emitter/index.ts";
+import { MAX_POINTS, pointList } from "./write/point-list.ts";
+import { configurationsOf, type Place } from "./write/postures.ts";
 import { ProgramWriter } from "./write/program.ts";
 
 /** What V+ has no standard instruction for. */
@@ -27,7 +27,7 @@ export const CANNOT: readonly { readonly what: Capability; readonly because: str
   { what: "read-analogue", because: "Analogue lines are an option of the controller that standard V+ does not have." },
 ];
 /** Whole numbers are exact in the controller's reals up to here. */
-const MOST_TIMES = 2 ** 24;
+const MAX_TIMES = 2 ** 24;
 
 /** The point list of the paper and the runnable program, or the step that stands in the way: never a part of a program. */
 export function emitVPlus(program: Program, robot: Robot, worldFromBase: Pose<"world", "base">): Emitted {
@@ -44,22 +44,22 @@ export function emitVPlus(program: Program, robot: Robot, worldFromBase: Pose<"w
   const moves = steps.filter((step): step is MoveStep => step.type === "move");
   const refused = unspeakable(program, steps);
   if (refused !== undefined) return refused;
-  if (moves.length > MOST_POINTS) {
+  if (moves.length > MAX_POINTS) {
     return {
       kind: "cannot",
-      step: moves[MOST_POINTS]!.id,
-      sentence: `The program has ${moves.length} points; the array of the point list ends after ${MOST_POINTS}.`,
+      step: moves[MAX_POINTS]!.id,
+      sentence: `The program has ${moves.length} points; the array of the point list ends after ${MAX_POINTS}.`,
       hint: "Export it in parts.",
     };
   }
   const place: Place = { robot, worldFromBase, tools: program.tools, frames: program.frames };
-  const postures = posturesOf(program, place);
-  if (postures.kind === "cannot") return postures;
+  const configurations = configurationsOf(program, place);
+  if (configurations.kind === "cannot") return configurations;
   return {
     kind: "emitted",
     files: [
-      new ProgramWriter(program, place, convention, postures.q_rad).write(),
-      pointList(moves, postures.q_rad, convention),
+      new ProgramWriter(program, place, convention, configurations.q_rad).write(),
+      pointList(moves, configurations.q_rad, convention),
     ],
     warnings: warnings(program, robot, moves),
   };
@@ -98,10 +98,10 @@ function unspeakable(program: Program, steps: readonly Step[]): Extract<Emitted,
       const wrong = outOfRange("V+", VPLUS_LINES, step, signal, program.signals[signal]!);
       if (wrong !== undefined) return { kind: "cannot", step: step.id, ...wrong };
     }
-    if (step.type === "repeat" && step.times !== "forever" && step.times > MOST_TIMES)
+    if (step.type === "repeat" && step.times !== "forever" && step.times > MAX_TIMES)
       return refuse(
         step,
-        `repeats ${step.times} times; a loop of V+ counts to ${MOST_TIMES}.`,
+        `repeats ${step.times} times; a loop of V+ counts to ${MAX_TIMES}.`,
         "Put one loop into another.",
       );
     if (step.type !== "pallet") continue;

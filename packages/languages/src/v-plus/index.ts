@@ -1,5 +1,5 @@
 import { identity, type Dialect } from "@twincell/core";
-import { skippingDialect } from "../text/index.ts";
+import { skippingDialect } from "../parser/index.ts";
 import { CANNOT, emitVPlus } from "./emit.ts";
 import { interpretVPlus } from "./interpret.ts";
 import { isPointList, parseVPlus } from "./parse.ts";

@@ -1,9 +1,9 @@
 import type { Executed, Interpreted, Pose, Robot, Signals } from "@twincell/core";
-import { rehearse, textFault } from "../text/index.ts";
+import { dryRun, textFault } from "../parser/index.ts";
 import { readSource } from "./read/source.ts";
 import { jointConvention } from "./robots.ts";
 import { Machine } from "./run/machine.ts";
-import type { Met } from "./run/state.ts";
+import type { DeclaredContext } from "./run/state.ts";
 
 /**
  * Executes V+ text: a disk file (its first program) or a list of terminal commands. Locations count from the shoulder of
@@ -25,10 +25,10 @@ export function interpretVPlus(text: string, robot: Robot, worldFromBase: Pose<"
   }
   const read = readSource(text);
   if (read.kind === "not-understood") return read;
-  const met: Met = { tools: {}, lines: {} };
+  const met: DeclaredContext = { tools: {}, lines: {} };
   const run = (signals?: Signals): Generator<Executed, void> =>
     new Machine(read.source, robot, convention, worldFromBase, met, signals).run();
-  const fault = rehearse(run());
+  const fault = dryRun(run());
   if (fault !== undefined) return { kind: "not-understood", faults: [fault] };
   return { kind: "ready", run, context: { tools: met.tools, frames: {}, signals: met.lines } };
 }

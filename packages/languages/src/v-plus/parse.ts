@@ -8,7 +8,7 @@ import {
   withComments,
   type Comment,
   type Unrolled,
-} from "../text/index.ts";
+} from "../parser/index.ts";
 import type { ReadSteps } from "../reading/checked-import.ts";
 import { interpretVPlus } from "./interpret.ts";
 import { structuredProgram } from "./read/structure.ts";

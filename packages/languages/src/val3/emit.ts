@@ -1,5 +1,5 @@
 import { everyStep, type Dialect, type Emitted, type Pose, type Program, type Robot } from "@twincell/core";
-import { Place, tellsRobot, undeclared, writtenOr } from "../writing/index.ts";
+import { Place, tellsRobot, undeclared, writtenOr } from "../emitter/index.ts";
 import { VALVE, speaksVal3 } from "./robots.ts";
 import { ApplicationWriter } from "./write/program.ts";
 

@@ -1,5 +1,5 @@
 import { identity, type Dialect, type EmittedFile } from "@twincell/core";
-import { skippingDialect } from "../text/index.ts";
+import { skippingDialect } from "../parser/index.ts";
 import { CANNOT, emitVal3 } from "./emit.ts";
 import { interpretVal3, parseVal3 } from "./interpret.ts";
 import { LINES } from "./lines.ts";

@@ -1,10 +1,10 @@
-import { blockDoors, changedNames, routineScript, type BlockReader } from "../text/structured/index.ts";
+import { blockEntryPoints, changedNames, routineScript, type BlockReader } from "../parser/structured/index.ts";
 import { readApplication } from "./read/application.ts";
 import { hasWorld } from "./run/arm.ts";
 import { Machine } from "./run/machine.ts";
 
 /** Executes and reads VAL 3: the program "start", or the first of the text, with the data that stand behind it. */
-export const { interpret: interpretVal3, parse: parseVal3 }: BlockReader = blockDoors({
+export const { interpret: interpretVal3, parse: parseVal3 }: BlockReader = blockEntryPoints({
   name: "VAL 3",
   speaks: hasWorld,
   read: readApplication,
@@ -12,7 +12,7 @@ export const { interpret: interpretVal3, parse: parseVal3 }: BlockReader = block
     const changing = changedNames([...application.routines.values()].map(({ body }) => body));
     return routineScript(
       application.title,
-      (surroundings, signals) => new Machine(application, changing, robot, worldFromBase, surroundings, signals),
+      (emulator, signals) => new Machine(application, changing, robot, worldFromBase, emulator, signals),
     );
   },
 });

@@ -61,7 +61,7 @@ export interface DashboardOptions {
 }
 
 /** Trends have at most about this many points. */
-const MOST_POINTS = 200;
+const MAX_POINTS = 200;
 /** A change smaller than this is not worth a sentence. */
 const SLOWER = 0.05;
 const RISES = 0.15;
@@ -152,7 +152,7 @@ function trendOf(
   { minutes, duration_s }: Pick<History, "minutes" | "duration_s">,
   pick: (minute: History["minutes"][number]) => readonly number[],
 ): TrendPoint[] {
-  const group = Math.max(1, Math.ceil(duration_s / 60 / MOST_POINTS));
+  const group = Math.max(1, Math.ceil(duration_s / 60 / MAX_POINTS));
   const groups = new Map<number, { sums: number[]; count: number }>();
   for (const minute of minutes) {
     const values = pick(minute);

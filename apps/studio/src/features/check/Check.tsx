@@ -4,7 +4,7 @@ import { runCommand } from "../../stores/commands.ts";
 import { programOf, robotOf } from "../../stores/document.ts";
 import { playStore } from "../../stores/play.ts";
 import { stationStore } from "../../stores/stations.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { JointColumn } from "./JointColumn.tsx";
 import { figures } from "./figures.ts";
 import { WhyCards } from "./WhyCards.tsx";
@@ -12,7 +12,7 @@ import "./check.css";
 
 /** Check mode: the joints at this moment, why something cannot be, and the figures of the whole program. */
 export function Check() {
-  const { verdict, checking, trouble, plan, withOthers } = useStore(playStore);
+  const { verdict, checking, trouble: faultInjection, plan, withOthers } = useStore(playStore);
   const others = useStore(stationStore, state => state.stations.length);
   const robot = useStore(cellStore, state => robotOf(state.document));
   const steps = useStore(cellStore, state => programOf(state.document)?.steps.length ?? 0);
@@ -60,9 +60,9 @@ export function Check() {
               {words.check.others(others)}
             </label>
           )}
-          {trouble && (
+          {faultInjection && (
             <p className="why" data-tone="bad" role="alert">
-              <b>{words.check.trouble}</b> {trouble}
+              <b>{words.check.trouble}</b> {faultInjection}
             </p>
           )}
           {steps === 0 ? (
@@ -70,7 +70,7 @@ export function Check() {
           ) : verdict ? (
             <WhyCards verdict={verdict} />
           ) : (
-            checking === null && !trouble && <p className="muted small">{words.check.notYet}</p>
+            checking === null && !faultInjection && <p className="muted small">{words.check.notYet}</p>
           )}
         </div>
       </section>

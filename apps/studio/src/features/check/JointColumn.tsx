@@ -2,7 +2,7 @@ import type { Robot } from "@twincell/core";
 import { useRef } from "react";
 import { showNumber } from "../../ui/expression.ts";
 import { useLive } from "../../ui/useLive.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 const NEAR_RAD = (10 * Math.PI) / 180;
 

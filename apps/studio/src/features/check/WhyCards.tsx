@@ -4,12 +4,12 @@ import { useStore } from "zustand";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { programOf } from "../../stores/document.ts";
-import { cancelSearch, findWayRound } from "../../live/planning.ts";
+import { cancelSearch, findDetour } from "../../runtime/planning/planning.ts";
 import { collideStore } from "../../stores/collide.ts";
 import { firstRepairs, repairStep, findStep, stepWords } from "../../stores/program.ts";
 import { select } from "../../stores/selection.ts";
 import { previewStep, seek } from "../../stores/seek.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { whyCards, type Why } from "./why.ts";
 
 const FIRST = 12;
@@ -114,14 +114,14 @@ function WhyCard({ card, subject }: { card: Why; subject: string }) {
           </button>
         </div>
       ))}
-      {card.finding.code === "collision.contact" && <WayRound step={card.step} />}
+      {card.finding.code === "collision.contact" && <Detour step={card.step} />}
       {shown && <p className="small muted">{words.check.shown}</p>}
     </article>
   );
 }
 
 /** One click: a search away from the page, with its progress, and what it finds as one edit. */
-function WayRound({ step }: { step: string }) {
+function Detour({ step }: { step: string }) {
   const searching = useStore(collideStore, state => state.searching);
   const mine = searching?.kind === "way" && searching.step === step;
   return (
@@ -138,7 +138,7 @@ function WayRound({ step }: { step: string }) {
       ) : (
         <>
           <span />
-          <button className="btn tight" disabled={searching !== null} onClick={() => findWayRound(step)}>
+          <button className="btn tight" disabled={searching !== null} onClick={() => findDetour(step)}>
             {words.collide.wayRound}
           </button>
         </>

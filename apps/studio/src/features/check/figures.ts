@@ -1,7 +1,7 @@
 import type { Plan, Robot, StepVerdict, Verdict } from "@twincell/core";
 import { worse } from "../../stores/play.ts";
 import { showNumber } from "../../ui/expression.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 export interface Figure {
   readonly name: string;

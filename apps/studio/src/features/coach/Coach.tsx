@@ -7,7 +7,7 @@ import { playStore } from "../../stores/play.ts";
 import { traceStore } from "../../stores/trace.ts";
 import { historyStore } from "../../stores/history.ts";
 import { viewStore } from "../../stores/view.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { reachedStep } from "./reached.ts";
 import "./coach.css";
 

@@ -1,6 +1,6 @@
 import { edgeTraceCell, emptyCell } from "@twincell/project";
 import { expect, test } from "vitest";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { reachedStep, type Done } from "./reached.ts";
 
 test("N-01 the six steps of the process have a place each: objects, kinematics, interaction, scenario, check and correct, run", () => {

@@ -1,13 +1,13 @@
 import { brakingDistance_m, COLLISION_BEHAVIOURS, hardBrakingTime_s, type Robot } from "@twincell/core";
 import { useStore } from "zustand";
-import { learnMatrix } from "../../live/planning.ts";
+import { learnMatrix } from "../../runtime/planning/planning.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { chooseBehaviour, collideStore } from "../../stores/collide.ts";
 import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
 import { robotOf } from "../../stores/document.ts";
 import { showNumber } from "../../ui/expression.ts";
 import { Frame } from "../../ui/Frame.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { PairTable } from "./PairTable.tsx";
 import "./collide.css";
 

@@ -1,7 +1,7 @@
 import { editPair, type PairEntry } from "@twincell/core";
 import type { PairsRecord } from "@twincell/project";
 import { commit } from "../../stores/document.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 const short = (name: string): string => (name === "tool" ? "T" : name.replace("link ", ""));
 const edit = ({ a, b, watched }: PairEntry): void => {

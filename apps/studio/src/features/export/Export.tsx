@@ -1,6 +1,6 @@
 import { useEffect, useState } from "react";
 import { useStore } from "zustand";
-import { postProgram } from "../../live/posting.ts";
+import { postProgram } from "../../runtime/planning/posting.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
 import { programOf, robotOf } from "../../stores/document.ts";
@@ -13,7 +13,7 @@ import { Segments } from "../../ui/Choice.tsx";
 import { CodeView } from "../../ui/CodeView.tsx";
 import { download } from "../../ui/download.ts";
 import { Frame } from "../../ui/Frame.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { ImportDialog } from "./ImportDialog.tsx";
 import { LanguageChoice } from "../../ui/LanguageChoice.tsx";
 import { manifestOf } from "./manifest.ts";
@@ -34,7 +34,7 @@ export default function Export() {
 }
 
 function Body() {
-  const { emitted, proof, working, trouble } = useStore(postStore);
+  const { emitted, proof, working, trouble: faultInjection } = useStore(postStore);
   const cell = useStore(cellStore, state => state.document);
   const program = programOf(cell);
   const robot = robotOf(cell);
@@ -91,10 +91,11 @@ function Body() {
             {proof.sentence}
           </p>
         )}
-        {(trouble ?? (emitted?.kind === "cannot" ? `${emitted.sentence} ${emitted.hint}` : null)) !== null && (
+        {(faultInjection ?? (emitted?.kind === "cannot" ? `${emitted.sentence} ${emitted.hint}` : null)) !== null && (
           <p className="export-proof" role="alert">
             <i className="mark" data-verdict="bad" aria-hidden />
-            {words.export.cannot} {trouble ?? (emitted?.kind === "cannot" && `${emitted.sentence} ${emitted.hint}`)}
+            {words.export.cannot}{" "}
+            {faultInjection ?? (emitted?.kind === "cannot" && `${emitted.sentence} ${emitted.hint}`)}
           </p>
         )}
         {emitted?.kind === "emitted" && (

@@ -2,7 +2,7 @@ import type { Skipped, TextFault } from "@twincell/core";
 import { DIALECTS } from "@twincell/languages";
 import { useEffect, useRef, useState, type DragEvent } from "react";
 import { useStore } from "zustand";
-import { readText, type Reading } from "../../live/reading.ts";
+import { readText, type Reading } from "../../runtime/planning/reading.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { controlStore } from "../../stores/control.ts";
 import { closeDialog } from "../../stores/dialogs.ts";
@@ -13,7 +13,7 @@ import { notify } from "../../stores/notices.ts";
 import { showMode, viewStore } from "../../stores/view.ts";
 import { Chooser } from "../../ui/Choice.tsx";
 import { Frame } from "../../ui/Frame.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 const GUESS = "guess";
 /** Typing settles before the text is read. */

@@ -2,7 +2,7 @@ import { DIALECTS } from "@twincell/languages";
 import { useEffect, useRef, useState } from "react";
 import { registerCommands } from "../../stores/commands.ts";
 import { IMPORT_ENDINGS } from "@twincell/formats";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { fileCommands } from "../../commands/file.ts";
 import { droppedFiles } from "./dropped.ts";
 import { openFiles } from "./openFile.ts";

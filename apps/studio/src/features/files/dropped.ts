@@ -1,4 +1,4 @@
-import type { FileAt } from "../../live/mesh-import.ts";
+import type { FileAt } from "../../runtime/mesh-import.ts";
 
 /** More files than this of a dropped folder are left where they are. */
 const MOST_FILES = 5000;

@@ -1,11 +1,11 @@
 import { notify } from "../../stores/notices.ts";
 import { openCellText } from "../../stores/opening.ts";
 import { importText } from "../../stores/importing.ts";
-import { importShapes, type FileAt } from "../../live/mesh-import.ts";
+import { importShapes, type FileAt } from "../../runtime/mesh-import.ts";
 import { endingOf, IMPORT_ENDINGS } from "@twincell/formats";
 import { DIALECTS } from "@twincell/languages";
-import { words } from "../../words/index.ts";
-import { openTextFiles } from "../../live/open-text.ts";
+import { words } from "../../messages/index.ts";
+import { openTextFiles } from "../../runtime/open-text.ts";
 
 /** Whether files with that ending are programs of a robot language. */
 const isProgram = (kind: string): boolean =>
@@ -15,7 +15,7 @@ const isProgram = (kind: string): boolean =>
 export async function openFile(file: File): Promise<void> {
   const kind = /\.([a-z0-9]+)$/i.exec(file.name)?.[1]?.toLowerCase() ?? "";
   try {
-    if (kind === "mcap") await (await import("../../live/cell-control.ts")).openRecordingFiles([file]);
+    if (kind === "mcap") await (await import("../../runtime/robot/cell-control.ts")).openRecordingFiles([file]);
     else if (kind === "json") openCellText(await file.text(), file.name);
     else if (isShape(file.name)) await importShapes([{ path: file.name, file }]);
     else if (isProgram(kind) && kind !== "txt") await openTexts([file]);
@@ -23,8 +23,12 @@ export async function openFile(file: File): Promise<void> {
       const [fault] = importText(await file.text(), file.name);
       if (fault !== undefined) notify("bad", words.file.notCell(file.name, fault), words.file.notCellHint);
     } else notify("bad", words.file.unknownKind(file.name), words.file.unknownHint);
-  } catch (trouble) {
-    notify("bad", words.file.unreadable(file.name), trouble instanceof Error ? trouble.message : undefined);
+  } catch (faultInjection) {
+    notify(
+      "bad",
+      words.file.unreadable(file.name),
+      faultInjection instanceof Error ? faultInjection.message : undefined,
+    );
   }
 }
 
@@ -55,13 +59,13 @@ export async function openFiles(files: readonly FileAt[]): Promise<void> {
   try {
     if (hasShapes) await importShapes(others);
     if (texts.length > 0) await openTexts(texts);
-  } catch (trouble) {
+  } catch (faultInjection) {
     notify(
       "bad",
       words.file.unreadable(files[0]?.file.name ?? ""),
-      trouble instanceof Error ? trouble.message : undefined,
+      faultInjection instanceof Error ? faultInjection.message : undefined,
     );
   }
   if (!hasShapes) for (const { file } of others) await openFile(file);
-  if (recordings.length > 0) await (await import("../../live/cell-control.ts")).openRecordingFiles(recordings);
+  if (recordings.length > 0) await (await import("../../runtime/robot/cell-control.ts")).openRecordingFiles(recordings);
 }

@@ -1,11 +1,11 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { useRef, useState } from "react";
 import { useStore } from "zustand";
-import { theHistory } from "../../live/cell-control.ts";
+import { theHistory } from "../../runtime/robot/cell-control.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { flangeFromTcpOf } from "../../stores/document.ts";
 import { historyStore } from "../../stores/history.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { clockOf } from "./times.ts";
 
 const ROW_PX = 44;

@@ -2,11 +2,11 @@ import type { Dashboard, Hint, JointTravel } from "@twincell/recording";
 import { isSlide, robotById, type Robot } from "@twincell/core";
 import { useEffect, type ReactNode } from "react";
 import { useStore } from "zustand";
-import { theHistory } from "../../live/cell-control.ts";
+import { theHistory } from "../../runtime/robot/cell-control.ts";
 import { historyStore } from "../../stores/history.ts";
 import { serviceStore, setServiceTravel } from "../../stores/service.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { clockOf } from "./times.ts";
 import { Trend } from "./Trend.tsx";
 

@@ -2,12 +2,12 @@ import { Download, FolderOpen, Trash2 } from "lucide-react";
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { lazy, Suspense, useRef, useState } from "react";
 import { useStore } from "zustand";
-import { openRecordingFiles, theHistory } from "../../live/cell-control.ts";
+import { openRecordingFiles, theHistory } from "../../runtime/robot/cell-control.ts";
 import { historyStore, type RunRecord } from "../../stores/history.ts";
 import { notify } from "../../stores/notices.ts";
 import { Segments } from "../../ui/Choice.tsx";
 import { download } from "../../ui/download.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { Cycles } from "./Cycles.tsx";
 import { Moment } from "./Moment.tsx";
 import { clockOf } from "./times.ts";
@@ -113,8 +113,11 @@ function RunRow({ run, open, top_px }: { readonly run: RunRecord; readonly open:
   const save = async (): Promise<void> => {
     try {
       download(`${run.id}.mcap`, await theHistory.file(run.id));
-    } catch (trouble) {
-      notify("bad", `${words.history.unreadable} ${trouble instanceof Error ? trouble.message : String(trouble)}.`);
+    } catch (faultInjection) {
+      notify(
+        "bad",
+        `${words.history.unreadable} ${faultInjection instanceof Error ? faultInjection.message : String(faultInjection)}.`,
+      );
     }
   };
   const remove = async (): Promise<void> => {

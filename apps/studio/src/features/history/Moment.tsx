@@ -1,22 +1,22 @@
 import { BellRing, GitBranch, Link2 } from "lucide-react";
 import { useStore } from "zustand";
-import { branchFromHere, shareMoment, theHistory } from "../../live/cell-control.ts";
+import { branchFromHere, shareMoment, theHistory } from "../../runtime/robot/cell-control.ts";
 import { historyStore } from "../../stores/history.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { clockOf, MOST_SHOWN, wallOf } from "./times.ts";
 
 /** How everything stood at the moment that is looked at, what can be done with it, and what happened around it. */
 export function Moment() {
-  const { moment, marks, troubles, window, startedAt_ms, t_s } = useStore(historyStore);
+  const { moment, marks, troubles: faultInjections, window, startedAt_ms, t_s } = useStore(historyStore);
   const { modes, safeties } = words.history;
   const inSight = marks.filter(mark => mark.at_s >= window.from_s && mark.at_s <= window.to_s);
   const lines = Object.entries(moment.signals);
   return (
     <div className="history-moment">
       <p className="small muted">{wallOf(startedAt_ms, t_s)}</p>
-      {troubles.map(trouble => (
-        <p key={trouble} className="small history-trouble">
-          {trouble}
+      {faultInjections.map(faultInjection => (
+        <p key={faultInjection} className="small history-trouble">
+          {faultInjection}
         </p>
       ))}
       {!moment.recorded && <p className="small history-trouble">{words.history.gap}</p>}

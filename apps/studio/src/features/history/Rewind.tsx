@@ -1,9 +1,9 @@
 import { Pause, Play } from "lucide-react";
 import { useStore } from "zustand";
-import { theHistory } from "../../live/cell-control.ts";
+import { theHistory } from "../../runtime/robot/cell-control.ts";
 import { historyStore, zoomTo } from "../../stores/history.ts";
 import { Slide } from "../../ui/Slide.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { clockOf } from "./times.ts";
 import "./history.css";
 

@@ -2,7 +2,7 @@ import { useEffect, useRef } from "react";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { useStore } from "zustand";
-import { theHistory } from "../../live/cell-control.ts";
+import { theHistory } from "../../runtime/robot/cell-control.ts";
 import { viewStore } from "../../stores/view.ts";
 import { clockOf } from "./times.ts";
 

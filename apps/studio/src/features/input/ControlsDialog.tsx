@@ -5,7 +5,7 @@ import {
   bindingStore,
   bindKey,
   bindStick,
-  HELD_ACTIONS,
+  PRESSED_ACTIONS,
   PAD_ACTIONS,
   resetBindings,
   STICK_ACTIONS,
@@ -17,7 +17,7 @@ import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
 import { gamepadStore } from "../../stores/gamepad.ts";
 import { Chooser } from "../../ui/Choice.tsx";
 import { Frame } from "../../ui/Frame.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { DOWN } from "./gamepad.ts";
 import "./controls.css";
 
@@ -79,7 +79,7 @@ function Tables() {
     <div className="controls">
       <section>
         <h3 className="heading">{words.pad.keyboard}</h3>
-        {HELD_ACTIONS.map(action => (
+        {PRESSED_ACTIONS.map(action => (
           <div className="control-line" key={action}>
             <span>{words.pad.actions[action]}</span>
             <button

@@ -1,13 +1,13 @@
 import { useEffect } from "react";
-import { onFrame } from "../../live/frames.ts";
-import { hold, release, releaseAll } from "../../live/held.ts";
+import { onFrame } from "../../runtime/jog/jog-frames.ts";
+import { hold, release, releaseAll } from "../../runtime/jog/pressed-inputs.ts";
 import { bindingStore, type PressedAction } from "../../stores/bindings.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { dialogStore } from "../../stores/dialogs.ts";
 import { gamepadStore } from "../../stores/gamepad.ts";
 import { notify } from "../../stores/notices.ts";
 import { tiltCloseCamera, viewStore } from "../../stores/view.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { padStep, type PadReading } from "./gamepad.ts";
 
 const COMMAND: Readonly<Record<PressedAction, string>> = {

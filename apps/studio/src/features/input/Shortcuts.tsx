@@ -1,5 +1,5 @@
 import { useEffect } from "react";
-import { hold, release, releaseAll } from "../../live/held.ts";
+import { hold, release, releaseAll } from "../../runtime/jog/pressed-inputs.ts";
 import { axisOf, bindingStore } from "../../stores/bindings.ts";
 import { commandStore, runCommand } from "../../stores/commands.ts";
 import { dialogStore } from "../../stores/dialogs.ts";

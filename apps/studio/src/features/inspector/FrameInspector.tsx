@@ -1,7 +1,7 @@
 import type { CellDocument } from "@twincell/project";
 import { commit } from "../../stores/document.ts";
 import { jogStore } from "../../stores/jog.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { PoseFields } from "./PoseFields.tsx";
 
 export function FrameInspector({ document, name }: { document: CellDocument; name: string }) {

@@ -3,7 +3,7 @@ import { cellStore } from "../../stores/cell.ts";
 import { objectOf, programOf } from "../../stores/document.ts";
 import { findStep } from "../../stores/program.ts";
 import { selectionStore } from "../../stores/selection.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { FrameInspector } from "./FrameInspector.tsx";
 import { ObjectInspector } from "./ObjectInspector.tsx";
 import { RobotInspector } from "./RobotInspector.tsx";

@@ -1,10 +1,10 @@
 import type { Robot } from "@twincell/core";
 import { useState } from "react";
-import { showJoints, theLive } from "../../live/live.ts";
-import { takeRobot } from "../../live/owner.ts";
+import { showJoints, theLive } from "../../runtime/live.ts";
+import { takeRobot } from "../../runtime/robot/motion-owner.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { useLive } from "../../ui/useLive.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 /** Typed joint angles are taken ten times a second at most from the moving robot. */
 const EVERY_MS = 100;

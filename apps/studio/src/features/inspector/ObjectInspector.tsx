@@ -3,7 +3,7 @@ import type { ObjectRecord } from "@twincell/project";
 import { commit, withObject } from "../../stores/document.ts";
 import { shownUnit } from "../../ui/expression.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { PoseFields } from "./PoseFields.tsx";
 
 const SIDES = [words.inspector.width, words.inspector.depth, words.inspector.height] as const;

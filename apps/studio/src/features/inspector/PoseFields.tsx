@@ -1,8 +1,8 @@
 import type { Pose, Vector3 } from "@twincell/core";
-import { fixedXyz, fromFixedXyz } from "../../live/fixed-xyz.ts";
+import { fixedXyz, fromFixedXyz } from "../../runtime/jog/fixed-xyz.ts";
 import { shownUnit } from "../../ui/expression.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 const MARKS = ["X", "Y", "Z"] as const;
 const TURNS = ["Rx", "Ry", "Rz"] as const;

@@ -3,7 +3,7 @@ import type { CellDocument } from "@twincell/project";
 import { runCommand } from "../../stores/commands.ts";
 import { commit, robotOf } from "../../stores/document.ts";
 import { showNumber } from "../../ui/expression.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { JointFields } from "./JointFields.tsx";
 import { PoseFields } from "./PoseFields.tsx";
 

@@ -1,7 +1,7 @@
 import type { CommentStep, Program, RepeatStep, SetStep, WaitForStep } from "@twincell/core";
 import { changeStep } from "../../stores/program.ts";
 import { Segments } from "../../ui/Choice.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 const ON_OFF = [
   { value: "on", words: words.common.on },
@@ -135,7 +135,7 @@ export function RepeatFields({ step }: { step: RepeatStep }) {
   };
   const take = (typed: string): void => {
     const times = Number(typed);
-    if (Number.isInteger(times) && times >= 1 && times <= MOST_TIMES) set(times);
+    if (Number.isInteger(times) && times >= 1 && times <= MAX_TIMES) set(times);
   };
   return (
     <>
@@ -159,7 +159,7 @@ export function RepeatFields({ step }: { step: RepeatStep }) {
               key={step.times}
               type="number"
               min={1}
-              max={MOST_TIMES}
+              max={MAX_TIMES}
               aria-label={words.step.times}
               defaultValue={step.times}
               onBlur={event => take(event.currentTarget.value)}
@@ -173,4 +173,4 @@ export function RepeatFields({ step }: { step: RepeatStep }) {
     </>
   );
 }
-const MOST_TIMES = 1_000_000;
+const MAX_TIMES = 1_000_000;

@@ -3,7 +3,7 @@ import { changeMove, changeStep, deleteSteps, renameStep, stepWords } from "../.
 import { runCommand } from "../../stores/commands.ts";
 import { Segments } from "../../ui/Choice.tsx";
 import { NumberField } from "../../ui/NumberField.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { PoseFields } from "./PoseFields.tsx";
 import { CommentFields, RepeatFields, SetFields, WaitForFields } from "./SignalFields.tsx";
 

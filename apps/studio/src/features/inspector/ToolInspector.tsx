@@ -1,7 +1,7 @@
 import type { CellDocument } from "@twincell/project";
 import { commit, toolOf } from "../../stores/document.ts";
 import { Chooser } from "../../ui/Choice.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { PoseFields } from "./PoseFields.tsx";
 
 export function ToolInspector({ document }: { document: CellDocument }) {

@@ -2,7 +2,7 @@ import { CircleCheck, Info, OctagonAlert, TriangleAlert, X } from "lucide-react"
 import { useEffect, useState } from "react";
 import { useStore } from "zustand";
 import { dismiss, noticeStore, type Notice } from "../../stores/notices.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import "./notices.css";
 
 const GLYPH = { info: <Info />, warn: <TriangleAlert />, bad: <OctagonAlert />, done: <CircleCheck /> } as const;

@@ -3,7 +3,7 @@ import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { watchStore } from "../../stores/watch.ts";
 import { showNumber } from "../../ui/expression.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 /** Beyond this there is plenty of room, and the watch does not measure [m]. */
 const PLENTY_M = 0.25;

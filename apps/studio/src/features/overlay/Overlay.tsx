@@ -1,8 +1,8 @@
 import { useEffect, useRef } from "react";
 import { useStore } from "zustand";
-import { onFrame } from "../../live/frames.ts";
-import { theLive } from "../../live/live.ts";
-import { readFrame, readTcp } from "../../live/readout.ts";
+import { onFrame } from "../../runtime/jog/jog-frames.ts";
+import { theLive } from "../../runtime/live.ts";
+import { readFrame, readTcp } from "../../runtime/jog/readout.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { worldFromFrameOf } from "../../stores/document.ts";
@@ -10,7 +10,7 @@ import { jogStore } from "../../stores/jog.ts";
 import { traceStore } from "../../stores/trace.ts";
 import { viewStore } from "../../stores/view.ts";
 import { showNumber } from "../../ui/expression.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { ClearanceTag } from "./ClearanceTag.tsx";
 import "./overlay.css";
 

@@ -4,7 +4,7 @@ import { commandStore, runCommand, type CommandGroup } from "../../stores/comman
 import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
 import { Frame } from "../../ui/Frame.tsx";
 import { showKeys } from "../../ui/keys.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { commandScore } from "./rank.ts";
 import "./palette.css";
 

@@ -6,7 +6,7 @@ import { playCommands } from "../../commands/play.ts";
 import { programCommands } from "../../commands/program.ts";
 import { viewCommands } from "../../commands/view.ts";
 import type { Command } from "../../stores/commands.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { fileCommands } from "../../commands/file.ts";
 import { commandScore } from "./rank.ts";
 

@@ -4,7 +4,7 @@ import { cellStore } from "../../stores/cell.ts";
 import { robotOf } from "../../stores/document.ts";
 import { showNumber } from "../../ui/expression.ts";
 import { useLive } from "../../ui/useLive.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { nearness } from "./nearness.ts";
 
 /** While jogging in space: all joints at a glance, and which one is closest to its limit. */

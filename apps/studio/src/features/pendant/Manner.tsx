@@ -3,7 +3,7 @@ import { jogStore, JOG_STEPS_M, type JogState } from "../../stores/jog.ts";
 import { Chooser, Segments } from "../../ui/Choice.tsx";
 import { showNumber } from "../../ui/expression.ts";
 import { Slide } from "../../ui/Slide.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 /** A step in mm has its step in degrees beside it. */
 const stepDegrees = (step_m: number): number => Math.min(10, Math.max(0.01, step_m * 200));
@@ -11,7 +11,7 @@ const shown = (step_m: number): string =>
   words.jog.stepOf(showNumber(step_m, "length", step_m < 0.001 ? 1 : 0), String(stepDegrees(step_m)));
 
 /** Moving while held, or in steps; how fast, or how far. */
-export function Manner() {
+export function JogMode() {
   const manner = useStore(jogStore, state => state.manner);
   const step = useStore(jogStore, state => state.step_m);
   const speed = useStore(jogStore, state => state.speed);

@@ -1,8 +1,8 @@
 import { Minus, Plus } from "lucide-react";
 import { useRef } from "react";
 import { useStore } from "zustand";
-import { hold, release } from "../../live/held.ts";
-import { readFrame, readTcp } from "../../live/readout.ts";
+import { hold, release } from "../../runtime/jog/pressed-inputs.ts";
+import { readFrame, readTcp } from "../../runtime/jog/readout.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { robotOf, worldFromFrameOf } from "../../stores/document.ts";
 import { jogStore, type JogFrame } from "../../stores/jog.ts";
@@ -10,10 +10,10 @@ import { Segments } from "../../ui/Choice.tsx";
 import { showNumber } from "../../ui/expression.ts";
 import { HoldButton } from "../../ui/HoldButton.tsx";
 import { useLive } from "../../ui/useLive.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { nearness } from "./nearness.ts";
 import { JointGauges } from "./JointGauges.tsx";
-import { Manner } from "./Manner.tsx";
+import { JogMode } from "./Manner.tsx";
 import { PointButtons } from "./PointButtons.tsx";
 import "../../ui/axis.css";
 import "./pendant.css";
@@ -50,7 +50,7 @@ export function Pendant() {
         ) : (
           frame !== "joint" && <JointGauges />
         )}
-        <Manner />
+        <JogMode />
         <PointButtons />
       </div>
     </section>

@@ -5,14 +5,14 @@ import { controlStore } from "../../stores/control.ts";
 import { jogStore } from "../../stores/jog.ts";
 import { recordStore } from "../../stores/record.ts";
 import { selectionStore } from "../../stores/selection.ts";
-import { aidStore } from "../../stores/aids.ts";
+import { orientationPresetStore } from "../../stores/aids.ts";
 import { Tip } from "../../ui/Tip.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 /** Aids, home, record, touch up, gripper, last message. */
 export function PointButtons() {
   const aid = useStore(jogStore, state => state.aid);
-  const count = useStore(aidStore, state => state.count);
+  const count = useStore(orientationPresetStore, state => state.count);
   const message = useStore(controlStore, state => state.message);
   const moving = useStore(recordStore, state => state.moving);
   const canTouchUp =

@@ -4,7 +4,7 @@ import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { physicsStore } from "../../stores/physics.ts";
 import { viewStore } from "../../stores/view.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import "./physics.css";
 
 const SHOWN = 4;

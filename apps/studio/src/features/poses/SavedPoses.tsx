@@ -2,14 +2,14 @@ import { FolderOpen, LocateFixed, MapPinPlus, Route, Save, Trash2 } from "lucide
 import { savedCoords } from "@twincell/project";
 import { useMemo, useRef } from "react";
 import { useStore } from "zustand";
-import { theLive } from "../../live/live.ts";
+import { theLive } from "../../runtime/live.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { notify } from "../../stores/notices.ts";
 import { forgetPoses, keepPose, movePose, movesThroughPoses, posesText, readPoses } from "../../stores/poses.ts";
 import { download } from "../../ui/download.ts";
 import { showNumber } from "../../ui/expression.ts";
 import { Tip } from "../../ui/Tip.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import "./poses.css";
 
 /** Poses of the tool tip that a person keeps: taken, put elsewhere, loaded, saved, and driven through. */
@@ -23,8 +23,12 @@ export function SavedPoses() {
       const answer = readPoses(await file.text());
       if (answer.kind === "read") notify("done", words.poses.loaded(answer.count), file.name);
       else notify("bad", answer.sentence, file.name);
-    } catch (trouble) {
-      notify("bad", words.file.unreadable(file.name), trouble instanceof Error ? trouble.message : undefined);
+    } catch (faultInjection) {
+      notify(
+        "bad",
+        words.file.unreadable(file.name),
+        faultInjection instanceof Error ? faultInjection.message : undefined,
+      );
     }
   };
   const save = (): void => {

@@ -7,7 +7,7 @@ import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
 import { changeRobot } from "../../stores/robot.ts";
 import { showNumber } from "../../ui/expression.ts";
 import { Frame } from "../../ui/Frame.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { robotPicture } from "./picture.ts";
 import "./robots.css";
 

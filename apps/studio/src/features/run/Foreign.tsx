@@ -2,7 +2,7 @@ import { Pause, Play, Square, StepForward } from "lucide-react";
 import { useMemo } from "react";
 import { useStore } from "zustand";
 import { dialectById } from "@twincell/languages";
-import { runForeign, stopForeign } from "../../live/foreign.ts";
+import { runForeign, stopForeign } from "../../runtime/run/foreign-text.ts";
 import { controlStore } from "../../stores/control.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { robotOf } from "../../stores/document.ts";
@@ -10,7 +10,7 @@ import { openDialog } from "../../stores/dialogs.ts";
 import { foreignStore, toggleBreakpoint, type ForeignText } from "../../stores/foreign.ts";
 import { playStore } from "../../stores/play.ts";
 import { CodeView } from "../../ui/CodeView.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { SignalList } from "./SignalList.tsx";
 
 /** A text from elsewhere, run as it stands: breakpoints by a click on the number, one statement at a time, or on. */

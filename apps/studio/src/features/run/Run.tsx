@@ -3,7 +3,7 @@ import { useEffect } from "react";
 import { useStore } from "zustand";
 import { dialectById, joinFiles, runnableFile } from "@twincell/languages";
 import type { TextProgram } from "@twincell/project";
-import { postProgram } from "../../live/posting.ts";
+import { postProgram } from "../../runtime/planning/posting.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { controlStore } from "../../stores/control.ts";
@@ -13,7 +13,7 @@ import { languageOf, languageStore } from "../../stores/languages.ts";
 import { playStore } from "../../stores/play.ts";
 import { postStore } from "../../stores/post.ts";
 import { CodeView } from "../../ui/CodeView.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { LanguageChoice } from "../../ui/LanguageChoice.tsx";
 import { Foreign } from "./Foreign.tsx";
 import { SignalList } from "./SignalList.tsx";
@@ -30,7 +30,7 @@ export default function Run() {
   const held = useStore(playStore, state => state.speed === 0);
   const dialect = useStore(languageStore, state => languageOf(robot, state));
   const nothing = !program || !robot || program.steps.length === 0;
-  const { emitted, trouble } = useStore(postStore);
+  const { emitted, trouble: faultInjection } = useStore(postStore);
   const id = dialect?.id ?? "";
   useEffect(() => {
     postStore.setState({ emitted: null, proof: null, trouble: null });
@@ -41,7 +41,7 @@ export default function Run() {
   useEffect(() => {
     openTextOfCell(text);
   }, [text]);
-  const cannot = trouble ?? (emitted?.kind === "cannot" ? emitted.sentence : null);
+  const cannot = faultInjection ?? (emitted?.kind === "cannot" ? emitted.sentence : null);
 
   if (foreign)
     return (

@@ -3,7 +3,7 @@ import { useStore } from "zustand";
 import { controlStore } from "../../stores/control.ts";
 import { setInput } from "../../stores/inputs.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 /** The lines of a program: inputs can be switched by hand, outputs show what the controller says. */
 export function SignalList({ signals }: { readonly signals: Program["signals"] }) {

@@ -1,13 +1,13 @@
 import { useState } from "react";
 import { useStore } from "zustand";
-import { cancelShapes, correctUnit, makeLight } from "../../live/mesh-import.ts";
+import { cancelShapes, correctUnit, makeLight } from "../../runtime/mesh-import.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
 import { cardOf, shapeStore, type ShapeCard } from "../../stores/shapes.ts";
 import { Segments } from "../../ui/Choice.tsx";
 import { showNumber } from "../../ui/expression.ts";
 import { Frame } from "../../ui/Frame.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import "./shapes.css";
 
 const UNITS = ["0.001", "0.01", "1", "0.0254"] as const;
@@ -96,7 +96,7 @@ function Body({ card, busy }: { card: ShapeCard; busy: boolean }) {
 function Light({ card, busy }: { card: ShapeCard; busy: boolean }) {
   const { light } = card;
   const triangles = light?.faces ?? card.report.triangles;
-  const [faces, setFaces] = useState(() => Math.min(LIGHT_TRIANGLES, Math.max(4, Math.floor(triangles / 4))));
+  const [adapters, setFaces] = useState(() => Math.min(LIGHT_TRIANGLES, Math.max(4, Math.floor(triangles / 4))));
   const rows = light && [
     [words.shapes.triangles, whole(light.faces_before), whole(light.faces)],
     [words.shapes.materials, whole(light.materials_before), whole(light.materials)],
@@ -119,14 +119,14 @@ function Light({ card, busy }: { card: ShapeCard; busy: boolean }) {
             type="number"
             min={4}
             max={triangles}
-            value={faces}
+            value={adapters}
             onChange={event => setFaces(Math.round(event.currentTarget.valueAsNumber))}
           />
         </label>
         <button
           className="btn"
-          disabled={busy || !(faces >= 4 && faces < triangles)}
-          onClick={() => void makeLight(card, faces)}
+          disabled={busy || !(adapters >= 4 && adapters < triangles)}
+          onClick={() => void makeLight(card, adapters)}
         >
           {busy ? words.shapes.working : words.shapes.light}
         </button>

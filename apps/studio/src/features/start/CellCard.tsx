@@ -4,7 +4,7 @@ import { useStore } from "zustand";
 import { commit } from "../../stores/document.ts";
 import { libraryStore, theLibrary, type StoredCell } from "../../stores/library.ts";
 import { notify } from "../../stores/notices.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { sayWhen } from "./list.ts";
 
 interface Props {
@@ -121,8 +121,11 @@ function NameField({ cell, current, onDone }: { cell: StoredCell; current: boole
     if (current) commit(words.undo.cellName, document => ({ ...document, name }));
     theLibrary()
       ?.rename(cell.id, name)
-      .catch((trouble: unknown) =>
-        notify("bad", words.cells.failed(trouble instanceof Error ? trouble.message : String(trouble))),
+      .catch((faultInjection: unknown) =>
+        notify(
+          "bad",
+          words.cells.failed(faultInjection instanceof Error ? faultInjection.message : String(faultInjection)),
+        ),
       );
   };
   return (

@@ -10,7 +10,7 @@ import { notify } from "../../stores/notices.ts";
 import { keepPresent, openCell, openStored, trashCell } from "../../stores/opening.ts";
 import { shortName } from "../../stores/robot.ts";
 import { Frame } from "../../ui/Frame.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { CellCard } from "./CellCard.tsx";
 import { findCells } from "./list.ts";
 import "./start.css";
@@ -22,8 +22,11 @@ const robotName = (id: string): string => {
 };
 /** What went wrong is one sentence; the cells stay as they are. */
 const told = (done: Promise<unknown>): void => {
-  done.catch((trouble: unknown) =>
-    notify("bad", words.cells.failed(trouble instanceof Error ? trouble.message : String(trouble))),
+  done.catch((faultInjection: unknown) =>
+    notify(
+      "bad",
+      words.cells.failed(faultInjection instanceof Error ? faultInjection.message : String(faultInjection)),
+    ),
   );
 };
 

@@ -1,5 +1,5 @@
 import type { StoredCell } from "../../stores/library.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 export interface FoundCell {
   readonly cell: StoredCell;

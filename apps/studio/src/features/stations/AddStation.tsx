@@ -1,17 +1,17 @@
 import { compose, identity, robotById, type Pose } from "@twincell/core";
 import { useEffect, useState } from "react";
 import { useStore } from "zustand";
-import { lookForServer } from "../../live/station-hosts.ts";
-import { addStation } from "../../live/stations.ts";
+import { lookForServer } from "../../runtime/robot/station-hosts.ts";
+import { addStation } from "../../runtime/robot/stations.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
 import { notify } from "../../stores/notices.ts";
-import { stationStore, type HostPlace } from "../../stores/stations.ts";
+import { stationStore, type ServerAddress } from "../../stores/stations.ts";
 import { Chooser, Segments } from "../../ui/Choice.tsx";
 import { Frame } from "../../ui/Frame.tsx";
 import { NumberField } from "../../ui/NumberField.tsx";
-import { BRAND_LIST } from "../../live/brand-list.ts";
-import { words } from "../../words/index.ts";
+import { DRIVER_LIST } from "../../runtime/robot/driver-list.ts";
+import { words } from "../../messages/index.ts";
 import "./stations.css";
 
 export default function AddStation() {
@@ -32,9 +32,9 @@ function Open() {
   const document = useStore(cellStore, state => state.document);
   const count = useStore(stationStore, state => state.stations.length);
   const server = useStore(stationStore, state => state.server);
-  const [brand, setBrand] = useState(BRAND_LIST[0]?.id ?? "");
+  const [brand, setBrand] = useState(DRIVER_LIST[0]?.id ?? "");
   const [robot, setRobot] = useState("");
-  const [wanted, setPlace] = useState<HostPlace>("page");
+  const [wanted, setPlace] = useState<ServerAddress>("page");
   const [host, setHost] = useState("");
   const [x_m, setX] = useState(0);
   const [y_m, setY] = useState((count + 1) * APART_M);
@@ -46,12 +46,12 @@ function Open() {
   useEffect(() => {
     lookForServer();
   }, []);
-  const chosen = BRAND_LIST.find(({ id }) => id === brand);
+  const chosen = DRIVER_LIST.find(({ id }) => id === brand);
   const robots = chosen?.robots ?? [];
   const robotId = robots.find(({ id }) => id === robot)?.id ?? robots[0]?.id ?? "";
   // A driver that is a process of its own has nothing to show in a page: it is reached through the server.
   const isPlugIn = chosen?.port !== null && chosen !== undefined;
-  const place: HostPlace = isPlugIn ? "server" : wanted;
+  const place: ServerAddress = isPlugIn ? "server" : wanted;
   const number = Number(port === "" ? chosen?.port : port);
   const portFits = !isPlugIn || (Number.isInteger(number) && number > 0 && number < 65_536);
   const asked = place === "server" ? (chosen?.data ?? []) : [];
@@ -127,7 +127,7 @@ function Open() {
             label={words.stations.brand}
             value={brand}
             onChange={setBrand}
-            options={BRAND_LIST.map(({ id, name }) => ({ value: id, words: name }))}
+            options={DRIVER_LIST.map(({ id, name }) => ({ value: id, words: name }))}
           />
         </div>
         <div className="pair">

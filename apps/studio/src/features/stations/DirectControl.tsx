@@ -1,7 +1,7 @@
 import { Minus, Plus, Power, RotateCcw } from "lucide-react";
 import { useEffect, useMemo, useRef, useState } from "react";
 import type { CommandOutcome } from "@twincell/core";
-import { stationLive } from "../../live/stations.ts";
+import { stationLive } from "../../runtime/robot/stations.ts";
 import { connectedRobot, type ConnectedRobot } from "../../runtime/robot/connected-robot.ts";
 import type { CartesianAxis } from "../../runtime/robot/jog-targets.ts";
 import type { StationState } from "../../stores/stations.ts";
@@ -11,7 +11,7 @@ import { HoldButton } from "../../ui/HoldButton.tsx";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { Slide } from "../../ui/Slide.tsx";
 import { useEnablingSwitch } from "../../ui/useEnablingSwitch.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { Tester } from "./Tester.tsx";
 import { SignalControl } from "./SignalControl.tsx";
 import "./direct.css";
@@ -98,7 +98,7 @@ function Override({ station, onDone }: { readonly station: StationState; readonl
 }
 
 type Frame = keyof typeof words.direct.frames;
-type Manner = keyof typeof words.direct.manners;
+type JogMode = keyof typeof words.direct.manners;
 const entries = <Key extends string>(of: Readonly<Record<Key, string>>) =>
   (Object.keys(of) as Key[]).map(value => ({ value, words: of[value] }));
 
@@ -115,7 +115,7 @@ function JogKeys({
   readonly tell: (outcome: Promise<CommandOutcome>) => void;
 }) {
   const [frame, setFrame] = useState<Frame>("joint");
-  const [manner, setManner] = useState<Manner>("held");
+  const [manner, setManner] = useState<JogMode>("held");
   const [angle_rad, setAngle] = useState(Math.PI / 180);
   const [length_m, setLength] = useState(0.01);
   const count = frame === "joint" ? (stationLive(id)?.q_rad.length ?? 0) : 6;

@@ -5,7 +5,7 @@ import type { ConnectedRobot } from "../../runtime/robot/connected-robot.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { programOf } from "../../stores/document.ts";
 import { Chooser } from "../../ui/Choice.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 /** Writes the digital outputs that the program of the cell names; nothing is shown for a program without any. */
 export function SignalControl({

@@ -18,7 +18,7 @@ import { useStore } from "zustand";
 import type { CommandOutcome } from "@twincell/core";
 import {
   askStation,
-  cabinetOf,
+  virtualPendantOf,
   holdStation,
   lookAhead,
   previewStation,
@@ -28,17 +28,17 @@ import {
   runStation,
   stopStation,
   watchStation,
-} from "../../live/stations.ts";
-import { Desk } from "../../cabinet/Desk.tsx";
+} from "../../runtime/robot/stations.ts";
+import { Desk } from "../../virtual-pendant/Desk.tsx";
 import { openDialog } from "../../stores/dialogs.ts";
 import { notify } from "../../stores/notices.ts";
 import { stationStore, type StationState } from "../../stores/stations.ts";
 import { HoldButton } from "../../ui/HoldButton.tsx";
 import { Slide } from "../../ui/Slide.tsx";
 import { Tip } from "../../ui/Tip.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { DirectControl } from "./DirectControl.tsx";
-import { Together } from "./Together.tsx";
+import { SynchronizedStart } from "./Together.tsx";
 import "./stations.css";
 
 /** The other controllers of the cell: each with its link, its guard, and what can be done with it now. */
@@ -58,7 +58,7 @@ export function Stations() {
         {stations.map(station => (
           <Card key={station.id} station={station} />
         ))}
-        {stations.length > 1 && <Together stations={stations} />}
+        {stations.length > 1 && <SynchronizedStart stations={stations} />}
         {stations.length > 1 && (
           <button
             className="btn"
@@ -372,7 +372,7 @@ function Details({ station }: { readonly station: StationState }) {
 
 /** Its pendant, as the page of its own has it. */
 function PendantPart({ station: { id, place } }: { readonly station: StationState }) {
-  const link = cabinetOf(id);
+  const link = virtualPendantOf(id);
   if (!link) return null;
   return (
     <section className="station-pendant" aria-label={words.stations.pendant}>

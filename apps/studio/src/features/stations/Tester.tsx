@@ -1,11 +1,11 @@
 import { useState } from "react";
 import { flangePose, type CommandOutcome, type Vector3 } from "@twincell/core";
-import { fixedXyz, fromFixedXyz } from "../../live/fixed-xyz.ts";
-import { stationLive } from "../../live/stations.ts";
+import { fixedXyz, fromFixedXyz } from "../../runtime/jog/fixed-xyz.ts";
+import { stationLive } from "../../runtime/robot/stations.ts";
 import type { ConnectedRobot } from "../../runtime/robot/connected-robot.ts";
 import { Chooser } from "../../ui/Choice.tsx";
 import { NumberField } from "../../ui/NumberField.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 type Action = keyof typeof words.direct.testerActions;
 const ACTIONS = Object.keys(words.direct.testerActions) as Action[];

@@ -1,19 +1,19 @@
 import { Users } from "lucide-react";
 import { useState } from "react";
-import { startTogether } from "../../live/stations.ts";
+import { startSynchronized } from "../../runtime/robot/stations.ts";
 import { notify } from "../../stores/notices.ts";
 import type { StationState } from "../../stores/stations.ts";
 import { Tip } from "../../ui/Tip.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 /** Which of the controllers start together, and the start. */
-export function Together({ stations }: { readonly stations: readonly StationState[] }) {
+export function SynchronizedStart({ stations }: { readonly stations: readonly StationState[] }) {
   const [left, setLeft] = useState<readonly string[]>([]);
   const running = stations.some(station => station.running);
   const able = stations.filter(({ link, guard }) => link.state === "open" && !guard.watching);
   const chosen = able.filter(({ id }) => !left.includes(id));
   const start = (): void => {
-    void startTogether(chosen.map(({ id }) => id)).then(outcome => {
+    void startSynchronized(chosen.map(({ id }) => id)).then(outcome => {
       if (outcome.kind === "done") notify("done", words.stations.togetherDone);
       else notify(outcome.kind === "stopped" ? "warn" : "bad", outcome.why.sentence, outcome.why.hint);
     });

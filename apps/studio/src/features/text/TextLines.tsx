@@ -4,7 +4,7 @@ import { useVirtualizer } from "@tanstack/react-virtual";
 import { ArrowRight, CircleX, TriangleAlert } from "lucide-react";
 import { useEffect, useMemo, useRef, type KeyboardEvent, type ReactNode } from "react";
 import { strokes, syntaxOf, type Syntax } from "../../ui/syntax.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { boxesIn, changeOf, lineSpans, shownText, type LineSpan } from "./lines.ts";
 
 const LINE_PX = 24;

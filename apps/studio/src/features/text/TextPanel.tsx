@@ -2,7 +2,7 @@ import { CircleX, Download, Hammer, LocateFixed, TriangleAlert } from "lucide-re
 import { useMemo } from "react";
 import { useStore } from "zustand";
 import { bytesOfTextFile, type TextFile, type TextProgram } from "@twincell/project";
-import { goToLine, goToStep } from "../../live/text-program.ts";
+import { goToLine, goToStep } from "../../runtime/text-program.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { notify } from "../../stores/notices.ts";
@@ -10,7 +10,7 @@ import { playStore } from "../../stores/play.ts";
 import { pointAt, pointsOf, stepOfPoint, textStore } from "../../stores/text.ts";
 import { textOf } from "../../stores/document.ts";
 import { download } from "../../ui/download.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { findingsOf, marksOf } from "./findings.ts";
 import { lineSpans, numbersOf } from "./lines.ts";
 import { TextLines } from "./TextLines.tsx";
@@ -138,7 +138,7 @@ function Problems({
   readonly lines: number;
 }) {
   const reading = useStore(textStore, state => state.reading);
-  const trouble = useStore(textStore, state => state.trouble);
+  const faultInjection = useStore(textStore, state => state.trouble);
   const checking = useStore(playStore, state => state.checking !== null);
   const bad = findings.filter(each => each.verdict === "bad").length;
   return (
@@ -148,12 +148,12 @@ function Problems({
         {bad > 0 && <span className="text-count bad">{bad}</span>}
         {findings.length > bad && <span className="text-count near">{findings.length - bad}</span>}
       </h2>
-      {trouble !== null && (
+      {faultInjection !== null && (
         <p className="empty" role="alert">
-          {trouble}
+          {faultInjection}
         </p>
       )}
-      {findings.length === 0 && trouble === null && (
+      {findings.length === 0 && faultInjection === null && (
         <p className="empty" role="status">
           {reading || checking ? words.text.reading : words.text.clean(lines)}
         </p>

@@ -8,9 +8,9 @@ import { newProgram } from "../../stores/programs.ts";
 import { notify } from "../../stores/notices.ts";
 import { pointAt, pointsOf, stepOfPoint, textStore } from "../../stores/text.ts";
 import { playStore } from "../../stores/play.ts";
-import { goToLine, goToPoint } from "../../live/text-program.ts";
+import { goToLine, goToPoint } from "../../runtime/text-program.ts";
 import { Segments } from "../../ui/Choice.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { findingsOf } from "./findings.ts";
 
 /** Left of the text: which program, its files, its points. `children` is the choice among the cell's programs. */

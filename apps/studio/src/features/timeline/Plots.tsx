@@ -3,14 +3,14 @@ import { useEffect, useMemo, useRef, useState } from "react";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { useStore } from "zustand";
-import { onFrame } from "../../live/frames.ts";
-import { playheadNow } from "../../live/playhead.ts";
+import { onFrame } from "../../runtime/jog/jog-frames.ts";
+import { playheadNow } from "../../runtime/history/playhead.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { programOf, robotOf } from "../../stores/document.ts";
 import { seek } from "../../stores/seek.ts";
 import { viewStore } from "../../stores/view.ts";
 import { Segments } from "../../ui/Choice.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { plotData } from "./plotData.ts";
 import { torquePlot } from "./torquePlot.ts";
 

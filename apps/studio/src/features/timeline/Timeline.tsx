@@ -1,9 +1,9 @@
 import { ChartSpline, Pause, Play, SkipBack, SkipForward, Weight } from "lucide-react";
 import { lazy, Suspense, useEffect, useMemo, useRef, type KeyboardEvent, type PointerEvent } from "react";
 import { useStore } from "zustand";
-import { onFrame } from "../../live/frames.ts";
-import { physicsNow } from "../../live/physics.ts";
-import { playheadNow } from "../../live/playhead.ts";
+import { onFrame } from "../../runtime/jog/jog-frames.ts";
+import { physicsNow } from "../../runtime/physics/physics.ts";
+import { playheadNow } from "../../runtime/history/playhead.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { programOf, robotOf } from "../../stores/document.ts";
@@ -14,7 +14,7 @@ import { seek } from "../../stores/seek.ts";
 import { select, selectionStore } from "../../stores/selection.ts";
 import { viewStore } from "../../stores/view.ts";
 import { Tip } from "../../ui/Tip.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { timelineBlocks, type Block } from "./blocks.ts";
 import "./timeline.css";
 

@@ -3,7 +3,7 @@ import { useStore } from "zustand";
 import { cellStore } from "../../stores/cell.ts";
 import { commit } from "../../stores/document.ts";
 import { Tip } from "../../ui/Tip.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 /** The cell's name, typed in place, and whether it is kept. */
 export function CellName() {

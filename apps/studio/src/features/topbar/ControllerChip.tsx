@@ -3,7 +3,7 @@ import { useStore } from "zustand";
 import { runCommand } from "../../stores/commands.ts";
 import { controlStore } from "../../stores/control.ts";
 import { playStore } from "../../stores/play.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 /** Who commands, in which mode, how late, and the safety state in words. */
 export function ControllerChip({ brief }: { brief: boolean }) {

@@ -2,7 +2,7 @@ import { Popover } from "radix-ui";
 import { useStore } from "zustand";
 import { playStore } from "../../stores/play.ts";
 import { Slide } from "../../ui/Slide.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 const PRESETS = [0, 0.1, 0.25, 0.5, 1] as const;
 

@@ -1,7 +1,7 @@
 import { useEffect } from "react";
-import { escapeRule } from "../../live/moving.ts";
+import { escapeRule } from "../../runtime/moving.ts";
 import { runCommand } from "../../stores/commands.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 /** Always at the same place, above every dialog, and on the Pause key, or Esc while something moves. Acts on press, not on release. */
 export function StopButton() {

@@ -8,7 +8,7 @@ import { showMode, viewStore, type StudioMode } from "../../stores/view.ts";
 import { Segments } from "../../ui/Choice.tsx";
 import { showKeys } from "../../ui/keys.ts";
 import { Tip } from "../../ui/Tip.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { CellName } from "./CellName.tsx";
 import { ControllerChip } from "./ControllerChip.tsx";
 import { Override } from "./Override.tsx";

@@ -6,7 +6,7 @@ import { traceStore, type TraceOptions } from "../../stores/trace.ts";
 import { Chooser, Segments } from "../../ui/Choice.tsx";
 import { showNumber } from "../../ui/expression.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import "./trace.css";
 
 const change = (next: Partial<TraceOptions>): void =>

@@ -3,7 +3,7 @@ import { DropdownMenu } from "radix-ui";
 import { useStore } from "zustand";
 import { commandStore, runCommand } from "../../stores/commands.ts";
 import { showKeys } from "../../ui/keys.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 const IDS = [
   "program.record-ptp",

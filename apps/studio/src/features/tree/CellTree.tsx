@@ -11,7 +11,7 @@ import { shortName } from "../../stores/robot.ts";
 import { hover, select, selectionStore, type Thing } from "../../stores/selection.ts";
 import { showKeys } from "../../ui/keys.ts";
 import { Tip } from "../../ui/Tip.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 const same = (a: Thing | null, b: Thing): boolean => a !== null && JSON.stringify(a) === JSON.stringify(b);
 

@@ -17,7 +17,7 @@ import { playStore } from "../../stores/play.ts";
 import { copySteps, deleteSteps, placeSteps, stepWords } from "../../stores/program.ts";
 import { select, selectionStore } from "../../stores/selection.ts";
 import { seekStep } from "../../stores/seek.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { ProgramSwitch } from "./ProgramSwitch.tsx";
 import { ProgramRowView } from "./ProgramRowView.tsx";
 import { anchorOf, behind, idsOf, programRows, type ProgramRow } from "./rows.ts";

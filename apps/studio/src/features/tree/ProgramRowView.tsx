@@ -20,7 +20,7 @@ import { ContextMenu, DropdownMenu } from "radix-ui";
 import { useState, type CSSProperties, type KeyboardEvent } from "react";
 import { commit, withProgram } from "../../stores/document.ts";
 import { copySteps, deleteSteps, renameStep, stepWords } from "../../stores/program.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { idsOf, pathOf, type ProgramRow } from "./rows.ts";
 
 interface Props {

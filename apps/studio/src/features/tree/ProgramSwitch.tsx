@@ -5,7 +5,7 @@ import { useState } from "react";
 import { useStore } from "zustand";
 import { cellStore } from "../../stores/cell.ts";
 import { chooseProgram, copyProgram, deleteProgram, nameProgram, newProgram } from "../../stores/programs.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { AddStep } from "./AddStep.tsx";
 
 /** Which of the cell's programs is worked on; a new one, a copy, another name, away with it. */

@@ -1,6 +1,6 @@
 import { listsOf, type ListPlace, type Program, type Step, type StepVerdict, type Verdict } from "@twincell/core";
 import { worse } from "../../stores/play.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 interface Base {
   readonly key: string;

@@ -1,14 +1,14 @@
 import { Camera, Copy, ExternalLink, MonitorSmartphone } from "lucide-react";
 import { useEffect } from "react";
 import { useStore } from "zustand";
-import { listCameras } from "../../live/video/camera.ts";
-import { panelId, showCamera } from "../../live/video/feeds.ts";
-import { lookForCameras } from "../../live/video/server-feeds.ts";
+import { listCameras } from "../../runtime/video/camera.ts";
+import { panelId, showCamera } from "../../runtime/video/feeds.ts";
+import { lookForCameras } from "../../runtime/video/server-feeds.ts";
 import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
 import { notify } from "../../stores/notices.ts";
 import { videoStore, type VideoSource } from "../../stores/video.ts";
 import { Frame } from "../../ui/Frame.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { QrCode } from "./QrCode.tsx";
 import "./video.css";
 

@@ -1,14 +1,14 @@
 import { RotateCcw } from "lucide-react";
 import { useEffect, useRef, useState } from "react";
 import { useStore } from "zustand";
-import { feedOf } from "../../live/video/feeds.ts";
-import { onPicture } from "../../live/video/feed.ts";
-import { createMeasurement, figuresOf, type LatencyFigures } from "../../live/video/measurement.ts";
-import { watchCodes } from "../../live/video/sightings.ts";
-import { CODE_CELLS, codeCells } from "../../live/video/time-code.ts";
+import { feedOf } from "../../runtime/video/feeds.ts";
+import { onPicture } from "../../runtime/video/feed.ts";
+import { createMeasurement, figuresOf, type LatencyFigures } from "../../runtime/video/measurement.ts";
+import { watchCodes } from "../../runtime/video/sightings.ts";
+import { CODE_CELLS, codeCells } from "../../runtime/video/time-code.ts";
 import { videoStore } from "../../stores/video.ts";
 import { Frame } from "../../ui/Frame.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 
 /** A cell and the white about the code: a tenth of the code is one cell on each side. */
 const CELL_PX = 32;

@@ -1,20 +1,20 @@
 import { Link2, Maximize, RotateCcw, Timer, X } from "lucide-react";
 import { useEffect, useRef } from "react";
 import { useStore } from "zustand";
-import { heldAt_s } from "../../live/held-back.ts";
-import { onPicture, type Feed } from "../../live/video/feed.ts";
-import { feedOf, hideCamera, tryAgain } from "../../live/video/feeds.ts";
-import { freshness } from "../../live/video/freshness.ts";
+import { heldAt_s } from "../../runtime/video/video-delay.ts";
+import { onPicture, type Feed } from "../../runtime/video/feed.ts";
+import { feedOf, hideCamera, tryAgain } from "../../runtime/video/feeds.ts";
+import { freshness } from "../../runtime/video/freshness.ts";
 import { videoStore, type VideoPanel as Panel } from "../../stores/video.ts";
 import { Tip } from "../../ui/Tip.tsx";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { movable } from "./movable.ts";
 
 const SAY_EVERY_MS = 250;
 
 /** One camera: its picture, how old it is, and what can be done with it. */
 export function VideoPanel({
-  panel: { id, name, source, trouble },
+  panel: { id, name, source, trouble: faultInjection },
   place,
 }: {
   readonly panel: Panel;
@@ -25,7 +25,12 @@ export function VideoPanel({
   const held = useStore(videoStore, state => state.heldBy === id);
   useEffect(() => (frame.current && grip.current ? movable(frame.current, grip.current, place) : undefined), [place]);
   return (
-    <section ref={frame} className="video-panel" aria-label={words.video.panel(name)} data-trouble={trouble !== ""}>
+    <section
+      ref={frame}
+      className="video-panel"
+      aria-label={words.video.panel(name)}
+      data-trouble={faultInjection !== ""}
+    >
       <header>
         <div
           ref={grip}
@@ -75,11 +80,11 @@ export function VideoPanel({
           </button>
         </Tip>
       </header>
-      <Picture id={id} trouble={trouble} />
-      {trouble && (
+      <Picture id={id} trouble={faultInjection} />
+      {faultInjection && (
         <p className="video-trouble" role="status">
-          {trouble}{" "}
-          {source.kind === "here" && trouble !== words.video.asking && (
+          {faultInjection}{" "}
+          {source.kind === "here" && faultInjection !== words.video.asking && (
             <button className="btn tight" onClick={() => tryAgain(id)}>
               <RotateCcw />
               {words.video.again}
@@ -113,7 +118,7 @@ function useSaying(write: () => void): void {
 }
 
 /** The feed's own canvas, and over it what is to be known about it. */
-function Picture({ id, trouble }: { readonly id: string; readonly trouble: string }) {
+function Picture({ id, trouble: faultInjection }: { readonly id: string; readonly trouble: string }) {
   const box = useRef<HTMLDivElement>(null);
   const says = useRef<HTMLParagraphElement>(null);
   useEffect(() => {
@@ -135,7 +140,7 @@ function Picture({ id, trouble }: { readonly id: string; readonly trouble: strin
         ? words.video.late(now.age_s)
         : now.kind === "still"
           ? words.video.still(now.still_s)
-          : now.kind === "none" && trouble === ""
+          : now.kind === "none" && faultInjection === ""
             ? words.video.waiting
             : "";
     box.current.dataset["state"] = now.kind;

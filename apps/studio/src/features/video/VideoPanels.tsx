@@ -1,6 +1,6 @@
 import { useEffect } from "react";
 import { useStore } from "zustand";
-import { startHoldingBack } from "../../live/held-back.ts";
+import { startHoldingBack } from "../../runtime/video/video-delay.ts";
 import { videoStore } from "../../stores/video.ts";
 import { viewStore } from "../../stores/view.ts";
 import { Measure } from "./Measure.tsx";

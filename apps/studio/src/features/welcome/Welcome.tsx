@@ -5,7 +5,7 @@ import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { programOf, robotOf } from "../../stores/document.ts";
 import { shortName } from "../../stores/robot.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import "./welcome.css";
 
 /** An empty cell offers three ways to begin. */

@@ -1,10 +1,10 @@
 import { emptyProgram, solveAll, explainReach, type CommandOutcome, type Pose, type Step } from "@twincell/core";
-import { hostAt } from "../../live/station-hosts.ts";
-import { holdStation, stationLive, stopStation } from "../../live/stations.ts";
+import { hostAt } from "./station-hosts.ts";
+import { holdStation, stationLive, stopStation } from "./stations.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { programOf } from "../../stores/document.ts";
 import { stationOf } from "../../stores/stations.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { cartesianTarget, jointTarget, type CartesianAxis, type JogFrame } from "./jog-targets.ts";
 
 const refused = (code: string, sentence: string, hint = ""): CommandOutcome => ({

@@ -1,7 +1,7 @@
 import {
-  aidAxis,
-  aidOrientation,
-  AID_COUNT,
+  orientationPresetAxis,
+  orientationPreset,
+  ORIENTATION_PRESET_COUNT,
   angleBetween,
   cross,
   degrees,
@@ -65,7 +65,7 @@ test("N-43 one camera fills the view; the toggle changes to the other and back",
 
 /** Lean of the tool axis against the upright edge of the picture, as three.js projects it [°, 0 … 90]. */
 function lean_deg(quaternion: Quaternion, aid: number, tilt_rad: number): number {
-  const side = closeCameraSide(aidAxis(piece, aid), [0, 0, 0]);
+  const side = closeCameraSide(orientationPresetAxis(piece, aid), [0, 0, 0]);
   const camera = new PerspectiveCamera(40, 1, 0.02, 60);
   const tip = worldFromTcp.position;
   const axis = rotate(quaternion, [0, 0, 1]);
@@ -83,12 +83,12 @@ function lean_deg(quaternion: Quaternion, aid: number, tilt_rad: number): number
 const piece = pose<"world", "object">([0.6, 0, 0.4], fromAxisAngle([0, 0, 1], 0.35));
 
 test("N-46 the close camera is a calibre: a tool at the aid's orientation is parallel to the edge of its picture, a tool that leans by 2° is seen to lean", () => {
-  for (let aid = 0; aid < AID_COUNT; aid++)
+  for (let aid = 0; aid < ORIENTATION_PRESET_COUNT; aid++)
     for (const tilt_rad of [0, 0.2, 0.4]) {
-      const right = aidOrientation(piece, aid);
+      const right = orientationPreset(piece, aid);
       expect(lean_deg(right, aid, tilt_rad)).toBeLessThan(0.01);
-      const about = normalize(cross(aidAxis(piece, aid), [0, 0, 1]));
-      const sideways = normalize(cross(about, aidAxis(piece, aid)));
+      const about = normalize(cross(orientationPresetAxis(piece, aid), [0, 0, 1]));
+      const sideways = normalize(cross(about, orientationPresetAxis(piece, aid)));
       const leaning = multiply(fromAxisAngle(sideways, (2 * Math.PI) / 180), right);
       expect(degrees(angleBetween(leaning, right))).toBeCloseTo(2, 6);
       expect(lean_deg(leaning, aid, tilt_rad)).toBeGreaterThan(1);
@@ -96,8 +96,8 @@ test("N-46 the close camera is a calibre: a tool at the aid's orientation is par
 });
 
 test("N-46 the camera stays on the person's side and as far away as without an aid", () => {
-  for (let aid = 0; aid < AID_COUNT; aid++) {
-    const side = closeCameraSide(aidAxis(piece, aid), [0, 0, 0]);
+  for (let aid = 0; aid < ORIENTATION_PRESET_COUNT; aid++) {
+    const side = closeCameraSide(orientationPresetAxis(piece, aid), [0, 0, 0]);
     const from = subtract(closeCameraPosition(worldFromTcp, "level", 0.3, side, out), worldFromTcp.position);
     expect(side[0] * free[0] + side[1] * free[1]).toBeGreaterThanOrEqual(0);
     expect(Math.hypot(...from)).toBeCloseTo(Math.SQRT1_2, 12);

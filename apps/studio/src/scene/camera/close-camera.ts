@@ -13,7 +13,7 @@ const UPRIGHT = 1e-6;
  * plane of the aid, on the person's side, so that a tool at the aid's orientation is parallel to the upright edges of the
  * picture whatever the tilt, and one that leans is seen to lean.
  *
- * @param aidAxis  unit vector in the world, or null when no aid is chosen.
+ * @param orientationPresetAxis  unit vector in the world, or null when no aid is chosen.
  * @param out      unit vector without height; written and returned.
  */
 export function closeCameraSide(aidAxis: Readonly<Vector3> | null, out: Vector3): Vector3 {

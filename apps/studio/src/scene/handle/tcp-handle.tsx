@@ -3,7 +3,7 @@ import type { ToolRecord } from "@twincell/project";
 import { useFrame } from "@react-three/fiber";
 import { useEffect, useMemo, useRef } from "react";
 import { Color, DoubleSide, type Group, type Mesh, MeshBasicMaterial, PerspectiveCamera, Vector3 } from "three";
-import { theLive } from "../../live/live.ts";
+import { theLive } from "../../runtime/live.ts";
 import { jogStore } from "../../stores/jog.ts";
 import type { Interaction } from "../interaction.ts";
 import type { SceneTheme } from "../theme.ts";

@@ -3,7 +3,7 @@ import type { ObjectRecord } from "@twincell/project";
 import { useFrame } from "@react-three/fiber";
 import { useEffect, useMemo, useRef } from "react";
 import { type BufferGeometry, Color, EdgesGeometry, type Group, type LineSegments, type Mesh, Vector3 } from "three";
-import { partOffset, physicsNow } from "../../live/physics.ts";
+import { partOffset, physicsNow } from "../../runtime/physics/physics.ts";
 import { GraspMark } from "../physical/grasp-mark.tsx";
 import { paintTouching } from "../paint.ts";
 import { raycastByTree } from "../pick/raycast.ts";

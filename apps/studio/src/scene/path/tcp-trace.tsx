@@ -1,7 +1,7 @@
 import { useFrame } from "@react-three/fiber";
 import { useMemo } from "react";
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Line, LineBasicMaterial } from "three";
-import { theLive } from "../../live/live.ts";
+import { theLive } from "../../runtime/live.ts";
 import type { SceneTheme } from "../theme.ts";
 
 const KEPT = 3000;

@@ -9,7 +9,7 @@ import { triadGeometry } from "../triad-geometry.ts";
 const MOST_FRAMES = 600;
 
 /** Points drawn at most. */
-const MOST_POINTS = 20_000;
+const MAX_POINTS = 20_000;
 
 /** Where the taught points of the program are, in the world. */
 export function waypointPoses(document: CellDocument, program: Program, robot: Robot): Pose<"world", "tcp">[] {
@@ -19,7 +19,7 @@ export function waypointPoses(document: CellDocument, program: Program, robot: R
   const points = Array.from(flow(program, { rounds: 1, mostSteps: 0 })).flatMap(happening =>
     happening.kind === "step" ? [happening.step] : [],
   );
-  return points.slice(0, MOST_POINTS).flatMap(step => {
+  return points.slice(0, MAX_POINTS).flatMap(step => {
     if (step.type !== "move") return [];
     const { target } = step;
     if ("q" in target) {

@@ -2,7 +2,7 @@ import type { ToolRecord } from "@twincell/project";
 import { useFrame } from "@react-three/fiber";
 import { useRef } from "react";
 import type { Mesh } from "three";
-import { physicsNow } from "../../live/physics.ts";
+import { physicsNow } from "../../runtime/physics/physics.ts";
 
 /** The palm and the two fingers of a gripper, as far open as physics has them; wide open otherwise. In the frame of the flange. */
 export function Fingers({

@@ -2,7 +2,7 @@ import { GRASP_MARK_HEIGHT, type GraspSignal } from "@twincell/core";
 import { useFrame } from "@react-three/fiber";
 import { useMemo, useRef } from "react";
 import { type BufferGeometry, Sprite, SpriteMaterial } from "three";
-import { partOffset, physicsNow } from "../../live/physics.ts";
+import { partOffset, physicsNow } from "../../runtime/physics/physics.ts";
 import type { SceneTheme } from "../theme.ts";
 
 const SIZE_M = [0.034, 0.014] as const;

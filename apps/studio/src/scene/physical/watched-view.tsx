@@ -3,7 +3,7 @@ import type { CellDocument } from "@twincell/project";
 import { useFrame } from "@react-three/fiber";
 import { useMemo, useRef } from "react";
 import { BufferGeometry, Float32BufferAttribute, type Group, Line, LineBasicMaterial, LineLoop } from "three";
-import { physicsNow } from "../../live/physics.ts";
+import { physicsNow } from "../../runtime/physics/physics.ts";
 import type { SceneTheme } from "../theme.ts";
 
 /** What the cell watches: beams and ranges of sensors, zones on the floor, and the people who walk there. */

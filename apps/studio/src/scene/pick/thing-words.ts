@@ -1,6 +1,6 @@
 import { robotById } from "@twincell/core";
 import type { CellDocument } from "@twincell/project";
-import { touchingNow } from "../../live/live.ts";
+import { touchingNow } from "../../runtime/live.ts";
 import type { Thing } from "../../stores/selection.ts";
 import { WORDS } from "../words.ts";
 
@@ -13,7 +13,7 @@ export function thingWords(thing: Thing, document: CellDocument): string {
 }
 
 /** What a person calls a solid that the collision check names: "link 3", "tool", or the id of an object. */
-export function solidWords(solid: string, document: CellDocument): string {
+export function solidName(solid: string, document: CellDocument): string {
   const link = /^link (\d+)$/.exec(solid)?.[1];
   if (link !== undefined) return WORDS.links[Number(link)] ?? solid;
   return solid === "tool" ? document.tool : (document.objects.find(object => object.id === solid)?.name ?? solid);

@@ -1,5 +1,5 @@
 import { useStore } from "zustand";
-import { pastRobot } from "../../live/past-robot.ts";
+import { pastRobot } from "../../runtime/history/past-robot.ts";
 import { historyStore } from "../../stores/history.ts";
 import { viewStore } from "../../stores/view.ts";
 import { ArmView } from "./arm-view.tsx";

@@ -1,5 +1,5 @@
 import type { Pose, Robot } from "@twincell/core";
-import { shownRobot } from "../../live/shown.ts";
+import { shownRobot } from "../../runtime/robot/drawn-robots.ts";
 import { ArmView } from "./arm-view.tsx";
 
 /** The robot of the cell as it stands now, or as it stood when the picture was taken by which it is held back. */

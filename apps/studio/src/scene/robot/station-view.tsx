@@ -1,7 +1,7 @@
 import { Fragment, useEffect } from "react";
 import { useStore } from "zustand";
-import { shownInstead } from "../../live/shown.ts";
-import { stationLive } from "../../live/stations.ts";
+import { shownInstead } from "../../runtime/robot/drawn-robots.ts";
+import { stationLive } from "../../runtime/robot/stations.ts";
 import type { Pose } from "@twincell/core";
 import { runCommand } from "../../stores/commands.ts";
 import { historyStore } from "../../stores/history.ts";

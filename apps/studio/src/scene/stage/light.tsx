@@ -2,7 +2,7 @@ import { useFrame, useThree } from "@react-three/fiber";
 import { useEffect, useMemo, useRef } from "react";
 import { type DirectionalLight, PMREMGenerator } from "three";
 import { RoomEnvironment } from "three/examples/jsm/environments/RoomEnvironment.js";
-import { theLive } from "../../live/live.ts";
+import { theLive } from "../../runtime/live.ts";
 import { drawsInSoftware } from "../software.ts";
 import type { SceneTheme } from "../theme.ts";
 

@@ -2,10 +2,10 @@ import { useFrame } from "@react-three/fiber";
 import { useEffect, useMemo, useRef, useState } from "react";
 import { CanvasTexture, type Mesh, type MeshBasicMaterial, SRGBColorSpace } from "three";
 import { useStore } from "zustand";
-import { feedOf, hideCamera, showCamera } from "../../live/video/feeds.ts";
-import { freshness } from "../../live/video/freshness.ts";
+import { feedOf, hideCamera, showCamera } from "../../runtime/video/feeds.ts";
+import { freshness } from "../../runtime/video/freshness.ts";
 import { videoStore, type VideoPanel } from "../../stores/video.ts";
-import { words } from "../../words/index.ts";
+import { words } from "../../messages/index.ts";
 import { WORDS } from "../words.ts";
 import type { KeyAim } from "./grabber.ts";
 import { Key, Row } from "./keys.tsx";
@@ -23,7 +23,7 @@ const TURN_RAD = -0.75;
 
 /** The picture of a camera beside the twin. It says how old it is; one that stands still goes grey. */
 export function CameraPanel({
-  panel: { id, name, trouble },
+  panel: { id, name, trouble: faultInjection },
   place,
   keys,
 }: {
@@ -75,7 +75,7 @@ export function CameraPanel({
     since_s.current = 0;
     const age = now.kind === "none" || now.kind === "still" ? "" : words.video.age(now.age_s);
     const warns =
-      trouble ||
+      faultInjection ||
       (now.kind === "late"
         ? words.video.late(now.age_s)
         : now.kind === "still"
@@ -83,7 +83,7 @@ export function CameraPanel({
           : now.kind === "none"
             ? words.video.waiting
             : "");
-    const text = now.kind === "still" && trouble ? `${trouble} ${words.video.still(now.still_s)}` : warns;
+    const text = now.kind === "still" && faultInjection ? `${faultInjection} ${words.video.still(now.still_s)}` : warns;
     if (age !== said[0] || text !== said[1]) setSaid([age, text, text !== ""]);
   });
   return (

@@ -1,7 +1,7 @@
 import { useFrame } from "@react-three/fiber";
 import { type RefObject, useEffect, useMemo } from "react";
 import { type Group, Matrix4 } from "three";
-import { tick } from "../../live/frames.ts";
+import { tick } from "../../runtime/jog/jog-frames.ts";
 import type { Interaction } from "../interaction.ts";
 import { Grabber, type KeyAim } from "./grabber.ts";
 

@@ -1,6 +1,6 @@
 import { compose, distance, identity, inverse, type Pose } from "@twincell/core";
-import { beginDrag, dragTcp, refuseDrag } from "../../live/drag.ts";
-import { onTouching, theLive } from "../../live/live.ts";
+import { beginDrag, dragTcp, refuseDrag } from "../../runtime/jog/drag.ts";
+import { onTouching, theLive } from "../../runtime/live.ts";
 import { playStore } from "../../stores/play.ts";
 import { carried } from "../handle/drag-maths.ts";
 import type { Interaction } from "../interaction.ts";

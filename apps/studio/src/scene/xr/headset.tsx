@@ -49,8 +49,8 @@ export function Headset({
   const keys = useMemo<KeyAim>(() => new Set(), []);
   useEffect(() => {
     if (wish === 0 || store.getState().session) return;
-    store.enterVR().catch((trouble: unknown) => {
-      notify("warn", trouble instanceof Error ? trouble.message : String(trouble));
+    store.enterVR().catch((faultInjection: unknown) => {
+      notify("warn", faultInjection instanceof Error ? faultInjection.message : String(faultInjection));
     });
   }, [wish]);
   useEffect(() => {

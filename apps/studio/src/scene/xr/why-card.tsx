@@ -3,11 +3,11 @@ import { Container, Text } from "@react-three/uikit";
 import { useRef } from "react";
 import { type Group, Vector3 } from "three";
 import { useStore } from "zustand";
-import { theLive } from "../../live/live.ts";
+import { theLive } from "../../runtime/live.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { jogStore } from "../../stores/jog.ts";
 import { watchStore } from "../../stores/watch.ts";
-import { solidWords } from "../pick/thing-words.ts";
+import { solidName } from "../pick/thing-words.ts";
 import { toScene } from "../world-space.ts";
 import { WORDS } from "../words.ts";
 
@@ -28,7 +28,7 @@ export function WhyCard() {
   const document = useStore(cellStore, state => state.document);
   const sentence =
     blocked ??
-    (contact && document ? WORDS.touch(solidWords(contact[0], document), solidWords(contact[1], document)) : undefined);
+    (contact && document ? WORDS.touch(solidName(contact[0], document), solidName(contact[1], document)) : undefined);
   const card = useRef<Group>(null);
   useFrame(({ camera }) => {
     const at = card.current;

@@ -3,7 +3,7 @@ import { useFrame } from "@react-three/fiber";
 import { Container, Text } from "@react-three/uikit";
 import { useEffect, useRef, useState } from "react";
 import { useStore } from "zustand";
-import { theLive } from "../../live/live.ts";
+import { theLive } from "../../runtime/live.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { programOf } from "../../stores/document.ts";
 import { runCommand } from "../../stores/commands.ts";

@@ -20,7 +20,7 @@ ENDMODULE
 `;
 
 /** Whether a module is guided from outside instead of moving by itself. */
-export const isGuided = (text: string): boolean => /^\s*EGMRun(?:Joint|Pose)\b/im.test(text);
+export const isStreamed = (text: string): boolean => /^\s*EGMRun(?:Joint|Pose)\b/im.test(text);
 /** How long such a module waits for a target [s]. */
 export function commTimeout_s(text: string): number | undefined {
   const seconds = Number(/\\CommTimeout\s*:=\s*([0-9]+(?:\.[0-9]+)?)/i.exec(text)?.[1]);

@@ -5,7 +5,7 @@ import {
   EGM_TEXT,
   errorJson,
   isAbbModel,
-  isGuided,
+  isStreamed,
   readJoints,
   readRws,
   statesHtml,
@@ -68,9 +68,9 @@ test.each([
 
 test("the program that waits for targets is told by its instruction, and says how long it waits", () => {
   expect([
-    isGuided(EGM_TEXT),
+    isStreamed(EGM_TEXT),
     commTimeout_s(EGM_TEXT),
-    isGuided("MODULE a\n! EGMRunJoint\nENDMODULE"),
+    isStreamed("MODULE a\n! EGMRunJoint\nENDMODULE"),
     commTimeout_s("\\CommTimeout:=0.25"),
     commTimeout_s(""),
   ]).toEqual([true, 1, false, 0.25, undefined]);

@@ -1,6 +1,6 @@
 import { flangePose, manualScheduler, robotById, type JointSample, type MoveStep, type Target } from "@twincell/core";
 import { expect } from "vitest";
-import { createRealController, type Face, type FaceOptions } from "../../real/index.ts";
+import { createRealController, type ControllerAdapter, type AdapterOptions } from "../../driver/index.ts";
 import { endedOn } from "../../testing/index.ts";
 import { memoryNetwork } from "../../transport/index.ts";
 import { createTwin } from "../../twin/index.ts";
@@ -15,7 +15,10 @@ export const AROUND = irb120.home_rad.with(0, 2.4);
 export const turned = (by_rad: number): number[] => Array.from(irb120.home_rad, q => q + by_rad);
 
 /** A virtual controller and a driver of it that is being connected. */
-export async function guidedBench(faceOf: (options: FaceOptions) => Face, virtualOptions: Partial<VirtualAbbOptions>) {
+export async function streamingBench(
+  faceOf: (options: AdapterOptions) => ControllerAdapter,
+  virtualOptions: Partial<VirtualAbbOptions>,
+) {
   const scheduler = manualScheduler();
   const network = memoryNetwork(scheduler);
   const log: string[] = [];
@@ -49,12 +52,12 @@ export async function guidedBench(faceOf: (options: FaceOptions) => Face, virtua
   await scheduler.elapse(0.1);
   return { scheduler, network, virtual, real, connecting, heard, log, links, carryOut: endedOn(scheduler, 0.05, 40) };
 }
-export type GuidedBench = Awaited<ReturnType<typeof guidedBench>>;
+export type StreamingBench = Awaited<ReturnType<typeof streamingBench>>;
 
 // What both drivers do the same way, because both guide the robot by EGM.
 
 /** Row T-23, with the rate of EGM. */
-export async function endsWhereCommanded({ real, carryOut, scheduler }: GuidedBench): Promise<void> {
+export async function endsWhereCommanded({ real, carryOut, scheduler }: StreamingBench): Promise<void> {
   for (const by of [0.3, -0.2, 0.05]) {
     expect(await carryOut(real.moveJoints(turned(by)))).toEqual({ kind: "done" });
     turned(by).forEach((q, i) => {
@@ -67,7 +70,7 @@ export async function endsWhereCommanded({ real, carryOut, scheduler }: GuidedBe
 
 /** Row T-20. @param again  what starts EGM again. */
 export async function errorEndsTheMotion(
-  { real, virtual, carryOut, scheduler, heard }: GuidedBench,
+  { real, virtual, carryOut, scheduler, heard }: StreamingBench,
   again: () => void,
 ): Promise<void> {
   const moving = real.moveJoints(AROUND);
@@ -91,7 +94,7 @@ export async function errorEndsTheMotion(
 
 /** Rows T-24, T-25 and T-26. @param told_s  so soon the driver knows the mode; @param within_rad  how near the last state is to where the pendant's jog ended. */
 export async function followsThePendant(
-  { real, virtual, carryOut, scheduler, heard }: GuidedBench,
+  { real, virtual, carryOut, scheduler, heard }: StreamingBench,
   told_s: number,
   within_rad: number,
 ): Promise<void> {
@@ -119,7 +122,7 @@ export function beside(at = flangePose(irb120.arm, irb120.home_rad)): (dy_m: num
 }
 /** A slanting line at another speed from half a second on, without leaving it. */
 export async function keepsToTheLine(
-  { real, carryOut, scheduler, heard }: GuidedBench,
+  { real, carryOut, scheduler, heard }: StreamingBench,
   more: Partial<MoveStep> = {},
 ): Promise<void> {
   const at = flangePose(irb120.arm, real.jointAngles());
@@ -148,7 +151,7 @@ export async function keepsToTheLine(
 }
 
 /** Rows T-46, T-47 and X-41: everything cut, noticed within 100 ms; the robot stops by itself within its time-out and braking time, and stays. */
-export async function stopsWhenCutOff({ real, network, virtual, scheduler }: GuidedBench): Promise<void> {
+export async function stopsWhenCutOff({ real, network, virtual, scheduler }: StreamingBench): Promise<void> {
   const moving = real.moveJoints(AROUND);
   await scheduler.elapse(0.3);
   network.weather.frozen = true;

@@ -10,7 +10,7 @@ import { latin1Bytes } from "../../http/index.ts";
 import type { Address, Network } from "../../transport/index.ts";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
 import { EGM_CYCLE_S, EGM_FILE, EGM_PORT, EGM_TEXT, EVENT } from "../codec/index.ts";
-import { Cabinet } from "./cabinet.ts";
+import { VirtualPendant } from "./cabinet.ts";
 import { EgmMotion } from "./egm-motion.ts";
 import { Files } from "./files.ts";
 import { Lines } from "./lines.ts";
@@ -71,7 +71,7 @@ export interface VirtualAbb {
   /** Robot Web Services break off and let nobody in while it is true. */
   setRefusing(refusing: boolean): void;
   readonly programs: Programs;
-  readonly cabinet: Cabinet;
+  readonly cabinet: VirtualPendant;
   readonly files: Files;
   readonly lines: Lines;
   /** EGM has ended by a fault that waits for a person. */
@@ -117,7 +117,7 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
   };
   const now_s = (): number => scheduler.now_s() - powered_s;
 
-  const cabinet = new Cabinet(now_s, because => {
+  const virtualPendant = new VirtualPendant(now_s, because => {
     egm.end("stopped", because);
     programs.interrupted(because);
   });
@@ -131,7 +131,7 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
       commTimeout_s: options.commTimeout_s,
       log,
       failed(because) {
-        cabinet.log(EVENT.egm, 3, "EGM error", because);
+        virtualPendant.log(EVENT.egm, 3, "EGM error", because);
         programs.interrupted(because);
       },
     },
@@ -139,7 +139,7 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
   );
   const programs = new Programs(
     neutral,
-    cabinet,
+    virtualPendant,
     {
       start(commTimeout_s) {
         egm.start(commTimeout_s);
@@ -160,7 +160,7 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
 
   /** What a person does in the morning. */
   function start(): void {
-    if (cabinet.switchOn() !== null) return;
+    if (virtualPendant.switchOn() !== null) return;
     // What somebody left there moves by itself: that is not started by turning a key.
     if (programs.isRunning || !programs.isGuided) return;
     if (programs.reset() === null) programs.start(null);
@@ -178,7 +178,7 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
       });
       return;
     }
-    egm.motorsOn = cabinet.motorsOn;
+    egm.motorsOn = virtualPendant.motorsOn;
     const others = programs.hasArm || neutral.isMoving();
     const hadIt = byOthers;
     byOthers = others;
@@ -206,7 +206,7 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
       robot,
       model: options.model ?? robot.name.replace(/^ABB /, ""),
       q_rad: () => neutral.jointAngles(),
-      cabinet,
+      cabinet: virtualPendant,
       programs,
       files,
       lines,
@@ -224,7 +224,7 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
     robot,
     neutral,
     programs,
-    cabinet,
+    cabinet: virtualPendant,
     files,
     lines,
     address: socket.address,
@@ -245,19 +245,19 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
     pendant: {
       setMode(to) {
         neutral.atTheRobot.setMode(to);
-        cabinet.setKey(to === "manual" ? "MANR" : "AUTO");
+        virtualPendant.setKey(to === "manual" ? "MANR" : "AUTO");
         if (to !== "manual") start();
       },
       jog: target => neutral.atTheRobot.jog(target),
       emergencyStop(is) {
-        cabinet.emergencyStop(is);
+        virtualPendant.emergencyStop(is);
       },
       setGuardOpen(open) {
-        cabinet.setGuardOpen(open);
+        virtualPendant.setGuardOpen(open);
       },
       protectiveStop(because) {
         egm.end("error", because);
-        cabinet.log(EVENT.failed, 3, "Motion supervision", because);
+        virtualPendant.log(EVENT.failed, 3, "Motion supervision", because);
         programs.interrupted(because);
       },
       setInput(signal, value) {
@@ -271,7 +271,7 @@ export async function createVirtualAbb(options: VirtualAbbOptions): Promise<AbbS
       server?.setRefusing(refusing);
     },
     reboot(off_s) {
-      cabinet.boot();
+      virtualPendant.boot();
       egm.boot();
       server?.boot();
       isOff = true;

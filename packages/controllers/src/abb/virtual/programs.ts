@@ -1,14 +1,14 @@
 import type { Interpreted } from "@twincell/core";
 import { textSteps } from "../../runner/index.ts";
 import type { VirtualController } from "../../virtual/index.ts";
-import { commTimeout_s, EVENT, isGuided } from "../codec/index.ts";
-import type { Cabinet } from "./cabinet.ts";
+import { commTimeout_s, EVENT, isStreamed } from "../codec/index.ts";
+import type { VirtualPendant } from "./cabinet.ts";
 
 /** Of the task: at its beginning or end, on its way, stopped on its way. */
 export type Execution = "read" | "star" | "stop";
 export type Cycle = "once" | "forever";
 /** Who carries out a module that is guided from outside. */
-export interface Guided {
+export interface Streamed {
   start(commTimeout_s?: number): void;
   stop(): void;
 }
@@ -20,8 +20,8 @@ const MAIN = /^\s*PROC\s+main\s*\(/im;
 /** The modules of the one task, its program pointer, and the text that is being executed. Why something cannot be is a sentence; null when it was done. */
 export class Programs {
   private readonly arm: VirtualController;
-  private readonly cabinet: Cabinet;
-  private readonly guided: Guided;
+  private readonly cabinet: VirtualPendant;
+  private readonly guided: Streamed;
   private readonly interpret: (text: string) => Interpreted;
   private readonly modules = new Map<string, { readonly name: string; readonly text: string }>();
   private state: Execution = "read";
@@ -31,12 +31,17 @@ export class Programs {
   private run = 0;
   cycle: Cycle = "forever";
 
-  constructor(arm: VirtualController, cabinet: Cabinet, guided: Guided, interpret: (text: string) => Interpreted) {
+  constructor(
+    arm: VirtualController,
+    virtualPendant: VirtualPendant,
+    guided: Streamed,
+    interpret: (text: string) => Interpreted,
+  ) {
     this.arm = arm;
-    this.cabinet = cabinet;
+    this.cabinet = virtualPendant;
     this.guided = guided;
     this.interpret = interpret;
-    cabinet.speedChanged = () => {
+    virtualPendant.speedChanged = () => {
       this.pace();
     };
   }
@@ -57,7 +62,7 @@ export class Programs {
   /** Whether the module with PROC main is one that is guided. */
   get isGuided(): boolean {
     const main = this.main;
-    return main !== undefined && isGuided(main.text);
+    return main !== undefined && isStreamed(main.text);
   }
   text(name: string): string | undefined {
     return this.modules.get(name.toUpperCase())?.text;
@@ -100,7 +105,7 @@ export class Programs {
     if (!main) return "No module of the task has a PROC main.";
     this.lose();
     this.ready = null;
-    if (!isGuided(main.text)) {
+    if (!isStreamed(main.text)) {
       const read = this.interpret(
         [main, ...[...this.modules.values()].filter(module => module !== main)].map(({ text }) => text).join("\n"),
       );
@@ -117,16 +122,16 @@ export class Programs {
     return null;
   }
   start(cycle: Cycle | null): string | null {
-    const { main, cabinet } = this;
-    if (cabinet.state !== "motoron") return `The controller is in the state ${cabinet.state}.`;
-    if (cabinet.key !== "AUTO") return "In manual mode the program is started at the pendant.";
+    const { main, cabinet: virtualPendant } = this;
+    if (virtualPendant.state !== "motoron") return `The controller is in the state ${virtualPendant.state}.`;
+    if (virtualPendant.key !== "AUTO") return "In manual mode the program is started at the pendant.";
     if (this.isRunning) return "The program is running.";
     if (!main || !this.isPointed) return "The program pointer is not set.";
-    if (!isGuided(main.text) && !this.isOnArm && this.arm.isMoving()) return "The robot has not come to rest.";
+    if (!isStreamed(main.text) && !this.isOnArm && this.arm.isMoving()) return "The robot has not come to rest.";
     if (cycle) this.cycle = cycle;
     this.state = "star";
-    cabinet.log(EVENT.started, 1, "Program started", `Execution of ${main.name} was started.`);
-    if (isGuided(main.text)) this.guided.start(commTimeout_s(main.text));
+    virtualPendant.log(EVENT.started, 1, "Program started", `Execution of ${main.name} was started.`);
+    if (isStreamed(main.text)) this.guided.start(commTimeout_s(main.text));
     else if (!this.isOnArm) this.begin();
     this.pace();
     return null;

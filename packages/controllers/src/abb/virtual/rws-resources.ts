@@ -1,7 +1,7 @@
 import { degrees, flangePose, type Robot } from "@twincell/core";
 import { latin1Text, readForm, readTarget, type HttpRequest } from "../../http/index.ts";
 import { EXTERNAL_AXES, NO_AXIS, ROBOT_AXES, RWS_CODE, TASK, UNIT, type RwsState } from "../codec/index.ts";
-import type { Cabinet } from "./cabinet.ts";
+import type { VirtualPendant } from "./cabinet.ts";
 import { eventStates } from "./events.ts";
 import { Files, FOLDERS } from "./files.ts";
 import type { Line, Lines } from "./lines.ts";
@@ -14,7 +14,7 @@ export interface ResourceOptions {
   readonly robot: Robot;
   readonly model: string;
   readonly q_rad: () => ArrayLike<number>;
-  readonly cabinet: Cabinet;
+  readonly cabinet: VirtualPendant;
   readonly programs: Programs;
   readonly files: Files;
   readonly lines: Lines;
@@ -49,11 +49,11 @@ export function createResources(
   options: ResourceOptions,
   sessions: Sessions,
 ): (session: Session, request: HttpRequest) => Answer {
-  const { cabinet, programs, files, lines, robot } = options;
+  const { cabinet: virtualPendant, programs, files, lines, robot } = options;
 
   /** Why this client may not write; null when it may. */
   function unwritable(session: Session, domain?: Domain): Answer | null {
-    if (cabinet.key !== "AUTO" && sessions.remoteOf(session) !== "GRANTED")
+    if (virtualPendant.key !== "AUTO" && sessions.remoteOf(session) !== "GRANTED")
       return no(403, "In manual mode writing needs the leave of the person at the pendant (users/rmmp).");
     return domain && sessions.isHeldByOther(domain, session)
       ? no(403, `Another client holds the mastership of ${domain}.`)
@@ -64,11 +64,11 @@ export function createResources(
     if (!form) {
       switch (name) {
         case "ctrlstate":
-          return states(state("pnl-ctrlstate", "ctrlstate", { ctrlstate: cabinet.state }));
+          return states(state("pnl-ctrlstate", "ctrlstate", { ctrlstate: virtualPendant.state }));
         case "opmode":
-          return states(state("pnl-opmode", "opmode", { opmode: cabinet.key }));
+          return states(state("pnl-opmode", "opmode", { opmode: virtualPendant.key }));
         case "speedratio":
-          return states(state("pnl-speedratio", "speedratio", { speedratio: cabinet.speedRatio }));
+          return states(state("pnl-speedratio", "speedratio", { speedratio: virtualPendant.speedRatio }));
         default:
           return no(404, `The panel has no ${name}.`);
       }
@@ -77,18 +77,18 @@ export function createResources(
       const to = form.get("ctrl-state");
       // Anyone may stop.
       if (to === "motoroff") {
-        cabinet.motorsOff("The motors were switched off from outside.");
+        virtualPendant.motorsOff("The motors were switched off from outside.");
         return DONE;
       }
       if (to !== "motoron") return no(400, "ctrl-state is motoron or motoroff.");
-      return unwritable(session) ?? orRefused(cabinet.switchOn());
+      return unwritable(session) ?? orRefused(virtualPendant.switchOn());
     }
     if (action === "setspeedratio" && name === "speedratio") {
       const text = form.get("speed-ratio") ?? "";
       const percent = Number(text);
       return (
         unwritable(session) ??
-        (text.trim() !== "" && cabinet.setSpeedRatio(percent)
+        (text.trim() !== "" && virtualPendant.setSpeedRatio(percent)
           ? DONE
           : no(400, "speed-ratio is a number from 0 to 100."))
       );
@@ -282,7 +282,7 @@ export function createResources(
       return DONE;
     }
     if (action !== "request") return no(405, `There is no action ${action} of mastership.`);
-    if (cabinet.key !== "AUTO" && sessions.remoteOf(session) !== "GRANTED") return unwritable(session)!;
+    if (virtualPendant.key !== "AUTO" && sessions.remoteOf(session) !== "GRANTED") return unwritable(session)!;
     return asked.some(domain => sessions.isHeldByOther(domain, session))
       ? no(403, "Another client holds it.", RWS_CODE.exists)
       : asked.every(domain => sessions.request(domain, session))
@@ -296,7 +296,7 @@ export function createResources(
       sessions.askRemote(session);
       return { status: 202 };
     }
-    const status = cabinet.key === "AUTO" ? "GRANTED" : sessions.remoteOf(session);
+    const status = virtualPendant.key === "AUTO" ? "GRANTED" : sessions.remoteOf(session);
     return states(
       state(path[1] === "poll" ? "user-rmmp-poll" : "user-rmmp", "rmmp", {
         status,
@@ -367,8 +367,8 @@ export function createResources(
           : states(state("sys-system", "system", { name: "VIRTUAL", rwversion: "6.15.0000" }));
       case "elog":
         return rest[0] === "0"
-          ? states(...eventStates(cabinet.events))
-          : states(state("elog-domain-li", "0", { "domain-name": "Common", numevts: cabinet.events.length }));
+          ? states(...eventStates(virtualPendant.events))
+          : states(state("elog-domain-li", "0", { "domain-name": "Common", numevts: virtualPendant.events.length }));
       default:
         return no(404, `There is no resource rw/${second}.`);
     }

@@ -34,7 +34,7 @@ export interface RwsServer {
 }
 
 const MOST_CLIENTS = 100;
-const MOST_WAITING = 8_000_000;
+const MAX_WAITING = 8_000_000;
 const MOST_LOGGED = 100;
 /** A connection carries so many requests; the client opens another one then. */
 const MOST_REQUESTS = 400;
@@ -86,7 +86,7 @@ export async function serveRws(options: RwsServerOptions): Promise<RwsServer> {
       const why = reader.push(lent, request => {
         const last = ++asked >= MOST_REQUESTS || hasWord(fieldOf(request, "connection"), "close");
         answer(stream, request, last);
-        if (stream.waiting > MOST_WAITING) {
+        if (stream.waiting > MAX_WAITING) {
           note(stream, "Answers are not read.");
           end();
         }

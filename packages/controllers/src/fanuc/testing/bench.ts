@@ -1,8 +1,13 @@
 import { manualScheduler, robotById } from "@twincell/core";
-import { createRealController } from "../../real/index.ts";
+import { createRealController } from "../../driver/index.ts";
 import { endedOn } from "../../testing/index.ts";
 import { memoryNetwork } from "../../transport/index.ts";
-import { createFanucFace, createVirtualFanuc, type FanucFaceOptions, type VirtualFanucOptions } from "../index.ts";
+import {
+  createFanucAdapter,
+  createVirtualFanuc,
+  type FanucAdapterOptions,
+  type VirtualFanucOptions,
+} from "../index.ts";
 
 export const robot = robotById("fanuc_lrmate200id")!;
 export const HOST = "127.0.0.5";
@@ -10,7 +15,7 @@ export const shifted = (by_rad: number): number[] => Array.from(robot.home_rad, 
 
 /** A virtual controller and a driver that is connected to it, over a network in memory. */
 export async function bench(
-  more: { readonly virtual?: Partial<VirtualFanucOptions>; readonly face?: Partial<FanucFaceOptions> } = {},
+  more: { readonly virtual?: Partial<VirtualFanucOptions>; readonly face?: Partial<FanucAdapterOptions> } = {},
 ) {
   const scheduler = manualScheduler();
   const network = memoryNetwork(scheduler);
@@ -27,7 +32,7 @@ export async function bench(
   });
   if (started.kind === "taken") throw new Error(started.sentence);
   const real = createRealController({
-    face: createFanucFace({ robot, scheduler, network, host: HOST, period_s: 0.004, ...more.face }),
+    face: createFanucAdapter({ robot, scheduler, network, host: HOST, period_s: 0.004, ...more.face }),
     scheduler,
   });
   const connecting = real.connect();

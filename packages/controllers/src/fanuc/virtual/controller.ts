@@ -15,7 +15,7 @@ import type { ByteStream, Network } from "../../transport/index.ts";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
 import {
   jointPart,
-  MOST_WAITING,
+  MAX_WAITING,
   RMI_ERROR,
   RMI_PORT,
   RMI_SESSION_PORT,
@@ -317,7 +317,7 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
         ? RMI_ERROR.notRunning
         : sequence !== next
           ? RMI_ERROR.sequence
-          : queue.length >= MOST_WAITING
+          : queue.length >= MAX_WAITING
             ? RMI_ERROR.failed
             : RMI_ERROR.ok;
       if (why !== RMI_ERROR.ok) {

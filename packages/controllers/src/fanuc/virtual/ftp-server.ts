@@ -1,5 +1,5 @@
 import type { ByteStream, Listening, Network } from "../../transport/index.ts";
-import { FtpLines, lineBytes, MOST_FILE, passiveText, readCommand, type FtpCommand } from "../codec-ftp.ts";
+import { FtpLines, lineBytes, MAX_FILE, passiveText, readCommand, type FtpCommand } from "../codec-ftp.ts";
 import type { Programs } from "./programs.ts";
 
 export interface FtpServerOptions {
@@ -87,14 +87,14 @@ function session(
   let isIn = false;
   let isOver = false;
   let came = false;
-  let door: { close(): void } | null = null;
+  let route: { close(): void } | null = null;
   let data: ByteStream | null = null;
   let then: ((stream: ByteStream) => void) | null = null;
 
   function shut(): void {
-    door?.close();
+    route?.close();
     data?.close();
-    door = data = then = null;
+    route = data = then = null;
   }
   async function passive(): Promise<void> {
     shut();
@@ -117,13 +117,13 @@ function session(
       listening.close();
       return;
     }
-    door = listening;
+    route = listening;
     came = false;
     say(227, passiveText(host, listening.address.port));
   }
   /** As soon as the client has come to the port that it was told. */
   function overData(go: (stream: ByteStream) => void): void {
-    if (!door || (came && !data)) {
+    if (!route || (came && !data)) {
       say(425, "Use PASV first.");
       return;
     }
@@ -136,14 +136,14 @@ function session(
       let text = "";
       let isFull = false;
       stream.onBytes(lent => {
-        isFull ||= text.length + lent.length > MOST_FILE;
+        isFull ||= text.length + lent.length > MAX_FILE;
         if (!isFull)
           for (let i = 0; i < lent.length; i += LETTERS) text += String.fromCharCode(...lent.subarray(i, i + LETTERS));
       });
       stream.onEnd(() => {
         if (data !== stream) return;
         data = null;
-        const why = isFull ? `a file of more than ${MOST_FILE} bytes` : programs.store(name, text);
+        const why = isFull ? `a file of more than ${MAX_FILE} bytes` : programs.store(name, text);
         if (why === null) say(226, "Stored.");
         else say(550, why);
       });

@@ -1,12 +1,12 @@
 import { robotById, type Executed, type Interpreted, type RealController, type Robot, type Step } from "@twincell/core";
-import { createRealController } from "../../real/index.ts";
+import { createRealController } from "../../driver/index.ts";
 import { endedOn, manualScheduler } from "../../testing/index.ts";
 import { memoryNetwork, type MemoryNetwork } from "../../transport/index.ts";
 import {
-  createKukaFace,
+  createKukaAdapter,
   createVirtualKuka,
   startLoop,
-  type KukaFaceOptions,
+  type KukaAdapterOptions,
   type VirtualKuka,
   type VirtualKukaOptions,
 } from "../index.ts";
@@ -51,7 +51,7 @@ export interface KukaBench {
 export async function kukaBench(
   more: {
     readonly virtual?: Partial<VirtualKukaOptions>;
-    readonly face?: Partial<KukaFaceOptions>;
+    readonly face?: Partial<KukaAdapterOptions>;
     readonly running?: boolean;
   } = {},
 ): Promise<KukaBench> {
@@ -71,8 +71,8 @@ export async function kukaBench(
   });
   if (more.running !== false) startLoop(kuka);
   await scheduler.elapse(0.02);
-  const face = createKukaFace({ robot: KR6, scheduler, network, host: HOST, period_s: 0.004, ...more.face });
-  const real = createRealController({ face, scheduler });
+  const adapter = createKukaAdapter({ robot: KR6, scheduler, network, host: HOST, period_s: 0.004, ...more.face });
+  const real = createRealController({ face: adapter, scheduler });
   const connecting = real.connect();
   await scheduler.elapse(0.05);
   await connecting;

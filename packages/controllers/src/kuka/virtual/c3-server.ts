@@ -10,8 +10,8 @@ import type { Variables } from "./variables.ts";
 
 /** Clients at once, bytes of a file, and bytes that wait for a client that does not read. */
 const MOST_CLIENTS = 16;
-const MOST_FILE = 4_000_000;
-const MOST_WAITING = 1_000_000;
+const MAX_FILE = 4_000_000;
+const MAX_WAITING = 1_000_000;
 const CHUNK = 32_768;
 export const C3_TYPES: readonly number[] = Object.values(C3_TYPE).sort((a, b) => a - b);
 /** Version 1.5, of the open kind. */
@@ -78,7 +78,7 @@ export async function serveC3(options: C3ServerOptions): Promise<C3Server> {
           reset(`Message type ${type} is none of the protocol.`);
           return false;
         }
-        if (stream.waiting > MOST_WAITING) {
+        if (stream.waiting > MAX_WAITING) {
           reset("Answers are not read.");
           return false;
         }
@@ -176,7 +176,7 @@ function session({ variables, machine, programs, hostName }: C3ServerOptions): (
       case "file-delete":
         return plain(code(programs.delete(request.name)));
       case "put-begin":
-        if (request.size > MOST_FILE) return file(FILE_STEP.begin, C3_ERROR.memory);
+        if (request.size > MAX_FILE) return file(FILE_STEP.begin, C3_ERROR.memory);
         put = new Uint8Array(request.size);
         return file(FILE_STEP.begin, C3_ERROR.success, put.length);
       case "put-size":

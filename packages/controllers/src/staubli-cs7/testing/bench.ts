@@ -1,9 +1,9 @@
 import { robotById, type Executed, type Interpreted, type RealController, type Robot, type Step } from "@twincell/core";
-import { createRealController } from "../../real/index.ts";
+import { createRealController } from "../../driver/index.ts";
 import { endedOn, manualScheduler } from "../../testing/index.ts";
 import { memoryNetwork, type MemoryNetwork } from "../../transport/index.ts";
 import {
-  createCs7Face,
+  createCs7Adapter,
   createVirtualCs7,
   type Cs7FaceOptions,
   type VirtualCs7,
@@ -77,7 +77,7 @@ export async function bench(
   });
   if (started.kind === "taken") throw new Error(started.sentence);
   const real = createRealController({
-    face: createCs7Face({ robot: RX90L, scheduler, network, host: HOST, period_s: 0.02, ...more.face }),
+    face: createCs7Adapter({ robot: RX90L, scheduler, network, host: HOST, period_s: 0.02, ...more.face }),
     scheduler,
   });
   const connecting = real.connect();

@@ -62,7 +62,7 @@ const MANUAL_MPS = 0.25;
 const PRESSES_S = 0.5;
 const BOOT_S = 2;
 const DIGITS = 3;
-const MOST_WAITING = 65_536;
+const MAX_WAITING = 65_536;
 const MOST_AHEAD = 64;
 const URGENT = /^\s*(PANIC|ABORT|DO\s+BRAKE)\b/i;
 
@@ -99,7 +99,7 @@ export async function createVirtualCs7(options: VirtualCs7Options): Promise<Cs7S
 
   function out(text: string): void {
     const to = terminal;
-    if (!to || text === "" || to.waiting > MOST_WAITING) return;
+    if (!to || text === "" || to.waiting > MAX_WAITING) return;
     line.send(textBytes(text), bytes => {
       to.send(bytes);
     });

@@ -1,11 +1,11 @@
 import { robotById, type Executed, type Interpreted, type RealController, type Robot, type Step } from "@twincell/core";
-import { createRealController } from "../../real/index.ts";
+import { createRealController } from "../../driver/index.ts";
 import { endedOn, manualScheduler } from "../../testing/index.ts";
 import { memoryNetwork, type MemoryNetwork } from "../../transport/index.ts";
 import {
-  createStaubliFace,
+  createStaubliAdapter,
   createVirtualStaubli,
-  type StaubliFaceOptions,
+  type StaubliAdapterOptions,
   type VirtualStaubli,
   type VirtualStaubliOptions,
 } from "../index.ts";
@@ -52,7 +52,7 @@ export interface StaubliBench {
 }
 /** A virtual controller with ros_server running, and a driver that is connected to it, over a network in memory. */
 export async function bench(
-  more: { readonly virtual?: Partial<VirtualStaubliOptions>; readonly face?: Partial<StaubliFaceOptions> } = {},
+  more: { readonly virtual?: Partial<VirtualStaubliOptions>; readonly face?: Partial<StaubliAdapterOptions> } = {},
 ): Promise<StaubliBench> {
   const scheduler = manualScheduler();
   const network = memoryNetwork(scheduler);
@@ -71,7 +71,7 @@ export async function bench(
   });
   if (started.kind === "taken") throw new Error(started.sentence);
   const real = createRealController({
-    face: createStaubliFace({ robot: RX160, scheduler, network, host: HOST, ...more.face }),
+    face: createStaubliAdapter({ robot: RX160, scheduler, network, host: HOST, ...more.face }),
     scheduler,
   });
   const connecting = real.connect();

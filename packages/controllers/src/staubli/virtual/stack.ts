@@ -5,8 +5,8 @@ import type { VirtualController } from "../../virtual/index.ts";
 import { MANUAL_MPS, type Machine } from "./machine.ts";
 
 /** Points that wait in ros_server's buffer, and motions that wait in the arm's stack behind it. */
-export const MOST_POINTS = 10;
-export const MOST_MOTIONS = 10;
+export const MAX_POINTS = 10;
+export const MAX_MOTIONS = 10;
 
 /**
  * What makes the arm move: points of ros_server, one from its buffer into the stack of motions in each cycle, and a VAL 3
@@ -48,7 +48,7 @@ export class Stack {
 
   /** False when the buffer is full or a program of the pendant has the arm. */
   push(q_rad: readonly number[], ratio: number): boolean {
-    if (this.points.length >= MOST_POINTS || this.text) return false;
+    if (this.points.length >= MAX_POINTS || this.text) return false;
     this.points.push({ id: "point", type: "move", path: "ptp", target: { q: q_rad }, speed: { ratio }, blend_m: 0 });
     return true;
   }
@@ -74,7 +74,7 @@ export class Stack {
   /** Once a cycle. @param step  what the arm carries out. */
   cycle(step: string): void {
     this.text?.run.reached(step);
-    const point = this.motions.length < MOST_MOTIONS ? this.points.shift() : undefined;
+    const point = this.motions.length < MAX_MOTIONS ? this.points.shift() : undefined;
     if (point) {
       this.motions.push(point);
       this.moveId++;

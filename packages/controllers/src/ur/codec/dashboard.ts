@@ -59,7 +59,7 @@ const ASKING: ReadonlySet<DashboardCommand> = new Set<DashboardCommand>([
   "addtolog",
   "savelog",
 ]);
-export const onlyAsks = (command: DashboardCommand): boolean => ASKING.has(command);
+export const onlyRequests = (command: DashboardCommand): boolean => ASKING.has(command);
 
 export interface Asked {
   readonly command: DashboardCommand;

@@ -15,7 +15,7 @@ import {
   textMessage,
   versionMessage,
 } from "./primary.ts";
-import { onlyAsks, readCommand, valueIn } from "./dashboard.ts";
+import { onlyRequests, readCommand, valueIn } from "./dashboard.ts";
 
 const hex = (text: string): Uint8Array => Uint8Array.from(text.trim().split(/\s+/), byte => Number.parseInt(byte, 16));
 const letters = (text: string): string =>
@@ -214,7 +214,7 @@ describe("words of the dashboard", () => {
     expect(readCommand("popup Hello there")).toEqual({ command: "popup", argument: "Hello there" });
     expect(readCommand("programState")?.command).toBe("programstate");
     for (const wrong of ["", "robotmodes", "dance", "stopp"]) expect(readCommand(wrong)).toBeNull();
-    expect([onlyAsks("safetymode"), onlyAsks("power on"), onlyAsks("stop")]).toEqual([true, false, false]);
+    expect([onlyRequests("safetymode"), onlyRequests("power on"), onlyRequests("stop")]).toEqual([true, false, false]);
     expect(valueIn("Robotmode: RUNNING")).toBe("RUNNING");
   });
 });

@@ -1,8 +1,8 @@
 import { manualScheduler, robotById, type ManualScheduler, type RealController, type Robot } from "@twincell/core";
-import { createRealController } from "../../real/index.ts";
+import { createRealController } from "../../driver/index.ts";
 import { memoryNetwork, type ByteStream, type MemoryNetwork } from "../../transport/index.ts";
 import { lineBytes, lineReader } from "../codec/lines.ts";
-import { createUrFace, createVirtualUr, UR_PORTS, type VirtualUr, type VirtualUrOptions } from "../index.ts";
+import { createUrAdapter, createVirtualUr, UR_PORTS, type VirtualUr, type VirtualUrOptions } from "../index.ts";
 
 export const robot: Robot = robotById("ur10e")!;
 export const HOST = "127.0.0.2";
@@ -84,7 +84,7 @@ export async function urBench(options: Partial<VirtualUrOptions> = {}): Promise<
     },
     async driver() {
       const controller = createRealController({
-        face: createUrFace({ robot, scheduler, network, host: HOST }),
+        face: createUrAdapter({ robot, scheduler, network, host: HOST }),
         scheduler,
       });
       void controller.connect();

@@ -1,7 +1,7 @@
 import type { Pose } from "@twincell/core";
 import { createVirtualController, type VirtualController } from "../../virtual/index.ts";
 import type { ByteStream, Listening } from "../../transport/index.ts";
-import type { BrandStarted, BrandVirtual, BrandVirtualOptions } from "../../real/index.ts";
+import type { StartedDriver, VendorVirtual, VendorVirtualOptions } from "../../driver/index.ts";
 import { JOINTS, modelOf, typeOf, UR_PORTS, type UrPorts } from "../codec/models.ts";
 import { EMERGENCY_STOPS, JOINT_MODE, ROBOT_MODE, RUNTIME, SAFETY_MODE } from "../codec/modes.ts";
 import { realTimeWriter } from "../codec/real-time.ts";
@@ -30,7 +30,7 @@ import { ScriptServer } from "./script-server.ts";
 import { stateFiller } from "./state-filler.ts";
 import { States } from "./states.ts";
 
-export interface VirtualUrOptions extends Omit<BrandVirtualOptions, "host"> {
+export interface VirtualUrOptions extends Omit<VendorVirtualOptions, "host"> {
   readonly host?: string;
   readonly worldFromBase?: Pose<"world", "base">;
   /** What it says it is, where that is not the robot it has. */
@@ -62,7 +62,7 @@ export interface UrState {
   readonly cycles: number;
 }
 
-export interface VirtualUr extends BrandVirtual {
+export interface VirtualUr extends VendorVirtual {
   readonly faults: UrFaults;
   readonly pendant: UrPendant;
   readonly state: UrState;
@@ -71,7 +71,7 @@ export interface VirtualUr extends BrandVirtual {
 }
 export type UrStarted =
   | { readonly kind: "started"; readonly virtual: VirtualUr }
-  | Extract<BrandStarted, { kind: "taken" }>;
+  | Extract<StartedDriver, { kind: "taken" }>;
 
 const CYCLE_S = 0.002;
 /** The primary interface tells its state ten times a second. */
@@ -353,7 +353,7 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStar
   });
 
   const wanted = { ...UR_PORTS, ...options.ports };
-  const doors: Extract<Listening, { kind: "listening" }>[] = [];
+  const routes: Extract<Listening, { kind: "listening" }>[] = [];
   const servers: Readonly<Record<keyof UrPorts, { accept(stream: ByteStream): void; closeAll(): void }>> = {
     dashboard,
     primary,
@@ -369,17 +369,17 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStar
     for (const server of Object.values(servers)) server.closeAll();
   };
   for (const name of Object.keys(servers) as (keyof UrPorts)[]) {
-    const door = await network.listen({ host, port: wanted[name] }, stream => {
+    const route = await network.listen({ host, port: wanted[name] }, stream => {
       if (faults.refusing || isClosed) stream.close();
       else servers[name].accept(stream);
     });
-    if (door.kind === "taken") {
-      for (const open of doors) open.close();
+    if (route.kind === "taken") {
+      for (const open of routes) open.close();
       neutral.close();
-      return door;
+      return route;
     }
-    ports[name] = door.address.port;
-    doors.push(door);
+    ports[name] = route.address.port;
+    routes.push(route);
   }
 
   const virtual: VirtualUr = {
@@ -431,7 +431,7 @@ export async function createVirtualUr(options: VirtualUrOptions): Promise<UrStar
       if (isClosed) return;
       isClosed = true;
       closeAll();
-      for (const door of doors) door.close();
+      for (const route of routes) route.close();
       neutral.close();
     },
   };

@@ -1,5 +1,5 @@
 import type { ByteStream } from "../../transport/index.ts";
-import { BANNER, onlyAsks, readCommand, REPLIES, type Asked } from "../codec/dashboard.ts";
+import { BANNER, onlyRequests, readCommand, REPLIES, type Asked } from "../codec/dashboard.ts";
 import { lineBytes, lineReader } from "../codec/lines.ts";
 import { robotModeName, RUNTIME, safetyModeName } from "../codec/modes.ts";
 import type { Version } from "../codec/rtde.ts";
@@ -69,7 +69,7 @@ export class DashboardServer {
     if (!asked) return REPLIES.notUnderstood(line);
     const [major, minor] = options.version;
     const hasRemote = major > REMOTE_SINCE[0] || (major === REMOTE_SINCE[0] && minor >= REMOTE_SINCE[1]);
-    if (hasRemote && !options.isRemote() && !onlyAsks(asked.command)) return REPLIES.local(asked.command);
+    if (hasRemote && !options.isRemote() && !onlyRequests(asked.command)) return REPLIES.local(asked.command);
     return this.carriedOut(asked, line);
   }
 

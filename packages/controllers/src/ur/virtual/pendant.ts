@@ -1,6 +1,6 @@
 import { identity, type MoveStep, type Robot } from "@twincell/core";
 import { jointMoveSpeed } from "../../guard/index.ts";
-import type { KeyPosition, Pendant, PendantShown } from "../../real/index.ts";
+import type { KeyPosition, Pendant, PendantShown } from "../../driver/index.ts";
 import { jointRefusal } from "../../refusals.ts";
 import type { VirtualController } from "../../virtual/index.ts";
 import { DIGITAL_LINES, lineNumber } from "../codec/models.ts";

@@ -234,7 +234,7 @@ describe("what is no packet", () => {
       fc.property(fc.oneof(fc.uint8Array({ maxLength: 600 }), near), packet => {
         for (const read of [codec.readRequest(packet), codec.readReply(packet)]) {
           if (read.kind === "flawed") expect(read.sentence).toMatch(/^[A-Z].*\.$/);
-          else expect(read.packet.data.length).toBeLessThanOrEqual(codec.MOST_DATA_BYTES);
+          else expect(read.packet.data.length).toBeLessThanOrEqual(codec.MAX_DATA_BYTES);
         }
         codec.readAlarm(packet);
         codec.readJob(packet);

@@ -5,7 +5,7 @@ export const ROBOT_PORT = 10_040;
 export const FILE_PORT = 10_041;
 export const HEADER_BYTES = 32;
 /** Data of one packet: the size of a block of the plural commands and of files is chosen to stay below it. */
-export const MOST_DATA_BYTES = 479;
+export const MAX_DATA_BYTES = 479;
 /** Set in the number of the last, or only, block of an answer and of a file. */
 export const LAST_BLOCK = 0x8000_0000;
 export const DIVISION = { robot: 1, file: 2 } as const;
@@ -103,7 +103,7 @@ function headerFlaw(bytes: Uint8Array): ReturnType<typeof flawed> | undefined {
   if (u16(bytes, 4) !== HEADER_BYTES)
     return flawed(0xe49d, `The header says it has ${u16(bytes, 4)} bytes; it has ${HEADER_BYTES}.`);
   const size = u16(bytes, 6);
-  if (size > MOST_DATA_BYTES || size !== bytes.length - HEADER_BYTES)
+  if (size > MAX_DATA_BYTES || size !== bytes.length - HEADER_BYTES)
     return flawed(0xe4a7, `The header says ${size} bytes of data; ${bytes.length - HEADER_BYTES} came.`);
   if (bytes[9] !== DIVISION.robot && bytes[9] !== DIVISION.file)
     return flawed(0xe4a3, `There is no division ${bytes[9]}.`);

@@ -9,10 +9,10 @@ import {
   type RealController,
   type Step,
 } from "@twincell/core";
-import { createRealController } from "../../real/index.ts";
+import { createRealController } from "../../driver/index.ts";
 import { memoryNetwork, type DatagramSocket, type MemoryNetwork } from "../../transport/index.ts";
 import { DIVISION, EXAMPLE_SCALE, readReply, writeRequest, type HsesReply, type HsesRequest } from "../codec/index.ts";
-import { yaskawaFace, type YaskawaFace, type YaskawaFaceOptions } from "../driver/index.ts";
+import { yaskawaAdapter, type YaskawaAdapter, type YaskawaAdapterOptions } from "../adapter/index.ts";
 import { createVirtualYaskawa, type VirtualYaskawa, type VirtualYaskawaOptions } from "../virtual/index.ts";
 
 export const HOST = "127.0.0.1";
@@ -23,7 +23,7 @@ export interface Bench {
   readonly scheduler: ManualScheduler;
   readonly network: MemoryNetwork;
   readonly virtual: VirtualYaskawa;
-  readonly face: YaskawaFace;
+  readonly face: YaskawaAdapter;
   readonly real: RealController;
   readonly heard: JointSample[];
   readonly log: string[];
@@ -34,7 +34,7 @@ export interface Bench {
 }
 export async function bench(
   virtualOptions: Partial<VirtualYaskawaOptions> = {},
-  faceOptions: Partial<YaskawaFaceOptions> = {},
+  faceOptions: Partial<YaskawaAdapterOptions> = {},
   connect = true,
 ): Promise<Bench> {
   const scheduler = manualScheduler();
@@ -54,8 +54,8 @@ export async function bench(
     ...virtualOptions,
   });
   if (started.kind === "taken") throw new Error(started.sentence);
-  const face = yaskawaFace({ robot: gp8, scheduler, network, host: HOST, scale: EXAMPLE_SCALE, ...faceOptions });
-  const real = createRealController({ face, scheduler });
+  const adapter = yaskawaAdapter({ robot: gp8, scheduler, network, host: HOST, scale: EXAMPLE_SCALE, ...faceOptions });
+  const real = createRealController({ face: adapter, scheduler });
   real.onSample(sample => {
     heard.push({ ...sample, q_rad: sample.q_rad.slice() });
     if (heard.length > 4000) heard.shift();
@@ -79,7 +79,7 @@ export async function bench(
     if (!outcome) throw new Error(`The command took more than ${most_s} s.`);
     return { outcome, took_s };
   };
-  return { scheduler, network, virtual: started.controller, face, real, heard, log, carryOut };
+  return { scheduler, network, virtual: started.controller, face: adapter, real, heard, log, carryOut };
 }
 
 /** From home, every joint turned by so much. */

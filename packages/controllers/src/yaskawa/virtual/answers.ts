@@ -5,7 +5,7 @@ import {
   COMMAND,
   CYCLE,
   FRAME,
-  MOST_DATA_BYTES,
+  MAX_DATA_BYTES,
   OFF,
   ON,
   PLURAL,
@@ -258,7 +258,7 @@ export function answerer(options: AnswerOptions): (request: HsesRequest) => Answ
     if (data.length < 4) return refused(ADDED.size);
     const count = u32(data, 0);
     if (count < 1 || (bytes === 1 && count % 2 === 1)) return refused(ADDED.outOfRange);
-    if (4 + count * bytes > MOST_DATA_BYTES) return refused(ADDED.tooLarge);
+    if (4 + count * bytes > MAX_DATA_BYTES) return refused(ADDED.tooLarge);
     const isSet = service === SERVICE.setMany;
     const remote = isSet ? machine.fromOutside() : 0;
     if (remote !== 0) return refused(remote);

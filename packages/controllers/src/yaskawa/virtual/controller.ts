@@ -15,7 +15,7 @@ import {
   FILE_PORT,
   HEADER_BYTES,
   LAST_BLOCK,
-  MOST_DATA_BYTES,
+  MAX_DATA_BYTES,
   ROBOT_PORT,
   SERVICE,
   STATUS,
@@ -228,7 +228,7 @@ export async function createVirtualYaskawa(options: VirtualYaskawaOptions): Prom
     options.log?.(line);
   }
 
-  const out = new Uint8Array(HEADER_BYTES + MOST_DATA_BYTES);
+  const out = new Uint8Array(HEADER_BYTES + MAX_DATA_BYTES);
   const nothing = new Uint8Array(0);
   const robotSocket = faultySocket(robotPort.socket, faults, scheduler, random);
   const fileSocket = faultySocket(filePort.socket, faults, scheduler, random);

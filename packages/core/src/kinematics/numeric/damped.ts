@@ -77,7 +77,7 @@ export function solveDamped(
   let ranOut = false;
   for (const most = 1 + (options.restarts?.most ?? 0); starts < most; ) {
     if (starts === 0) for (let j = 0; j < q.length; j++) q[j] = q0[j]!;
-    else drawPosture(arm, options.restarts!.random, q);
+    else drawConfiguration(arm, options.restarts!.random, q);
     const met = descend(arm, baseFromFlange, aim, scratch);
     starts++;
     iterations += scratch.iterations;
@@ -190,7 +190,7 @@ function hardestLimit(
   };
 }
 
-function drawPosture(arm: SerialArm, random: Random, out: Float64Array): void {
+function drawConfiguration(arm: SerialArm, random: Random, out: Float64Array): void {
   for (let j = 0; j < out.length; j++) {
     const { lower_rad, upper_rad } = arm.joints[j]!.limits;
     out[j] = lower_rad + (upper_rad - lower_rad) * random();

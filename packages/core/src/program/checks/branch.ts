@@ -5,7 +5,7 @@ import { isSlide, jointText } from "../../robots/slide.ts";
 import { LIMIT_SLACK_RAD } from "../../trajectory/run.ts";
 import { radians } from "../../spatial/units.ts";
 import type { Repair } from "../verdict.ts";
-import { jointMove, postureRepairs } from "./repairs.ts";
+import { jointMove, configurationRepairs } from "./repairs.ts";
 import { deg, motions, startOf, type CheckScene } from "./scene.ts";
 
 /** A joint move to a pose that turns a joint further than this has turned the arm over [rad]. */
@@ -46,7 +46,7 @@ export function checkBranch(scene: CheckScene): void {
           unit: "rad",
           at_s,
           sentence: `Joint ${joint + 1} turns by ${deg(way)} while the arm changes from ${words(before)} to ${words(after)}.`,
-          repairs: postureRepairs(scene, move),
+          repairs: configurationRepairs(scene, move),
         });
       }
       continue;

@@ -10,7 +10,7 @@ import { RunPlanner } from "../../trajectory/run.ts";
 import { sampleSegment } from "../../trajectory/sample.ts";
 import { motionOf, type SegmentCertificate } from "../certificate.ts";
 import { freshStepIds } from "../edit.ts";
-import { HeldParts, type Stretch } from "../held.ts";
+import { GraspedParts, type Stretch } from "../grasped-parts.ts";
 import type { MoveStep } from "../program.ts";
 import type { Repair } from "../verdict.ts";
 import { raised } from "./repairs.ts";
@@ -47,7 +47,7 @@ export interface Collisions {
 }
 
 /**
- * Proves every motion of the plan free of contact, between the nodes as well, with the parts that are held on the way (`HeldParts`);
+ * Proves every motion of the plan free of contact, between the nodes as well, with the parts that are held on the way (`GraspedParts`);
  * standing still is covered by the motions that end there.
  */
 export function checkCollision(scene: CheckScene, options: CollisionOptions): Collisions {
@@ -55,7 +55,7 @@ export function checkCollision(scene: CheckScene, options: CollisionOptions): Co
   const collider = new CellCollider(cell, scene.robot.arm);
   const prover = new Prover(collider, margin_m, scene.robot.arm);
   collider.allowContactsAt(scene.robot.home_rad);
-  const parts = new HeldParts(collider, cell, scene.program, scene.robot.arm, scene.layout.plan.segments, margin_m);
+  const parts = new GraspedParts(collider, cell, scene.program, scene.robot.arm, scene.layout.plan.segments, margin_m);
   const unproven = new Set<string>();
   const found = new Set<string>();
   const all = [...motions(scene)];
@@ -185,7 +185,7 @@ class Prover {
 /** What a held part rests on does not count as long as it may touch it or be near. */
 function leastClearance(
   collider: CellCollider,
-  parts: HeldParts,
+  parts: GraspedParts,
   segments: readonly Segment[],
   all: readonly MotionSegment[],
   cancelled: (() => boolean) | undefined,

@@ -14,14 +14,14 @@ import type { Plan } from "../../trajectory/plan.ts";
 import {
   PlanWriter,
   inRuns,
-  type MoveHappening,
+  type MoveFlowEvent,
   type FlowPart,
   type PlanNote,
   type PlanOptions,
 } from "../../trajectory/planner.ts";
 import { PATH_TOLERANCE_M, RunPlanner } from "../../trajectory/run.ts";
 import type { RunStop } from "../../trajectory/run-path.ts";
-import { flow, type Visit } from "../flow.ts";
+import { flow, type PendantVisitor } from "../flow.ts";
 import type { MoveStep, Program, Step } from "../program.ts";
 import { everyStep } from "../walk.ts";
 
@@ -43,7 +43,7 @@ export interface Ends {
 /** One carrying out of a step that is carried out more than once, or at the place of a pallet. */
 export interface Turn {
   readonly written: Step;
-  readonly visits: readonly Visit[];
+  readonly visits: readonly PendantVisitor[];
 }
 
 /**
@@ -91,7 +91,7 @@ const SAME_RAD = 1e-9;
  * beyond joint limits, so that the path there can be drawn and named (rows L-38, L-40). Both sides of a decision are laid
  * out, and what follows from every posture they lead to. Postures are chosen as `planProgram` chooses them.
  */
-export function layOut(program: Program, robot: Robot, options: LayoutOptions = {}): Layout {
+export function prepareJob(program: Program, robot: Robot, options: LayoutOptions = {}): Layout {
   const sheet = new Sheet(program, robot, options);
   const count = Math.max(1, Array.from(everyStep(program)).length);
   const goesOn = (): boolean => {
@@ -216,7 +216,7 @@ class Sheet {
   }
 
   private run(
-    run: readonly MoveHappening[],
+    run: readonly MoveFlowEvent[],
     resolved: readonly Move[],
     chains: readonly Chain[],
     first: number,
@@ -277,12 +277,12 @@ class Sheet {
     };
   }
 
-  private stand(postures: readonly Float64Array[]): void {
-    if (postures[0] !== undefined) this.writer.jumpTo(postures[0]);
+  private stand(configurations: readonly Float64Array[]): void {
+    if (configurations[0] !== undefined) this.writer.jumpTo(configurations[0]);
   }
 
   /** The move under an id that no other carrying out has. */
-  private own({ step, written, visits }: MoveHappening, move: Move): Move {
+  private own({ step, written, visits }: MoveFlowEvent, move: Move): Move {
     const time = (this.times.get(step.id) ?? 0) + 1;
     this.times.set(step.id, time);
     this.evaluated.add(step.id);

@@ -3,7 +3,7 @@ import { isSlide, jointText, movesTo } from "../../robots/slide.ts";
 import { radians } from "../../spatial/units.ts";
 import type { MotionSegment } from "../../trajectory/plan.ts";
 import { LIMIT_SLACK_RAD } from "../../trajectory/run.ts";
-import { postureRepairs, reachRepairs } from "./repairs.ts";
+import { configurationRepairs, reachRepairs } from "./repairs.ts";
 import { motions, type CheckScene } from "./scene.ts";
 
 /** Row L-39: a joint this near to its limit is worth a warning [rad], of a slide [m]. */
@@ -42,7 +42,7 @@ export function checkLimits(scene: CheckScene): void {
       if (room < -LIMIT_SLACK_RAD) {
         if (named.has(segment.step)) continue;
         const move = scene.layout.moves.get(segment.step);
-        const repairs = move === undefined ? [] : [...postureRepairs(scene, move), ...reachRepairs(scene, move)];
+        const repairs = move === undefined ? [] : [...configurationRepairs(scene, move), ...reachRepairs(scene, move)];
         scene.add(segment.step, "bad", {
           code: "limits.joint",
           joint: j + 1,

@@ -84,7 +84,7 @@ export function reachRepairs(scene: CheckScene, move: Move, reach?: Reach): Repa
 }
 
 /** The same pose in other postures, as joint moves to them. */
-export function postureRepairs(scene: CheckScene, move: Move, most = 2): Repair[] {
+export function configurationRepairs(scene: CheckScene, move: Move, most = 2): Repair[] {
   const near = scene.layout.starts.get(move.step.id) ?? Float64Array.from(scene.robot.home_rad);
   const reach = solveAll(scene.robot, move.baseFromFlange, { near });
   if (reach.kind !== "reached") return [];

@@ -1,4 +1,4 @@
-import { reachOfPosture, workspaceScratch } from "../../kinematics/workspace.ts";
+import { reachOfConfiguration, workspaceScratch } from "../../kinematics/workspace.ts";
 import { reachRepairs } from "./repairs.ts";
 import { motions, type CheckScene } from "./scene.ts";
 
@@ -15,7 +15,7 @@ export function checkWorkspace(scene: CheckScene): void {
     let at = 0;
     for (let i = 0; i < segment.times_s.length; i++) {
       for (let j = 0; j < n; j++) q[j] = segment.q_rad[i * n + j]!;
-      const distance_m = reachOfPosture(scene.robot, workspace, q, scratch);
+      const distance_m = reachOfConfiguration(scene.robot, workspace, q, scratch);
       if (distance_m > farthest_m) {
         farthest_m = distance_m;
         at = i;

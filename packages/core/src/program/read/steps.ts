@@ -15,13 +15,13 @@ import {
 import { readCondition } from "./condition.ts";
 import { readMove } from "./move.ts";
 import { keys, type Fields, type Reader } from "./reader.ts";
-import type { Surroundings } from "./surroundings.ts";
+import type { NetworkEmulator } from "./surroundings.ts";
 
 const BASE = ["id", "type", "name", "group"] as const;
 /** Blocks inside blocks deeper than this help nobody, and would overflow the stack of whoever walks them. */
 const DEEPEST = 16;
 /** Times that a loop may repeat: exact in every controller's numbers. */
-const MOST_TIMES = 1_000_000_000;
+const MAX_TIMES = 1_000_000_000;
 
 /** What a step says beside its id, name and group. */
 type Body<S> = S extends Step ? Omit<S, "id" | "name" | "group"> : never;
@@ -30,7 +30,7 @@ type BodyReader = (
   fields: Fields,
   path: string,
   what: string,
-  around: Surroundings,
+  around: NetworkEmulator,
 ) => Body<Step> | undefined;
 
 /** A list of steps, with all that is inside them. */
@@ -39,7 +39,7 @@ export function readSteps(
   value: unknown,
   path: string,
   what: string,
-  around: Surroundings,
+  around: NetworkEmulator,
 ): readonly Step[] {
   const list = reader.list(value, path, what);
   const steps: Step[] = [];
@@ -55,7 +55,13 @@ export function readSteps(
   return steps;
 }
 
-function readStep(reader: Reader, value: unknown, path: string, index: number, around: Surroundings): Step | undefined {
+function readStep(
+  reader: Reader,
+  value: unknown,
+  path: string,
+  index: number,
+  around: NetworkEmulator,
+): Step | undefined {
   const { seen, depth } = around;
   const fields = reader.object(value, path, depth === 0 ? `step ${index + 1}` : `step ${index + 1} of its block`);
   if (fields === undefined) return undefined;
@@ -98,7 +104,7 @@ function optionalText<K extends "name" | "group">(
   return found;
 }
 
-const inside = (around: Surroundings, open: readonly string[] = around.open): Surroundings => ({
+const inside = (around: NetworkEmulator, open: readonly string[] = around.open): NetworkEmulator => ({
   ...around,
   open,
   depth: around.depth + 1,
@@ -195,11 +201,11 @@ const READERS: Readonly<Record<Step["type"], BodyReader>> = {
     const steps = readSteps(reader, fields.steps, `${path}.steps`, `the list of steps of ${what}`, inside(around));
     const { times } = fields;
     if (times === "forever") return { type: "repeat", times, steps };
-    if (typeof times === "number" && Number.isInteger(times) && times >= 0 && times <= MOST_TIMES)
+    if (typeof times === "number" && Number.isInteger(times) && times >= 0 && times <= MAX_TIMES)
       return { type: "repeat", times, steps };
     return reader.fault(
       `${path}.times`,
-      `${what} repeats a whole number of times from 0 to ${MOST_TIMES}, or "forever"; here it is ${reader.shown(times)}.`,
+      `${what} repeats a whole number of times from 0 to ${MAX_TIMES}, or "forever"; here it is ${reader.shown(times)}.`,
     );
   },
   if(reader, fields, path, what, around) {

@@ -2,7 +2,7 @@ import type { Pose } from "../../spatial/pose.ts";
 import type { Pallet } from "../../paths/pallet.ts";
 
 /** What a step may refer to. */
-export interface Surroundings {
+export interface NetworkEmulator {
   readonly robot: string;
   readonly joints: number | undefined;
   readonly tools: Readonly<Record<string, Pose<"flange", "tcp">>>;

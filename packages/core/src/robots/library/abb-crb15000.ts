@@ -2,14 +2,14 @@ import { pose } from "../../spatial/pose.ts";
 import type { SerialArm } from "../arm.ts";
 import { familyOf } from "../family.ts";
 import type { Robot } from "../robot.ts";
-import { CASTINGS } from "./forms/abb_crb15000_5_95.ts";
+import { LINK_PROFILES } from "./forms/abb_crb15000_5_95.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
   SHAPES_FITTED,
   TCP_SPEED_ASSUMED,
   TCP_SPEED_MPS,
-  castings,
+  linkProfiles,
   inDegrees,
   joint,
   turned,
@@ -46,7 +46,7 @@ export const abbCrb15000: Robot = {
   repeatability_m: 50e-6,
   maxTcpSpeed_mps: TCP_SPEED_MPS,
   mass_kg: 27,
-  form: castings(CASTINGS, ["cover", "casting", "casting", "casting", "casting", "casting", "metal"]),
+  form: linkProfiles(LINK_PROFILES, ["cover", "casting", "casting", "casting", "casting", "casting", "metal"]),
   paint: { casting: "#e9ebea", dark: "#4a5054", cover: "#7b8286" },
   sources: {
     "lengths, limits, speeds": "ros-industrial/abb_experimental, crb15000_5_95 (Apache-2.0).",

@@ -1,13 +1,13 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
-import { CASTINGS } from "./forms/abb_irb120.ts";
+import { LINK_PROFILES } from "./forms/abb_irb120.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
   SHAPES_FITTED,
   TCP_SPEED_ASSUMED,
   TCP_SPEED_MPS,
-  castings,
+  linkProfiles,
   inRadians,
   joint,
   orthoParallel,
@@ -55,7 +55,7 @@ export const abbIrb120: Robot = {
     ),
     solid(0.137, [-0.00706, -0.00017, -1.32e-6], [0.001, 0.001, 0.001, 0, 0, 0]),
   ],
-  form: castings(CASTINGS, ["casting", "casting", "casting", "casting", "casting", "casting", "metal"]),
+  form: linkProfiles(LINK_PROFILES, ["casting", "casting", "casting", "casting", "casting", "casting", "metal"]),
   paint: { casting: "#d9612a", dark: "#2b2f31", cover: "#40474a" },
   sources: {
     "lengths, limits, speeds, masses":

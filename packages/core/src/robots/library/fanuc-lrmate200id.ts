@@ -1,13 +1,13 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
-import { CASTINGS } from "./forms/fanuc_lrmate200id.ts";
+import { LINK_PROFILES } from "./forms/fanuc_lrmate200id.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
   SHAPES_FITTED,
   TCP_SPEED_ASSUMED,
   TCP_SPEED_MPS,
-  castings,
+  linkProfiles,
   inDegrees,
   joint,
   orthoParallel,
@@ -46,7 +46,7 @@ export const fanucLrmate200id: Robot = {
   repeatability_m: 20e-6,
   maxTcpSpeed_mps: TCP_SPEED_MPS,
   mass_kg: 25,
-  form: castings(CASTINGS, ["cover", "casting", "casting", "casting", "casting", "casting", "metal"]),
+  form: linkProfiles(LINK_PROFILES, ["cover", "casting", "casting", "casting", "casting", "casting", "metal"]),
   paint: { casting: "#f2c21a", dark: "#24282a", cover: "#474c4e" },
   sources: {
     "lengths, limits, speeds":

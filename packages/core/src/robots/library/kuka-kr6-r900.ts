@@ -1,13 +1,13 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
-import { CASTINGS } from "./forms/kuka_kr6r900sixx.ts";
+import { LINK_PROFILES } from "./forms/kuka_kr6r900sixx.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
   SHAPES_FITTED,
   TCP_SPEED_ASSUMED,
   TCP_SPEED_MPS,
-  castings,
+  linkProfiles,
   inDegrees,
   joint,
   orthoParallel,
@@ -43,7 +43,7 @@ export const kukaKr6R900: Robot = {
   repeatability_m: 30e-6,
   maxTcpSpeed_mps: TCP_SPEED_MPS,
   mass_kg: 52,
-  form: castings(CASTINGS, ["cover", "casting", "casting", "casting", "casting", "casting", "metal"]),
+  form: linkProfiles(LINK_PROFILES, ["cover", "casting", "casting", "casting", "casting", "casting", "metal"]),
   paint: { casting: "#f0701a", dark: "#2a2d2f", cover: "#8d8478" },
   sources: {
     "lengths, limits, speeds":

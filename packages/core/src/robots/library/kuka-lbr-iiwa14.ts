@@ -2,14 +2,14 @@ import { pose } from "../../spatial/pose.ts";
 import type { SerialArm } from "../arm.ts";
 import { familyOf } from "../family.ts";
 import type { Robot } from "../robot.ts";
-import { CASTINGS } from "./forms/kuka_lbr_iiwa_14_r820.ts";
+import { LINK_PROFILES } from "./forms/kuka_lbr_iiwa_14_r820.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
   SHAPES_FITTED,
   TCP_SPEED_ASSUMED,
   TCP_SPEED_MPS,
-  castings,
+  linkProfiles,
   inRadians,
   joint,
 } from "./write.ts";
@@ -46,7 +46,16 @@ export const kukaLbrIiwa14: Robot = {
   repeatability_m: 150e-6,
   maxTcpSpeed_mps: TCP_SPEED_MPS,
   mass_kg: 29.9,
-  form: castings(CASTINGS, ["casting", "casting", "casting", "casting", "casting", "casting", "casting", "metal"]),
+  form: linkProfiles(LINK_PROFILES, [
+    "casting",
+    "casting",
+    "casting",
+    "casting",
+    "casting",
+    "casting",
+    "casting",
+    "metal",
+  ]),
   paint: { casting: "#d4d6d5", dark: "#53585b", cover: "#e8731c" },
   sources: {
     "lengths, limits, speeds":

@@ -1,13 +1,13 @@
 import { pose } from "../../spatial/pose.ts";
 import type { Robot } from "../robot.ts";
-import { CASTINGS } from "./forms/staubli_rx160.ts";
+import { LINK_PROFILES } from "./forms/staubli_rx160.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
   SHAPES_FITTED,
   TCP_SPEED_ASSUMED,
   TCP_SPEED_MPS,
-  castings,
+  linkProfiles,
   inDegrees,
   joint,
   orthoParallel,
@@ -51,7 +51,7 @@ export const staubliRx160: Robot = {
     solid(0.548088, [0, -0.000347, 0.023671], [0.000876, 0.000889, 0.000412, 0, 0, 5e-6]),
     solid(0.038484, [-0.000245, 0, -0.007626], [1.1e-5, 1.1e-5, 2.1e-5, 0, 0, 0]),
   ],
-  form: castings(CASTINGS, ["casting", "casting", "casting", "casting", "casting", "cover", "metal"]),
+  form: linkProfiles(LINK_PROFILES, ["casting", "casting", "casting", "casting", "casting", "cover", "metal"]),
   paint: { casting: "#eaa50c", dark: "#272c30", cover: "#87847f" },
   sources: {
     "lengths, limits, speeds, torques, masses":

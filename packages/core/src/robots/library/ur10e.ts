@@ -2,14 +2,14 @@ import { pose } from "../../spatial/pose.ts";
 import type { SerialArm } from "../arm.ts";
 import { familyOf } from "../family.ts";
 import type { Robot } from "../robot.ts";
-import { CASTINGS } from "./forms/ur10e.ts";
+import { LINK_PROFILES } from "./forms/ur10e.ts";
 import {
   ACCELERATIONS_ASSUMED,
   FROM_MEMORY,
   SHAPES_FITTED,
   TCP_SPEED_ASSUMED,
   TCP_SPEED_MPS,
-  castings,
+  linkProfiles,
   inDegrees,
   joint,
   solid,
@@ -69,7 +69,7 @@ export const ur10e: Robot = {
     solid(1.98, [0, 0.018, -0.007], [0.00296, 0.00222, 0.00258, -1e-5, 0, -0.00024], [-Math.PI / 2, 0, 0]),
     solid(0.615, [0, 0, -0.026], [0.0004, 0.00041, 0.00034, 0, 0, 0]),
   ],
-  form: castings(CASTINGS, ["casting", "casting", "casting", "casting", "casting", "casting", "metal"]),
+  form: linkProfiles(LINK_PROFILES, ["casting", "casting", "casting", "casting", "casting", "casting", "metal"]),
   paint: { casting: "#c9ced2", dark: "#33393d", cover: "#5d8fb8" },
   sources: {
     lengths: "UniversalRobots/Universal_Robots_ROS2_Description (BSD-3-Clause), config/ur10e/default_kinematics.yaml.",

@@ -1,5 +1,5 @@
 import { pose, type Pose } from "../../spatial/pose.ts";
-import { fromTurns } from "../../spatial/turns.ts";
+import { fromEulerAngles } from "../../spatial/turns.ts";
 import { radians } from "../../spatial/units.ts";
 import type { Vector3 } from "../../spatial/vector.ts";
 import type { Joint, JointDrive, JointLimits, LinkMass } from "../arm.ts";
@@ -32,7 +32,7 @@ export const turned = <Into extends string, From extends string>(
   position_m: Vector3,
   rollPitchYaw_rad: Vector3,
 ): Pose<Into, From> =>
-  pose<Into, From>(position_m, fromTurns("zyx", rollPitchYaw_rad[2], rollPitchYaw_rad[1], rollPitchYaw_rad[0]));
+  pose<Into, From>(position_m, fromEulerAngles("zyx", rollPitchYaw_rad[2], rollPitchYaw_rad[1], rollPitchYaw_rad[0]));
 
 export const inRadians = (
   lower_rad: number,
@@ -101,7 +101,10 @@ export function orthoParallel(
 }
 
 /** Castings link by link, and what each link is mostly made of. */
-export const castings = (lofts: readonly (readonly FormLoft[])[], materials: readonly PartMaterial[]): RobotForm => ({
+export const linkProfiles = (
+  lofts: readonly (readonly FormLoft[])[],
+  materials: readonly PartMaterial[],
+): RobotForm => ({
   links: lofts.map((each, link) => ({ material: materials[link] ?? "casting", lofts: each })),
 });
 

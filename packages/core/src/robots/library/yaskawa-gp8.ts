@@ -7,7 +7,7 @@ import {
   SHAPES_FITTED,
   TCP_SPEED_ASSUMED,
   TCP_SPEED_MPS,
-  castings,
+  linkProfiles,
   inRadians,
   joint,
   orthoParallel,
@@ -49,7 +49,7 @@ export const yaskawaGp8: Robot = {
   repeatability_m: 10e-6,
   maxTcpSpeed_mps: TCP_SPEED_MPS,
   mass_kg: 32,
-  form: castings(CASTINGS, ["cover", "casting", "casting", "casting", "casting", "casting", "metal"]),
+  form: linkProfiles(CASTINGS, ["cover", "casting", "casting", "casting", "casting", "casting", "metal"]),
   paint: { casting: "#2a4fb0", dark: "#20262c", cover: "#39424a" },
   sources: {
     "lengths, limits, speeds, flange":

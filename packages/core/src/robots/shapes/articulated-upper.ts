@@ -281,21 +281,21 @@ export function knuckle(at: Standing): LinkDesign {
 /** The tool flange: a machined disc with four holes and a mark, so that its turn shows (row L-62). */
 export function flange(at: Standing): LinkDesign {
   const s = at.size;
-  const face = at.flange_z - at.wrist.z;
+  const adapter = at.flange_z - at.wrist.z;
   const wrist: Vector3 = [at.wrist.x, 0, at.wrist.z];
   const axis = upright(wrist);
-  const foot = face * 0.58 + 0.001 * s;
+  const foot = adapter * 0.58 + 0.001 * s;
   const disc = revolve(
     axis,
     [
       [0.026 * s, foot],
-      [0.026 * s, face * 0.7],
-      [0.0305 * s, face * 0.72],
-      [0.0318 * s, face * 0.74],
-      [0.0318 * s, face - 0.003 * s],
-      [0.0305 * s, face - 0.0012 * s],
-      [0.0125 * s, face - 0.0012 * s],
-      [0.0115 * s, face - 0.004 * s],
+      [0.026 * s, adapter * 0.7],
+      [0.0305 * s, adapter * 0.72],
+      [0.0318 * s, adapter * 0.74],
+      [0.0318 * s, adapter - 0.003 * s],
+      [0.0305 * s, adapter - 0.0012 * s],
+      [0.0125 * s, adapter - 0.0012 * s],
+      [0.0115 * s, adapter - 0.004 * s],
     ],
     48,
   );
@@ -304,8 +304,8 @@ export function flange(at: Standing): LinkDesign {
     return revolve(
       upright([wrist[0] + 0.02 * s * Math.cos(angle), 0.02 * s * Math.sin(angle), wrist[2]]),
       [
-        [0.0034 * s, face - 0.004 * s],
-        [0.0034 * s, face - 0.0008 * s],
+        [0.0034 * s, adapter - 0.004 * s],
+        [0.0034 * s, adapter - 0.0008 * s],
       ],
       16,
     );
@@ -314,12 +314,12 @@ export function flange(at: Standing): LinkDesign {
     upright([wrist[0] + 0.0275 * s, 0, wrist[2]]),
     roundedRectangle(0.0062 * s, 0.0052 * s, 0.002 * s, [0, 0], 3),
     [
-      [0, face * 0.745],
-      [0, face - 0.0004 * s],
+      [0, adapter * 0.745],
+      [0, adapter - 0.0004 * s],
     ],
   );
   return {
     parts: [part("flange", "metal", disc), part("holes", "dark", ...holes), part("mark of axis 6", "mark", mark)],
-    shells: [shell(axis, circle(0.0345 * s, 12, "around"), foot - 0.0005 * s, face)],
+    shells: [shell(axis, circle(0.0345 * s, 12, "around"), foot - 0.0005 * s, adapter)],
   };
 }

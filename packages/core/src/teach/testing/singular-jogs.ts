@@ -146,7 +146,7 @@ export function singularJogs(
     return { share, start, goal: [...goal], end: [...q], why };
   };
   for (let count = 0; count < jogs; ) {
-    const on = singularPosture(robot, joint, random);
+    const on = singularConfiguration(robot, joint, random);
     if (on === null) continue;
     count++;
     const beside = (): Float64Array => on.map(angle => angle + 0.3 * (random() - 0.5));
@@ -176,7 +176,7 @@ export function singularJogs(
 }
 
 /** A posture well inside the limits in which exactly one direction is lost; null when turning that joint meets none. */
-function singularPosture({ arm }: Robot, joint: SingularJoint, random: Random): Float64Array | null {
+function singularConfiguration({ arm }: Robot, joint: SingularJoint, random: Random): Float64Array | null {
   const inner = arm.joints.map(({ limits }) => ({
     lower: Math.max(-Math.PI, limits.lower_rad),
     upper: Math.min(Math.PI, limits.upper_rad),

@@ -58,7 +58,7 @@ export function chooseBranches(
 export function withChoice(moves: readonly Move[], { way, chosen }: Choice, first: number): readonly Move[] {
   if (!chosen) return moves;
   return moves.map((move, i) => {
-    const posture = isFree(move) ? way.ends[first + i] : undefined;
-    return posture === undefined ? move : { ...move, chosen_rad: posture };
+    const configuration = isFree(move) ? way.ends[first + i] : undefined;
+    return configuration === undefined ? move : { ...move, chosen_rad: configuration };
   });
 }

@@ -1,6 +1,6 @@
 import { describe, expect, test } from "vitest";
 import { allBranches, branchOf, flangePose, sameBranch } from "../../kinematics/index.ts";
-import { turns, turnsInside } from "../../kinematics/turns.ts";
+import { turns, revolutionsInside } from "../../kinematics/turns.ts";
 import { emptyProgram, type MoveStep } from "../../program/program.ts";
 import { seededRandom } from "../../random.ts";
 import type { Joint } from "../../robots/arm.ts";
@@ -292,10 +292,10 @@ test("whole turns are copies of a joint that turns, never of one that slides", (
     lastJointFromFlange: identity<"joint", "flange">(),
   };
   expect(arm.joints.map(turns)).toEqual([false, true, true]);
-  const copies = turnsInside({ arm }, Float64Array.of(1, 2, 3));
+  const copies = revolutionsInside({ arm }, Float64Array.of(1, 2, 3));
   expect(copies.length).toBe(6 * 6);
   expect(new Set(copies.map(copy => copy[0]))).toEqual(new Set([1]));
-  expect(turnsInside({ arm }, Float64Array.of(25, 2, 3))).toEqual([]);
+  expect(revolutionsInside({ arm }, Float64Array.of(25, 2, 3))).toEqual([]);
 });
 
 /** The longest way of a joint between two looks that are 5 ms apart. */

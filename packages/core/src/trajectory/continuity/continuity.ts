@@ -11,7 +11,7 @@ import { GoalFinder } from "../goal.ts";
 import { blends, type Move } from "../moves.ts";
 import { posePathOf } from "../pose-paths.ts";
 import { BROKEN, CandidatePool, FLIPPED, NO_CODE, OTHERWISE, PLAIN, STOOD } from "./pool.ts";
-import { codeOf, PostureFinder, type Postures } from "./postures.ts";
+import { codeOf, ConfigurationFinder, type Configurations } from "./postures.ts";
 import { StretchFollower, type Lost } from "./stretch.ts";
 
 /** A joint move that turns a joint further than this and changes the branch turns the arm over [rad]. */
@@ -75,7 +75,7 @@ export interface ContinuityOptions {
   readonly standstill?: boolean;
 }
 
-interface Stage {
+interface RunContext {
   readonly first: number;
   readonly count: number /** No posture is at the target. */;
   readonly nowhere: boolean;
@@ -96,10 +96,10 @@ export class ContinuitySolver {
   private readonly pool: CandidatePool;
   private readonly follower: StretchFollower;
   private readonly goals: GoalFinder;
-  private readonly postures: PostureFinder;
+  private readonly postures: ConfigurationFinder;
   private readonly q: Float64Array;
   private readonly arm = armScratch();
-  private stages: Stage[] = [];
+  private stages: RunContext[] = [];
   /** Stage in which each move ends. */
   private endOf: number[] = [];
   private breaks: Break[] = [];
@@ -115,7 +115,7 @@ export class ContinuitySolver {
     this.pool = new CandidatePool(robot.arm.joints.length);
     this.follower = new StretchFollower(robot, newton);
     this.goals = new GoalFinder(robot, newton);
-    this.postures = new PostureFinder(robot);
+    this.postures = new ConfigurationFinder(robot);
     this.q = new Float64Array(robot.arm.joints.length);
   }
 
@@ -144,13 +144,13 @@ export class ContinuitySolver {
   }
 
   /** The candidates from `first` on become a stage. */
-  private close(first: number, nowhere: boolean): Stage {
+  private close(first: number, nowhere: boolean): RunContext {
     const stage = { first, count: this.pool.count - first, nowhere };
     this.stages.push(stage);
     return stage;
   }
 
-  private arrive(before: Stage, move: Move, nearest: boolean): Stage {
+  private arrive(before: RunContext, move: Move, nearest: boolean): RunContext {
     const { pool } = this;
     const first = pool.count;
     if (move.q_rad !== undefined) {
@@ -168,7 +168,7 @@ export class ContinuitySolver {
   }
 
   /** From every candidate to the nearest posture, as it is done without looking ahead. */
-  private follow(before: Stage, move: Move): Stage {
+  private follow(before: RunContext, move: Move): RunContext {
     const { pool } = this;
     const first = pool.count;
     for (let p = before.first; p < before.first + before.count; p++) {
@@ -189,7 +189,7 @@ export class ContinuitySolver {
   }
 
   /** No posture is at the target: the arm stays where it is, in thought. */
-  private nowhere(before: Stage, move: Move): Stage {
+  private nowhere(before: RunContext, move: Move): RunContext {
     const { pool } = this;
     const first = pool.count;
     const p = this.best(before);
@@ -207,7 +207,7 @@ export class ContinuitySolver {
   }
 
   /** Every candidate along the path, or as far as it gets. */
-  private keep(before: Stage, move: Move, path: PosePath | undefined): Stage {
+  private keep(before: RunContext, move: Move, path: PosePath | undefined): RunContext {
     const { pool, follower, q } = this;
     const first = pool.count;
     const n = pool.joints;
@@ -263,7 +263,7 @@ export class ContinuitySolver {
   }
 
   /** No candidate got through: the path goes on behind this move from any posture of its target. */
-  private broken(before: Stage, move: Move, path: PosePath | undefined): Stage {
+  private broken(before: RunContext, move: Move, path: PosePath | undefined): RunContext {
     const { pool } = this;
     const first = pool.count;
     const tried: Tried[] = [];
@@ -290,12 +290,12 @@ export class ContinuitySolver {
   }
 
   /** The same place once more, with the postures that could be had there by turning over. */
-  private stand(before: Stage, baseFromFlange: Pose<"base", "flange">): Stage {
+  private stand(before: RunContext, baseFromFlange: Pose<"base", "flange">): RunContext {
     const { pool } = this;
     const first = pool.count;
     const n = pool.joints;
     if (this.robot.family.kind === "general") return before;
-    const { q, groups, codes }: Postures = this.postures.at(baseFromFlange, pool.posture(this.best(before)));
+    const { q, groups, codes }: Configurations = this.postures.at(baseFromFlange, pool.posture(this.best(before)));
     let next = 0;
     for (let p = before.first; p < before.first + before.count; p++) next = Math.max(next, pool.group[p]! + 1);
     for (let p = before.first; p < before.first + before.count; p++)
@@ -309,7 +309,7 @@ export class ContinuitySolver {
 
   /** Adds a candidate with the least costly way to it. */
   private offer(
-    before: Stage,
+    before: RunContext,
     q: Float64Array,
     at: number,
     group: number,
@@ -389,7 +389,7 @@ export class ContinuitySolver {
     return -1;
   }
 
-  private best({ first, count }: Stage): number {
+  private best({ first, count }: RunContext): number {
     let best = first;
     for (let c = first + 1; c < first + count; c++) if (this.pool.cost[c]! < this.pool.cost[best]!) best = c;
     return best;

@@ -1,14 +1,14 @@
 import { branchOf, type Branch } from "../../kinematics/branch.ts";
 import { allBranches, solveAll, solverScratch } from "../../kinematics/inverse.ts";
-import { isSingularPosture } from "../../kinematics/singularity.ts";
-import { turnsInside } from "../../kinematics/turns.ts";
+import { isSingularConfiguration } from "../../kinematics/singularity.ts";
+import { revolutionsInside } from "../../kinematics/turns.ts";
 import { isInsideWorkspace } from "../../kinematics/workspace.ts";
 import type { Robot } from "../../robots/robot.ts";
 import type { Pose } from "../../spatial/pose.ts";
 import { NO_CODE } from "./pool.ts";
 
 /** All postures of a pose inside the limits, one after another. */
-export interface Postures {
+export interface Configurations {
   readonly q: Float64Array;
   /** The same for postures that differ by whole turns. */
   readonly groups: readonly number[];
@@ -28,18 +28,18 @@ export const codeOf = (branch: Branch | undefined): number =>
  * Every posture of a pose: all branches, and of each all copies by whole turns of the joints that turn, inside limits and
  * workspace. An arm of seven joints keeps the elbow angle of `near`, or takes the nearest its limits allow.
  */
-export class PostureFinder {
+export class ConfigurationFinder {
   private readonly robot: Robot;
   private readonly scratch = solverScratch();
   /** What a program comes to again, in loops. Only where `near` has no say. */
-  private readonly known = new Map<object, Postures>();
+  private readonly known = new Map<object, Configurations>();
 
   constructor(robot: Robot) {
     this.robot = robot;
   }
 
   /** @param key  the same for the same pose. */
-  at(baseFromFlange: Pose<"base", "flange">, near: Float64Array, key?: object): Postures {
+  at(baseFromFlange: Pose<"base", "flange">, near: Float64Array, key?: object): Configurations {
     const seen = key === undefined ? undefined : this.known.get(key);
     if (seen !== undefined) return seen;
     const { robot } = this;
@@ -50,7 +50,7 @@ export class PostureFinder {
     const found: Float64Array[] = [];
     for (let group = 0; group < bases.length; group++) {
       let code: number | undefined;
-      for (const copy of turnsInside(robot, bases[group]!)) {
+      for (const copy of revolutionsInside(robot, bases[group]!)) {
         if (!isInsideWorkspace(robot, copy)) break;
         code ??= codeOf(branchOf(robot, copy));
         found.push(copy);
@@ -60,20 +60,20 @@ export class PostureFinder {
     }
     const q = new Float64Array(found.length * n);
     for (let k = 0; k < found.length; k++) q.set(found[k]!, k * n);
-    const postures = { q, groups, codes };
+    const configurations = { q, groups, codes };
     if (
       key !== undefined &&
       robot.family.kind !== "spherical-seven" &&
-      !bases.some(base => isSingularPosture(robot, base))
+      !bases.some(base => isSingularConfiguration(robot, base))
     )
-      this.known.set(key, postures);
-    return postures;
+      this.known.set(key, configurations);
+    return configurations;
   }
 
   private bases(baseFromFlange: Pose<"base", "flange">, near: Float64Array): readonly Float64Array[] {
     const { robot, scratch } = this;
     const bases = allBranches(robot, baseFromFlange, near, scratch);
-    if (robot.family.kind !== "spherical-seven" || bases.some(base => turnsInside(robot, base).length > 0))
+    if (robot.family.kind !== "spherical-seven" || bases.some(base => revolutionsInside(robot, base).length > 0))
       return bases;
     const reach = solveAll(robot, baseFromFlange, { near }, scratch);
     return reach.kind === "reached" ? reach.solutions.map(({ q_rad }) => q_rad) : [];

@@ -1,7 +1,7 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, test } from "vitest";
 import { seededRandom } from "../../random.ts";
-import { canBeLeft, canBeMet, JerkMotion, JerkPlanner, type JerkLimits, type JerkState } from "./index.ts";
+import { canBeLeft, canBeReached, JerkMotion, JerkPlanner, type JerkLimits, type JerkState } from "./index.ts";
 
 interface Golden {
   readonly cases: readonly {
@@ -80,7 +80,7 @@ describe("jerk-limited motions", () => {
     for (let k = 0; k < 1500; k++) {
       const limits = randomLimits(axes, random);
       const from = randomState(limits, random, canBeLeft);
-      const to = randomState(limits, random, canBeMet);
+      const to = randomState(limits, random, canBeReached);
       const motion = planned(limits, from, to);
       const T = motion.duration_s;
       const looks = 100;
@@ -126,7 +126,7 @@ describe("jerk-limited motions", () => {
     for (let k = 0; k < 300; k++) {
       const limits = randomLimits(3, random);
       const from = randomState(limits, random, canBeLeft);
-      const to = randomState(limits, random, canBeMet);
+      const to = randomState(limits, random, canBeReached);
       const together = planned(limits, from, to).duration_s;
       const alone = limits.map(
         (limit, i) =>

@@ -1,5 +1,5 @@
 /** Pieces of constant jerk of one axis at most: a brake of three, and two profiles of seven laid over each other. */
-export const MOST_PIECES = 17;
+export const MAX_PIECES = 17;
 
 /**
  * A jerk-limited motion of n axes that start and arrive together: for each axis pieces of constant jerk one behind the
@@ -12,7 +12,7 @@ export class JerkMotion {
   synchronised: "phase" | "time" = "phase";
   /** Pieces of each axis. */
   readonly pieces: Uint8Array;
-  /** axes × MOST_PIECES: begin [s], jerk, and acceleration, speed and place at the begin. */
+  /** axes × MAX_PIECES: begin [s], jerk, and acceleration, speed and place at the begin. */
   readonly begin: Float64Array;
   readonly jerk: Float64Array;
   readonly acceleration: Float64Array;
@@ -24,7 +24,7 @@ export class JerkMotion {
   readonly endAcceleration: Float64Array;
 
   constructor(axes: number) {
-    const size = axes * MOST_PIECES;
+    const size = axes * MAX_PIECES;
     this.axes = axes;
     this.pieces = new Uint8Array(axes);
     this.begin = new Float64Array(size);
@@ -50,7 +50,7 @@ export class JerkMotion {
         if (outAcceleration) outAcceleration[i] = this.endAcceleration[i]!;
         continue;
       }
-      const first = i * MOST_PIECES;
+      const first = i * MAX_PIECES;
       let k = first + this.pieces[i]! - 1;
       while (k > first && this.begin[k]! > t_s) k--;
       const t = Math.max(0, t_s - this.begin[k]!);
@@ -67,7 +67,7 @@ export class JerkMotion {
   knots_s(): Float64Array {
     const all: number[] = [0, this.duration_s];
     for (let i = 0; i < this.axes; i++)
-      for (let k = 0; k < this.pieces[i]!; k++) all.push(this.begin[i * MOST_PIECES + k]!);
+      for (let k = 0; k < this.pieces[i]!; k++) all.push(this.begin[i * MAX_PIECES + k]!);
     const sorted = Float64Array.from(all).sort();
     let count = 0;
     for (let k = 0; k < sorted.length; k++) {

@@ -1,8 +1,8 @@
 import { brake, BRAKE_PHASES } from "./brake.ts";
 import { farthest, PHASE_JERK, PHASES } from "./farthest.ts";
-import { MOST_PIECES, type JerkMotion } from "./motion.ts";
+import { MAX_PIECES, type JerkMotion } from "./motion.ts";
 import { meetingTimes, shortestScratch, shortestTime, type ShortestScratch } from "./shortest.ts";
-import { axisTask, canBeMet, type AxisTask, type JerkLimits } from "./task.ts";
+import { axisTask, canBeReached, type AxisTask, type JerkLimits } from "./task.ts";
 
 /** Where the axes are or shall be; missing speeds and accelerations are 0. */
 export interface JerkState {
@@ -85,7 +85,7 @@ export class JerkPlanner {
       begun.way = to.place[i]! - from.place[i]!;
       if (!Number.isFinite(begun.v0 + begun.a0 + begun.v1 + begun.a1 + begun.way))
         return { kind: "not-a-number", axis: i + 1 };
-      if (!canBeMet(begun.v1, begun.a1, begun.speed, begun.acceleration, begun.jerk))
+      if (!canBeReached(begun.v1, begun.a1, begun.speed, begun.acceleration, begun.jerk))
         return { kind: "end-outside", axis: i + 1 };
       const time = this.braked(i) + shortestTime(this.tasks[i]!, this.scratch);
       if (this.brakePhases[i]! > 0) braking = true;
@@ -185,7 +185,7 @@ export class JerkPlanner {
         return false;
     }
     this.layAxis(ruling, duration_s, from.place[ruling]!, to.place[ruling]!, out);
-    const first = ruling * MOST_PIECES;
+    const first = ruling * MAX_PIECES;
     const pieces = out.pieces[ruling]!;
     let topSpeed = Math.max(Math.abs(lead.v0), Math.abs(lead.v1));
     let topAcceleration = Math.max(Math.abs(lead.a0), Math.abs(lead.a1));
@@ -215,7 +215,7 @@ export class JerkPlanner {
     for (let i = 0; i < n; i++) {
       const task = this.begun[i]!;
       const share = task.way / lead.way;
-      const at = i * MOST_PIECES;
+      const at = i * MAX_PIECES;
       out.endPlace[i] = to.place[i]!;
       out.endSpeed[i] = task.v1;
       out.endAcceleration[i] = task.a1;
@@ -237,7 +237,7 @@ export class JerkPlanner {
     const task = this.tasks[i]!;
     const begun = this.begun[i]!;
     const { upper, lower } = this;
-    const at = i * MOST_PIECES;
+    const at = i * MAX_PIECES;
     const t = Math.max(0, duration_s - this.brake_s[i]!);
     const most = farthest(task, 1, t, upper);
     const least = -farthest(task, -1, t, lower);

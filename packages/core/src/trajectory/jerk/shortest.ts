@@ -2,7 +2,7 @@ import { rootsWithin } from "./roots.ts";
 import type { AxisTask } from "./task.ts";
 
 /** More instants at which a way is just met than there are. */
-export const MOST_TIMES = 32;
+export const MAX_TIMES = 32;
 
 /** Working memory of `shortestTime` and `meetingTimes`: one per caller. */
 export interface ShortestScratch {
@@ -13,7 +13,7 @@ export interface ShortestScratch {
 export const shortestScratch = (): ShortestScratch => ({
   quartic: new Float64Array(5),
   roots: new Float64Array(8),
-  times: new Float64Array(MOST_TIMES),
+  times: new Float64Array(MAX_TIMES),
 });
 
 const STEPS = 40;
@@ -211,7 +211,7 @@ function familyTimes(task: AxisTask, sign: 1 | -1, { quartic, roots, times }: Sh
   const f = familyOf(task, sign);
   const { j, A, V, c0, c2, K, S, R } = f;
   const add = (W: number): void => {
-    if (at < MOST_TIMES) times[at++] = timeOf(f, W);
+    if (at < MAX_TIMES) times[at++] = timeOf(f, W);
   };
   const free = (low: number, high: number): void => {
     quartic[4] = 1;

@@ -38,5 +38,5 @@ export function canBeLeft(v: number, a: number, speed: number, acceleration: num
 }
 
 /** Whether a state can be arrived at without its speed having passed the limit: the same with time running backwards. */
-export const canBeMet = (v: number, a: number, speed: number, acceleration: number, jerk: number): boolean =>
+export const canBeReached = (v: number, a: number, speed: number, acceleration: number, jerk: number): boolean =>
   canBeLeft(v, -a, speed, acceleration, jerk);

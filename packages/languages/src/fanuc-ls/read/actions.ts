@@ -1,4 +1,4 @@
-import type { Expression, Statement } from "../../text/structured/index.ts";
+import type { Expression, Statement } from "../../parser/structured/index.ts";
 
 /** Where a motion goes: P[n], or PR[n]. */
 export interface Point {

@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError, plainText } from "../../text/index.ts";
+import { TextError, plainText } from "../../parser/index.ts";
 
 /** Three flags and the whole turns of axes 1, 4 and 6. */
 export interface Config {

@@ -1,6 +1,6 @@
 import type { TextFault } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
-import type { Block, Expression, Routine, Statement } from "../../text/structured/index.ts";
+import { TextError } from "../../parser/index.ts";
+import type { Block, Expression, Routine, Statement } from "../../parser/structured/index.ts";
 import type { Action, Fate } from "./actions.ts";
 import { readListings, type PositionRecord } from "./listing.ts";
 import { readStatements } from "./statements.ts";

@@ -1,7 +1,7 @@
 import type { TextFault, TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import {
-  ForgivingReader,
+  RecoveringReader,
   readExpression,
   type Argument,
   type Block,
@@ -9,7 +9,7 @@ import {
   type ExpressionRules,
   type Lexicon,
   type Statement,
-} from "../../text/structured/index.ts";
+} from "../../parser/structured/index.ts";
 import type { Action, Motion, Point } from "./actions.ts";
 import { MESSAGE, REMARK } from "./listing.ts";
 
@@ -122,7 +122,7 @@ export interface Reading {
 
 export const readStatements = (code: string): Reading => new StatementReader(code).read();
 
-class StatementReader extends ForgivingReader {
+class StatementReader extends RecoveringReader {
   private readonly actions = new Map<Statement, Action>();
   /** The line of the statement has been left already. */
   private isOver = false;

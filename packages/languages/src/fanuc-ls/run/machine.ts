@@ -10,7 +10,7 @@ import type {
   Target,
   TextPlace,
 } from "@twincell/core";
-import { TextError, nameIn, type Surroundings } from "../../text/index.ts";
+import { TextError, nameIn, type NetworkEmulator } from "../../parser/index.ts";
 import {
   BlockMachine,
   type Block,
@@ -19,7 +19,7 @@ import {
   type Flow,
   type Statement,
   type WaitUntil,
-} from "../../text/structured/index.ts";
+} from "../../parser/structured/index.ts";
 import type { Action, Motion, Point } from "../read/actions.ts";
 import type { PositionRecord } from "../read/listing.ts";
 import type { Source } from "../read/source.ts";
@@ -63,7 +63,7 @@ interface Difference {
 /** Executes TP statement by statement. */
 export class Machine extends BlockMachine<Value> {
   readonly arm: ControllerArm;
-  readonly surroundings: Surroundings;
+  readonly surroundings: NetworkEmulator;
   /** Registers that hold how far the place of a pallet is off, while the pallet is read as one. */
   readonly places = new Set<string>();
   /** Frames and tools that were used and are set up nowhere in the text. */
@@ -86,14 +86,14 @@ export class Machine extends BlockMachine<Value> {
     source: Source,
     robot: Robot,
     worldFromBase: Pose<"world", "base">,
-    surroundings: Surroundings,
+    emulator: NetworkEmulator,
     signals: Signals | undefined,
     writesDown: boolean,
   ) {
     super(source.routines);
     this.source = source;
     this.arm = new ControllerArm(robot, worldFromBase);
-    this.surroundings = surroundings;
+    this.surroundings = emulator;
     this.signals = signals;
     this.writesDown = writesDown;
   }

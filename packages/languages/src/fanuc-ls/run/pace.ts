@@ -1,5 +1,5 @@
 import type { Speed, TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import type { Motion } from "../read/actions.ts";
 
 /** What a number before its unit means. @throws {TextError} for a speed that is none. */

@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 
 /** A number, ON or OFF, or the six numbers of a position. */
 export type Value = number | boolean | readonly number[];

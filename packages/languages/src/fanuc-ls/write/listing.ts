@@ -1,6 +1,6 @@
 import type { EmittedFile } from "@twincell/core";
-import { asciiText } from "../../text/index.ts";
-import { TooLong } from "../../writing/index.ts";
+import { asciiText } from "../../parser/index.ts";
+import { TooLong } from "../../emitter/index.ts";
 import { positionLines, type Position } from "./positions.ts";
 
 /** Lines have four places for their number. */

@@ -15,9 +15,9 @@ import {
   type Target,
   type Vector3,
 } from "@twincell/core";
-import { asciiText } from "../../text/index.ts";
+import { asciiText } from "../../parser/index.ts";
 import {
-  CannotSay,
+  UnsupportedStep,
   FANUC_LINES,
   Names,
   StepWriter,
@@ -27,7 +27,7 @@ import {
   patternOf,
   pitchTerm,
   type Place,
-} from "../../writing/index.ts";
+} from "../../emitter/index.ts";
 import { GRIPPER_OUTPUT, type PendantConvention } from "../robots.ts";
 import { Listing } from "./listing.ts";
 import { configOf, pendantJoints, xyzwpr, type Position } from "./positions.ts";
@@ -48,7 +48,7 @@ const SHORT: Readonly<Record<SignalLine["kind"], string>> = {
 };
 
 /** A pallet being visited: its first place in the frame in use, and the register that holds how far off the present one is. */
-interface Visit {
+interface PendantVisitor {
   readonly first: Pose<"frame", "place">;
   readonly frame: string;
   readonly offset: string;
@@ -61,7 +61,7 @@ export class ProgramWriter extends StepWriter {
   private readonly fastest_mmps: number;
   private readonly names = new Names({ most: NAME_LENGTH, reserved: RESERVED, first: "P_", foldsCase: true });
   private readonly registers: Registers;
-  private readonly visits = new Map<string, Visit>();
+  private readonly visits = new Map<string, PendantVisitor>();
   private out = new Listing("", "");
   private tool: number | undefined;
   private frame: number | undefined;
@@ -127,7 +127,7 @@ export class ProgramWriter extends StepWriter {
       case "message": {
         const text = asciiText(step.text).replace(/[[\]]/g, "'");
         if (text.length > MESSAGE_LENGTH)
-          throw new CannotSay(
+          throw new UnsupportedStep(
             step.id,
             `${called(step)} says ${text.length} characters; MESSAGE shows ${MESSAGE_LENGTH}.`,
             "Say it in fewer words.",
@@ -150,7 +150,11 @@ export class ProgramWriter extends StepWriter {
         return this.pallet(step, add);
       // Declared under `cannot`.
       case "payload":
-        throw new CannotSay(step.id, `${called(step)} says a load.`, "Choose a payload schedule at the controller.");
+        throw new UnsupportedStep(
+          step.id,
+          `${called(step)} says a load.`,
+          "Choose a payload schedule at the controller.",
+        );
     }
   }
 
@@ -235,7 +239,7 @@ export class ProgramWriter extends StepWriter {
   private lineOf(signal: string, step: Step): { readonly text: string; readonly kind: SignalLine["kind"] } {
     const { signals } = this.place.program;
     if (!Object.hasOwn(signals, signal))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} uses the line ${signal}, which is not in the list of signals.`,
         "Add it to the list.",
@@ -243,13 +247,13 @@ export class ProgramWriter extends StepWriter {
     const { kind, address } = signals[signal]!;
     if (address === undefined && /^(RI|RO|UI|UO|SI|SO)\[[0-9]+\]$/.test(signal)) return { text: signal, kind };
     if (address === undefined)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} uses the line ${signal}, whose number on the controller is not given.`,
         "Give it its number: lines of FANUC count from 1.",
       );
     const wrong = outOfRange("FANUC", FANUC_LINES, step, signal, { kind, address });
-    if (wrong !== undefined) throw new CannotSay(step.id, wrong.sentence, wrong.hint);
+    if (wrong !== undefined) throw new UnsupportedStep(step.id, wrong.sentence, wrong.hint);
     return { text: labelled(SHORT[kind], address, signal), kind };
   }
 
@@ -257,13 +261,13 @@ export class ProgramWriter extends StepWriter {
     const { text, kind } = this.lineOf(step.signal, step);
     const { to } = step;
     if (kind.endsWith("in"))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} writes the line ${step.signal}, which is an input.`,
         "Choose an output.",
       );
     if (kind.startsWith("digital") !== (typeof to === "boolean"))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} writes ${String(to)} to the line ${step.signal}, which is ${kind}.`,
         "Choose a value of that line.",
@@ -271,7 +275,7 @@ export class ProgramWriter extends StepWriter {
     if (typeof to === "number") return add(`${text}=${fixed(to, 6)}`);
     if (step.pulse_s === undefined) return add(`${text}=${to ? "ON" : "OFF"}`);
     if (!to)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} is a pulse that goes off; PULSE goes on.`,
         "Turn the sense of the line in the controller.",
@@ -290,7 +294,7 @@ export class ProgramWriter extends StepWriter {
   private condition(when: Condition, step: Step): string {
     const { text, kind } = this.lineOf(when.signal, step);
     if ("is" in when !== kind.startsWith("digital"))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} asks the line ${when.signal} for what it cannot answer.`,
         "Ask a digital line whether it is on, an analogue one for a limit.",
@@ -301,7 +305,7 @@ export class ProgramWriter extends StepWriter {
 
   private seconds(step: Step, s: number): string {
     if (s > LONGEST_WAIT_S)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} waits ${s} s; WAIT goes up to ${LONGEST_WAIT_S} s.`,
         "Wait twice, or for a signal.",
@@ -324,8 +328,8 @@ export class ProgramWriter extends StepWriter {
     const { target, path, id } = step;
     const isAngles = path === "ptp" && "q" in target;
     const { registers } = this;
-    const posture = this.place.posture(step, isAngles ? target : this.reached(target), this.near);
-    this.near = posture ?? this.near;
+    const configuration = this.place.posture(step, isAngles ? target : this.reached(target), this.near);
+    this.near = configuration ?? this.near;
     const frame = "q" in target ? "world" : target.frame;
     const visit = this.visits.get(frame);
     this.useFrame(registers.frameNumber(visit?.frame ?? frame, step), id);
@@ -343,14 +347,14 @@ export class ProgramWriter extends StepWriter {
         `J ${record(pendantJoints(target.q, this.convention))} ${this.percent(step)} ${options}`,
         id,
       );
-    const config = configOf(this.place.robot, posture ?? this.place.robot.home_rad);
+    const config = configOf(this.place.robot, configuration ?? this.place.robot.home_rad);
     const goal = record(xyzwpr(this.inFrame(target, frame)), config);
     const search = this.search(step);
     if (path === "ptp") this.out.motion(`J ${goal} ${this.percent(step)} ${options}${search}`, id);
     else if (path === "lin") this.out.motion(`L ${goal} ${this.path(step)} ${options}${search}`, id);
     else {
       if (step.via === undefined)
-        throw new CannotSay(id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
+        throw new UnsupportedStep(id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
       const via = record(xyzwpr(this.inFrame(step.via, frame)), config);
       this.out.motion(
         `C ${via}${visit === undefined ? "" : ` Offset,${visit.offset}`}\n${goal} ${this.path(step)} ${options}${search}`,

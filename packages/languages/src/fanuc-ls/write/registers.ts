@@ -1,5 +1,5 @@
 import { compose, fromFanucWpr, inverse, pose, type MoveStep, type Pose, type Robot, type Step } from "@twincell/core";
-import { CannotSay, called, type Place } from "../../writing/index.ts";
+import { UnsupportedStep, called, type Place } from "../../emitter/index.ts";
 import type { Listing } from "./listing.ts";
 import { xyzwpr } from "./positions.ts";
 import { labelled } from "./words.ts";
@@ -47,7 +47,7 @@ export class Registers {
     const known = list.indexOf(name);
     if (known >= 0) return known + 1;
     if (list.length >= most)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} needs one more than the ${most} ${what} of the controller.`,
         "Use fewer of them in one program.",
@@ -75,7 +75,7 @@ export class Registers {
   /** A number register of its own. */
   number(name: string): string {
     if (++this.numbers > MOST_NUMBERS)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         "",
         `The loops of the program need more than the ${MOST_NUMBERS} number registers of the controller.`,
         "Put parts of it into another program.",
@@ -90,7 +90,7 @@ export class Registers {
     const number = FIRST_FREE + this.positions.size;
     const text = labelled("PR", number, name);
     if (number > MOST_POSITIONS)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         "",
         `The pallets of the program need more than the ${MOST_POSITIONS} position registers of the controller.`,
         "Put some of them into another program.",

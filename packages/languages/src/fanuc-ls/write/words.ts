@@ -1,4 +1,4 @@
-import { asciiText } from "../../text/index.ts";
+import { asciiText } from "../../parser/index.ts";
 
 /** Words that a program must not be called. */
 export const RESERVED: ReadonlySet<string> = new Set([

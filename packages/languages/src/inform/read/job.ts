@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import type { Cursor } from "./cursor.ts";
 import { condition, operand, readStatement, variable } from "./statement.ts";
 import type { Instruction, Job, Operand, Position } from "./syntax.ts";

@@ -1,5 +1,5 @@
 import type { TextFault, TextPlace } from "@twincell/core";
-import { TextError, plainText, textLines } from "../../text/index.ts";
+import { TextError, plainText, textLines } from "../../parser/index.ts";
 import { Cursor } from "./cursor.ts";
 import { JobBuilder } from "./job.ts";
 import { positionKey } from "./statement.ts";

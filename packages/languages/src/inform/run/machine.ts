@@ -1,5 +1,5 @@
 import type { Executed, MoveStep, Pose, Signals, Step, TextPlace } from "@twincell/core";
-import { TextError, WaitsOutside } from "../../text/index.ts";
+import { TextError, WaitsOutside } from "../../parser/index.ts";
 import type { Condition, Instruction, Job, Move, Position, Source, Statement } from "../read/syntax.ts";
 import { poseOf } from "./arm.ts";
 import { Memory, looksOutside } from "./memory.ts";

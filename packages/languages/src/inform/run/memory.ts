@@ -1,5 +1,5 @@
 import type { Condition as Neutral, SignalLine, Signals, TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import type { Condition, Operand } from "../read/syntax.ts";
 
 /** Least and greatest value of a variable, by its letter; R is a real. */

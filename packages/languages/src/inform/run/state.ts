@@ -14,7 +14,7 @@ import {
   type Target,
   type TextPlace,
 } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import type { Frame, Move, Position, Source } from "../read/syntax.ts";
 import { BORDERS, poseOf, type Arm } from "./arm.ts";
 

@@ -1,7 +1,7 @@
 import { compose, type EmittedFile, type Pose } from "@twincell/core";
 import { rectanText } from "./location.ts";
 import { titleText } from "./names.ts";
-import type { WalkedPlace } from "../../writing/index.ts";
+import type { WalkedPlace } from "../../emitter/index.ts";
 import { TextWriter } from "./text-writer.ts";
 
 /** Tools 0 … 63 and user frames 1 … 63; variables of a kind 0 … 99. */

@@ -16,8 +16,8 @@ import { fixed } from "./location.ts";
 import { commentText, titleText } from "./names.ts";
 import { PalletLoop } from "./pallet.ts";
 import { Points, type Arrival } from "./points.ts";
-import type { WalkedPlace } from "../../writing/index.ts";
-import type { PostureMap } from "./postures.ts";
+import type { WalkedPlace } from "../../emitter/index.ts";
+import type { ConfigurationMap } from "./postures.ts";
 import { accelerationText, cornerText, speedText } from "./speed.ts";
 import { TextWriter } from "./text-writer.ts";
 
@@ -29,7 +29,7 @@ export interface JobSetting {
   readonly controller: Controller;
   readonly convention: AxisConvention;
   readonly pulses: PulseData | undefined;
-  readonly postures: PostureMap;
+  readonly postures: ConfigurationMap;
   /** Names of the jobs that routines became. */
   readonly jobs: ReadonlyMap<string, string>;
 }
@@ -204,11 +204,11 @@ export class JobWriter {
   // Motion --------------------------------------------------------------------------------------------------------------
 
   private move(step: MoveStep, next: Step | undefined, before: Step | undefined): void {
-    const { place, postures } = this.setting;
+    const { place, postures: configurations } = this.setting;
     const add = (line: string): void => {
       this.out.add(line, step.id);
     };
-    const { q_rad, via_rad } = postures.get(step.id)!;
+    const { q_rad, via_rad } = configurations.get(step.id)!;
     const { target, frame, loop } = this.taught(step.target);
     // Joint angles are reached with any tool; the one in force stays.
     const tool = step.target.tool ?? (step.path === "ptp" ? this.arrival?.written?.tool : undefined) ?? "flange";

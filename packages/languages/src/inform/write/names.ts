@@ -1,4 +1,4 @@
-import { asciiText } from "../../text/index.ts";
+import { asciiText } from "../../parser/index.ts";
 
 /** Characters of a job name since the NX100, and of a comment. */
 const JOB_LENGTH = 32;

@@ -11,7 +11,7 @@ import {
 import type { AxisConvention, PulseData } from "../robots.ts";
 import type { Controller } from "./controller.ts";
 import { axisValues, pulseText, rconfText, rectanPose, rectanText } from "./location.ts";
-import type { WalkedPlace } from "../../writing/index.ts";
+import type { WalkedPlace } from "../../emitter/index.ts";
 import { TextWriter } from "./text-writer.ts";
 
 /** Where the robot is after a motion, as the text says it: what arcs and curves begin with once more. */

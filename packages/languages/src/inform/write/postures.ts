@@ -1,5 +1,5 @@
 import type { MoveStep } from "@twincell/core";
-import { called, outsideLimits, reached, walkMoves, type Cannot, type WalkedPlace } from "../../writing/index.ts";
+import { called, outsideLimits, reached, walkMoves, type Cannot, type WalkedPlace } from "../../emitter/index.ts";
 import type { AxisConvention } from "../robots.ts";
 import { axisValues, rconfText } from "./location.ts";
 
@@ -9,8 +9,8 @@ export interface Posture {
   readonly via_rad: ArrayLike<number> | undefined;
 }
 /** By step id. */
-export type PostureMap = ReadonlyMap<string, Posture>;
-export type Postures = { readonly kind: "postures"; readonly of: PostureMap } | Cannot;
+export type ConfigurationMap = ReadonlyMap<string, Posture>;
+export type Configurations = { readonly kind: "postures"; readonly of: ConfigurationMap } | Cannot;
 
 /**
  * The joint angles of every taught point, by step id: those that were taught, or the ones that reach the pose with least
@@ -19,7 +19,7 @@ export type Postures = { readonly kind: "postures"; readonly of: PostureMap } | 
  *
  * @param inPulses  points on the way of arcs are written as joint angles too, so they must be reached.
  */
-export function posturesOf(place: WalkedPlace, convention: AxisConvention, inPulses: boolean): Postures {
+export function configurationsOf(place: WalkedPlace, convention: AxisConvention, inPulses: boolean): Configurations {
   const found = new Map<string, Posture>();
   const typeOf = (q_rad: ArrayLike<number>): string => rconfText(place.robot, q_rad, axisValues(q_rad, convention));
   const flaw = walkMoves(place, (step: MoveStep, near) => {

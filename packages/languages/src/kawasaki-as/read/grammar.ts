@@ -1,7 +1,7 @@
 import type { TextFault, TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import {
-  ForgivingReader,
+  RecoveringReader,
   readExpression,
   type Argument,
   type Block,
@@ -12,8 +12,8 @@ import {
   type Routine,
   type Statement,
   type TokenCursor,
-} from "../../text/structured/index.ts";
-import { INSTRUCTIONS, MOTIONS, SHORT, SPEED_UNITS, UNSAYABLE } from "./words.ts";
+} from "../../parser/structured/index.ts";
+import { INSTRUCTIONS, MOTIONS, SHORT, SPEED_UNITS, UNSUPPORTED } from "./words.ts";
 
 const LEXICON: Lexicon = {
   comment: ";",
@@ -128,7 +128,7 @@ export type SourceAnswer =
 /** Reads AS. Names are lower case. Goes on after a fault, so that all of them are told at once. */
 export const readSource = (text: string): SourceAnswer => new Reader(text).source();
 
-class Reader extends ForgivingReader {
+class Reader extends RecoveringReader {
   private readonly routines = new Map<string, Routine>();
   private readonly called = new Set<string>();
   private readonly lists: Statement[] = [];
@@ -375,7 +375,8 @@ class Reader extends ForgivingReader {
       default:
         break;
     }
-    if (Object.hasOwn(UNSAYABLE, word)) throw new TextError(at, "a statement of the motion program", UNSAYABLE[word]!);
+    if (Object.hasOwn(UNSUPPORTED, word))
+      throw new TextError(at, "a statement of the motion program", UNSUPPORTED[word]!);
     if (RESERVED.has(word)) throw cursor.unexpected("a statement");
     const { second } = cursor;
     if (second === "=" || (second === "[" && !INSTRUCTIONS.has(word))) return this.assignment(at);
@@ -475,7 +476,7 @@ class Reader extends ForgivingReader {
     const branches: { when: Expression; body: Block }[] = [];
     for (;;) {
       const when = readExpression(cursor, RULES);
-      if (cursor.next === "goto") throw new TextError(cursor.here, "THEN", UNSAYABLE["goto"]!);
+      if (cursor.next === "goto") throw new TextError(cursor.here, "THEN", UNSUPPORTED["goto"]!);
       cursor.expect("then");
       branches.push({ when, body: this.body("IF", at, ["end", "elseif", "else"]) });
       if (!cursor.accept("elseif")) break;

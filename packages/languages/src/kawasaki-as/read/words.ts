@@ -46,7 +46,7 @@ export const INSTRUCTIONS: ReadonlySet<string> = new Set([
   "mon_speed",
 ]);
 /** Statements that are understood and cannot be written as steps, with what the user is told. */
-export const UNSAYABLE: Readonly<Record<string, string>> = {
+export const UNSUPPORTED: Readonly<Record<string, string>> = {
   goto: "GOTO jumps, which is not executed here: loops and decisions are.",
   xmove: "XMOVE ends at a signal by an option of the controller, which is not executed here.",
   home: "HOME goes to a posture that only the controller knows.",

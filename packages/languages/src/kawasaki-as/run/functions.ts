@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import { about, frameOf, shifted, sixOf, trans } from "./frame.ts";
 import { asNumber, asPlace, finite, kindOf, type Value } from "./values.ts";
 

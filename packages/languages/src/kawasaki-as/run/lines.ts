@@ -1,5 +1,5 @@
 import type { Condition, SignalLine, Signals, TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 
 /** Lines that a program speaks of, by their names in the neutral program. */
 export type Lines = Record<string, SignalLine>;

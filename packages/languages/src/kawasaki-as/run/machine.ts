@@ -10,8 +10,8 @@ import type {
   Target,
   TextPlace,
 } from "@twincell/core";
-import { TextError, nameIn, type Surroundings } from "../../text/index.ts";
-import { BlockMachine, type Do, type Expression, type Flow, type WaitUntil } from "../../text/structured/index.ts";
+import { TextError, nameIn, type NetworkEmulator } from "../../parser/index.ts";
+import { BlockMachine, type Do, type Expression, type Flow, type WaitUntil } from "../../parser/structured/index.ts";
 import type { Source } from "../read/grammar.ts";
 import { MOTIONS, SPEED_UNITS } from "../read/words.ts";
 import { ControllerArm, radians, type Posture } from "./arm.ts";
@@ -34,7 +34,7 @@ const FIRST_PULSE_S = 0.2;
 
 /** Executes AS statement by statement. */
 export class Machine extends BlockMachine<Value> {
-  readonly surroundings: Surroundings;
+  readonly surroundings: NetworkEmulator;
   /** Variables whose place is a frame although it changes: the places of a pallet that is being read. */
   readonly places = new Set<string>();
   private readonly arm: ControllerArm;
@@ -59,12 +59,12 @@ export class Machine extends BlockMachine<Value> {
     constants: ReadonlySet<string>,
     robot: Robot,
     worldFromBase: Pose<"world", "base">,
-    surroundings: Surroundings,
+    emulator: NetworkEmulator,
     signals?: Signals,
   ) {
     super(source.routines);
     this.arm = new ControllerArm(robot, worldFromBase);
-    this.surroundings = surroundings;
+    this.surroundings = emulator;
     this.constants = constants;
     this.signals = signals;
   }
@@ -265,7 +265,7 @@ export class Machine extends BlockMachine<Value> {
     const values = super.remember();
     const arm = this.arm.remember();
     const outputs = new Map(this.outputs);
-    const { tool, hasTool, baseName, posture, via, passes } = this;
+    const { tool, hasTool, baseName, posture: configuration, via, passes } = this;
     const speed = { ...this.speed };
     const accuracy = { ...this.accuracy };
     const acceleration = { ...this.acceleration };
@@ -278,7 +278,7 @@ export class Machine extends BlockMachine<Value> {
         tool,
         hasTool,
         baseName,
-        posture,
+        posture: configuration,
         via,
         passes,
         speed: { ...speed },
@@ -477,9 +477,9 @@ export class Machine extends BlockMachine<Value> {
     const { name, args } = statement;
     const path = name.startsWith("c") ? "circ" : name.startsWith("j") || name === "drive" ? "ptp" : "lin";
     const { at: goal, place } = this.goal(statement);
-    const { posture } = this;
+    const { posture: configuration } = this;
     this.posture = {};
-    const target = this.target(goal, path === "ptp" ? posture : undefined, place);
+    const target = this.target(goal, path === "ptp" ? configuration : undefined, place);
     if (typeof goal !== "object" || goal.kind !== "joints") this.arm.atPlace(asPlace(goal, statement).at);
     else if (path === "ptp") this.arm.atJoints(goal.deg);
     else this.arm.atPlace(this.arm.placeOf(goal.deg));
@@ -556,7 +556,7 @@ export class Machine extends BlockMachine<Value> {
     return typeof value === "object" && value.kind === "joints" ? this.arm.placeOf(value.deg) : asPlace(value, of).at;
   }
 
-  private target(goal: Value, posture: Posture | undefined, at: TextPlace): Target {
+  private target(goal: Value, configuration: Posture | undefined, at: TextPlace): Target {
     const { tool } = this;
     if (typeof goal !== "object")
       throw new TextError(
@@ -565,14 +565,14 @@ export class Machine extends BlockMachine<Value> {
         `${kindOf(goal).replace(/^./, letter => letter.toUpperCase())} is no place to move to.`,
       );
     if (goal.kind === "joints")
-      return { q: radians(goal.deg), ...(posture !== undefined && !this.hasTool ? {} : { tool }) };
-    if (posture === undefined || Object.keys(posture).length === 0) return { ...this.poseOf(goal), tool };
-    const branch = this.arm.branchAt(goal.at, posture);
+      return { q: radians(goal.deg), ...(configuration !== undefined && !this.hasTool ? {} : { tool }) };
+    if (configuration === undefined || Object.keys(configuration).length === 0) return { ...this.poseOf(goal), tool };
+    const branch = this.arm.branchAt(goal.at, configuration);
     if (branch === undefined)
       throw new TextError(
         at,
         "a place that is reached so",
-        `The place cannot be reached ${Object.values(posture).join(", ").toUpperCase()}.`,
+        `The place cannot be reached ${Object.values(configuration).join(", ").toUpperCase()}.`,
       );
     return { ...this.poseOf(goal), tool, branch };
   }

@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import { inverted, times, type Matrix } from "./frame.ts";
 
 /** A place, and where it was made of a variable and a place in it: the frame that a person meant. */

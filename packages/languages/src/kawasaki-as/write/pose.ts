@@ -1,5 +1,5 @@
 import { degrees, millimetres, type Pose } from "@twincell/core";
-import { fixed } from "../../writing/index.ts";
+import { fixed } from "../../emitter/index.ts";
 
 /** A tenth of a micrometre; a hundred-thousandth of a degree. */
 const MM_DECIMALS = 4;

@@ -13,18 +13,18 @@ import {
   type Step,
   type Target,
 } from "@twincell/core";
-import { asciiText } from "../../text/index.ts";
+import { asciiText } from "../../parser/index.ts";
 import {
   BlockStepWriter,
-  CannotSay,
+  UnsupportedStep,
   Names,
   Place,
   called,
   patternOf,
   pitchTerm,
   type Pattern,
-} from "../../writing/index.ts";
-import { LINES, type Spoken } from "../robots.ts";
+} from "../../emitter/index.ts";
+import { LINES, type SupportedRobot } from "../robots.ts";
 import { jointsText, mm, num, oatText, transText } from "./pose.ts";
 import { RESERVED } from "./reserved.ts";
 import { usedNames } from "./used.ts";
@@ -35,7 +35,7 @@ const LONGEST_NAME = 15;
 /** The file: one program and those that it calls; says only what changes from one step to the next. */
 export class ProgramWriter extends BlockStepWriter {
   private readonly robot: Robot;
-  private readonly spoken: Spoken;
+  private readonly spoken: SupportedRobot;
   private readonly names = new Names({ most: LONGEST_NAME - 1, reserved: RESERVED, first: "p_", foldsCase: true });
   private readonly saysAcceleration: boolean;
   private tool = "";
@@ -43,7 +43,7 @@ export class ProgramWriter extends BlockStepWriter {
   private accuracy = "";
   private acceleration = "";
 
-  constructor(place: Place, spoken: Spoken) {
+  constructor(place: Place, spoken: SupportedRobot) {
     super(place);
     this.robot = place.robot;
     this.spoken = spoken;
@@ -149,7 +149,7 @@ export class ProgramWriter extends BlockStepWriter {
   private load({ id, name, mass_kg, center_m, inertia_kgm2 }: Extract<Step, { type: "payload" }>): string {
     const [ixx = 0, iyy = 0, izz = 0, ...products] = inertia_kgm2 ?? [];
     if (products.some(product => product !== 0))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         id,
         `${called({ id, ...(name === undefined ? {} : { name }) })} gives products of inertia; WEIGHT takes three moments.`,
         "Give the load in its main axes.",
@@ -224,7 +224,7 @@ export class ProgramWriter extends BlockStepWriter {
     const { to, signal } = step;
     const name = this.named("signal", signal);
     if (this.place.program.signals[signal]?.kind !== "digital-out" || typeof to !== "boolean")
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} writes ${String(to)} to the line ${signal}, which is no digital output.`,
         "Choose a digital output.",
@@ -236,7 +236,7 @@ export class ProgramWriter extends BlockStepWriter {
   /** The line of a condition, with a minus where it shall be off. */
   private line(when: Condition, step: Step): string {
     if (!("is" in when))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} compares the line ${when.signal} with a number.`,
         "Decide by a digital line.",
@@ -248,14 +248,14 @@ export class ProgramWriter extends BlockStepWriter {
     const { signals } = this.place.program;
     const line = Object.hasOwn(signals, signal) ? signals[signal] : undefined;
     if (line?.address === undefined)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} uses the line ${signal}, whose number is not known.`,
         "Give the line its number in the list of signals.",
       );
     const [first, last] = line.kind === "digital-in" ? LINES.inputs : LINES.outputs;
     if (Number.isInteger(line.address) && line.address >= first && line.address <= last) return line.address;
-    throw new CannotSay(
+    throw new UnsupportedStep(
       step.id,
       `${called(step)} uses the line ${signal} with the number ${line.address}; AS counts ${line.kind === "digital-in" ? "inputs" : "outputs"} from ${first} to ${last}.`,
       "Give the line a number of the controller.",
@@ -269,21 +269,25 @@ export class ProgramWriter extends BlockStepWriter {
       add(tool === "flange" ? "TOOL NULL" : `TOOL ${this.named("tool", tool)}`);
       this.tool = tool;
     }
-    const posture = this.place.posture(step, target, this.near);
+    const configuration = this.place.posture(step, target, this.near);
     const blend = mm(this.place.blend_m(step, this.before, next));
     this.settings(step, blend, add);
     if (step.path === "ptp") {
-      if (!("q" in target)) for (const word of this.postureWords(target.branch, posture)) add(word);
+      if (!("q" in target)) for (const word of this.postureWords(target.branch, configuration)) add(word);
       add(`JMOVE ${this.goal(target)}`);
     } else if (step.path === "lin") add(`LMOVE ${this.goal(target)}`);
     else {
       if (step.via === undefined)
-        throw new CannotSay(step.id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
+        throw new UnsupportedStep(
+          step.id,
+          `${called(step)} has no point to pass through.`,
+          "Teach the point on the arc.",
+        );
       add(`C1MOVE ${this.goal(step.via)}`);
       add(`C2MOVE ${this.goal(target)}`);
     }
     if (blend === "0") add("BREAK");
-    this.near = posture ?? this.near;
+    this.near = configuration ?? this.near;
   }
 
   private settings(step: MoveStep, blend: string, add: (line: string) => void): void {
@@ -315,8 +319,8 @@ export class ProgramWriter extends BlockStepWriter {
   }
 
   /** A place alone is reached in the posture that the arm is in; one that was taught is asked for by its words. */
-  private postureWords(branch: Branch | undefined, posture: readonly number[] | undefined): readonly string[] {
-    const named = branch === undefined || posture === undefined ? undefined : branchOf(this.robot, posture);
+  private postureWords(branch: Branch | undefined, configuration: readonly number[] | undefined): readonly string[] {
+    const named = branch === undefined || configuration === undefined ? undefined : branchOf(this.robot, configuration);
     if (named === undefined) return [];
     return [
       named.shoulder === "front" ? "RIGHTY" : "LEFTY",

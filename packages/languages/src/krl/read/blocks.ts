@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { JumpBuilder, type JumpRules, type SwitchWords } from "../../text/index.ts";
+import { JumpBuilder, type JumpRules, type SwitchWords } from "../../parser/index.ts";
 import type { Cursor } from "./cursor.ts";
 import { readExpression, readVariable } from "./expression.ts";
 import { readStatement } from "./statement.ts";

@@ -1,4 +1,4 @@
-import { LineCursor, type LineRules } from "../../text/index.ts";
+import { LineCursor, type LineRules } from "../../parser/index.ts";
 
 type Kind = "word" | "enum" | "number" | "bits" | "text" | "sign";
 const RULES: LineRules<Kind> = {

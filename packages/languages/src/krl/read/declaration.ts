@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import type { Cursor } from "./cursor.ts";
 import { checkName, readExpression } from "./expression.ts";
 import type { Declaration, Expression, Parameter, SignalDeclaration } from "./syntax.ts";

@@ -1,5 +1,5 @@
 import type { TextFault } from "@twincell/core";
-import { TextError, textLines } from "../../text/index.ts";
+import { TextError, textLines } from "../../parser/index.ts";
 import { RoutineBuilder } from "./blocks.ts";
 import { Cursor } from "./cursor.ts";
 import { readDeclarations, readHeader, readSignal } from "./declaration.ts";

@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import type { JumpInstruction } from "../../text/index.ts";
+import type { JumpInstruction } from "../../parser/index.ts";
 
 /** Names are upper case throughout: KRL knows no case. */
 export type Expression = TextPlace &

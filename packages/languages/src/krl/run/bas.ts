@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import type { Expression } from "../read/syntax.ts";
 import type { System } from "./system.ts";
 import { component, evaluate, numberOf, type Memory, type Structure } from "./values.ts";

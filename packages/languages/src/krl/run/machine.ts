@@ -1,5 +1,5 @@
 import type { Executed, MoveStep, Search, Signals, Step, TextPlace } from "@twincell/core";
-import { TextError, WaitsOutside } from "../../text/index.ts";
+import { TextError, WaitsOutside } from "../../parser/index.ts";
 import type {
   Declaration,
   Expression,

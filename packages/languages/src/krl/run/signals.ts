@@ -1,5 +1,5 @@
 import type { Condition, SignalLine, Signals, TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import type { Expression, SignalDeclaration, Variable } from "../read/syntax.ts";
 import { bool, real, type Value } from "./values.ts";
 

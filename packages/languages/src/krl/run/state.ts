@@ -12,7 +12,7 @@ import {
   type TextPlace,
   type Vector3,
 } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import type { Motion } from "../read/syntax.ts";
 import { STATUS_SLACK, travel, type Axes } from "./axes.ts";
 import { componentsOf, frameOf, fromPose, inverted, times, toPose, type Frame } from "./frames.ts";

@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import type { Variable } from "../read/syntax.ts";
 import { NULL_FRAME, type Frame } from "./frames.ts";
 import { component, fromFrame, real, toFrame, whole, type Structure, type Value } from "./values.ts";

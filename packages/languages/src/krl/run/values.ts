@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import type { Expression, Variable } from "../read/syntax.ts";
 import { componentsOf, frameOf, inverted, times, type Frame } from "./frames.ts";
 

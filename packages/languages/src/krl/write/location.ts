@@ -1,5 +1,5 @@
 import { degrees, millimetres, toKukaAbc, type Pose } from "@twincell/core";
-import { singleText } from "../../text/index.ts";
+import { singleText } from "../../parser/index.ts";
 import type { AxisConvention } from "../robots.ts";
 
 /** A millionth of a millimetre or of a degree is arithmetic, not a wish. */

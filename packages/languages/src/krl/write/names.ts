@@ -1,4 +1,4 @@
-import { asciiText } from "../../text/index.ts";
+import { asciiText } from "../../parser/index.ts";
 
 /** Characters of a name. */
 export const LENGTH = 24;

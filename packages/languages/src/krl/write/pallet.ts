@@ -1,9 +1,9 @@
 import { compose, identity, palletPitch, type Pallet, type PalletStep, type Pose, type Vector3 } from "@twincell/core";
-import { singleText } from "../../text/index.ts";
+import { singleText } from "../../parser/index.ts";
 import type { DataList } from "./data.ts";
 import { frameText } from "./location.ts";
 import { krlName } from "./names.ts";
-import type { WalkedPlace } from "../../writing/index.ts";
+import type { WalkedPlace } from "../../emitter/index.ts";
 import type { TextWriter } from "./text-writer.ts";
 
 const AXES = ["X", "Y", "Z"] as const;

@@ -1,5 +1,5 @@
 import { branchOf, type MoveStep } from "@twincell/core";
-import { outsideLimits, reached, walkMoves, type Cannot, type WalkedPlace } from "../../writing/index.ts";
+import { outsideLimits, reached, walkMoves, type Cannot, type WalkedPlace } from "../../emitter/index.ts";
 import type { AxisConvention } from "../robots.ts";
 import { axisValues } from "./location.ts";
 import { statusOf, turnOf } from "./status.ts";
@@ -10,15 +10,15 @@ export interface Posture {
   readonly turn: number | undefined;
 }
 /** By step id. */
-export type PostureMap = ReadonlyMap<string, Posture>;
-export type Postures = { readonly kind: "postures"; readonly of: PostureMap } | Cannot;
+export type ConfigurationMap = ReadonlyMap<string, Posture>;
+export type Configurations = { readonly kind: "postures"; readonly of: ConfigurationMap } | Cannot;
 
 /**
  * Status and Turn of every taught point, by step id: of the joint angles that were taught, or of those that reach the pose
  * with least travel from the point before, in the order of execution. Stops at the first point that cannot be reached or
  * lies outside the limits.
  */
-export function posturesOf(place: WalkedPlace, convention: AxisConvention): Postures {
+export function configurationsOf(place: WalkedPlace, convention: AxisConvention): Configurations {
   const found = new Map<string, Posture>();
   const { robot } = place;
   const flaw = walkMoves(place, (step: MoveStep, near) => {

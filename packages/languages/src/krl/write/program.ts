@@ -13,15 +13,15 @@ import {
   type Step,
   type Target,
 } from "@twincell/core";
-import { asciiText, singleText } from "../../text/index.ts";
+import { asciiText, singleText } from "../../parser/index.ts";
 import type { AxisConvention } from "../robots.ts";
 import { DataList } from "./data.ts";
 import { principal } from "./inertia.ts";
 import { axisText, frameText, lengthText } from "./location.ts";
 import { commentText, krlName } from "./names.ts";
 import { PalletLoop } from "./pallet.ts";
-import type { WalkedPlace } from "../../writing/index.ts";
-import type { PostureMap } from "./postures.ts";
+import type { WalkedPlace } from "../../emitter/index.ts";
+import type { ConfigurationMap } from "./postures.ts";
 import { Settings } from "./settings.ts";
 import { TextWriter } from "./text-writer.ts";
 
@@ -43,7 +43,7 @@ export class ModuleWriter {
   private readonly program: Program;
   private readonly place: WalkedPlace;
   private readonly convention: AxisConvention;
-  private readonly postures: PostureMap;
+  private readonly postures: ConfigurationMap;
   private readonly name: string;
   private readonly gripper: number;
   private readonly routineNames = new Map<string, string>();
@@ -57,11 +57,11 @@ export class ModuleWriter {
   private searches = 0;
   private isMain = true;
 
-  constructor(place: WalkedPlace, convention: AxisConvention, postures: PostureMap, gripper: number) {
+  constructor(place: WalkedPlace, convention: AxisConvention, configurations: ConfigurationMap, gripper: number) {
     this.program = place.program;
     this.place = place;
     this.convention = convention;
-    this.postures = postures;
+    this.postures = configurations;
     this.gripper = gripper;
     this.settings = new Settings(place.robot.maxTcpSpeed_mps);
     this.name = krlName(place.program.name, this.data.taken);
@@ -352,9 +352,9 @@ export class ModuleWriter {
       return variable;
     }
     const pose = frameText(this.inBase(target, base, tool));
-    const posture = suffix === "" ? this.postures.get(step.id) : undefined;
-    const status = posture?.status === undefined ? "" : `,S ${posture.status}`;
-    const turn = posture?.turn === undefined || step.path !== "ptp" ? "" : `,T ${posture.turn}`;
+    const configuration = suffix === "" ? this.postures.get(step.id) : undefined;
+    const status = configuration?.status === undefined ? "" : `,S ${configuration.status}`;
+    const turn = configuration?.turn === undefined || step.path !== "ptp" ? "" : `,T ${configuration.turn}`;
     this.data.add(`DECL E6POS ${variable}={${pose}${status}${turn}}`, step.id);
     return variable;
   }

@@ -1,5 +1,5 @@
 import type { MoveStep, Speed } from "@twincell/core";
-import { singleText } from "../../text/index.ts";
+import { singleText } from "../../parser/index.ts";
 import { lengthText } from "./location.ts";
 
 /** Slowest speed of a path that is written [m/s]. */

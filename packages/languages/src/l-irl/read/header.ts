@@ -1,5 +1,5 @@
 import type { Pose, Quaternion, Vector3 } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import type { Cursor } from "./cursor.ts";
 
 const UNITS_M = { MM: 1e-3, M: 1 } as const;

@@ -8,7 +8,7 @@ import {
   type TextFault,
   type TextPlace,
 } from "@twincell/core";
-import { TextError, plainText, textFault, textLines } from "../../text/index.ts";
+import { TextError, plainText, textFault, textLines } from "../../parser/index.ts";
 import { Cursor } from "./cursor.ts";
 import { poseOf, readHeader, type Header } from "./header.ts";
 import { readMove } from "./move.ts";

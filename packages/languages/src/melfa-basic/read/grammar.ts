@@ -1,6 +1,6 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
-import { BasicReader, readPlainArguments, type BasicAnswer, type BasicGrammar } from "../../text/basic/index.ts";
+import { TextError } from "../../parser/index.ts";
+import { BasicReader, readPlainArguments, type BasicAnswer, type BasicGrammar } from "../../parser/basic/index.ts";
 import type {
   Argument,
   Expression,
@@ -8,7 +8,7 @@ import type {
   Routine,
   Statement,
   TokenCursor,
-} from "../../text/structured/index.ts";
+} from "../../parser/structured/index.ts";
 
 const RULES: ExpressionRules = {
   binary: {

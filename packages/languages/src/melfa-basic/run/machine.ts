@@ -1,5 +1,5 @@
 import type { Speed, Step, TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import {
   BasicMachine,
   NOWHERE,
@@ -15,11 +15,11 @@ import {
   type Posture,
   type Rigid,
   type Six,
-  type Stage,
+  type RunContext,
   type Upright,
   type Value,
-} from "../../text/basic/index.ts";
-import type { Do, Expression } from "../../text/structured/index.ts";
+} from "../../parser/basic/index.ts";
+import type { Do, Expression } from "../../parser/structured/index.ts";
 
 /** All joints 0 stands straight up; joint 2 leans forwards, joint 3 folds forwards. */
 const ARMS: Readonly<Record<string, Upright>> = {
@@ -61,7 +61,7 @@ const NONFLIP = 1;
 export class MelfaMachine extends BasicMachine<Said> {
   protected readonly truth = 1;
 
-  constructor(stage: Stage) {
+  constructor(stage: RunContext) {
     super(stage, ARMS[stage.robot.id]!, FIRST);
   }
 

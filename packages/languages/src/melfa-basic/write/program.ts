@@ -11,11 +11,11 @@ import {
   type Step,
   type Target,
 } from "@twincell/core";
-import { asciiText } from "../../text/index.ts";
+import { asciiText } from "../../parser/index.ts";
 import {
   BasicProgram,
   BlockWriter,
-  CannotSay,
+  UnsupportedStep,
   Names,
   called,
   degText,
@@ -26,8 +26,8 @@ import {
   type Add,
   type InUse,
   type Place,
-} from "../../writing/index.ts";
-import { LINES, type Spoken } from "../robots.ts";
+} from "../../emitter/index.ts";
+import { LINES, type SupportedRobot } from "../robots.ts";
 import { RESERVED } from "./reserved.ts";
 
 const LONGEST_NAME = 16;
@@ -39,7 +39,7 @@ const NONFLIP = 1;
 
 /** The file: the program with its step numbers, the routines that it calls, and its positions behind them. */
 export class MelfaProgram extends BasicProgram {
-  private readonly spoken: Spoken;
+  private readonly spoken: SupportedRobot;
   private readonly used: InUse;
   /** Positions in the order in which they were made: name and value. */
   private readonly positions: (readonly [name: string, value: string])[] = [];
@@ -54,7 +54,7 @@ export class MelfaProgram extends BasicProgram {
   /** The tool that was said last, where that is known. */
   private tool: string | undefined;
 
-  constructor(place: Place, spoken: Spoken) {
+  constructor(place: Place, spoken: SupportedRobot) {
     super(place, new Names({ most: LONGEST_NAME, reserved: RESERVED, first: "n_", foldsCase: true }), {
       endIf: "EndIf",
       forever: ["While 1", "WEnd"],
@@ -92,14 +92,14 @@ export class MelfaProgram extends BasicProgram {
     const steps = text.split("\n").slice(0, -1);
     const name = this.names.fresh(this.place.program.name);
     if (steps.length > MOST_STEPS)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         "",
         `The program has ${steps.length} steps; a controller numbers up to ${MOST_STEPS}.`,
         "Divide the program.",
       );
     for (const [i, step] of steps.entries()) {
       if (step.trim().length > LONGEST_STEP)
-        throw new CannotSay(
+        throw new UnsupportedStep(
           lines[i] ?? "",
           `Step ${i + 1} of the text has ${step.trim().length} characters; a controller takes ${LONGEST_STEP}.`,
           "Shorten the text or the names.",
@@ -132,13 +132,13 @@ export class MelfaProgram extends BasicProgram {
     const address = Object.hasOwn(signals, signal) ? signals[signal]!.address : undefined;
     const [first, last] = LINES;
     if (address === undefined)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} uses the line ${signal}, whose number is not known.`,
         "Give the line its number in the list of signals.",
       );
     if (!Number.isInteger(address) || address < first || address > last)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} uses the line ${signal} with the number ${address}; MELFA-BASIC counts lines from ${first} to ${last}.`,
         "Give the line a number of the controller.",
@@ -235,7 +235,11 @@ export class MelfaProgram extends BasicProgram {
     const goal = isJoint && "q" in target ? this.angles(target.q) : this.goal(step, target, flag);
     if (path === "circ") {
       if (step.via === undefined)
-        throw new CannotSay(step.id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
+        throw new UnsupportedStep(
+          step.id,
+          `${called(step)} has no point to pass through.`,
+          "Teach the point on the arc.",
+        );
       add(`Mvr ${this.start(add)},${this.goal(step, step.via, flag)},${goal}`);
     } else add(`${isJoint ? "Mov" : "Mvs"} ${goal}`);
     this.last = { goal: isJoint && "q" in target ? `JtoP(${goal})` : goal, tool: this.tool };
@@ -263,7 +267,7 @@ export class MelfaProgram extends BasicProgram {
     const inFrame = this.point(`${sixText(target.pose)}(0,0)`);
     if (!Object.hasOwn(pallets, frame)) return `${this.frame(frame, flag)}*${inFrame}`;
     if (step.path === "ptp" && flag !== this.patternFlag)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} reaches the places of ${frame} in another posture than the first move there.`,
         "Reach the places of a pallet in one posture.",
@@ -301,11 +305,11 @@ export class MelfaProgram extends BasicProgram {
   private flagOf(q: readonly number[] | undefined): string {
     const named = q === undefined ? undefined : branchOf(this.place.robot, q);
     if (named === undefined) return `(${RIGHT + ABOVE + NONFLIP},0)`;
-    const posture =
+    const configuration =
       (named.shoulder === "front" ? RIGHT : 0) +
       ((named.shoulder === "front") === (named.elbow === "up") ? ABOVE : 0) +
       (named.wrist === this.spoken.nonFlip ? NONFLIP : 0);
-    return `(${posture},0)`;
+    return `(${configuration},0)`;
   }
 }
 

@@ -1,7 +1,7 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
-import { BasicReader, readPlainArguments, type BasicAnswer, type BasicGrammar } from "../../text/basic/index.ts";
-import type { Argument, ExpressionRules, Routine, Statement } from "../../text/structured/index.ts";
+import { TextError } from "../../parser/index.ts";
+import { BasicReader, readPlainArguments, type BasicAnswer, type BasicGrammar } from "../../parser/basic/index.ts";
+import type { Argument, ExpressionRules, Routine, Statement } from "../../parser/structured/index.ts";
 
 const RULES: ExpressionRules = {
   binary: {

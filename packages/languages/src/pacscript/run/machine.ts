@@ -1,5 +1,5 @@
 import type { MoveStep, Speed, Step, TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import {
   BasicMachine,
   NOWHERE,
@@ -13,11 +13,11 @@ import {
   type PlaceValue,
   type Posture,
   type Rigid,
-  type Stage,
+  type RunContext,
   type Upright,
   type Value,
-} from "../../text/basic/index.ts";
-import type { Do, Expression } from "../../text/structured/index.ts";
+} from "../../parser/basic/index.ts";
+import type { Do, Expression } from "../../parser/structured/index.ts";
 
 /** All joints 0 stands straight up; joint 2 leans forwards, joint 3 folds forwards. */
 const ARMS: Readonly<Record<string, Upright>> = {
@@ -54,7 +54,7 @@ export class PacMachine extends BasicMachine<Said> {
   private readonly tools = new Map<number, { readonly name: string; readonly at: Rigid }>();
   private readonly works = new Map<number, string>();
 
-  constructor(stage: Stage) {
+  constructor(stage: RunContext) {
     super(stage, ARMS[stage.robot.id]!, FIRST);
   }
 

@@ -11,10 +11,10 @@ import {
   type Step,
   type Target,
 } from "@twincell/core";
-import { asciiText } from "../../text/index.ts";
+import { asciiText } from "../../parser/index.ts";
 import {
   BasicModules,
-  CannotSay,
+  UnsupportedStep,
   called,
   degText,
   fixed,
@@ -22,8 +22,8 @@ import {
   turnTexts,
   type Add,
   type Place,
-} from "../../writing/index.ts";
-import { GRIPPER, LINES, type Spoken } from "../robots.ts";
+} from "../../emitter/index.ts";
+import { GRIPPER, LINES, type SupportedRobot } from "../robots.ts";
 import { RESERVED } from "./reserved.ts";
 
 const LONGEST_NAME = 32;
@@ -40,12 +40,12 @@ const WHOLE_G = 1e-6;
 /** The file: `Main` and the subs that it calls. */
 export class PacProgram extends BasicModules {
   protected readonly sharesNumbers = true;
-  private readonly spoken: Spoken;
+  private readonly spoken: SupportedRobot;
   /** The figure at the places of the pattern that is written. */
   private figure = AUTOMATIC;
   private places: string[] = [];
 
-  constructor(place: Place, spoken: Spoken) {
+  constructor(place: Place, spoken: SupportedRobot) {
     super(
       place,
       { most: LONGEST_NAME, reserved: RESERVED, first: "n_", foldsCase: true },
@@ -122,13 +122,13 @@ export class PacProgram extends BasicModules {
     const { mass_kg, center_m, inertia_kgm2: [ixx, iyy, izz, ...products] = [0, 0, 0, 0, 0, 0] } = step;
     const grams = mass_kg * GRAMS;
     if (Math.abs(grams - Math.round(grams)) > WHOLE_G)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} gives a mass of ${mass_kg} kg; Payload takes whole grams.`,
         "Round the mass.",
       );
     if (products.some(product => product !== 0))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} gives products of inertia; Payload takes three moments.`,
         "Give the load in its main axes.",
@@ -185,7 +185,7 @@ export class PacProgram extends BasicModules {
     const { pallets } = this.place.program;
     if (tool !== undefined)
       this.say("tool", tool === "flange" ? "ChangeTool 0" : `ChangeTool ${this.named("tool", tool)}`, add);
-    const posture = this.place.posture(step, target, this.near);
+    const configuration = this.place.posture(step, target, this.near);
     const blend_m = this.place.blend_m(step, this.before, next);
     const frames = [step.via, target].flatMap(each => (each === undefined || "q" in each ? [] : [each.frame]));
     const works = new Set(frames.map(frame => (Object.hasOwn(pallets, frame) ? pallets[frame]!.frame : frame)));
@@ -193,14 +193,18 @@ export class PacProgram extends BasicModules {
     const [work] = works.size === 1 ? works : ["world"];
     if (frames.length > 0) this.useWork(work!, add);
     const pass = blend_m > 0 ? `@${Math.max(1, Math.round(blend_m * 1000))}` : "@0";
-    const goal = this.goal(step, target, posture, work!);
+    const goal = this.goal(step, target, configuration, work!);
     const options = this.options(step);
     if (path === "circ") {
       if (step.via === undefined)
-        throw new CannotSay(step.id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
+        throw new UnsupportedStep(
+          step.id,
+          `${called(step)} has no point to pass through.`,
+          "Teach the point on the arc.",
+        );
       add(`Move C, ${this.goal(step, step.via, undefined, work!)}, ${pass} ${goal}${options}`);
     } else add(`Move ${isJoint ? "P" : "L"}, ${pass} ${goal}${options}`);
-    this.near = posture ?? this.near;
+    this.near = configuration ?? this.near;
   }
 
   private options({ speed, path, acceleration }: MoveStep): string {
@@ -221,15 +225,15 @@ export class PacProgram extends BasicModules {
     return `, Speed = ${said}${share}`;
   }
 
-  private goal(step: MoveStep, target: Target, posture: readonly number[] | undefined, work: string): string {
+  private goal(step: MoveStep, target: Target, configuration: readonly number[] | undefined, work: string): string {
     if ("q" in target) return `J(${target.q.map(degText).join(", ")})`;
     const { pallets } = this.place.program;
     const { frame, pose } = target;
     const isAsked = step.path === "ptp" && target.branch !== undefined;
-    const figure = isAsked ? this.figureOf(target.branch, posture) : AUTOMATIC;
+    const figure = isAsked ? this.figureOf(target.branch, configuration) : AUTOMATIC;
     if (Object.hasOwn(pallets, frame)) {
       if (isAsked && figure !== this.figure)
-        throw new CannotSay(
+        throw new UnsupportedStep(
           step.id,
           `${called(step)} reaches the places of ${frame} in another posture than the first move there.`,
           "Reach the places of a pallet in one posture.",
@@ -245,8 +249,9 @@ export class PacProgram extends BasicModules {
   }
 
   /** 1 for a wrist in front of axis 1, 2 for an elbow below, 4 for a wrist that is not flipped. Joints 4 and 6 are within half a turn. */
-  private figureOf(branch: Branch | undefined, posture: readonly number[] | undefined): number {
-    const named = branch === undefined || posture === undefined ? undefined : branchOf(this.place.robot, posture);
+  private figureOf(branch: Branch | undefined, configuration: readonly number[] | undefined): number {
+    const named =
+      branch === undefined || configuration === undefined ? undefined : branchOf(this.place.robot, configuration);
     if (named === undefined) return AUTOMATIC;
     return (
       (named.shoulder === "front" ? LEFTY : 0) +

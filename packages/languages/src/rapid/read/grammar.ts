@@ -1,7 +1,7 @@
 import type { TextFault, TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import {
-  ForgivingReader,
+  RecoveringReader,
   readExpression,
   type Argument,
   type Block,
@@ -12,7 +12,7 @@ import {
   type Routine,
   type Statement,
   type TokenCursor,
-} from "../../text/structured/index.ts";
+} from "../../parser/structured/index.ts";
 
 const LEXICON: Lexicon = {
   comment: "!",
@@ -132,7 +132,7 @@ const NAME_LENGTH = 32;
 const STRING_LENGTH = 80;
 
 /** A datum of a module or a routine. */
-export interface Datum extends TextPlace {
+export interface ConnectionParameter extends TextPlace {
   readonly storage: string;
   readonly type: string;
   readonly name: string;
@@ -142,10 +142,10 @@ export interface Datum extends TextPlace {
 /** What a text holds. Names are lower case; `spelling` has them as they were first written. */
 export interface Source {
   readonly title: string;
-  readonly data: readonly Datum[];
+  readonly data: readonly ConnectionParameter[];
   readonly routines: ReadonlyMap<string, Routine>;
   /** Data of the routines, by routine. */
-  readonly local: ReadonlyMap<string, readonly Datum[]>;
+  readonly local: ReadonlyMap<string, readonly ConnectionParameter[]>;
   /** Routines whose error handler goes on behind a search that found nothing. */
   readonly forgiving: ReadonlySet<string>;
   readonly spelling: ReadonlyMap<string, string>;
@@ -157,14 +157,14 @@ export type SourceAnswer =
 /** Reads RAPID modules. Goes on after a fault, so that all of them are told at once. */
 export const readSource = (text: string): SourceAnswer => new Reader(text).source();
 
-class Reader extends ForgivingReader {
-  private readonly data: Datum[] = [];
+class Reader extends RecoveringReader {
+  private readonly data: ConnectionParameter[] = [];
   private readonly routines = new Map<string, Routine>();
-  private readonly local = new Map<string, Datum[]>();
+  private readonly local = new Map<string, ConnectionParameter[]>();
   private readonly forgiving = new Set<string>();
   private readonly spelling = new Map<string, string>();
   private readonly remarks: string[] = [];
-  private current: Datum[] | undefined;
+  private current: ConnectionParameter[] | undefined;
   private title = "";
 
   constructor(text: string) {
@@ -305,7 +305,7 @@ class Reader extends ForgivingReader {
   }
 
   /** `CONST robtarget p10{2} := …;` */
-  private datum(into: Datum[]): void {
+  private datum(into: ConnectionParameter[]): void {
     const { cursor } = this;
     const storage = cursor.take();
     const type = cursor.name("the type of the datum");
@@ -333,7 +333,7 @@ class Reader extends ForgivingReader {
     if (cursor.accept("(")) this.parameters(parameters);
     if (this.routines.has(name))
       this.faults.push(new TextError(at, "a name used once", `The routine ${name} is declared twice.`).fault);
-    const local: Datum[] = [];
+    const local: ConnectionParameter[] = [];
     this.local.set(name, local);
     this.current = local;
     const body = this.body(opened, [end, "error", "undo", "backward"]);

@@ -1,6 +1,6 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
-import type { Argument, Expression } from "../../text/structured/index.ts";
+import { TextError } from "../../parser/index.ts";
+import type { Argument, Expression } from "../../parser/structured/index.ts";
 import type { Options } from "./functions.ts";
 import { asNumber, type Value } from "./values.ts";
 

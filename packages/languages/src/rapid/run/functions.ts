@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import { eulerZyx, inverted, orientZyx, times, turned } from "./frame.ts";
 import { asFrame, asNumber, asOrient, asPosition, asRecord, finite, fromFrame, type Value } from "./values.ts";
 

@@ -1,5 +1,5 @@
 import { holds, type Condition, type SignalLine, type Signals } from "@twincell/core";
-import type { Expression } from "../../text/structured/index.ts";
+import type { Expression } from "../../parser/structured/index.ts";
 import type { Value } from "./values.ts";
 
 /** Functions that read a line, with the kind of line each reads. */

@@ -10,7 +10,7 @@ import type {
   Target,
   TextPlace,
 } from "@twincell/core";
-import { TextError, nameIn, type Surroundings } from "../../text/index.ts";
+import { TextError, nameIn, type NetworkEmulator } from "../../parser/index.ts";
 import {
   BlockMachine,
   type Block,
@@ -19,8 +19,8 @@ import {
   type Flow,
   type Routine,
   type WaitUntil,
-} from "../../text/structured/index.ts";
-import type { Datum, Source } from "../read/grammar.ts";
+} from "../../parser/structured/index.ts";
+import type { ConnectionParameter, Source } from "../read/grammar.ts";
 import { ControllerArm } from "./arm.ts";
 import { Arguments } from "./arguments.ts";
 import type { Confdata } from "./configuration.ts";
@@ -71,7 +71,7 @@ interface Motion {
 /** Executes RAPID statement by statement. */
 export class Machine extends BlockMachine<Value> {
   readonly arm: ControllerArm;
-  readonly surroundings: Surroundings;
+  readonly surroundings: NetworkEmulator;
   /** Work objects that are frames although they change: the places of a pallet that is being read. */
   readonly places = new Set<string>();
   private readonly source: Source;
@@ -90,7 +90,7 @@ export class Machine extends BlockMachine<Value> {
     changing: ReadonlySet<string>,
     robot: Robot,
     worldFromBase: Pose<"world", "base">,
-    surroundings: Surroundings,
+    emulator: NetworkEmulator,
     signals?: Signals,
   ) {
     super(source.routines);
@@ -98,9 +98,9 @@ export class Machine extends BlockMachine<Value> {
     this.known = predefined(robot.maxTcpSpeed_mps);
     this.changing = changing;
     this.arm = new ControllerArm(robot, worldFromBase);
-    this.surroundings = surroundings;
+    this.surroundings = emulator;
     this.lines = new Lines(
-      surroundings.signals,
+      emulator.signals,
       signals,
       name => this.spelt(name),
       name => this.variable(name) === undefined,
@@ -111,7 +111,7 @@ export class Machine extends BlockMachine<Value> {
 
   // --- data -------------------------------------------------------------------------------------------------------
 
-  private make(datum: Datum, into: Map<string, Value>): void {
+  private make(datum: ConnectionParameter, into: Map<string, Value>): void {
     const { name, type, value, sizes } = datum;
     if (value !== undefined) into.set(name, this.evaluate(value));
     else if (sizes.length > 0) into.set(name, this.empty(sizes, type));
@@ -220,7 +220,7 @@ export class Machine extends BlockMachine<Value> {
   protected store(to: Expression, value: Value): void {
     if (to.kind === "variable") {
       const scope = this.scopes.at(-1);
-      const declares = (data: readonly Datum[] | undefined): boolean =>
+      const declares = (data: readonly ConnectionParameter[] | undefined): boolean =>
         data?.some(({ name }) => name === to.name) === true;
       if (scope !== undefined && (scope.names.has(to.name) || declares(this.source.local.get(scope.routine))))
         scope.names.set(to.name, value);

@@ -1,5 +1,5 @@
 import type { PayloadStep, TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import { times, turned, type Frame } from "./frame.ts";
 import { NOTHING_KG } from "./predefined.ts";
 import { asFrame, asNumber, asNumbers, asPosition, asRecord, type Value } from "./values.ts";

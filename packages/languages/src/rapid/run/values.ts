@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import { normal, type Frame } from "./frame.ts";
 
 /** Numbers, truth values, texts, and records or arrays of them. */

@@ -1,5 +1,5 @@
 import { branchOf, type Pose, type Robot } from "@twincell/core";
-import { fixed } from "../../writing/index.ts";
+import { fixed } from "../../emitter/index.ts";
 
 /** A tenth of a micrometre, and a hundred-thousandth of a degree. */
 const DECIMALS = { mm: 4, deg: 5, part: 7 } as const;

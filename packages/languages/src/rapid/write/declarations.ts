@@ -1,4 +1,4 @@
-import { Names } from "../../writing/index.ts";
+import { Names } from "../../emitter/index.ts";
 import { SPEEDS, WORDS, ZONES } from "./words.ts";
 import { speedText, zoneText } from "./data.ts";
 

@@ -15,11 +15,11 @@ import {
   type Step,
   type Target,
 } from "@twincell/core";
-import { asciiText } from "../../text/index.ts";
+import { asciiText } from "../../parser/index.ts";
 import {
   BlockStepWriter,
   BlockWriter,
-  CannotSay,
+  UnsupportedStep,
   Place,
   called,
   fixed,
@@ -27,7 +27,7 @@ import {
   pitchTerm,
   remark,
   type Pattern,
-} from "../../writing/index.ts";
+} from "../../emitter/index.ts";
 import { GRIPPER_SIGNAL, type Configuration } from "../robots.ts";
 import { confText, jointsText, mm, objectText, orientText, part, posText, targetText, toolText } from "./data.ts";
 import { Declarations } from "./declarations.ts";
@@ -134,7 +134,7 @@ export class ProgramWriter extends BlockStepWriter {
     look(steps);
     const other = found.find(step => step.until!.missing !== found[0]!.until!.missing);
     if (other !== undefined)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         other.id,
         `${called(other)} does something else than the search before it when nothing is found.`,
         "One routine of RAPID has one answer to that: put one of the searches into a routine of its own.",
@@ -172,7 +172,7 @@ export class ProgramWriter extends BlockStepWriter {
       case "message": {
         const text = asciiText(step.text).replace(/"/g, '""');
         if (text.length > LONGEST_TEXT)
-          throw new CannotSay(
+          throw new UnsupportedStep(
             step.id,
             `${called(step)} says ${text.length} characters; RAPID takes ${LONGEST_TEXT}.`,
             "Say it in fewer words.",
@@ -275,7 +275,7 @@ export class ProgramWriter extends BlockStepWriter {
       if (this.data.names.of("signal", signal) === signal) return signal;
     }
     if (step === undefined) return "";
-    throw new CannotSay(
+    throw new UnsupportedStep(
       step.id,
       `${called(step)} uses the line "${signal}", which is no name of RAPID.`,
       "Lines have the names of the controller's configuration: letters, digits and _, at most 32, a letter first.",
@@ -286,7 +286,7 @@ export class ProgramWriter extends BlockStepWriter {
     const { signals } = this.place.program;
     const name = this.signalName(signal, step);
     if (!Object.hasOwn(signals, signal))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} uses the line ${signal}, which is not in the list of signals.`,
         "Add it to the list.",
@@ -298,13 +298,13 @@ export class ProgramWriter extends BlockStepWriter {
     const { name, kind } = this.lineOf(step.signal, step);
     const { to } = step;
     if (kind.endsWith("in"))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} writes the line ${step.signal}, which is an input.`,
         "Choose an output.",
       );
     if (kind.startsWith("digital") !== (typeof to === "boolean"))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} writes ${String(to)} to the line ${step.signal}, which is ${kind}.`,
         "Choose a value of that line.",
@@ -312,7 +312,7 @@ export class ProgramWriter extends BlockStepWriter {
     if (typeof to === "number") return add(`SetAO ${name},${part(to)};`);
     if (step.pulse_s === undefined) return add(`SetDO ${name},${to ? 1 : 0};`);
     if (!to)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} is a pulse that goes off; PulseDO goes on.`,
         "Turn the sense of the line in the controller's configuration.",
@@ -353,7 +353,7 @@ export class ProgramWriter extends BlockStepWriter {
   }
 
   private mismatch(when: Condition, step: Step): never {
-    throw new CannotSay(
+    throw new UnsupportedStep(
       step.id,
       `${called(step)} asks the line ${when.signal} for what it cannot answer.`,
       "Ask a digital line whether it is on, an analogue one for a limit.",
@@ -367,14 +367,14 @@ export class ProgramWriter extends BlockStepWriter {
     const { mass_kg, center_m, inertia_kgm2 = [0, 0, 0, 0, 0, 0] } = step;
     if (!(mass_kg > 0)) return "load0";
     if (this.tool === undefined)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} says what is carried where the tool in use is not known; RAPID counts a load from it.`,
         "Put a move with the tool before it.",
       );
     const tcpFromFlange = inverse(this.place.tool(this.tool));
     if (inertia_kgm2.slice(3).some(each => each !== 0))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} has moments of deviation; RAPID takes moments about three axes of the load.`,
         "Give the inertia about the load's own axes.",
@@ -395,7 +395,7 @@ export class ProgramWriter extends BlockStepWriter {
     this.tool = tool;
     const ratio = step.acceleration?.ratio ?? 1;
     if (ratio < LEAST_ACCELERATION)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} accelerates by ${part(100 * ratio)} %; RAPID goes down to ${100 * LEAST_ACCELERATION} %.`,
         "Let it accelerate more, or move more slowly.",
@@ -406,7 +406,7 @@ export class ProgramWriter extends BlockStepWriter {
     const at = `${this.speed(step)},${this.data.zone(this.zone_mm(step, next))},${this.toolName(tool, step.id)}`;
     this.near = posture ?? this.near;
     if (path === "ptp" && !this.solves && "pose" in target && target.branch !== undefined) {
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} asks for a posture; what the configuration numbers of the ${this.robot.name} mean is not known here.`,
         "Teach the point as joint angles, or leave the posture to the robot.",
@@ -437,7 +437,11 @@ export class ProgramWriter extends BlockStepWriter {
 
   private via(step: MoveStep, frame: string): string {
     if (step.via === undefined)
-      throw new CannotSay(step.id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
+      throw new UnsupportedStep(
+        step.id,
+        `${called(step)} has no point to pass through.`,
+        "Teach the point on the arc.",
+      );
     return this.point(step, this.inFrame(step.via, frame), this.near, "_via");
   }
 
@@ -453,14 +457,14 @@ export class ProgramWriter extends BlockStepWriter {
   private search(step: MoveStep, goal: string, object: string, tool: string, add: (line: string) => void): void {
     const { when } = step.until!;
     if (step.path !== "lin" && step.path !== "circ")
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} is a search along a joint move; RAPID searches on straight lines and arcs.`,
         "Make it a straight move.",
       );
     const { name, kind } = this.lineOf(when.signal, step);
     if (!("is" in when) || !kind.startsWith("digital"))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} searches for a level; RAPID searches for a digital line.`,
         "Search for a digital line.",

@@ -1,5 +1,5 @@
 import type { Speed, Step, TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import {
   BasicMachine,
   NOWHERE,
@@ -14,11 +14,11 @@ import {
   type PlaceValue,
   type Posture,
   type Six,
-  type Stage,
+  type RunContext,
   type Upright,
   type Value,
-} from "../../text/basic/index.ts";
-import type { Do, Expression } from "../../text/structured/index.ts";
+} from "../../parser/basic/index.ts";
+import type { Do, Expression } from "../../parser/structured/index.ts";
 
 /** Angles of the controller are those of the maker's zeros: the forearm level, joint 2 leaning back, joint 3 lifting the forearm. */
 const ARMS: Readonly<Record<string, Upright>> = {
@@ -60,7 +60,7 @@ export class SpelMachine extends BasicMachine<Said> {
   private readonly tools = new Map<number, { readonly name: string; readonly at: PlaceValue["at"] }>();
   private readonly locals = new Map<number, string>();
 
-  constructor(stage: Stage) {
+  constructor(stage: RunContext) {
     super(stage, ARMS[stage.robot.id]!, FIRST);
   }
 

@@ -11,7 +11,7 @@ import {
 } from "@twincell/core";
 import {
   BasicModules,
-  CannotSay,
+  UnsupportedStep,
   called,
   degText,
   fixed,
@@ -19,8 +19,8 @@ import {
   turnTexts,
   type Add,
   type Place,
-} from "../../writing/index.ts";
-import { GRIPPER, LINES, type Spoken } from "../robots.ts";
+} from "../../emitter/index.ts";
+import { GRIPPER, LINES, type SupportedRobot } from "../robots.ts";
 import { RESERVED } from "./reserved.ts";
 
 const LONGEST_NAME = 32;
@@ -36,9 +36,9 @@ const STRAIGHT = 1e-9;
 /** The file: `main` and the functions that it calls. */
 export class SpelProgram extends BasicModules {
   protected readonly sharesNumbers = false;
-  private readonly spoken: Spoken;
+  private readonly spoken: SupportedRobot;
 
-  constructor(place: Place, spoken: Spoken) {
+  constructor(place: Place, spoken: SupportedRobot) {
     super(
       place,
       { most: LONGEST_NAME, reserved: RESERVED, first: "n_", foldsCase: true },
@@ -137,15 +137,19 @@ export class SpelProgram extends BasicModules {
     const mmps = ("mps" in speed ? speed.mps : speed.ratio * most_mps) * 1000;
     if (isJoint) this.say("speed", `Speed ${Math.min(100, Math.max(LEAST_PERCENT, Math.round(ratio * 100)))}`, add);
     else this.say("path speed", `SpeedS ${fixed(Math.min(FASTEST_MMPS, Math.max(SLOWEST_MMPS, mmps)), 4)}`, add);
-    const posture = this.place.posture(step, target, this.near);
+    const configuration = this.place.posture(step, target, this.near);
     const passes = this.place.blend_m(step, this.before, next) > 0 ? " CP" : "";
-    const words = isJoint && !("q" in target) ? this.postureWords(target.branch, posture) : "";
+    const words = isJoint && !("q" in target) ? this.postureWords(target.branch, configuration) : "";
     if (path === "circ") {
       if (step.via === undefined)
-        throw new CannotSay(step.id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
+        throw new UnsupportedStep(
+          step.id,
+          `${called(step)} has no point to pass through.`,
+          "Teach the point on the arc.",
+        );
       add(`Arc3 ${this.goal(step, step.via)}, ${this.goal(step, target)}${passes}`);
     } else add(`${isJoint ? "Go" : "Move"} ${this.goal(step, target)}${words}${passes}`);
-    this.near = posture ?? this.near;
+    this.near = configuration ?? this.near;
   }
 
   private goal(step: MoveStep, target: Target): string {
@@ -158,7 +162,7 @@ export class SpelProgram extends BasicModules {
   /** A step from the place of a pattern along its own axes. */
   private inPattern(step: MoveStep, pallet: string, { position, quaternion }: Pose): string {
     if (Math.hypot(quaternion[0], quaternion[1], quaternion[2]) > STRAIGHT)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} turns the hand at the places of ${pallet}, which SPEL+ cannot count from a place.`,
         "Turn the places of the pallet instead.",
@@ -172,8 +176,9 @@ export class SpelProgram extends BasicModules {
   }
 
   /** A place alone is reached in the posture that the arm is in; one that was taught is asked for. */
-  private postureWords(branch: Branch | undefined, posture: readonly number[] | undefined): string {
-    const named = branch === undefined || posture === undefined ? undefined : branchOf(this.place.robot, posture);
+  private postureWords(branch: Branch | undefined, configuration: readonly number[] | undefined): string {
+    const named =
+      branch === undefined || configuration === undefined ? undefined : branchOf(this.place.robot, configuration);
     if (named === undefined) return "";
     return ` /${named.shoulder === "front" ? "R" : "L"} /${named.elbow === "up" ? "A" : "B"} /${named.wrist === this.spoken.noFlip ? "NF" : "F"}`;
   }

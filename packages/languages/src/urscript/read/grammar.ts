@@ -1,7 +1,7 @@
 import type { TextFault, TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import {
-  ForgivingReader,
+  RecoveringReader,
   readExpression,
   type Argument,
   type Block,
@@ -12,7 +12,7 @@ import {
   type Routine,
   type Statement,
   type TokenCursor,
-} from "../../text/structured/index.ts";
+} from "../../parser/structured/index.ts";
 
 const LEXICON: Lexicon = {
   comment: "#",
@@ -111,7 +111,7 @@ export type SourceAnswer =
 /** Reads URScript. Goes on after a fault, so that all of them are told at once. */
 export const readSource = (text: string): SourceAnswer => new Reader(text).source();
 
-class Reader extends ForgivingReader {
+class Reader extends RecoveringReader {
   private readonly routines = new Map<string, Routine>();
 
   constructor(text: string) {

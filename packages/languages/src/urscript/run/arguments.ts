@@ -1,6 +1,6 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
-import type { Argument, Expression } from "../../text/structured/index.ts";
+import { TextError } from "../../parser/index.ts";
+import type { Argument, Expression } from "../../parser/structured/index.ts";
 import type { Value } from "./values.ts";
 
 /** The arguments of one call: by place, or by name as in `r=0.01`. */

@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import { fromRollPitchYaw, inverted, matrixOf, sixOf, times, toRollPitchYaw, type Six } from "./frame.ts";
 import {
   asNumber,

@@ -1,13 +1,13 @@
 import type { Condition, SignalLine, Signals, TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
-import type { Expression } from "../../text/structured/index.ts";
+import { TextError } from "../../parser/index.ts";
+import type { Expression } from "../../parser/structured/index.ts";
 
 /** Lines that a program speaks of, by their names in the neutral program. */
 export type Lines = Record<string, SignalLine>;
 type Kind = SignalLine["kind"];
 
 /** What a function reads or writes: its kind of line and the number that its first line has. */
-interface Door {
+interface Route {
   readonly kind: Kind;
   readonly first: number;
   readonly count: number;
@@ -23,7 +23,7 @@ const ANALOGUE: readonly (readonly [name: string, first: number, count: number])
   ["tool_analog", 2, 2],
   ["analog", 0, 4],
 ];
-const DOORS = new Map<string, Door>();
+const DOORS = new Map<string, Route>();
 for (const [names, kind] of [
   [DIGITAL, "digital"],
   [ANALOGUE, "analogue"],
@@ -34,7 +34,7 @@ for (const [names, kind] of [
     DOORS.set(`set_${name}_out`, { kind: `${kind}-out`, first, count });
   }
 }
-export const doorOf = (name: string): Door | undefined => DOORS.get(name);
+export const routeOf = (name: string): Route | undefined => DOORS.get(name);
 
 const SHORT: Readonly<Record<Kind, string>> = {
   "digital-in": "DI",
@@ -44,14 +44,14 @@ const SHORT: Readonly<Record<Kind, string>> = {
 };
 
 /** The line that a number means at that door, under the name of the variable that holds the number, else DO3 and its like. */
-export function lineAt(door: Door, number: number, named: string | undefined, lines: Lines, at: TextPlace): string {
-  if (!Number.isInteger(number) || number < 0 || number >= door.count)
-    throw new TextError(at, `a line from 0 to ${door.count - 1}`, `There is no line ${number} here.`);
-  const address = door.first + number;
-  const known = Object.entries(lines).find(([, line]) => line.kind === door.kind && line.address === address);
+export function lineAt(route: Route, number: number, named: string | undefined, lines: Lines, at: TextPlace): string {
+  if (!Number.isInteger(number) || number < 0 || number >= route.count)
+    throw new TextError(at, `a line from 0 to ${route.count - 1}`, `There is no line ${number} here.`);
+  const address = route.first + number;
+  const known = Object.entries(lines).find(([, line]) => line.kind === route.kind && line.address === address);
   if (known !== undefined) return known[0];
-  const free = named !== undefined && !Object.hasOwn(lines, named) ? named : `${SHORT[door.kind]}${address}`;
-  lines[free] = { kind: door.kind, address };
+  const free = named !== undefined && !Object.hasOwn(lines, named) ? named : `${SHORT[route.kind]}${address}`;
+  lines[free] = { kind: route.kind, address };
   return free;
 }
 

@@ -9,14 +9,14 @@ import {
   type Target,
   type TextPlace,
 } from "@twincell/core";
-import { TextError, nameIn, type Surroundings } from "../../text/index.ts";
-import { BlockMachine, type Do, type Expression, type Flow, type WaitUntil } from "../../text/structured/index.ts";
+import { TextError, nameIn, type NetworkEmulator } from "../../parser/index.ts";
+import { BlockMachine, type Do, type Expression, type Flow, type WaitUntil } from "../../parser/structured/index.ts";
 import type { Source } from "../read/grammar.ts";
 import { ControllerArm } from "./arm.ts";
 import { matrixOf, toPose, times } from "./frame.ts";
 import { FUNCTIONS, itemOf, withItem } from "./functions.ts";
 import { Arguments } from "./arguments.ts";
-import { conditionOf, doorOf, holds, lineAt } from "./lines.ts";
+import { conditionOf, routeOf, holds, lineAt } from "./lines.ts";
 import { asNumber, asNumbers, asPose, asTruth, binary, kindOf, poseOf, type PoseValue, type Value } from "./values.ts";
 
 /** Speed at which all joints can turn, and what the controller takes where a move says nothing [rad/s, m/s]. */
@@ -98,7 +98,7 @@ const REFUSED: Readonly<Record<string, string>> = Object.fromEntries(
 /** Executes URScript statement by statement. */
 export class Machine extends BlockMachine<Value> {
   readonly arm: ControllerArm;
-  readonly surroundings: Surroundings;
+  readonly surroundings: NetworkEmulator;
   private readonly constants: ReadonlySet<string>;
   private readonly outputs = new Map<string, boolean | number>();
   private readonly signals: Signals | undefined;
@@ -114,12 +114,12 @@ export class Machine extends BlockMachine<Value> {
     constants: ReadonlySet<string>,
     robot: Robot,
     worldFromBase: Pose<"world", "base">,
-    surroundings: Surroundings,
+    emulator: NetworkEmulator,
     signals?: Signals,
   ) {
     super(source.routines);
     this.arm = new ControllerArm(robot, worldFromBase);
-    this.surroundings = surroundings;
+    this.surroundings = emulator;
     this.constants = constants;
     this.signals = signals;
   }
@@ -273,11 +273,11 @@ export class Machine extends BlockMachine<Value> {
   // --- lines ------------------------------------------------------------------------------------------------------
 
   private lineOf({ name, args }: Extract<Expression, { kind: "call" }>): string | undefined {
-    const door = name.startsWith("get_") ? doorOf(name) : undefined;
+    const route = name.startsWith("get_") ? routeOf(name) : undefined;
     const number = args[0]?.value;
-    if (door === undefined || number === undefined) return undefined;
+    if (route === undefined || number === undefined) return undefined;
     return lineAt(
-      door,
+      route,
       this.numberOf(number),
       number.kind === "variable" ? number.name : undefined,
       this.surroundings.signals,
@@ -385,9 +385,9 @@ export class Machine extends BlockMachine<Value> {
         return undefined;
       }
       default: {
-        const door = name.startsWith("set_") ? doorOf(name) : undefined;
-        if (door !== undefined) {
-          yield say(this.write(door, name, args, id()));
+        const route = name.startsWith("set_") ? routeOf(name) : undefined;
+        if (route !== undefined) {
+          yield say(this.write(route, name, args, id()));
           return undefined;
         }
         if (!SILENT.has(name))
@@ -402,20 +402,20 @@ export class Machine extends BlockMachine<Value> {
     return undefined;
   }
 
-  private write(door: NonNullable<ReturnType<typeof doorOf>>, name: string, args: Arguments, id: string): Step {
+  private write(route: NonNullable<ReturnType<typeof routeOf>>, name: string, args: Arguments, id: string): Step {
     const number = args.given(0, "n");
-    const value = args.required(1, door.kind === "digital-out" ? "b" : "f");
+    const value = args.required(1, route.kind === "digital-out" ? "b" : "f");
     // The first line of the tool is the gripper's.
     if (name === "set_tool_digital_out" && number.kind === "number" && number.value === 0)
       return { id, type: "gripper", closed: asTruth(value, args.at) };
     const signal = lineAt(
-      door,
+      route,
       this.numberOf(number),
       number.kind === "variable" ? number.name : undefined,
       this.surroundings.signals,
       number,
     );
-    const to = door.kind === "digital-out" ? asTruth(value, args.at) : asNumber(value, args.at);
+    const to = route.kind === "digital-out" ? asTruth(value, args.at) : asNumber(value, args.at);
     this.outputs.set(signal, to);
     return { id, type: "set", signal, to };
   }

@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import type { Six } from "./frame.ts";
 
 /** A pose, and where it was made of a variable and a pose in it: the frame that a person meant. */

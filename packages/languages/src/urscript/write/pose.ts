@@ -1,5 +1,5 @@
 import { compose, inverse, pose, type Pose, type Robot } from "@twincell/core";
-import { fixed } from "../../writing/index.ts";
+import { fixed } from "../../emitter/index.ts";
 
 /** A micrometre, and a millionth of a radian. */
 const DECIMALS = 6;

@@ -14,17 +14,17 @@ import {
   type Step,
   type Target,
 } from "@twincell/core";
-import { asciiText } from "../../text/index.ts";
+import { asciiText } from "../../parser/index.ts";
 import {
   BlockStepWriter,
-  CannotSay,
+  UnsupportedStep,
   Names,
   Place,
   called,
   patternOf,
   pitchTerm,
   type Pattern,
-} from "../../writing/index.ts";
+} from "../../emitter/index.ts";
 import { DIGITAL_LINES, fullJointSpeed } from "../robots.ts";
 import { RESERVED, TAKEN } from "./reserved.ts";
 import { controllerFromBase, listText, num, poseText } from "./pose.ts";
@@ -85,12 +85,12 @@ export class ProgramWriter extends BlockStepWriter {
     for (const [signal, step] of used.signals) {
       const line = Object.hasOwn(program.signals, signal) ? program.signals[signal] : undefined;
       if (line?.address === undefined)
-        throw new CannotSay(
+        throw new UnsupportedStep(
           step.id,
           `${called(step)} uses the line ${signal}, whose number is not known.`,
           "Give the line its number in the list of signals.",
         );
-      out.add(`global ${this.names.of("signal", signal)} = ${doorOf(line, line.address, step, signal).number}`);
+      out.add(`global ${this.names.of("signal", signal)} = ${routeOf(line, line.address, step, signal).number}`);
     }
   }
 
@@ -225,34 +225,34 @@ export class ProgramWriter extends BlockStepWriter {
   }
 
   private set(step: Extract<Step, { type: "set" }>, add: (line: string) => void): void {
-    const door = this.door(step.signal, step);
+    const route = this.door(step.signal, step);
     const { to } = step;
-    if (door.isInput)
-      throw new CannotSay(
+    if (route.isInput)
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} writes the line ${step.signal}, which is an input.`,
         "Choose an output.",
       );
-    if (door.isDigital !== (typeof to === "boolean"))
-      throw new CannotSay(
+    if (route.isDigital !== (typeof to === "boolean"))
+      throw new UnsupportedStep(
         step.id,
-        `${called(step)} writes ${String(to)} to the ${door.isDigital ? "digital" : "analogue"} line ${step.signal}.`,
+        `${called(step)} writes ${String(to)} to the ${route.isDigital ? "digital" : "analogue"} line ${step.signal}.`,
         "Choose a value of that line.",
       );
     if (typeof to === "number" && !(to >= 0 && to <= 1))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} writes ${to} to an analogue output; the controller takes 0 to 1.`,
         "Give it as a share of the full output.",
       );
     add(
-      `set_${door.name}_out(${this.names.of("signal", step.signal)}, ${typeof to === "boolean" ? truth(to) : num(to)})`,
+      `set_${route.name}_out(${this.names.of("signal", step.signal)}, ${typeof to === "boolean" ? truth(to) : num(to)})`,
     );
   }
 
   private condition(when: Condition, step: Step): string {
-    const door = this.door(when.signal, step);
-    const read = `get_${door.name}_${door.isInput ? "in" : "out"}(${this.names.of("signal", when.signal)})`;
+    const route = this.door(when.signal, step);
+    const read = `get_${route.name}_${route.isInput ? "in" : "out"}(${this.names.of("signal", when.signal)})`;
     if ("is" in when) return when.is ? read : `not ${read}`;
     return "above" in when ? `${read} > ${num(when.above)}` : `${read} < ${num(when.below)}`;
   }
@@ -262,16 +262,16 @@ export class ProgramWriter extends BlockStepWriter {
     return "is" in when ? this.condition({ ...when, is: !when.is }, step) : `not (${this.condition(when, step)})`;
   }
 
-  private door(signal: string, step: Step): Door {
+  private door(signal: string, step: Step): Route {
     const { signals } = this.place.program;
     const line = Object.hasOwn(signals, signal) ? signals[signal] : undefined;
     if (line?.address === undefined)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} uses the line ${signal}, whose number is not known.`,
         "Give the line its number in the list of signals.",
       );
-    return doorOf(line, line.address, step, signal);
+    return routeOf(line, line.address, step, signal);
   }
 
   private move(step: MoveStep, next: Step | undefined, add: (line: string) => void): void {
@@ -281,18 +281,22 @@ export class ProgramWriter extends BlockStepWriter {
       add(tool === "flange" ? "set_tcp(p[0, 0, 0, 0, 0, 0])" : `set_tcp(${this.names.of("tool", tool)})`);
       this.tool = tool;
     }
-    const posture = this.place.posture(step, path === "ptp" ? target : this.reached(target), this.near);
+    const configuration = this.place.posture(step, path === "ptp" ? target : this.reached(target), this.near);
     const blend = this.place.blend_m(step, this.before, next);
     const pace = this.pace(step);
     const radius = num(blend) === "0" ? "" : `, r=${num(blend)}`;
-    if (path === "ptp") add(`movej(${this.jointGoal(target, posture)}, ${pace}${radius})`);
+    if (path === "ptp") add(`movej(${this.jointGoal(target, configuration)}, ${pace}${radius})`);
     else if (path === "lin") add(`movel(${this.goal(target)}, ${pace}${radius})`);
     else {
       if (step.via === undefined)
-        throw new CannotSay(step.id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
+        throw new UnsupportedStep(
+          step.id,
+          `${called(step)} has no point to pass through.`,
+          "Teach the point on the arc.",
+        );
       add(`movec(${this.goal(step.via)}, ${this.goal(target)}, ${pace}${radius})`);
     }
-    this.near = posture ?? this.near;
+    this.near = configuration ?? this.near;
   }
 
   /** Off a joint move the tool is led, and the arm arrives in the posture nearest to the one before. */
@@ -306,23 +310,23 @@ export class ProgramWriter extends BlockStepWriter {
   }
 
   /** The posture in as few decimals as still lead to it. */
-  private nearest(target: Target, posture: readonly number[]): string {
+  private nearest(target: Target, configuration: readonly number[]): string {
     const { place, robot } = this;
     const baseFromFlange = flangeOfTcp(
       place.worldFromBase,
       compose(place.worldFromBase, place.tip(target)),
       place.tool(target.tool),
     );
-    const found = new Float64Array(posture.length);
+    const found = new Float64Array(configuration.length);
     for (const decimals of [1, 2, 3, 4, 5]) {
-      const near = posture.map(angle => Number(angle.toFixed(decimals)));
+      const near = configuration.map(angle => Number(angle.toFixed(decimals)));
       if (
         nearestSolution(robot, baseFromFlange, near, found) &&
-        found.every((angle, i) => Math.abs(angle - posture[i]!) < 1e-3)
+        found.every((angle, i) => Math.abs(angle - configuration[i]!) < 1e-3)
       )
         return listText(near);
     }
-    return listText(posture);
+    return listText(configuration);
   }
 
   private goal(target: Target): string {
@@ -332,15 +336,15 @@ export class ProgramWriter extends BlockStepWriter {
   }
 
   /** A pose alone is reached in the posture nearest to where the arm is; a branch that was taught is asked for by its angles. */
-  private jointGoal(target: Target, posture: readonly number[] | undefined): string {
+  private jointGoal(target: Target, configuration: readonly number[] | undefined): string {
     if (
       "q" in target ||
       target.branch === undefined ||
-      posture === undefined ||
-      branchOf(this.robot, posture) === undefined
+      configuration === undefined ||
+      branchOf(this.robot, configuration) === undefined
     )
       return this.goal(target);
-    return `get_inverse_kin(${this.goal(target)}, ${this.nearest(target, posture)})`;
+    return `get_inverse_kin(${this.goal(target)}, ${this.nearest(target, configuration)})`;
   }
 
   private pace({ id, name, path, speed }: MoveStep): string {
@@ -348,7 +352,7 @@ export class ProgramWriter extends BlockStepWriter {
     const full_mps = this.robot.maxTcpSpeed_mps;
     if ("time_s" in speed) {
       if (path === "circ")
-        throw new CannotSay(
+        throw new UnsupportedStep(
           id,
           `${called({ id, ...(name === undefined ? {} : { name }) })} is an arc of given duration; movec takes a speed.`,
           "Give the arc a speed.",
@@ -371,7 +375,7 @@ const fine = (value: number): string => {
   return text === "-0" ? "0" : text;
 };
 
-interface Door {
+interface Route {
   readonly name: string;
   readonly number: number;
   readonly isInput: boolean;
@@ -379,7 +383,7 @@ interface Door {
 }
 
 /** Which function reads or writes a line, and under which number. */
-function doorOf({ kind }: SignalLine, address: number, step: Step, signal: string): Door {
+function routeOf({ kind }: SignalLine, address: number, step: Step, signal: string): Route {
   const isInput = kind.endsWith("in");
   const isDigital = kind.startsWith("digital");
   const { standard, configurable, tool } = DIGITAL_LINES;
@@ -396,8 +400,8 @@ function doorOf({ kind }: SignalLine, address: number, step: Step, signal: strin
   throw noLine(address, step, signal);
 }
 
-const noLine = (address: number, step: Step, signal: string): CannotSay =>
-  new CannotSay(
+const noLine = (address: number, step: Step, signal: string): UnsupportedStep =>
+  new UnsupportedStep(
     step.id,
     `${called(step)} uses the line ${signal} with the number ${address}; the controller has digital lines 0 to 17, analogue outputs 0 to 1 and analogue inputs 0 to 3.`,
     "Give the line a number of the controller; 16 and 17 are digital lines at the tool, 2 and 3 analogue inputs there.",

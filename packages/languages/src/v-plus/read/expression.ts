@@ -1,4 +1,4 @@
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import type { Cursor } from "./cursor.ts";
 import type { Expression, Variable } from "./syntax.ts";
 

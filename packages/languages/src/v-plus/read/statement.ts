@@ -1,4 +1,4 @@
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import type { Cursor } from "./cursor.ts";
 import { checkName, readExpression, readVariable } from "./expression.ts";
 import type { ConfigWord, Expression, Statement } from "./syntax.ts";

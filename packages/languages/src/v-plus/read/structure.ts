@@ -18,7 +18,7 @@ import {
 import { proveText } from "../../prove.ts";
 import { interpretVPlus } from "../interpret.ts";
 import { fromTrans, toPose } from "../run/transform.ts";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import { outlineOf, type Node, type Pattern, type Structure } from "./outline.ts";
 
 type Structured =

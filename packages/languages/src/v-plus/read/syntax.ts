@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import type { JumpInstruction } from "../../text/index.ts";
+import type { JumpInstruction } from "../../parser/index.ts";
 
 /** The sorts of names: `a` a real or a transformation, `$a` a string, `#a` a precision point (joint values). */
 export type Expression = TextPlace &

@@ -8,10 +8,10 @@ import {
   type Step,
   type TextPlace,
 } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import type { Expression, Instruction, Routine, Source, Statement } from "../read/syntax.ts";
 import type { JointConvention } from "../robots.ts";
-import { ControllerState, type Met } from "./state.ts";
+import { ControllerState, type DeclaredContext } from "./state.ts";
 import { fromTrans, times, type Transform } from "./transform.ts";
 import { evaluate, keyOf, location, number, signalName, transform, type Precision, type Value } from "./values.ts";
 
@@ -45,7 +45,7 @@ export class Machine {
     robot: Robot,
     convention: JointConvention,
     worldFromBase: Pose<"world", "base">,
-    met: Met,
+    met: DeclaredContext,
     signals: Signals = new SignalTable(),
   ) {
     this.source = source;

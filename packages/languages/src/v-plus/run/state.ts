@@ -15,7 +15,7 @@ import {
   type Target,
   type TextPlace,
 } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import type { ConfigWord } from "../read/syntax.ts";
 import type { JointConvention } from "../robots.ts";
 import {
@@ -46,7 +46,7 @@ const CONFIG: Readonly<Record<ConfigWord, Partial<Branch>>> = {
 export type Tools = Record<string, Pose<"flange", "tcp">>;
 export type Lines = Record<string, SignalLine>;
 /** What the text was found to refer to; grows while it runs. */
-export interface Met {
+export interface DeclaredContext {
   readonly tools: Tools;
   readonly lines: Lines;
 }
@@ -91,7 +91,7 @@ export class ControllerState implements Memory {
     robot: Robot,
     convention: JointConvention,
     worldFromBase: Pose<"world", "base">,
-    { tools, lines }: Met,
+    { tools, lines }: DeclaredContext,
     signals: Signals,
   ) {
     this.robot = robot;

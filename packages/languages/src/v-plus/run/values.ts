@@ -1,4 +1,4 @@
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import type { Expression, Variable } from "../read/syntax.ts";
 import { NULL_TRANSFORM, about, frameOf, fromTrans, inverted, shifted, times, type Transform } from "./transform.ts";
 

@@ -1,5 +1,5 @@
 import { degrees, millimetres, toVplusYpr, type JointLimits, type Pose, type Robot } from "@twincell/core";
-import { singleText } from "../../text/index.ts";
+import { singleText } from "../../parser/index.ts";
 import type { JointConvention } from "../robots.ts";
 
 /** TRANS(x,y,z,yaw,pitch,roll) in mm and degrees. */

@@ -1,4 +1,4 @@
-import { asciiText } from "../../text/index.ts";
+import { asciiText } from "../../parser/index.ts";
 
 const LENGTH = 15;
 /** Words of the language that a variable must not be called. */

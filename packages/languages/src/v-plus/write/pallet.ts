@@ -8,7 +8,7 @@ import {
   type Pose,
   type Vector3,
 } from "@twincell/core";
-import { singleText } from "../../text/index.ts";
+import { singleText } from "../../parser/index.ts";
 import { transText } from "./location.ts";
 import type { Place } from "./postures.ts";
 

@@ -27,9 +27,9 @@ export interface Place {
 }
 type PoseTarget = Extract<Target, { readonly pose: unknown }>;
 /** Joint angles by step id. */
-export type PostureMap = ReadonlyMap<string, ArrayLike<number>>;
-export type Postures =
-  | { readonly kind: "postures"; readonly q_rad: PostureMap }
+export type ConfigurationMap = ReadonlyMap<string, ArrayLike<number>>;
+export type Configurations =
+  | { readonly kind: "postures"; readonly q_rad: ConfigurationMap }
   | { readonly kind: "cannot"; readonly step: string; readonly sentence: string; readonly hint: string };
 
 export const toolOf = ({ tools }: Place, name: string): Pose<"flange", "tcp"> =>
@@ -45,7 +45,7 @@ export function worldFromTarget({ frames }: Place, { pose, frame }: PoseTarget):
  * posture for all of them, so each must be reached in it. Stops at the first point that cannot be reached or lies outside
  * the limits.
  */
-export function posturesOf(program: Program, place: Place): Postures {
+export function configurationsOf(program: Program, place: Place): Configurations {
   const q_rad = new Map<string, ArrayLike<number>>();
   let near: ArrayLike<number> = place.robot.home_rad;
   // Routines that nobody calls are written all the same.
@@ -65,20 +65,20 @@ export function posturesOf(program: Program, place: Place): Postures {
         near = known;
         continue;
       }
-      const posture = postureOf(
+      const configuration = postureOf(
         step,
         place,
         known ?? near,
         known === undefined ? undefined : branchOf(place.robot, known),
       );
-      if (posture.kind === "cannot")
+      if (configuration.kind === "cannot")
         return visits.length === 0
-          ? posture
+          ? configuration
           : {
-              ...posture,
-              sentence: `Place ${visits.map(({ number, of }) => `${number} of ${of}`).join(", ")}: ${posture.sentence}`,
+              ...configuration,
+              sentence: `Place ${visits.map(({ number, of }) => `${number} of ${of}`).join(", ")}: ${configuration.sentence}`,
             };
-      near = posture.q_rad;
+      near = configuration.q_rad;
       if (known === undefined) q_rad.set(step.id, near);
     }
   }
@@ -95,7 +95,7 @@ function postureOf(
   place: Place,
   near: ArrayLike<number>,
   inBranch: Branch | undefined,
-): { readonly kind: "posture"; readonly q_rad: ArrayLike<number> } | Extract<Postures, { kind: "cannot" }> {
+): { readonly kind: "posture"; readonly q_rad: ArrayLike<number> } | Extract<Configurations, { kind: "cannot" }> {
   const { robot, worldFromBase } = place;
   const called = `Step ${name ?? id}`;
   let q_rad: ArrayLike<number>;

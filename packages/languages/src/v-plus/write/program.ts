@@ -14,12 +14,12 @@ import {
   type Step,
   type Target,
 } from "@twincell/core";
-import { asciiText, singleText } from "../../text/index.ts";
+import { asciiText, singleText } from "../../parser/index.ts";
 import type { JointConvention } from "../robots.ts";
 import { ppointText, transText } from "./location.ts";
 import { commentText, vPlusName } from "./names.ts";
 import { palletLines, type PalletNames } from "./pallet.ts";
-import { toolOf, worldFromTarget, type Place, type PostureMap } from "./postures.ts";
+import { toolOf, worldFromTarget, type Place, type ConfigurationMap } from "./postures.ts";
 import { TextWriter } from "./text-writer.ts";
 
 /** The words of the controller for a branch: shoulder, elbow, wrist. */
@@ -34,7 +34,7 @@ export class ProgramWriter {
   private readonly program: Program;
   private readonly place: Place;
   private readonly convention: JointConvention;
-  private readonly q_rad: PostureMap;
+  private readonly q_rad: ConfigurationMap;
   private readonly out = new TextWriter();
   private readonly names = new Set<string>();
   private readonly toolNames = new Map<string, string>();
@@ -51,7 +51,7 @@ export class ProgramWriter {
   private group = "";
   private indent = "  ";
 
-  constructor(program: Program, place: Place, convention: JointConvention, q_rad: PostureMap) {
+  constructor(program: Program, place: Place, convention: JointConvention, q_rad: ConfigurationMap) {
     this.q_rad = q_rad;
     this.program = program;
     this.place = place;

@@ -1,11 +1,11 @@
 import type { TextFault, TextPlace } from "@twincell/core";
-import { TextError, plainText } from "../../text/index.ts";
-import type { Block, Parameter, Routine, Statement } from "../../text/structured/index.ts";
+import { TextError, plainText } from "../../parser/index.ts";
+import type { Block, Parameter, Routine, Statement } from "../../parser/structured/index.ts";
 import { readCode } from "./code.ts";
 import { xmlParts } from "./xml.ts";
 
 /** A datum with the attributes of its values, by their keys. */
-export interface Datum extends TextPlace {
+export interface ConnectionParameter extends TextPlace {
   readonly name: string;
   readonly type: string;
   readonly values: readonly ReadonlyMap<string, string>[];
@@ -15,7 +15,7 @@ export interface Application {
   readonly main: Routine;
   /** By "call name". */
   readonly routines: ReadonlyMap<string, Routine>;
-  readonly data: readonly Datum[];
+  readonly data: readonly ConnectionParameter[];
   /** Variables of a program, by its name: each with the value that its type begins with. */
   readonly locals: ReadonlyMap<string, ReadonlyMap<string, string>>;
 }
@@ -33,7 +33,7 @@ interface OpenProgram extends TextPlace {
 /** Reads programs (.pgx) and data (.dtx), one behind the other. */
 export function readApplication(text: string): ApplicationAnswer {
   const programs: OpenProgram[] = [];
-  const data: Datum[] = [];
+  const data: ConnectionParameter[] = [];
   let program: OpenProgram | undefined;
   let values: Map<string, string>[] | undefined;
   let seen = false;

@@ -1,7 +1,7 @@
 import type { TextFault, TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 import {
-  ForgivingReader,
+  RecoveringReader,
   readExpression,
   type Argument,
   type Block,
@@ -10,7 +10,7 @@ import {
   type Lexicon,
   type Statement,
   type TokenCursor,
-} from "../../text/structured/index.ts";
+} from "../../parser/structured/index.ts";
 
 /** Stands for the two slashes of a remark, which are no single sign. */
 export const REMARK = "\u0002";
@@ -135,7 +135,7 @@ export function readCode(
   return new CodeReader(code, isMain).read();
 }
 
-class CodeReader extends ForgivingReader {
+class CodeReader extends RecoveringReader {
   private readonly isMain: boolean;
 
   constructor(code: string, isMain: boolean) {

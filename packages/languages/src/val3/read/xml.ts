@@ -1,5 +1,5 @@
 import type { TextPlace } from "@twincell/core";
-import { TextError } from "../../text/index.ts";
+import { TextError } from "../../parser/index.ts";
 
 /** A tag, or the text of a CDATA section with where it begins. */
 export type XmlPart =

@@ -11,7 +11,7 @@ import type {
   Target,
   TextPlace,
 } from "@twincell/core";
-import { TextError, type Surroundings } from "../../text/index.ts";
+import { TextError, type NetworkEmulator } from "../../parser/index.ts";
 import {
   BlockMachine,
   type Argument,
@@ -21,7 +21,7 @@ import {
   type Flow,
   type Routine,
   type WaitUntil,
-} from "../../text/structured/index.ts";
+} from "../../parser/structured/index.ts";
 import type { Application } from "../read/application.ts";
 import { ControllerArm } from "./arm.ts";
 import { NOTHING, fromSix, inverted, times, toPose, type Trsf } from "./trsf.ts";
@@ -71,7 +71,7 @@ const NO_LIMIT = 10_000;
 /** Executes VAL 3 statement by statement. */
 export class Machine extends BlockMachine<Value> {
   readonly arm: ControllerArm;
-  readonly surroundings: Surroundings;
+  readonly surroundings: NetworkEmulator;
   /** Frames that are places of a pallet that is being read. */
   readonly places = new Set<string>();
   private readonly application: Application;
@@ -87,14 +87,14 @@ export class Machine extends BlockMachine<Value> {
     changing: ReadonlySet<string>,
     robot: Robot,
     worldFromBase: Pose<"world", "base">,
-    surroundings: Surroundings,
+    emulator: NetworkEmulator,
     signals?: Signals,
   ) {
     super(application.routines);
     this.application = application;
     this.changing = changing;
     this.arm = new ControllerArm(robot, worldFromBase);
-    this.surroundings = surroundings;
+    this.surroundings = emulator;
     this.signals = signals;
     for (const datum of application.data)
       for (const [i, value] of valuesOf(datum).entries())

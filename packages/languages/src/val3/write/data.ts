@@ -1,5 +1,5 @@
 import { degrees, toVal3, type Pose } from "@twincell/core";
-import { Names, fixed } from "../../writing/index.ts";
+import { Names, fixed } from "../../emitter/index.ts";
 
 /** A tenth of a micrometre, a hundred-thousandth of a degree. */
 const MM = 4;
@@ -101,7 +101,7 @@ export const trsfAttributes = (pose: Pose): string => attributes(sixOf(pose).map
 export const jointAttributes = (q_rad: ArrayLike<number>): string =>
   attributes(Array.from(q_rad, (q, i): [string, string] => [`j${i + 1}`, fixed(degrees(q), DEG)]));
 
-interface Datum {
+interface ConnectionParameter {
   readonly name: string;
   readonly type: string;
   readonly value: string;
@@ -111,13 +111,13 @@ interface Datum {
 /** The data of an application, in the order in which the program first needs them. */
 export class DataList {
   readonly names = new Names({ most: NAME_LENGTH, reserved: RESERVED, first: "n_", foldsCase: true });
-  private readonly data = new Map<string, Datum>();
+  private readonly data = new Map<string, ConnectionParameter>();
 
   add(name: string, type: string, value: string, step: string): string {
     if (!this.data.has(name)) this.data.set(name, { name, type, value, step });
     return name;
   }
-  get all(): readonly Datum[] {
+  get all(): readonly ConnectionParameter[] {
     return [...this.data.values()];
   }
 }

@@ -14,17 +14,17 @@ import {
   type Target,
   type Vector3,
 } from "@twincell/core";
-import { asciiText } from "../../text/index.ts";
+import { asciiText } from "../../parser/index.ts";
 import {
   BlockStepWriter,
   BlockWriter,
-  CannotSay,
+  UnsupportedStep,
   called,
   fixed,
   patternOf,
   pitchTerm,
   remark,
-} from "../../writing/index.ts";
+} from "../../emitter/index.ts";
 import { GRIPPER, VALVE, configWords } from "../robots.ts";
 import { DataList, RESERVED, attributes, jointAttributes, sixOf, trsfAttributes } from "./data.ts";
 
@@ -176,7 +176,7 @@ export class ApplicationWriter extends BlockStepWriter {
       case "message": {
         const text = asciiText(step.text).replace(/"/g, "'");
         if (text.length > LONGEST_TEXT || text.includes("]]>"))
-          throw new CannotSay(
+          throw new UnsupportedStep(
             step.id,
             `${called(step)} says ${text.length} characters; VAL 3 takes ${LONGEST_TEXT} without "]]>".`,
             "Say it in other words.",
@@ -199,13 +199,13 @@ export class ApplicationWriter extends BlockStepWriter {
         return this.pallet(step, add);
       // Declared under `cannot`.
       case "payload":
-        throw new CannotSay(step.id, `${called(step)} says a load.`, "Set the load in the settings of the arm.");
+        throw new UnsupportedStep(step.id, `${called(step)} says a load.`, "Set the load in the settings of the arm.");
     }
   }
 
   private onlyInMain(step: Step, what: string): void {
     if (!this.inMain)
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} ${what} inside a routine; return of VAL 3 only leaves the routine.`,
         "Put the step into the program itself.",
@@ -287,7 +287,7 @@ export class ApplicationWriter extends BlockStepWriter {
     )
       return signal;
     if (step === undefined) return "";
-    throw new CannotSay(
+    throw new UnsupportedStep(
       step.id,
       `${called(step)} uses the line "${signal}", which is no name of VAL 3.`,
       "Lines have names of letters, digits and _, at most 15, a letter first.",
@@ -298,7 +298,7 @@ export class ApplicationWriter extends BlockStepWriter {
     const { signals } = this.place.program;
     const name = this.signalName(signal, step);
     if (!Object.hasOwn(signals, signal))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} uses the line ${signal}, which is not in the list of signals.`,
         "Add it to the list.",
@@ -312,13 +312,13 @@ export class ApplicationWriter extends BlockStepWriter {
     const { name, kind } = this.lineOf(step.signal, step);
     const { to } = step;
     if (kind.endsWith("in"))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} writes the line ${step.signal}, which is an input.`,
         "Choose an output.",
       );
     if (kind.startsWith("digital") !== (typeof to === "boolean"))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} writes ${String(to)} to the line ${step.signal}, which is ${kind}.`,
         "Choose a value of that line.",
@@ -329,7 +329,7 @@ export class ApplicationWriter extends BlockStepWriter {
   private condition(when: Condition, step: Step): string {
     const { name, kind } = this.lineOf(when.signal, step);
     if ("is" in when !== kind.startsWith("digital"))
-      throw new CannotSay(
+      throw new UnsupportedStep(
         step.id,
         `${called(step)} asks the line ${when.signal} for what it cannot answer.`,
         "Ask a digital line whether it is on, an analogue one for a limit.",
@@ -353,20 +353,20 @@ export class ApplicationWriter extends BlockStepWriter {
     const { target, path, id } = step;
     const isAngles = path === "ptp" && "q" in target;
     const tool = target.tool ?? (isAngles ? (this.tool ?? "flange") : "flange");
-    const posture = this.place.posture(step, isAngles ? target : this.reached(target), this.near);
+    const configuration = this.place.posture(step, isAngles ? target : this.reached(target), this.near);
     const frame = "q" in target ? "world" : target.frame;
-    this.near = posture ?? this.near;
+    this.near = configuration ?? this.near;
     this.tool = tool;
     this.moving = true;
     const rest = `${this.toolName(tool, id)},${this.description(step, next)}`;
     if (isAngles)
       return add(`movej(${this.data.add(this.pointName(step, ""), "jointRx", jointAttributes(target.q), id)},${rest})`);
-    const goal = this.point(step, target, frame, posture, "");
+    const goal = this.point(step, target, frame, configuration, "");
     const word = path === "ptp" ? "movej" : path === "lin" ? "movel" : "movec";
     if (path !== "circ") return add(`${word}(${goal},${rest})`);
     if (step.via === undefined)
-      throw new CannotSay(id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
-    add(`${word}(${this.point(step, step.via, frame, posture, "_via")},${goal},${rest})`);
+      throw new UnsupportedStep(id, `${called(step)} has no point to pass through.`, "Teach the point on the arc.");
+    add(`${word}(${this.point(step, step.via, frame, configuration, "_via")},${goal},${rest})`);
   }
 
   private reached(target: Target): Target {
@@ -384,7 +384,7 @@ export class ApplicationWriter extends BlockStepWriter {
     step: MoveStep,
     target: Target,
     frame: string,
-    posture: readonly number[] | undefined,
+    configuration: readonly number[] | undefined,
     ending: string,
   ): string {
     const inFrame =
@@ -402,7 +402,7 @@ export class ApplicationWriter extends BlockStepWriter {
             this.place.tip(target),
           );
     const [shoulder, elbow, wrist] = configWords(
-      posture === undefined ? undefined : branchOf(this.place.robot, posture),
+      configuration === undefined ? undefined : branchOf(this.place.robot, configuration),
     );
     const father = frame === "world" ? "world" : this.frame(frame, step.id);
     return this.data.add(

@@ -2,7 +2,7 @@ import type { FormLoft } from "../../shapes/form.ts";
 
 /** Shapes of the links of abb_crb15000_5_95 [mm]: fitted by scripts/fit-shapes.ts to the outer sizes of the robot's published meshes. */
 // biome-ignore format: table of numbers
-export const CASTINGS: readonly (readonly FormLoft[])[] = [
+export const LINK_PROFILES: readonly (readonly FormLoft[])[] = [
   [
     { along: "x", ends: [5, 0], rings: [[-124, -50, 13, 8, 35, 9, 14, 14, 12], [-98, -50, 13, 8, 33, 13, 13, 13, 13],
       [-96, -14, 13, 8, 33, 13, 13, 13, 13], [-90, -14, 15, 6, 35, 6, 9, 9, 9], [-88, -20, 21, 0, 39, 6, 9, 9, 9],

@@ -2,7 +2,7 @@ import type { FormLoft } from "../../shapes/form.ts";
 
 /** Shapes of the links of abb_irb120 [mm]: fitted by scripts/fit-shapes.ts to the outer sizes of the robot's published meshes. */
 // biome-ignore format: table of numbers
-export const CASTINGS: readonly (readonly FormLoft[])[] = [
+export const LINK_PROFILES: readonly (readonly FormLoft[])[] = [
   [
     { along: "y", ends: [5, 5], rings: [[-62, 14, 20, -181, -127, 2, 2, 2, 2], [-59, 14, 20, -195, -127, 2, 2, 2, 2],
       [-53, 12, 20, -195, -127, 3, 3, 3, 3], [-51, 4, 20, -195, -127, 6, 6, 6, 6],

@@ -2,7 +2,7 @@ import type { FormLoft } from "../../shapes/form.ts";
 
 /** Shapes of the links of fanuc_lrmate200id [mm]: fitted by scripts/fit-shapes.ts to the outer sizes of the robot's published meshes. */
 // biome-ignore format: table of numbers
-export const CASTINGS: readonly (readonly FormLoft[])[] = [
+export const LINK_PROFILES: readonly (readonly FormLoft[])[] = [
   [
     { along: "y", ends: [5, 5], rings: [[-94, 0, 31, -91, -77, 6, 7, 6, 6], [-82, 0, 89, -99, -77, 9, 10, 6, 6],
       [-78, 0, 96, -99, -77, 9, 10, 6, 6], [-62, 0, 96, -105, -77, 13, 6, 6, 6], [62, 0, 96, -105, -77, 12, 6, 6, 6],

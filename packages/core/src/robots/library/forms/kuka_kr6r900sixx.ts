@@ -2,7 +2,7 @@ import type { FormLoft } from "../../shapes/form.ts";
 
 /** Shapes of the links of kuka_kr6r900sixx [mm]: fitted by scripts/fit-shapes.ts to the outer sizes of the robot's published meshes. */
 // biome-ignore format: table of numbers
-export const CASTINGS: readonly (readonly FormLoft[])[] = [
+export const LINK_PROFILES: readonly (readonly FormLoft[])[] = [
   [
     { along: "z", ends: [5, 5], rings: [[0, -102, -83, -101, 100, 9, 6, 6, 9],
       [21, -107, -83, -101, 100, 10, 6, 6, 10], [23, -107, -83, -73, 72, 10, 6, 6, 10],

@@ -2,7 +2,7 @@ import type { FormLoft } from "../../shapes/form.ts";
 
 /** Shapes of the links of kuka_lbr_iiwa_14_r820 [mm]: fitted by scripts/fit-shapes.ts to the outer sizes of the robot's published meshes. */
 // biome-ignore format: table of numbers
-export const CASTINGS: readonly (readonly FormLoft[])[] = [
+export const LINK_PROFILES: readonly (readonly FormLoft[])[] = [
   [
     { along: "y", ends: [5, 5], rings: [[-95, 4, 5, -84, -80, 2, 2, 2, 2], [-94, 4, 5, -84, -80, 2, 2, 2, 2],
       [-88, 0, 47, -94, -80, 6, 6, 6, 6], [-84, 0, 67, -98, -80, 6, 8, 6, 6], [-64, 0, 145, -100, -80, 6, 8, 6, 6],

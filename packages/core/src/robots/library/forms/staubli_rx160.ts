@@ -2,7 +2,7 @@ import type { FormLoft } from "../../shapes/form.ts";
 
 /** Shapes of the links of staubli_rx160 [mm]: fitted by scripts/fit-shapes.ts to the outer sizes of the robot's published meshes. */
 // biome-ignore format: table of numbers
-export const CASTINGS: readonly (readonly FormLoft[])[] = [
+export const LINK_PROFILES: readonly (readonly FormLoft[])[] = [
   [
     { along: "y", ends: [5, 5], rings: [[-171, 1, 34, -108, -11, 7, 7, 7, 7], [-170, 1, 34, -108, -11, 7, 7, 7, 7],
       [-168, 1, 34, -142, -11, 7, 7, 7, 7], [-156, 1, 34, -142, -11, 7, 7, 7, 7],

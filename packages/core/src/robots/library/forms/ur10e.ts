@@ -2,7 +2,7 @@ import type { FormLoft } from "../../shapes/form.ts";
 
 /** Shapes of the links of ur10e [mm]: fitted by scripts/fit-shapes.ts to the outer sizes of the robot's published meshes. */
 // biome-ignore format: table of numbers
-export const CASTINGS: readonly (readonly FormLoft[])[] = [
+export const LINK_PROFILES: readonly (readonly FormLoft[])[] = [
   [
     { along: "z", ends: [5, 0], rings: [[0, -94, 95, -94, 95, 94, 94, 94, 94], [25, -94, 95, -94, 95, 95, 95, 95, 95],
       [71, -76, 77, -76, 77, 77, 77, 77, 77], [82, -76, 77, -76, 77, 77, 77, 77, 77]] },

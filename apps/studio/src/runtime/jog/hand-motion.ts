@@ -1,0 +1,83 @@
+import { CellCollider, HandGuard, linkSolids, type Contact, type HandStep } from "@twincell/core";
+import { cellGeometry, type CellDocument } from "@twincell/project";
+import { cellStore } from "../../stores/cell.ts";
+import { collideStore } from "../../stores/collide.ts";
+import { robotOf } from "../../stores/document.ts";
+import { sound } from "../../stores/sound.ts";
+import { words } from "../../messages/index.ts";
+import { interpolateTo } from "./joint-interpolation.ts";
+import { showJoints, theLive } from "../live.ts";
+
+interface Made {
+  readonly document: CellDocument;
+  readonly collider: CellCollider;
+  readonly guard: HandGuard;
+}
+let made: Made | null = null;
+let revision = -1;
+let next = new Float64Array(6);
+
+const same = (a: CellDocument, b: CellDocument): boolean =>
+  a.objects === b.objects &&
+  a.tools === b.tools &&
+  a.tool === b.tool &&
+  a.robot === b.robot &&
+  a.allowedPairs === b.allowedPairs &&
+  a.pairs === b.pairs;
+
+/** What guards the hand in the open cell; made when it is first needed, and again when solids change. */
+function guardNow(): Made | null {
+  const { document } = cellStore.getState();
+  const robot = robotOf(document);
+  if (!document || !robot) return null;
+  if (made && same(made.document, document)) return made;
+  const collider = new CellCollider(cellGeometry(document, linkSolids(robot)), robot.arm);
+  collider.allowContactsAt(robot.home_rad);
+  made = { document, collider, guard: new HandGuard(collider, robot.arm) };
+  revision = -1;
+  return made;
+}
+
+/** The two solids in contact at q; null where it is free. */
+export function contactAt(q_rad: ArrayLike<number>): Contact | null {
+  return guardNow()?.collider.check(q_rad)[0] ?? null;
+}
+
+/** A contact as a person reads it. */
+export function namesOf({ a, b }: Contact): readonly [string, string] {
+  const objects = cellStore.getState().document?.objects ?? [];
+  return [words.collide.solid(a, objects), words.collide.solid(b, objects)];
+}
+
+/**
+ * Moves the robot on screen by hand, from where it stands towards q, as the chosen behaviour wants it. Stopped, it goes back to the
+ * last posture with room around it; the sentence says what was met.
+ */
+export function moveByHand(
+  q_rad: Float64Array,
+): { readonly kind: "moved" } | { readonly kind: "stopped"; readonly sentence: string } {
+  const { behaviour } = collideStore.getState();
+  if (behaviour === "alert" || behaviour === "refuse") {
+    showJoints(q_rad);
+    return { kind: "moved" };
+  }
+  const on = guardNow();
+  const live = theLive();
+  if (!on) return { kind: "moved" };
+  if (next.length !== live.q_rad.length) next = new Float64Array(live.q_rad.length);
+  // Somebody else moved it since: where it stands now is where it was safe.
+  if (live.revision !== revision) on.guard.begin(live.q_rad);
+  const answer: HandStep = on.guard.step(behaviour, live.q_rad, q_rad, next);
+  if (answer.kind !== "stopped") {
+    showJoints(next);
+    revision = theLive().revision;
+    return { kind: "moved" };
+  }
+  revision = live.revision;
+  const [a, b] = namesOf(answer.contact);
+  const robot = robotOf(on.document);
+  sound("limit");
+  if (behaviour !== "stop") return { kind: "stopped", sentence: words.collide.held(a, b) };
+  if (robot) interpolateTo(robot, answer.safe_rad.slice());
+  return { kind: "stopped", sentence: words.collide.back(a, b) };
+}

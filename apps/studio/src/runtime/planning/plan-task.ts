@@ -1,0 +1,66 @@
+import {
+  CellCollider,
+  learnPairs,
+  robotAndCell,
+  robotById,
+  escapeSelfCollision,
+  PathValidator,
+  detour,
+  type PathOptions,
+} from "@twincell/core";
+import type { FromPlanner, ToPlanner } from "../../workers/plan-messages.ts";
+
+/** Long enough for a crowded cell, short enough to be waited for. */
+const WITHIN_S = 20;
+const SEED = 1;
+const LEARN_SAMPLES = 2000;
+/** Room to keep on the way to a posture; less where the ends have less [m]. */
+const ROOMS_M = [0.01, 0] as const;
+const TELL_EVERY_S = 0.06;
+
+/** The body of the planning worker: pure but for the clock it is given. */
+export function planTask(
+  { id, task }: ToPlanner,
+  now_s: () => number,
+  tell: (message: FromPlanner) => void,
+): FromPlanner {
+  const robot = robotById(task.robot);
+  if (!robot) return { kind: "trouble", id, sentence: `The library has no robot called “${task.robot}”.` };
+  let told_s = now_s();
+  const options: PathOptions = {
+    seed: SEED,
+    now_s,
+    within_s: WITHIN_S,
+    onProgress: share => {
+      if (now_s() - told_s > TELL_EVERY_S) {
+        told_s = now_s();
+        tell({ kind: "progress", id, share });
+      }
+    },
+  };
+  switch (task.kind) {
+    case "way":
+      return {
+        kind: "way",
+        id,
+        answer: detour(task.program, task.step, robot, { ...options, cell: task.cell, margin_m: task.margin_m }),
+      };
+    case "learn":
+      return { kind: "learnt", id, matrix: learnPairs(task.cell, robot.arm, SEED, LEARN_SAMPLES, robot.home_rad) };
+    case "go": {
+      const collider = new CellCollider(task.cell, robot.arm);
+      const ways = ROOMS_M.map(
+        margin_m => () =>
+          escapeSelfCollision(
+            new PathValidator(collider, robot.arm, { margin_m, keepsMargin: robotAndCell }),
+            task.from_rad,
+            task.to_rad,
+            options,
+          ),
+      );
+      collider.allowContactsAt(robot.home_rad);
+      const roomy = ways[0]!();
+      return { kind: "go", id, answer: roomy.kind === "found" ? roomy : ways[1]!() };
+    }
+  }
+}

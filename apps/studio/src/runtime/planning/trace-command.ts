@@ -1,0 +1,150 @@
+import { freshStepIds, linkSolids, type MoveStep, type Program, type Robot, type Step } from "@twincell/core";
+import { cellGeometry } from "@twincell/project";
+import { cellStore } from "../../stores/cell.ts";
+import { flangeFromTcpOf, programOf, robotOf } from "../../stores/document.ts";
+import { notify } from "../../stores/notices.ts";
+import { addSteps } from "../../stores/program.ts";
+import { traceStore, type TraceOptions } from "../../stores/trace.ts";
+import { words } from "../../messages/index.ts";
+import type { FromTracer } from "../../workers/trace-messages.ts";
+import type { TracedPoint, TraceTask } from "./tracing.ts";
+
+/** Joint moves towards and away from the piece. */
+const APPROACH_RATIO = 0.3;
+/** Points on the edge are passed, not stopped at; the corner this cuts is far inside the path tolerance. */
+const PASS_M = 0.0002;
+
+let worker: Worker | null = null;
+let id = 0;
+
+/** Lays points along the chosen edges, away from the page, and adds them to the program as one undo step. */
+export function makeTrace(): void {
+  const { document } = cellStore.getState();
+  const robot = robotOf(document);
+  const program = programOf(document);
+  const { chosen, options } = traceStore.getState();
+  if (!document || !robot || !program || chosen.length === 0) return;
+  const last = program.steps.findLast((step): step is MoveStep => step.type === "move" && "q" in step.target);
+  const task: TraceTask = {
+    chosen,
+    options,
+    objects: document.objects,
+    robot: robot.id,
+    cell: cellGeometry(document, linkSolids(robot)),
+    flangeFromTcp: flangeFromTcpOf(document),
+    start_rad: last && "q" in last.target ? last.target.q : robot.home_rad,
+  };
+  worker ??= hired();
+  traceStore.setState({ working: true });
+  worker.postMessage({ id: ++id, task });
+}
+export function cancelTrace(): void {
+  worker?.terminate();
+  worker = null;
+  traceStore.setState({ working: false });
+}
+
+function hired(): Worker {
+  const fresh = new Worker(new URL("../../workers/trace.worker.ts", import.meta.url), { type: "module" });
+  fresh.addEventListener("message", ({ data }: MessageEvent<FromTracer>) => {
+    if (data.id !== id) return;
+    traceStore.setState({ working: false });
+    const { answer } = data;
+    const { document } = cellStore.getState();
+    const robot = robotOf(document);
+    if (answer.kind === "cannot") {
+      notify(
+        "bad",
+        answer.edge > 0 ? words.trace.cannot(answer.edge, answer.sentence) : answer.sentence,
+        words.trace.cannotHint,
+      );
+      return;
+    }
+    if (!document || !robot) return;
+    const { options } = traceStore.getState();
+    const points = answer.edges.reduce((sum, edge) => sum + edge.length, 0);
+    addTrace(answer.edges, options, robot, document.tool);
+    const result = { points, edges: answer.edges.length, inserted: answer.inserted, deviation_m: answer.deviation_m };
+    traceStore.setState({ chosen: [], hovered: null, last: result });
+    notify("done", words.trace.made(points, result.edges, result.inserted));
+  });
+  fresh.addEventListener("error", event => {
+    cancelTrace();
+    notify("bad", event.message || words.trace.stopped);
+  });
+  return fresh;
+}
+
+/** Home, then each edge as a group of its own, then home again. */
+export function addTrace(
+  edges: readonly (readonly TracedPoint[])[],
+  options: TraceOptions,
+  robot: Robot,
+  tool: string,
+): void {
+  addSteps(
+    words.undo.trace,
+    program => traceSteps(program, edges, options, robot, tool),
+    program => ({ ...program, groups: { ...program.groups, ...traceGroups(program, edges, options) } }),
+  );
+}
+
+const groupId = (program: Program, edge: number): string =>
+  `edge-${Object.keys(program.groups).filter(name => name.startsWith("edge-")).length + edge + 1}`;
+
+function traceGroups(program: Program, edges: readonly unknown[], options: TraceOptions): Program["groups"] {
+  const before = Object.keys(program.groups).filter(name => name.startsWith("edge-")).length;
+  return Object.fromEntries(
+    edges.map((_, i) => [groupId(program, i), { name: words.trace.group(before + i + 1), recipe: { ...options } }]),
+  );
+}
+
+function traceSteps(
+  program: Program,
+  edges: readonly (readonly TracedPoint[])[],
+  options: TraceOptions,
+  robot: Robot,
+  tool: string,
+): readonly Step[] {
+  const count = edges.reduce((sum, edge) => sum + edge.length, 0);
+  const homes = program.steps.length === 0 ? 2 : 1;
+  const ids = freshStepIds(program, count + homes, "p");
+  const target = (q: readonly number[]): MoveStep["target"] => (tool === "flange" ? { q } : { q, tool });
+  let next = 0;
+  const home = (): Step => ({
+    id: ids[next++]!,
+    type: "move",
+    name: words.trace.home,
+    path: "ptp",
+    target: target(robot.home_rad),
+    speed: { ratio: APPROACH_RATIO },
+    blend_m: 0,
+  });
+  const steps: Step[] = homes === 2 ? [home()] : [];
+  for (const [i, edge] of edges.entries()) {
+    for (const [k, point] of edge.entries()) {
+      const arriving = k === 0;
+      const inner = point.role === "edge" && edge[k - 1]?.role === "edge" && edge[k + 1]?.role === "edge";
+      const path = arriving
+        ? "ptp"
+        : point.role === "edge" && edge[k - 1]?.role === "edge" && options.motion === "joint"
+          ? "ptp"
+          : "lin";
+      steps.push({
+        id: ids[next++]!,
+        type: "move",
+        group: groupId(program, i),
+        path,
+        target: target(point.q),
+        speed: arriving ? { ratio: APPROACH_RATIO } : { mps: options.speed_mps },
+        blend_m: inner ? PASS_M : 0,
+        ...(point.role === "lead-in"
+          ? { name: words.trace.approach }
+          : point.role === "lead-out"
+            ? { name: words.trace.retreat }
+            : {}),
+      });
+    }
+  }
+  return [...steps, home()];
+}

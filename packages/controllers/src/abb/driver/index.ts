@@ -1,2 +1,0 @@
-export { abbEgmFace, type AbbEgmFaceOptions } from "./egm-face.ts";
-export { abbFace, type AbbFaceOptions } from "./face.ts";

@@ -1,0 +1,372 @@
+import {
+  unrolled,
+  type CommandOutcome,
+  type Dialect,
+  type Pose,
+  type Program,
+  type Refusal,
+  type Robot,
+  type Scheduler,
+  type Signals,
+  type Step,
+} from "@twincell/core";
+import { createRealController, type DriverKind, type ControllerData, type PortNumbers } from "../driver/index.ts";
+import { memoryNetwork, type Network } from "../transport/index.ts";
+import { withLines } from "../runner/index.ts";
+import type { SharedCell } from "../cell/index.ts";
+import { clearOf, type Commander } from "../guard/index.ts";
+import { LookAhead, pathBlocked } from "../twin/index.ts";
+import { DONE, refused } from "../outcomes.ts";
+import { prepareJob, withLinks, type CellDefinition, type PrepareJob } from "./prepare-job.ts";
+import { openVirtualPendant, type VirtualPendant, type VirtualPendantOpened } from "./virtual-pendant.ts";
+import { createRobotConnection, type PreparedRun, type RobotConnection, type RobotJob } from "./connection.ts";
+import { movedMeanwhile, stoppedMeanwhile } from "./words.ts";
+
+/** A cell that was read from a document, or why it was not. */
+export type CellRead =
+  | { readonly kind: "cell"; readonly cell: CellDefinition }
+  | { readonly kind: "refused"; readonly why: Refusal };
+
+export interface OpenOptions {
+  readonly id: string;
+  readonly brand: DriverKind;
+  readonly robot: Robot;
+  readonly scheduler: Scheduler;
+  /** The language its controllers run. */
+  readonly dialect: Dialect;
+  readonly name?: string;
+  readonly worldFromBase?: Pose<"world", "base">;
+  /** Where the controller is. Left out, a virtual one is started beside its driver, in memory. */
+  readonly at?: {
+    readonly network: Network;
+    readonly host: string;
+    readonly ports?: PortNumbers;
+    readonly data?: ControllerData;
+  };
+  /** The cell it shares with other robots, and where it stands there; `worldFromBase` is where its programs take it to stand. */
+  readonly shared?: { readonly cell: SharedCell; readonly stand: Pose<"world", "base"> };
+  /** The document of the cell it works in: its objects and tool are what its guard keeps it from. */
+  readonly cell?: unknown;
+  /** Reads such a document for this robot. An app that gives none knows no cells, and one that is given is refused. */
+  readonly readCell?: (document: unknown, robot: Robot, worldFromBase?: Pose<"world", "base">) => CellRead;
+  readonly deadMan?: boolean;
+  readonly heartbeat_s?: number;
+  /** Opened to watch: whoever moves the robot is left alone, and from here it is not commanded. */
+  readonly watching?: boolean;
+  /** Who lays programs out; here and at once when left out, which keeps every link of this thread waiting. */
+  readonly layOut?: PrepareJob;
+}
+
+/** A robot that turned no more than this meanwhile stands where its program was laid out from [rad]. */
+const STANDS_RAD = 1e-3;
+
+/** A station of a brand, and what a person can do at its cabinet where that is virtual. */
+export interface VendorConnection extends RobotConnection {
+  /** What is said of it. */
+  readonly words: {
+    readonly id: string;
+    readonly name: string;
+    readonly brand: string;
+    readonly robot: string;
+    readonly virtual: boolean;
+    readonly watchdog: string;
+  };
+  /** null where a person stands before a real one. */
+  readonly pendant: VirtualPendant | null;
+  /** Pulls the plug of the wire to a virtual controller, or puts it back. */
+  readonly plug: ((pulled: boolean) => void) | null;
+  /** Runs a program from that seat, compared with its plan all the way; as text where wanted and taken. */
+  run(commander: Commander, program: Program, asText: boolean): Promise<CommandOutcome>;
+  /** Shows where it would take the robot, without a word to it; refused with the first thing in the way. */
+  preview(program: Program): Promise<CommandOutcome>;
+  /** The same in two, for a start together with others: what may be refused is told before anything moves. */
+  prepare(commander: Commander, program: Program, asText: boolean): Promise<PreparedRun>;
+  stop(emergency: boolean): void;
+  /** Another cell, or the same one changed. What moves is stopped if it is too near to something in it; one that cannot be read leaves the one before. */
+  setCell(document: unknown): CommandOutcome;
+  /** Only to watch it from now on, or to command it again. */
+  watch(commander: Commander, on: boolean): Promise<CommandOutcome>;
+}
+export type OpenedDriver =
+  | { readonly kind: "opened"; readonly station: VendorConnection }
+  | { readonly kind: "refused"; readonly why: Refusal };
+
+/** Opens a station of that brand. It is not connected yet. */
+export async function openRobotConnection(options: OpenOptions): Promise<OpenedDriver> {
+  const { brand, robot, scheduler, dialect, worldFromBase } = options;
+  if (robot.vendor !== brand.vendor) {
+    return {
+      kind: "refused",
+      why: {
+        code: "station.other-brand",
+        sentence: `${robot.name} is a robot of ${robot.vendor}; controllers of ${brand.name} drive those of ${brand.vendor}.`,
+        hint: "Choose a robot of that brand.",
+      },
+    };
+  }
+  if (brand.drives?.(robot) === false) {
+    return {
+      kind: "refused",
+      why: {
+        code: "station.other-brand",
+        sentence: `${robot.name} does not stand on a controller of ${brand.name}.`,
+        hint: `Choose another controller of ${brand.vendor}, or another robot.`,
+      },
+    };
+  }
+  const readCell = (document: unknown): CellRead =>
+    options.readCell?.(document, robot, worldFromBase) ?? { kind: "refused", why: readsNoCells };
+  let cell: CellDefinition | null = null;
+  if (options.cell !== undefined) {
+    const read = readCell(options.cell);
+    if (read.kind === "refused") return read;
+    ({ cell } = read);
+  }
+  const deaf = brand.cannot.find(({ row }) => row === "watch");
+  if (deaf && options.watching === true) return cannotWatch(brand.name, deaf.because);
+  const near = options.at === undefined ? memoryNetwork(scheduler) : null;
+  const network = options.at?.network ?? near!;
+  const host = options.at?.host ?? "127.0.0.1";
+  let opened: Extract<VirtualPendantOpened, { kind: "opened" }> | null = null;
+  if (near) {
+    const started = await openVirtualPendant({
+      brand,
+      robot,
+      scheduler,
+      network,
+      host,
+      interpret: text => dialect.interpret(text, robot, worldFromBase),
+    });
+    if (started.kind === "taken") {
+      near.close();
+      return { kind: "refused", why: { code: "station.taken", sentence: started.sentence, hint: "Try it again." } };
+    }
+    opened = started;
+  }
+  const virtual = opened?.virtual;
+  const virtualPendant = opened?.cabinet ?? null;
+  const ports = options.at?.ports ?? virtual?.ports;
+  const name = options.name ?? `${near ? "Virtual " : ""}${robot.name}`;
+  let isWatched = options.watching === true;
+  const adapter = brand.face({
+    robot,
+    scheduler,
+    network,
+    host,
+    ...(ports ? { ports } : {}),
+    ...(options.at?.data ? { data: options.at.data } : {}),
+    isWatched: () => isWatched,
+  });
+  const controller = createRealController({
+    face: adapter,
+    scheduler,
+    name,
+    ...(worldFromBase ? { worldFromBase } : {}),
+  });
+  const place = options.shared?.cell.join({
+    id: options.id,
+    name,
+    robot,
+    worldFromBase: options.shared.stand,
+    ...(virtual ? { brakingTime_s: virtual.brakingTime_s } : {}),
+  });
+  const station = createRobotConnection({
+    controller,
+    scheduler,
+    name,
+    silence_s: () => adapter.stale_s,
+    ...(place ? { place } : {}),
+    ...(options.watching === undefined ? {} : { watching: options.watching }),
+    ...(worldFromBase ? { worldFromBase } : {}),
+    ...(virtual ? { brakingTime_s: virtual.brakingTime_s } : {}),
+    ...(options.heartbeat_s === undefined ? {} : { heartbeat_s: options.heartbeat_s }),
+    deadMan: options.deadMan ?? near === null,
+  });
+  function keepClearOf(definition: CellDefinition): void {
+    cell = definition;
+    const { isSafe, contactsAt } = clearOf(withLinks(definition, robot), robot);
+    const { flangeFromGrip } = definition;
+    station.guard.setCell({
+      isSafe,
+      contactsAt,
+      ...(flangeFromGrip ? { flangeFromTcp: flangeFromGrip as Pose as Pose<"flange", "tcp"> } : {}),
+    });
+  }
+  if (cell) keepClearOf(cell);
+  /** The program with its plan from where the robot stands, what the check finds on it, and its text; or why it is not sent. */
+  async function jobOf(
+    program: Program,
+    asText: boolean,
+  ): Promise<
+    | { readonly kind: "job"; readonly job: RobotJob; readonly stuck: Refusal | null }
+    | { readonly kind: "refused"; readonly why: Refusal }
+  > {
+    const start_rad = controller.jointAngles().slice();
+    const laid = await (options.layOut ?? (question => Promise.resolve(prepareJob(question))))({
+      program,
+      robot,
+      start_rad,
+      ...(worldFromBase ? { worldFromBase } : {}),
+      ...(cell ? { cell } : {}),
+      ...(asText && controller.runText ? { dialect } : {}),
+    });
+    if (laid.unwritten) return { kind: "refused", why: laid.unwritten };
+    if (controller.jointAngles().some((q, i) => Math.abs(q - start_rad[i]!) > STANDS_RAD))
+      return { kind: "refused", why: movedMeanwhile(name) };
+    const job: RobotJob = {
+      program,
+      steps: () => atTerminals(program, brand, controller.signals),
+      findings: laid.findings,
+      ...(laid.plan ? { plan: laid.plan } : {}),
+      ...(laid.files ? { files: laid.files } : {}),
+    };
+    return { kind: "job", job, stuck: laid.stuck };
+  }
+  /** Stops that were asked for: a program that is still being planned then does not begin after it. */
+  let stops = 0;
+  return {
+    kind: "opened",
+    station: {
+      ...station,
+      words: {
+        id: options.id,
+        name,
+        brand: brand.id,
+        robot: robot.id,
+        virtual: virtualPendant !== null,
+        watchdog:
+          adapter.watchdog.kind === "robot"
+            ? `The robot stops by itself within ${Math.round(adapter.watchdog.within_s * 1000)} ms.`
+            : `The robot does not stop by itself: ${adapter.watchdog.because}`,
+      },
+      pendant: virtualPendant,
+      plug:
+        virtualPendant &&
+        (pulled => {
+          void virtualPendant.act("", { do: "trouble", unplugged: pulled });
+        }),
+      stop(emergency) {
+        stops++;
+        station.guard.stop(emergency);
+      },
+      setCell(document) {
+        const read = readCell(document);
+        if (read.kind === "refused") return read;
+        keepClearOf(read.cell);
+        return DONE;
+      },
+      async watch(commander, on) {
+        const { state } = station.guard;
+        if (on === state.watching) return DONE;
+        if (deaf && on) return cannotWatch(brand.name, deaf.because);
+        if (on) {
+          const turned = commander.watch(true);
+          if (turned.kind !== "done") return turned;
+        }
+        isWatched = on;
+        const rejoined = await rejoin(station);
+        return on ? rejoined : rejoined.kind === "done" ? commander.watch(false) : rejoined;
+      },
+      async run(commander, program, asText) {
+        const before = stops;
+        const answer = await jobOf(program, asText);
+        if (answer.kind === "refused") return answer;
+        if (stops !== before) return refused(stoppedMeanwhile(name));
+        const { job } = answer;
+        const blocked =
+          job.plan &&
+          new LookAhead({
+            name,
+            plan: job.plan,
+            findings: job.findings ?? [],
+            place: place ?? null,
+            joints: robot.arm.joints.length,
+          }).preview().blocked;
+        return blocked ? refused(pathBlocked(blocked)) : station.carryOut(commander, job);
+      },
+      async preview(program) {
+        const answer = await jobOf(program, false);
+        if (answer.kind === "refused") return answer;
+        const {
+          job: { plan, findings = [] },
+          stuck,
+        } = answer;
+        if (!plan) return refused(stuck!);
+        const { blocked, told } = station.ahead.preview(plan, findings);
+        const first = blocked ?? told;
+        return first
+          ? refused({
+              ...pathBlocked(first),
+              hint: blocked
+                ? "It would not be sent. Clear the way, or change the program."
+                : "It would be sent all the same; this is only told.",
+            })
+          : DONE;
+      },
+      async prepare(commander, program, asText) {
+        const answer = await jobOf(program, asText);
+        if (answer.kind === "refused") return answer;
+        return answer.stuck ? { kind: "refused", why: answer.stuck } : station.arm(commander, answer.job);
+      },
+      close(then) {
+        station.close(() => {
+          opened?.close();
+          near?.close();
+          then?.();
+        });
+      },
+    },
+  };
+}
+
+/** The steps of a program as the wire takes them: lines with a number by the controller's own names for those, decisions too. */
+function* atTerminals(program: Program, brand: DriverKind, signals?: Signals): Generator<Step> {
+  const terminal = (name: string): string => {
+    const line = program.signals[name];
+    return (line?.address === undefined ? undefined : brand.terminal?.({ ...line, address: line.address })) ?? name;
+  };
+  const read = signals && {
+    read: (name: string) => signals.read(terminal(name)),
+    write: (name: string, value: boolean | number) => {
+      signals.write(terminal(name), value);
+    },
+  };
+  for (const step of unrolled(program, read)) yield withLines(step, terminal);
+}
+
+const readsNoCells: Refusal = {
+  code: "station.no-cells",
+  sentence: "A cell was given, and nothing here reads cells.",
+  hint: "Open the robot without a cell, or use a program that reads them.",
+};
+const cannotWatch = (brand: string, because: string): { readonly kind: "refused"; readonly why: Refusal } => ({
+  kind: "refused",
+  why: {
+    code: "station.no-watching",
+    sentence: `Controllers of ${brand} cannot only be watched: ${because}`,
+    hint: "Open it to command; it moves only when it is told to.",
+  },
+});
+
+/** Closes an open link and opens it again; resolves with the first state that comes over it. */
+async function rejoin(station: RobotConnection): Promise<CommandOutcome> {
+  if (station.link?.state !== "open") return DONE;
+  // Whoever moves the robot is left alone: only the line is opened anew.
+  if ("disconnect" in station.controller) station.controller.disconnect();
+  const connected = await station.connect();
+  if (connected.kind !== "done") return connected;
+  return new Promise(resolve => {
+    const offs = [
+      station.onSample(() => {
+        end(DONE);
+      }),
+      station.onLink(({ state, sentence }) => {
+        if (state !== "open") end(refused({ code: "link.lost", sentence, hint: "Connect it, then try again." }));
+      }),
+    ];
+    const end = (outcome: CommandOutcome): void => {
+      for (const off of offs) off();
+      resolve(outcome);
+    };
+  });
+}

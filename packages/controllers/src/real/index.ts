@@ -1,5 +1,0 @@
-export * from "./brand.ts";
-export * from "./cannot.ts";
-export * from "./face.ts";
-export { Meter, type Metered } from "./meter.ts";
-export { createRealController, type RealOptions } from "./controller.ts";

@@ -1,0 +1,1 @@
+export { createCs7Adapter, type Cs7FaceOptions } from "./adapter.ts";

@@ -1,1 +1,0 @@
-export { createCs7Face, type Cs7FaceOptions } from "./face.ts";

@@ -1,0 +1,1 @@
+export { createStaubliAdapter, type StaubliAdapterOptions } from "./adapter.ts";

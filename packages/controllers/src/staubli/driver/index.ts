@@ -1,1 +1,0 @@
-export { createStaubliFace, type StaubliFaceOptions } from "./face.ts";

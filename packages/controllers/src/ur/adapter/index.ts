@@ -1,0 +1,1 @@
+export { createUrAdapter } from "./adapter.ts";

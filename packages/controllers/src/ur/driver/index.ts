@@ -1,1 +1,0 @@
-export { createUrFace } from "./face.ts";

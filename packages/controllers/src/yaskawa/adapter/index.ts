@@ -1,0 +1,2 @@
+export { yaskawaAdapter, type YaskawaAdapter, type YaskawaAdapterOptions } from "./adapter.ts";
+export type { FileClient, FileOutcome } from "./files.ts";

@@ -1,0 +1,28 @@
+import type { Robot } from "@twincell/core";
+import { blockEntryPoints, mainScript, type BlockReader } from "../structured/index.ts";
+import type { BasicMachine, RunContext } from "./machine.ts";
+import type { BasicAnswer } from "./reader.ts";
+
+/** A BASIC: how its text is read, and what executes it on a robot whose controller speaks it. */
+export interface BasicLanguage {
+  readonly name: string;
+  readonly speaks: (robot: Robot) => boolean;
+  readonly read: (text: string) => BasicAnswer;
+  readonly machine: (stage: RunContext) => BasicMachine<object>;
+}
+
+/** The two doors through which text of a BASIC comes in. */
+export const basicEntryPoints = ({ machine, ...language }: BasicLanguage): BlockReader =>
+  blockEntryPoints({
+    ...language,
+    script: (source, robot, worldFromBase) =>
+      mainScript(source, (emulator, signals) =>
+        machine({
+          source,
+          robot,
+          worldFromBase,
+          surroundings: emulator,
+          ...(signals === undefined ? {} : { signals }),
+        }),
+      ),
+  });

@@ -1,0 +1,163 @@
+import type { Dialect, LineShapes, Parsed, Pose, Robot, Skipped, TextFault } from "@twincell/core";
+import { checkedImport } from "../reading/checked-import.ts";
+import { dryRun } from "./rehearse.ts";
+import { withIdentity } from "./identity.ts";
+
+/** A text is read again without what was not understood at most this often; each time tells up to fifty places. */
+const MOST_READINGS = 400;
+
+/**
+ * The dialect with a reader that leaves out what it does not understand when it is asked to: line by line, a block with all
+ * that is in it, since nobody knows when it would run. Each place is told with the fault that stands there. The fault of a
+ * text that is no program at all, or that stays when its line is left out, remains.
+ */
+export function skippingDialect(given: Dialect, isPlaces?: (text: string) => boolean): Dialect {
+  const dialect = withIdentity(given);
+  const { lines } = dialect;
+  const checked = (text: string, robot: Robot, worldFromBase?: Pose<"world", "base">): Parsed =>
+    checkedImport({ ...dialect, ...(isPlaces === undefined ? {} : { isPlaces }) }, text, robot, worldFromBase);
+  if (lines === undefined) return { ...dialect, parse: checked };
+  return {
+    ...dialect,
+    parse(text, robot, worldFromBase, options) {
+      if (options?.skipUnknown !== true) return checked(text, robot, worldFromBase);
+      return without(
+        text,
+        lines,
+        shorter => dialect.parse(shorter, robot, worldFromBase),
+        shorter => checked(shorter, robot, worldFromBase),
+      );
+    },
+    interpret(text, robot, worldFromBase, options) {
+      if (options?.skipUnknown !== true) return dialect.interpret(text, robot, worldFromBase);
+      return without(text, lines, shorter => {
+        const answer = dialect.interpret(shorter, robot, worldFromBase);
+        if (answer.kind === "not-understood") return answer;
+        // Decisions may hide what is not understood: they are tried both ways.
+        const fault = dryRun({
+          [Symbol.iterator]: () =>
+            answer.run({
+              read: () => true,
+              write: () => {
+                /* nobody looks */
+              },
+            }),
+        });
+        return fault === undefined ? answer : { kind: "not-understood" as const, faults: [fault] };
+      });
+    },
+  };
+}
+
+type NotUnderstood = { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
+
+function without<A extends { readonly kind: string }>(
+  text: string,
+  shapes: LineShapes,
+  read: (text: string) => A | NotUnderstood,
+  confirm?: (text: string) => A | NotUnderstood,
+): (A & { readonly skipped: readonly Skipped[] }) | NotUnderstood {
+  const ends = text.match(/\r\n|\n|\r/g) ?? [];
+  const lines = text.split(/\r\n|\n|\r/);
+  const skipped: Skipped[] = [];
+  const gone = new Set<number>();
+  const blank = shapes.blank ?? (() => "");
+  let faults: readonly TextFault[] = [];
+  let first: readonly TextFault[] | undefined;
+  for (let reading = 0; reading < MOST_READINGS; reading++) {
+    const shorter = lines.map((line, i) => line + (ends[i] ?? "")).join("");
+    const understood = read(shorter);
+    // Where nothing stays there was no program.
+    if (first !== undefined && lines.every(line => line.trim() === ""))
+      return { kind: "not-understood", faults: first };
+    if (!isNotUnderstood(understood)) {
+      const answer = confirm === undefined ? understood : confirm(shorter);
+      return isNotUnderstood(answer) ? answer : { ...answer, skipped: skipped.toSorted((a, b) => a.line - b.line) };
+    }
+    ({ faults } = understood);
+    first ??= faults;
+    let isShorter = false;
+    for (const fault of faults) {
+      const at = fault.line - 1;
+      const line = lines[at];
+      if (line === undefined || gone.has(at) || line.trim() === "" || shapes.keeps.test(line)) continue;
+      // Where the end of a block is not understood, all of the block goes: nobody knows how often it runs.
+      const from = firstOf(lines, at, shapes);
+      const last = Math.max(at, lastOf(lines, from, shapes));
+      skipped.push(
+        told(
+          { ...fault, line: from + 1, column: from === at ? fault.column : 1 },
+          lines[from]!,
+          lines.slice(from, last + 1),
+          shapes,
+        ),
+      );
+      for (let i = from; i <= last; i++) {
+        lines[i] = blank(lines[i]!);
+        gone.add(i);
+      }
+      isShorter = true;
+      // A block that was not understood throws the ends of all that follows out of step: they are looked at again.
+      if (shapes.opens.test(line) || shapes.parts.test(line) || shapes.closes.test(line)) break;
+    }
+    if (!isShorter) break;
+  }
+  return { kind: "not-understood", faults };
+}
+
+const isNotUnderstood = (answer: { readonly kind: string }): answer is NotUnderstood =>
+  answer.kind === "not-understood";
+
+/** The line that opened what a line closes, or the line itself. */
+function firstOf(lines: readonly string[], at: number, { opens, closes, keeps }: LineShapes): number {
+  if (!closes.test(lines[at]!) || opens.test(lines[at]!)) return at;
+  for (let i = at - 1, depth = 1; i >= 0; i--) {
+    if (keeps.test(lines[i]!)) return at;
+    if (closes.test(lines[i]!)) depth++;
+    if (opens.test(lines[i]!) && --depth === 0) return i;
+  }
+  return at;
+}
+
+/** The last line that goes with a line: the end of a block, or where its next part begins. */
+function lastOf(lines: readonly string[], at: number, { opens, parts, closes, keeps }: LineShapes): number {
+  const isOpening = opens.test(lines[at]!);
+  const isPart = parts.test(lines[at]!);
+  if (!isOpening && !isPart) return at;
+  for (let i = at + 1, depth = 1; i < lines.length; i++) {
+    const line = lines[i]!;
+    if (keeps.test(line)) return at;
+    if (isPart && depth === 1 && (parts.test(line) || closes.test(line))) return i - 1;
+    if (opens.test(line)) depth++;
+    if (closes.test(line) && --depth === 0) return i;
+  }
+  return at;
+}
+
+function told(fault: TextFault, text: string, block: readonly string[], { motion, opens, parts }: LineShapes): Skipped {
+  const { line } = fault;
+  const lastLine = line + block.length - 1;
+  const moves = block.filter(each => motion.test(each)).length;
+  if (opens.test(text) || parts.test(text)) {
+    const which =
+      block.length > 1
+        ? `Lines ${line} to ${lastLine} are left out with all that they do`
+        : `The branch in line ${line} is left out`;
+    return {
+      ...fault,
+      what: "branch",
+      text,
+      lastLine,
+      sentence: `${which}${moves === 0 ? "" : `, ${moves === 1 ? "a motion" : `${moves} motions`} among it`}. ${fault.sentence}`,
+    };
+  }
+  if (moves > 0)
+    return {
+      ...fault,
+      what: "motion",
+      text,
+      lastLine,
+      sentence: `The motion in line ${line} is left out: the robot goes on to the next point from where it is. ${fault.sentence}`,
+    };
+  return { ...fault, what: "statement", text, lastLine, sentence: `Line ${line} is left out. ${fault.sentence}` };
+}
