@@ -1,7 +1,9 @@
 import { randomBytes, randomInt, timingSafeEqual } from "node:crypto";
 
 const COOKIE = "twincell_access";
+/** So many wrong codes, then nobody's code is looked at for a while: guessing a million takes weeks, and whoever mistyped waits a minute. */
 const TRIES = 20;
+const PAUSE_S = 60;
 
 export type Entry =
   | { readonly kind: "welcome" }
@@ -15,10 +17,12 @@ export interface AccessCode {
   enter(cookies: string | undefined, given: string | null): Entry;
 }
 
-export function accessCode(): AccessCode {
+/** @param now_s  seconds that never run backwards. */
+export function accessCode(now_s: () => number): AccessCode {
   const code = String(randomInt(0, 1_000_000)).padStart(6, "0");
   const token = randomBytes(24).toString("base64url");
   let wrong = 0;
+  let closedUntil_s = -Infinity;
   const same = (a: string, b: string) => a.length === b.length && timingSafeEqual(Buffer.from(a), Buffer.from(b));
   return {
     code,
@@ -29,12 +33,14 @@ export function accessCode(): AccessCode {
         .find(part => part.startsWith(`${COOKIE}=`))
         ?.slice(COOKIE.length + 1);
       if (carried !== undefined && same(carried, token)) return { kind: "welcome" };
-      if (wrong >= TRIES) return { kind: "too-many-tries" };
+      if (now_s() < closedUntil_s) return { kind: "too-many-tries" };
       if (given === null) return { kind: "ask" };
       if (same(given, code))
         return { kind: "welcome-with-cookie", cookie: `${COOKIE}=${token}; Path=/; HttpOnly; Secure; SameSite=Strict` };
-      wrong++;
-      return wrong >= TRIES ? { kind: "too-many-tries" } : { kind: "ask" };
+      if (++wrong < TRIES) return { kind: "ask" };
+      wrong = 0;
+      closedUntil_s = now_s() + PAUSE_S;
+      return { kind: "too-many-tries" };
     },
   };
 }

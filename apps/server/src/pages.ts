@@ -77,7 +77,7 @@ export function studioListener(
     if (access) {
       const entry = access.enter(request.headers.cookie, url.searchParams.get("code"));
       if (entry.kind === "too-many-tries") {
-        say(429, "Too many wrong codes. Start Twincell again for a new one.\n");
+        say(429, "Too many wrong codes. Wait a minute, then type it again.\n");
         return;
       }
       if (entry.kind === "ask") {

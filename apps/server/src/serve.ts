@@ -40,7 +40,7 @@ export interface Served {
 /** Serves the built studio on loopback, or on the local network when asked. Rejects when the port is taken. */
 export async function serve(options: ServeOptions): Promise<Served> {
   const addresses = options.lan ? lanAddresses() : [];
-  const access = options.lan ? accessCode() : null;
+  const access = options.lan ? accessCode(() => nodeScheduler.now_s()) : null;
   const hosts = new Set([...LOOPBACK, ...addresses]);
   const listener = studioListener(staticFiles(options.studio), hosts, access);
   const server = options.lan

@@ -304,8 +304,10 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
           : DONE;
       },
       async prepare(commander, program, asText) {
+        const before = stops;
         const answer = await jobOf(program, asText);
         if (answer.kind === "refused") return answer;
+        if (stops !== before) return { kind: "refused", why: stoppedMeanwhile(name) };
         return answer.stuck ? { kind: "refused", why: answer.stuck } : station.arm(commander, answer.job);
       },
       close(then) {

@@ -67,7 +67,7 @@ test("T-63 a robot that is moved while its program is planned elsewhere does not
   station.close();
 });
 
-test("T-10 a stop that comes while a program is planned elsewhere keeps it from beginning, and the next one begins", async () => {
+test("T-10 a stop that comes while a program is planned elsewhere keeps it from beginning, alone or with others, and the next one begins", async () => {
   const scheduler = manualScheduler();
   const ended = endedOn(scheduler);
   let go = (): void => {
@@ -99,6 +99,10 @@ test("T-10 a stop that comes while a program is planned elsewhere keeps it from 
   go();
   expect(await ended(running)).toMatchObject({ kind: "refused", why: { code: "station.stopped" } });
   expect(Array.from(seat.robot.jointAngles())).toEqual(before);
+  const preparing = station.prepare(seat, program, false);
+  station.stop(false);
+  go();
+  expect(await ended(preparing)).toMatchObject({ kind: "refused", why: { code: "station.stopped" } });
   const again = station.run(seat, program, false);
   go();
   expect(await ended(again)).toEqual({ kind: "done" });
