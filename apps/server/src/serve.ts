@@ -26,6 +26,10 @@ export interface ServeOptions {
   readonly lan?: boolean;
   /** Address to listen on; by default loopback, or every address with `lan`. */
   readonly host?: string;
+  /** For training: virtual controllers only. */
+  readonly training?: boolean;
+  /** The only addresses of controllers; left out: every address, or with `lan` this machine alone. */
+  readonly robots?: readonly string[];
   /** What the studio is told it speaks with. */
   readonly version?: string;
 }
@@ -51,7 +55,12 @@ export async function serve(options: ServeOptions): Promise<Served> {
     server.listen(options.port, options.host ?? (options.lan ? "0.0.0.0" : "127.0.0.1"), resolve);
   });
   const programs = prepareJobInWorker();
-  const stations = stationHost(nodeScheduler, options.version ?? "", programs.layOut);
+  // Whoever has the code may open controllers: on a network only those that whoever started the server named.
+  const robots = options.robots ?? (options.lan ? ["127.0.0.1", "localhost"] : undefined);
+  const stations = stationHost(nodeScheduler, options.version ?? "", programs.layOut, {
+    training: options.training,
+    robots,
+  });
   const recorder =
     options.data === undefined
       ? null

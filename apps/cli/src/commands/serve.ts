@@ -12,17 +12,21 @@ const studio = fileURLToPath(new URL("../../../studio/dist", import.meta.url));
 export const serveCommand: Command = {
   name: "serve",
   summary: "serve the studio on this machine, or on the local network with --lan",
-  usage: `twincell serve [--port P] [--data DIR] [--lan] [--open]
+  usage: `twincell serve [--port P] [--data DIR] [--lan] [--robots HOST,…] [--training] [--open]
 
   --port P     port to listen on (default ${DEFAULT_PORT}, or the next free one)
   --data DIR   where the server keeps what must survive it: its certificate, and the recordings of its stations
   --lan        also serve other machines: HTTPS, a QR code and an access code
+  --robots A,B the only addresses of real controllers; without it every address, with --lan none but this machine
+  --training   virtual controllers only: nobody reaches a real robot from here
   --open       open the address in a browser where there is one`,
   async run(args) {
     const options = given(args, {
       port: { type: "string" },
       data: { type: "string" },
       lan: { type: "boolean" },
+      robots: { type: "string" },
+      training: { type: "boolean" },
       open: { type: "boolean" },
     });
     if (options.positionals.length) throw new UseFault(`serve takes no argument "${options.positionals[0]}".`);
@@ -33,8 +37,20 @@ export const serveCommand: Command = {
       throw new UseFault("The studio is not built yet.", "Run npm run build, or npm start.");
 
     const data = options.text("data");
+    const robots = options
+      .text("robots")
+      ?.split(",")
+      .map(each => each.trim())
+      .filter(each => each !== "");
     const served = await listen(
-      { studio, port: port ?? DEFAULT_PORT, lan: options.flag("lan"), ...(data === undefined ? {} : { data }) },
+      {
+        studio,
+        port: port ?? DEFAULT_PORT,
+        lan: options.flag("lan"),
+        training: options.flag("training"),
+        ...(robots === undefined ? {} : { robots }),
+        ...(data === undefined ? {} : { data }),
+      },
       port === undefined,
     );
     process.stdout.write(`Twincell is at ${served.url}\n`);

@@ -29,12 +29,41 @@ const noRobot = (id: string): OpenedConnection =>
 /** Of the one who commands: without a sign of life for this long the robot is stopped (row X-41 with the watch's own period). */
 const HEARTBEAT_S = 0.08;
 
+/** Which controllers a server opens for whoever is in. */
+export interface ConnectionRules {
+  /** Virtual ones of its own alone: nobody reaches a real robot from here (row T-58). */
+  readonly training?: boolean | undefined;
+  /** The only addresses it connects to; every address when left out. */
+  readonly robots?: readonly string[] | undefined;
+}
+
+/** Why a controller at that address is not opened here, or null. */
+function addressRefusal({ training, robots }: ConnectionRules, host: string): Refusal | null {
+  if (training === true)
+    return {
+      code: "station.training",
+      sentence: "This server is for training: it opens virtual controllers only.",
+      hint: "For a real robot start it without --training.",
+    };
+  if (robots === undefined || robots.includes(host)) return null;
+  return {
+    code: "station.address",
+    sentence: `${host} is not among the addresses that this server may connect to.`,
+    hint: `Start it with --robots ${[...robots, host].join(",")}.`,
+  };
+}
+
 /**
  * Stations of this machine: drivers on the network, and virtual controllers beside them where no address is given.
  *
  * @param prepareJob  plans, checks and writes programs; where links run on real time, another thread does.
  */
-export function stationHost(scheduler: Scheduler, version: string, layOut?: PrepareJob): RobotServer {
+export function stationHost(
+  scheduler: Scheduler,
+  version: string,
+  layOut?: PrepareJob,
+  rules: ConnectionRules = {},
+): RobotServer {
   const network = nodeNetwork();
   const cell = createSharedCell();
   return createRobotServer({
@@ -66,6 +95,8 @@ export function stationHost(scheduler: Scheduler, version: string, layOut?: Prep
           hint: `There are: ${DRIVER_KINDS.map(({ id }) => id).join(", ")}, ${PLUG_IN}.`,
         });
       if (!robot) return noRobot(ask.robot);
+      const why = ask.address ? addressRefusal(rules, ask.address.host) : null;
+      if (why) return refused(why);
       return openRobotConnection({
         id: ask.station,
         brand,
