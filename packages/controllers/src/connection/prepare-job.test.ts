@@ -30,7 +30,7 @@ test("a program that cannot be written is told as such, with its plan; one whose
   expect(prepareJob(question)).toMatchObject({ files: null, unwritten: null, stuck: null, findings: [] });
 });
 
-test("T-63 a robot that is moved while its program is planned elsewhere does not begin it from where it is no more", async () => {
+test("a robot that is moved while its program is planned elsewhere does not begin it from where it is no more", async () => {
   const scheduler = manualScheduler();
   const ended = endedOn(scheduler);
   let go = (): void => {
