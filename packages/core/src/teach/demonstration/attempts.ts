@@ -5,10 +5,10 @@ import { demonstratedMotion } from "./motion.ts";
 
 /** What an attempt must keep to be accepted (row M-61); what is left out is not asked for. */
 export interface Acceptance {
-  readonly within_m?: number;
-  readonly within_s?: number;
+  readonly within_m?: number | undefined;
+  readonly within_s?: number | undefined;
   /** Times the expert's path length. */
-  readonly pathRatio?: number;
+  readonly pathRatio?: number | undefined;
 }
 
 export interface Attempt {

@@ -7,3 +7,5 @@ export * from "./filters.ts";
 export * from "./steps.ts";
 export * from "./attempts.ts";
 export * from "./on-pallet.ts";
+export * from "./hand-profile.ts";
+export * from "./raw-hand.ts";

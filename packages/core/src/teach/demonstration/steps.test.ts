@@ -50,7 +50,7 @@ function pickAndPlace(noise_m = 0, seed = 1): Demonstration {
   });
   return { times_s, worldFromTcp, closed };
 }
-const programOf = (demonstration: Demonstration): Program => ({
+const programOf = (demonstration: Demonstration, exactDurations = false): Program => ({
   ...emptyProgram(robot.id, "Shown"),
   steps: stepsOfDemonstration(demonstration, filterDemonstration(demonstration), {
     frame: "world",
@@ -58,6 +58,7 @@ const programOf = (demonstration: Demonstration): Program => ({
     tool: "flange",
     approach: { ratio: 0.3 },
     waitsFrom_s: Infinity,
+    exactDurations,
   }),
 });
 
@@ -68,13 +69,16 @@ describe("L-32 a demonstration becomes an editable program", () => {
   test("five straights with the hand's own time, and the grip closes and opens where the hand did", () => {
     const said = program.steps.map(step => (step.type === "move" ? step.path : step.type));
     expect(said).toEqual(["ptp", "lin", "gripper", "lin", "lin", "lin", "gripper", "lin"]);
-    const times = program.steps.flatMap(step =>
+    const times = programOf(demonstration, true).steps.flatMap(step =>
       step.type === "move" && "time_s" in step.speed ? [step.speed.time_s] : [],
     );
     // 0.15 m, 0.15 m, 0.4 m, 0.15 m, 0.15 m at 0.2 m/s, each with what belongs to the rests around it at most.
     [0.75, 0.75, 2, 0.75, 0.75].forEach((wanted_s, i) => {
       expect(Math.abs(times[i]! - wanted_s)).toBeLessThan(0.06);
     });
+    const speeds = program.steps.flatMap(step => (step.type === "move" && "mps" in step.speed ? [step.speed.mps] : []));
+    expect(speeds).toHaveLength(5);
+    for (const mps of speeds) expect(Math.abs(mps - 0.2)).toBeLessThan(0.01);
   });
 
   test("its planned path is the hand's within 3 mm", () => {

@@ -15,6 +15,8 @@ export interface DemonstratedSteps {
   readonly approach: { readonly ratio: number };
   /** Rests of the hand of at least this long become waits of the same length [s]; Infinity leaves them out. */
   readonly waitsFrom_s: number;
+  /** Straights take exactly as long as the hand took; otherwise they go at its mean speed, which every language can say. */
+  readonly exactDurations?: boolean;
   /** Ids begin with it. */
   readonly prefix?: string;
 }
@@ -25,7 +27,7 @@ const FASTEST_MPS = 1.5;
 
 /**
  * The steps of a filtered demonstration (row L-32): PTP to the first point, then with the hand's own timing: a straight is
- * one LIN that takes as long as the hand took, a curve a chain of splines at the hand's mean speed, a stop of at least
+ * one LIN and a curve a chain of splines at the hand's mean speed there, a stop of at least
  * `waitsFrom_s` a wait, and a change of the grip a gripper step.
  */
 export function stepsOfDemonstration(
@@ -59,16 +61,19 @@ export function stepsOfDemonstration(
   if (holds) steps.push({ id: id(), type: "gripper", closed: true });
   for (const part of filtered.parts) {
     const took_s = times_s[part.last]! - times_s[part.first]!;
-    if (part.kind === "straight") moveTo(poseAt(part.last), "lin", { time_s: took_s });
-    else if (part.kind === "curve") {
+    if (part.kind === "straight") {
+      const [from, to] = [poseAt(part.first), poseAt(part.last)];
+      const speed = handSpeed(distance(from.position, to.position), took_s);
+      moveTo(to, "lin", options.exactDurations ? { time_s: took_s } : speed);
+    } else if (part.kind === "curve") {
       const points = pointsOnBeziers(part.beziers, part.perCurve);
       const length_m = points.slice(1).reduce((sum, point, i) => sum + distance(points[i]!, point), 0);
-      const mps = Math.min(FASTEST_MPS, Math.max(SLOWEST_MPS, length_m / took_s));
+      const speed = handSpeed(length_m, took_s);
       const from = poseAt(part.first);
       const to = poseAt(part.last);
       points.slice(1).forEach((position, i) => {
         const turned = slerp(from.quaternion, to.quaternion, (i + 1) / (points.length - 1));
-        moveTo({ position, quaternion: turned }, "spline", { mps: Number(mps.toPrecision(3)) });
+        moveTo({ position, quaternion: turned }, "spline", speed);
       });
     } else {
       for (let i = part.first; i <= part.last; i++) {
@@ -81,6 +86,11 @@ export function stepsOfDemonstration(
   }
   return steps;
 }
+
+/** Mean speed of the hand, within what a robot can be told, to three digits. */
+const handSpeed = (length_m: number, took_s: number): { readonly mps: number } => ({
+  mps: Number(Math.min(FASTEST_MPS, Math.max(SLOWEST_MPS, length_m / took_s)).toPrecision(3)),
+});
 
 /** The stop that a sample belongs to: its mean pose is what is taught. */
 const stopAt = (parts: readonly FilteredPart[], i: number): Extract<FilteredPart, { kind: "stop" }> | undefined =>
