@@ -127,7 +127,8 @@ describe.each(brands)("a station of %s", brand => {
     const far = seen.map(({ plan_rad }) => plan_rad ?? 0);
     expect(seen.some(({ moving }) => moving)).toBe(true);
     expect(Math.max(...far)).toBeLessThan(Math.PI / 180);
-    expect(told.filter(({ type }) => type === "notice")).toEqual([]);
+    // Opened without a cell: that is said, and nothing else.
+    expect(told.flatMap(message => (message.type === "notice" ? [message.why.code] : []))).toEqual(["station.no-cell"]);
   }, 60_000);
 
   test("X-41 the plug is pulled: stopped within 100 ms of silence, and no motion after it before a person says so", async () => {
