@@ -16,6 +16,7 @@ import {
   seededRandom,
   stepsOfDemonstration,
   type Demonstration,
+  type Pallet,
   type Program,
   type Quaternion,
   type Vector3,
@@ -133,7 +134,7 @@ test("M-54 one shown pick-and-place is done at nine places by three corners, the
 });
 
 test("a program without one pick and one place is not repeated, and the sentence says why", () => {
-  const pallet = {
+  const pallet: Pallet = {
     frame: "world",
     origin: pose(PLACE, DOWN),
     rowEnd: PLACE,
@@ -142,7 +143,7 @@ test("a program without one pick and one place is not repeated, and the sentence
     columns: 1,
     layers: 1,
     layer_m: 0.1,
-  } as const;
+  };
   expect(repeatOnPallet(emptyProgram(robot.id), "table", pallet)).toEqual({
     kind: "refused",
     sentence: "One closing and then one opening of the gripper are needed: one pick and one place.",
