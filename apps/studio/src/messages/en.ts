@@ -595,6 +595,10 @@ export const en = {
     last: "Last trace",
     options: "Tool angle and tolerances",
     stopped: "The points could not be laid.",
+    unreached: (n: number, edges: number, edge: number, why: string) =>
+      `${n} of ${plural(edges, "edge")} cannot be followed as ${edges === 1 ? "it is" : "they are"}. Edge ${edge}: ${why}`,
+    unreachedHint:
+      "Its points are in the program, red; Check offers repairs. Or move the object or the robot: they follow.",
     cannot: (edge: number, why: string) => `Edge ${edge} cannot be traced. ${why}`,
     cannotHint: "Change the tool angle, move the object, or trace fewer edges.",
     leave: "Done tracing",
