@@ -125,6 +125,19 @@ describe.each(DRIVER_KINDS.map(brand => [brand.id, brand] as const))(
       station.close();
     });
 
+    test("T-64 the error of registration keeps the robot as much further from an object", async () => {
+      const farthest: number[] = [];
+      for (const placeError_m of [0, 0.12]) {
+        const cell = await bench(brand, robot => ({ ...empty(robot), objects: [post(robot, 0.7)], placeError_m }));
+        const { robot, scheduler, station, seat, ended } = cell;
+        expect(await ended(seat.robot.moveJoints(turned(robot, 1.4)))).toMatchObject({ kind: "stopped" });
+        await scheduler.elapse(6);
+        farthest.push(cell.farthest_rad);
+        station.close();
+      }
+      expect(farthest[1]!).toBeLessThan(farthest[0]! - 0.02);
+    });
+
     test("T-43 an object that is put in the way of a robot that moves stops it before it is touched", async () => {
       const cell = await bench(brand, empty);
       const { robot, scheduler, station, seat, ended } = cell;

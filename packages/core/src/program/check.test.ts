@@ -344,6 +344,50 @@ describe("collision in a program", () => {
     expect(verdictAt(touching_m + ur10e.shapeError_m + 0.002).ok).toBe(true);
   });
 
+  test("T-64 registration and twin error count between the arm and what stands, also for the tool, and are said apart from the shape's", () => {
+    const ur10e = robotById("ur10e")!;
+    const q = [0, -1.2, 1.6, -2, -1.57, 0];
+    const turn: Program = {
+      ...emptyProgram(ur10e.id),
+      steps: [
+        { id: "turn", type: "move", path: "ptp", target: { q: q.with(5, 0.3) }, speed: { ratio: 0.5 }, blend_m: 0 },
+      ],
+    };
+    const beside = (x_m: number, more: Partial<CellGeometry>): CellGeometry => ({
+      worldFromBase: identity(),
+      links: linkSolids(ur10e),
+      allowedPairs: [],
+      shapeError_m: ur10e.shapeError_m,
+      objects: [
+        {
+          id: "wall",
+          name: "Wall",
+          mesh: boxMesh([0.1, 6, 6]),
+          worldFromObject: pose<"world", "object">([x_m + 0.05, 0, 0]),
+        },
+      ],
+      ...more,
+    });
+    const verdictAt = (x_m: number, more: Partial<CellGeometry>) =>
+      checkProgram(turn, ur10e, { cell: beside(x_m, more), start_rad: q }).verdict;
+    const touching_m = 1.1 - verdictAt(1.1, {}).clearance_m!;
+    // 2 mm beyond the error of the shape is enough where nothing else is unknown, and 5 mm of registration are not.
+    const x_m = touching_m + ur10e.shapeError_m + 0.002;
+    expect(verdictAt(x_m, {}).ok).toBe(true);
+    const finding = findingOf(verdictAt(x_m, { placeError_m: 0.005 }), "turn", "collision.contact");
+    expect(finding.limit).toBeCloseTo(ur10e.shapeError_m + 0.005, 12);
+    expect(finding.sentence).toMatch(
+      /the margin is 26 mm, 21 mm of it for the error of the drawn shape, 5(\.0)? mm for where the robot may stand\.$/,
+    );
+    expect(verdictAt(x_m + 0.005, { placeError_m: 0.005 }).ok).toBe(true);
+    // A tool has no shape error, and the same error of place.
+    const tool = { name: "Plate", mesh: boxMesh([0.9, 0.9, 0.02]) };
+    const toolTouches_m = 1.4 - verdictAt(1.4, { tool }).clearance_m!;
+    expect(toolTouches_m).toBeGreaterThan(touching_m + 0.1);
+    expect(verdictAt(toolTouches_m + 0.003, { tool }).ok).toBe(true);
+    expect(verdictAt(toolTouches_m + 0.003, { tool, placeError_m: 0.005 }).ok).toBe(false);
+  });
+
   test("the cell's place of the robot counts", () => {
     const shifted: CellGeometry = { ...cell(), worldFromBase: { position: [0, 0, 0.1], quaternion: [0, 0, 0, 1] } };
     const { plan } = checkProgram(programOf(left), robot, { cell: shifted });
