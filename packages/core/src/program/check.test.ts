@@ -1,5 +1,6 @@
 import { describe, expect, test } from "vitest";
 import type { CellGeometry } from "../collision/cell.ts";
+import { flangePose } from "../kinematics/forward.ts";
 import { linkSolids } from "../robots/shapes/index.ts";
 import { robotById } from "../robots/library/index.ts";
 import { boxMesh } from "../shapes/solids.ts";
@@ -381,11 +382,20 @@ describe("collision in a program", () => {
     );
     expect(verdictAt(x_m + 0.005, { placeError_m: 0.005 }).ok).toBe(true);
     // A tool has no shape error, and the same error of place.
-    const tool = { name: "Plate", mesh: boxMesh([0.9, 0.9, 0.02]) };
-    const toolTouches_m = 1.4 - verdictAt(1.4, { tool }).clearance_m!;
-    expect(toolTouches_m).toBeGreaterThan(touching_m + 0.1);
-    expect(verdictAt(toolTouches_m + 0.003, { tool }).ok).toBe(true);
-    expect(verdictAt(toolTouches_m + 0.003, { tool, placeError_m: 0.005 }).ok).toBe(false);
+    const tool = { name: "Bar", mesh: boxMesh([0.02, 0.02, 0.3]) };
+    // The tool points down and reaches no further than the arm: a table comes up to it instead of the wall.
+    const table = (z_m: number, place_m: number) =>
+      verdictAt(5, {
+        tool,
+        placeError_m: place_m,
+        objects: [{ id: "table", name: "Table", mesh: boxMesh([0.3, 0.3, 0.1]), worldFromObject: tableAt(z_m) }],
+      });
+    const [flangeX, flangeY, flangeZ] = flangePose(ur10e.arm, q).position;
+    const tableAt = (z_m: number) => pose<"world", "object">([flangeX, flangeY, z_m - 0.05]);
+    const tip_m = flangeZ - 0.15;
+    expect(table(tip_m - 0.003, 0).ok).toBe(true);
+    expect(findingOf(table(tip_m - 0.003, 0.005), "turn", "collision.contact").limit).toBeCloseTo(0.005, 12);
+    expect(table(tip_m - 0.007, 0.005).ok).toBe(true);
   });
 
   test("the cell's place of the robot counts", () => {
