@@ -22,6 +22,8 @@ const noSchemas = !has("jsonschema");
 const studio = mkdtempSync(join(tmpdir(), "twincell-studio-"));
 writeFileSync(join(studio, "index.html"), "<title>studio</title>");
 const robot = robotById("ur10e")!;
+/** Joint 1 alone turned: the arm comes near nothing of itself. */
+const turned = (by_rad: number): number[] => Array.from(robot.home_rad, (q, i) => (i === 0 ? q + by_rad : q));
 const near = (by_rad: number): number[] => Array.from(robot.home_rad, q => q + by_rad);
 
 const open: { close(): unknown }[] = [];
@@ -227,19 +229,20 @@ test("whoever ends the request of a motion stops the robot; anyone may stop it",
   const served = await server();
   const { ask, lease } = await connected(served);
   const { next } = stream(served);
+  await next(({ type }) => type === "hello");
   const away = new AbortController();
   const moves = next(event => event.type === "sample" && event.moving);
-  const moving = ask("POST", "/api/v1/robots/arm/move", { q_rad: near(1.5) }, lease, away.signal);
-  await moves;
+  const moving = ask("POST", "/api/v1/robots/arm/move", { q_rad: turned(1.5) }, lease, away.signal);
+  expect(await Promise.race([moves, moving])).toMatchObject({ type: "sample" });
   const stops = next(event => event.type === "act" && event.action === "stops the robot");
-  const rests = next(event => event.type === "sample" && !event.moving);
+  const rests = next(event => event.type === "guard" && event.motion === "at-rest");
   away.abort();
   await expect(moving).rejects.toThrow();
   await stops;
   await rests;
   const again = next(event => event.type === "sample" && event.moving);
-  const second = ask("POST", "/api/v1/robots/arm/move", { q_rad: near(-1.5) }, lease);
-  await again;
+  const second = ask("POST", "/api/v1/robots/arm/move", { q_rad: turned(-1.5) }, lease);
+  expect(await Promise.race([again, second])).toMatchObject({ type: "sample" });
   expect((await ask("POST", "/api/v1/robots/arm/stop", {})).body).toEqual({ kind: "done" });
   expect(await second).toMatchObject({ status: 409, body: { kind: "stopped" } });
 }, 60_000);
@@ -249,6 +252,7 @@ test("a lease that nobody names any more ends by itself", async () => {
   const ask = api(served);
   await ask("POST", "/api/v1/robots", { id: "arm", driver: "ur", model: "ur10e" });
   const { next } = stream(served);
+  await next(({ type }) => type === "hello");
   const taken = next(event => event.type === "guard" && event.holder !== null);
   const { body } = await ask("POST", "/api/v1/robots/arm/lease", { expires_s: 1 });
   await taken;
