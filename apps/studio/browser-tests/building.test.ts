@@ -80,3 +80,83 @@ test("a traced path follows the carton that is moved in the inspector; the check
   await page.screenshot({ path: picture("building-path-followed") });
   expect(problems).toEqual([]);
 }, 120_000);
+
+/** Where the handle along that axis of the world is, and a spot farther along it, on the page. */
+const handle = (page: Page, pivot: Vector3, axis: 0 | 1 | 2, way_m: number) =>
+  page.evaluate(
+    ([at, k, way]) => {
+      const scene = window.twincellScene!;
+      const camera = scene.camera as unknown as { fov: number; position: { x: number; y: number; z: number } };
+      const eye = camera.position;
+      const distance = Math.hypot(eye.x - at[0], eye.y - at[2], eye.z + at[1]);
+      const reach = (distance * 1.9 * Math.tan((Math.PI * camera.fov) / 360) * 0.85) / 4;
+      const on: [number, number, number] = [at[0], at[1], at[2]];
+      on[k] += reach * 0.45;
+      const to: [number, number, number] = [on[0], on[1], on[2]];
+      to[k] += way;
+      return { from: scene.project(on), to: scene.project(to) };
+    },
+    [pivot, axis, way_m] as const,
+  );
+const placeOf = (page: Page, id: string): Promise<Vector3> =>
+  page.evaluate(
+    which =>
+      [
+        ...window.twincell.stores.cellStore.getState().document!.objects.find(object => object.id === which)!
+          .worldFromObject.position,
+      ] as [number, number, number],
+    id,
+  );
+async function drag(page: Page, { from, to }: Awaited<ReturnType<typeof handle>>, during?: () => Promise<void>) {
+  await page.mouse.move(from.x - 2, from.y);
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  for (let i = 1; i <= 8; i++)
+    await page.mouse.move(from.x + ((to.x - from.x) * i) / 8, from.y + ((to.y - from.y) * i) / 8);
+  await during?.();
+  await page.mouse.up();
+}
+
+test("T-59 the carton is moved by its handle on the grid, by a typed number and back with one undo each; locked it has none", async () => {
+  const { page, problems } = await studio.open();
+  await drawn(page);
+  await page
+    .getByRole("radio", { name: "Cell", exact: true })
+    .or(page.getByRole("tab", { name: "Cell" }))
+    .first()
+    .click();
+  await page.getByTitle("work piece").first().click();
+  const start = await placeOf(page, "carton");
+  await page.waitForFunction(() =>
+    window.twincellScene!.scene.children.some(child => child.userData["unpickable"] === true),
+  );
+  await page.screenshot({ path: picture("building-gizmo") });
+
+  await drag(page, await handle(page, start, 1, 0.12));
+  const moved = await placeOf(page, "carton");
+  expect(moved[0]).toBeCloseTo(start[0], 9);
+  expect(moved[2]).toBeCloseTo(start[2], 9);
+  expect(moved[1] - start[1]).toBeGreaterThan(0.05);
+  // On the grid of 10 mm, or flush with something.
+  await page.keyboard.press("Control+z");
+  expect(await placeOf(page, "carton")).toEqual(start);
+
+  await drag(page, await handle(page, start, 1, 0.05), async () => {
+    await page.keyboard.type("-123.5");
+    await page.screenshot({ path: picture("building-typed") });
+  });
+  expect((await placeOf(page, "carton"))[1]).toBeCloseTo(-0.1235, 9);
+  await page.keyboard.press("Control+z");
+
+  await drag(page, await handle(page, start, 1, 0.05), async () => {
+    await page.keyboard.press("Escape");
+  });
+  expect(await placeOf(page, "carton")).toEqual(start);
+  expect(await page.evaluate(() => window.twincell.stores.cellStore.getState().undo.length)).toBe(0);
+
+  await page.getByTitle("work piece").first().click({ button: "right" });
+  await page.getByRole("menuitem", { name: "Lock" }).click();
+  await drag(page, await handle(page, start, 1, 0.05));
+  expect(await placeOf(page, "carton")).toEqual(start);
+  expect(problems).toEqual([]);
+}, 120_000);

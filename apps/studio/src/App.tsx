@@ -1,6 +1,8 @@
 import { Tooltip } from "radix-ui";
 import { lazy, Suspense, useEffect, useRef } from "react";
 import { useStore } from "zustand";
+import { Arrange } from "./features/build/Arrange.tsx";
+import { ToolBar } from "./features/build/ToolBar.tsx";
 import { Check } from "./features/check/Check.tsx";
 import { Coach } from "./features/coach/Coach.tsx";
 import { Files } from "./features/files/Files.tsx";
@@ -49,12 +51,13 @@ const Run = lazy(() => import("./features/run/Run.tsx"));
 const History = lazy(() => import("./features/history/History.tsx"));
 const Rewind = lazy(() => import("./features/history/Rewind.tsx"));
 
-/** The shell: four modes around one scene. Nothing here changes many times a second. */
+/** The shell: five modes around one scene. Nothing here changes many times a second. */
 export function App() {
   const phone = useMedia(PHONE);
   const theme = useStore(viewStore, state => state.theme);
   const text = useStore(cellStore, state => textOf(state.document));
   const teaching = useStore(viewStore, state => state.mode === "teach");
+  const building = useStore(viewStore, state => state.mode === "cell");
   const layout = useStore(textStore, state => state.layout);
   const side = text !== null && teaching && layout === "side" && !phone;
   useEffect(() => {
@@ -109,6 +112,7 @@ export function App() {
             </Suspense>
           </SceneGuard>
           <Overlay phone={phone} />
+          {building && !phone && <ToolBar />}
           {text !== null && teaching && !phone && (
             <div className="text-switch">
               <Segments
@@ -126,7 +130,7 @@ export function App() {
           <Suspense>
             <VideoPanels />
           </Suspense>
-          {!phone && <Coach />}
+          {!phone && !building && <Coach />}
           <Welcome />
           <Notices />
           <span className="visually-hidden" id="reorder-hint">
@@ -190,6 +194,13 @@ function RightSide() {
   // A recorded point is selected at once: its numbers stay below, or the record buttons would move away under the pointer.
   const first = useStore(selectionStore, ({ selected }) => selected !== null && selected.kind !== "step");
   switch (mode) {
+    case "cell":
+      return (
+        <>
+          <Inspector />
+          <Arrange />
+        </>
+      );
     case "teach":
       return (
         <>

@@ -38,6 +38,8 @@ export interface ObjectRecord {
   readonly softness_s?: number;
   /** It moves what lies on it. */
   readonly belt?: Belt;
+  /** Objects of one group are selected and moved together. */
+  readonly group?: string;
   /** Not drawn; checks and physics still know it. */
   readonly hidden?: true;
   /** Not picked in the 3D view and not moved there. */

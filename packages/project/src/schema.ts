@@ -163,6 +163,7 @@ export const cellSchema = z.strictObject({
       friction: z.exactOptional(z.number().nonnegative().max(10)),
       softness_s: z.exactOptional(z.number().positive()),
       belt: z.exactOptional(belt),
+      group: z.exactOptional(text),
       hidden: yes,
       locked: yes,
     }),

@@ -8,6 +8,7 @@ import { cellStore } from "../stores/cell.ts";
 import { registerCommands } from "../stores/commands.ts";
 import { physicsStore } from "../stores/physics.ts";
 import { playStore } from "../stores/play.ts";
+import { selectionStore } from "../stores/selection.ts";
 import { stationStore } from "../stores/stations.ts";
 import { traceStore } from "../stores/trace.ts";
 import { viewStore } from "../stores/view.ts";
@@ -41,6 +42,7 @@ import { askForHeadset } from "./xr/availability.ts";
 
 /** Everything a headset needs is fetched when one is first asked for. */
 const StationViews = lazy(() => import("./robot/station-view.tsx").then(part => ({ default: part.StationViews })));
+const Gizmo = lazy(() => import("./gizmo/gizmo.tsx"));
 const Headset = lazy(() => import("./xr/headset.tsx").then(part => ({ default: part.Headset })));
 const meter = new FrameMeter();
 const BARE_FLANGE: Pose<"flange", "tcp"> = identity();
@@ -55,6 +57,7 @@ export function Viewport() {
   const playing = useStore(playStore, state => state.playing) || physics;
   const tracing = useStore(traceStore, state => state.active);
   const stations = useStore(stationStore, state => state.stations.length);
+  const anything = useStore(selectionStore, state => state.selected !== null);
   const theme = useStore(viewStore, state => state.theme);
   const colours = useMemo(() => readTheme(theme), [theme]);
   const [pictured, setPictured] = useState(true);
@@ -120,6 +123,11 @@ export function Viewport() {
               targets={targets}
             />
             <Ghost interaction={interaction} tool={tool} theme={colours} />
+            {document && mode === "cell" && anything && !inHeadset && (
+              <Suspense fallback={null}>
+                <Gizmo world={world} document={document} interaction={interaction} label={label} />
+              </Suspense>
+            )}
             <Outline world={world} theme={colours} />
           </group>
           {document && wish > 0 && (
@@ -140,7 +148,9 @@ export function Viewport() {
         </Canvas>
       </div>
       <ViewCube cube={cube} wishes={wishes} />
-      {pictured && robot && !inHeadset && <Picture picture={picture} onHide={() => setPictured(false)} />}
+      {pictured && robot && !inHeadset && mode !== "cell" && (
+        <Picture picture={picture} onHide={() => setPictured(false)} />
+      )}
       <div
         className="pointer-label"
         hidden

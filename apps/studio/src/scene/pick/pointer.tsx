@@ -1,11 +1,11 @@
 import { compose, copyPose, identity, inverse, type Pose, rotate, type Vector3 } from "@twincell/core";
-import type { CellDocument } from "@twincell/project";
+import { groupOf, type CellDocument } from "@twincell/project";
 import { useFrame, useThree } from "@react-three/fiber";
 import { type RefObject, useEffect, useMemo } from "react";
 import { type Group, type Mesh, PerspectiveCamera, Raycaster, Vector3 as V } from "three";
 import { beginDrag, dragTcp } from "../../runtime/jog/drag.ts";
 import { theLive } from "../../runtime/live.ts";
-import { hover, select, selectionStore, type Thing } from "../../stores/selection.ts";
+import { alsoSelect, hover, select, selectionStore, selectObjects, type Thing } from "../../stores/selection.ts";
 import { traceStore } from "../../stores/trace.ts";
 import { viewStore } from "../../stores/view.ts";
 import type { FrameMeter } from "../frame-meter.ts";
@@ -135,10 +135,10 @@ export function Pointer({
       drop();
       work.down = false;
       interaction.turning = false;
-      if (click && !held) {
+      if (click && !held && !interaction.overGizmo) {
         place(event);
         look();
-        choose();
+        choose(event.ctrlKey || event.metaKey || event.shiftKey);
       }
       if (event.pointerType === "touch") leave();
     });
@@ -196,6 +196,12 @@ export function Pointer({
     const ray = aim();
     const part = partUnder(work.caster, handle.current);
     interaction.hoveredPart = part;
+    if (interaction.overGizmo) {
+      if (selectionStore.getState().hovered) hover(null);
+      sayAtPointer(label, "", "plain", 0, 0);
+      gl.domElement.style.cursor = "grab";
+      return;
+    }
     const found = part !== null ? null : nearestThing(work.caster, root);
     const thing: Thing | null = found?.holder.userData.thing ?? null;
     if (traceStore.getState().active) lookForEdge(ray, found?.hit.distance ?? Infinity, part !== null);
@@ -235,10 +241,15 @@ export function Pointer({
   };
 
   /** A click: takes the edge while edges are being chosen, selects the thing otherwise. */
-  const choose = (): void => {
+  const choose = (more: boolean): void => {
     const trace = traceStore.getState();
     if (!trace.active) {
-      select(selectionStore.getState().hovered);
+      const { hovered } = selectionStore.getState();
+      if (more && viewStore.getState().mode === "cell") {
+        if (hovered?.kind === "object") alsoSelect(hovered.id);
+      } else if (hovered?.kind === "object" && viewStore.getState().mode === "cell")
+        selectObjects(groupOf(document, hovered.id));
+      else select(hovered);
       return;
     }
     const hit = world.current ? nearestThing(work.caster, world.current) : null;

@@ -1,0 +1,3 @@
+export * from "./bounds.ts";
+export * from "./snap.ts";
+export * from "./arrange.ts";
