@@ -160,3 +160,63 @@ test("T-59 the carton is moved by its handle on the grid, by a typed number and 
   expect(await placeOf(page, "carton")).toEqual(start);
   expect(problems).toEqual([]);
 }, 120_000);
+
+test("T-62 M-19 a part is dragged from the library onto the floor, another onto the table; its length is typed; one undo each", async () => {
+  const { page, problems } = await studio.open();
+  await drawn(page);
+  await page.getByRole("radio", { name: "Cell", exact: true }).click();
+  const floor = await page.evaluate(() => window.twincellScene!.project([0.9, -0.75, 0]));
+  await page.getByRole("button", { name: /^Pallet EUR 1/ }).hover();
+  await page.mouse.down();
+  await page.mouse.move(floor.x - 20, floor.y - 20);
+  await page.mouse.move(floor.x, floor.y, { steps: 4 });
+  await page.screenshot({ path: picture("building-drop") });
+  await page.mouse.up();
+  await page.waitForFunction(() =>
+    window.twincell.stores.cellStore.getState().document!.objects.some(object => object.id === "pallet-1"),
+  );
+  const pallet = await placeOf(page, "pallet-1");
+  expect(pallet[0]).toBeCloseTo(0.9, 1);
+  expect(pallet[1]).toBeCloseTo(-0.75, 1);
+  expect(pallet[2]).toBe(0);
+  const top = await page.evaluate(() => window.twincellScene!.project([0.9, -0.75, 0.144]));
+  await page
+    .getByRole("button", { name: /^Carton/ })
+    .last()
+    .dragTo(page.locator("canvas").first(), {
+      targetPosition: await page
+        .locator("canvas")
+        .first()
+        .boundingBox()
+        .then(box => ({ x: top.x - box!.x, y: top.y - box!.y })),
+    });
+  await page.waitForFunction(() =>
+    window.twincell.stores.cellStore.getState().document!.objects.some(object => object.id === "carton-2"),
+  );
+  expect((await placeOf(page, "carton-2"))[2]).toBeCloseTo(0.144, 3);
+
+  await page.getByRole("button", { name: /^Roller conveyor/ }).click();
+  const field = page.getByRole("textbox", { name: "Length", exact: false }).first();
+  await field.fill("2400");
+  await field.press("Enter");
+  const conveyor = () =>
+    page.evaluate(() => {
+      const object = window.twincell.stores.cellStore
+        .getState()
+        .document!.objects.find(each => each.id === "roller-conveyor-1")!;
+      return object.shape.kind === "part" ? object.shape.parameters["length"] : undefined;
+    });
+  expect(await conveyor()).toBeCloseTo(2.4, 9);
+  await page.getByRole("button", { name: /^Work table/ }).click();
+  await page.getByRole("button", { name: /^Person/ }).click();
+  await page.getByRole("button", { name: /^Fence/ }).click();
+  await page.keyboard.press("f");
+  await page.evaluate(() => window.twincell.run("view.fit"));
+  await page.waitForTimeout(1500);
+  await page.screenshot({ path: picture("building-parts") });
+  await page.evaluate(() => {
+    for (let i = 0; i < 4; i++) window.twincell.run("edit.undo");
+  });
+  expect(await conveyor()).toBe(1.6);
+  expect(problems).toEqual([]);
+}, 120_000);

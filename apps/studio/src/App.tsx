@@ -48,6 +48,9 @@ const Cameras = lazy(() => import("./features/video/Cameras.tsx"));
 const VideoPanels = lazy(() => import("./features/video/VideoPanels.tsx"));
 const Stations = lazy(() => import("./features/stations/Stations.tsx").then(part => ({ default: part.Stations })));
 const Run = lazy(() => import("./features/run/Run.tsx"));
+const PartLibrary = lazy(() =>
+  import("./features/parts/PartLibrary.tsx").then(part => ({ default: part.PartLibrary })),
+);
 const History = lazy(() => import("./features/history/History.tsx"));
 const Rewind = lazy(() => import("./features/history/Rewind.tsx"));
 
@@ -233,12 +236,16 @@ function RightSide() {
       );
   }
 }
-/** In History the time is that of the open run. */
+/** In History the time is that of the open run; in Cell the part library takes the place of the time line. */
 function BottomSide() {
-  const history = useStore(viewStore, state => state.mode === "history");
+  const mode = useStore(viewStore, state => state.mode);
   return (
-    <footer className="area-bottom" aria-label={words.app.region.time}>
-      {history ? (
+    <footer className="area-bottom" aria-label={mode === "cell" ? words.parts.title : words.app.region.time}>
+      {mode === "cell" ? (
+        <Suspense fallback={<div className="parts" />}>
+          <PartLibrary />
+        </Suspense>
+      ) : mode === "history" ? (
         <Suspense>
           <Rewind />
         </Suspense>

@@ -17,6 +17,7 @@ import { ViewCube } from "./camera/view-cube.tsx";
 import { FrameMeter } from "./frame-meter.ts";
 import { Ghost, TcpHandle } from "./handle/tcp-handle.tsx";
 import { newInteraction, type PointerLabel } from "./interaction.ts";
+import { PartDrop } from "./objects/part-drop.tsx";
 import { ObjectView } from "./objects/object-view.tsx";
 import { PathView } from "./path/path-view.tsx";
 import { PastView } from "./robot/past-view.tsx";
@@ -135,6 +136,7 @@ export function Viewport() {
               <Headset wish={wish} document={document} interaction={interaction} world={world} />
             </Suspense>
           )}
+          {document && mode === "cell" && <PartDrop world={world} />}
           {document && (
             <Pointer
               interaction={interaction}

@@ -14,6 +14,8 @@ export interface BuildState {
   readonly display: "smooth" | "flat" | "wire" | "points";
   /** Height above which the cell is cut away [m]; null for no section. */
   readonly section_m: number | null;
+  /** The part of the library that is being dragged into the cell. */
+  readonly carrying: string | null;
   /** A handle is being dragged. */
   readonly dragging: boolean;
 }
@@ -24,6 +26,7 @@ export const buildStore = createStore<BuildState>(() => ({
   grid_m: 0.01,
   display: "smooth",
   section_m: null,
+  carrying: null,
   dragging: false,
 }));
 export const chooseTool = (tool: BuildTool): void => buildStore.setState({ tool });

@@ -128,6 +128,9 @@ export function scaledShape(shape: Shape, [x, y, z]: Vector3): Shape {
       return { kind: "cylinder", radius_m: shape.radius_m * round, height_m: shape.height_m * z };
     case "revolved":
       return { kind: "revolved", profile_m: shape.profile_m.map(([r, height]) => [r * round, height * z] as const) };
+    // The numbers of a part say how large it is.
+    case "part":
+      return shape;
     case "mesh": {
       const mesh = shapeMesh(shape);
       const positions = Float64Array.from(mesh.positions, (value, i) => value * [x, y, z][i % 3]!);
