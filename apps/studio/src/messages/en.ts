@@ -762,6 +762,22 @@ export const en = {
     degS: "°/s",
     start: "To the start",
   },
+  runQuestion: {
+    titles: {
+      checking: "The check is under way",
+      red: "The check is red",
+      unchecked: "Not checked",
+    },
+    checking: (percent: number) => `The program runs as soon as it is checked: ${percent} % done.`,
+    unchecked: "This program has not been checked. What it touches or cannot reach is not known.",
+    red: (count: number) => (count === 1 ? "The check found a problem:" : `The check found ${count} problems:`),
+    more: (count: number) => `${count} more in Check.`,
+    guard:
+      "While it runs, the guard stops the robot before it touches what the cell knows. It is no certified safety device.",
+    show: "Show",
+    leave: "Do not run",
+    anyway: "Run all the same",
+  },
   run: {
     title: "Run",
     text: (language: string) => `${language} text`,
