@@ -165,8 +165,14 @@ test("T-62 M-19 a part is dragged from the library onto the floor, another onto 
   const { page, problems } = await studio.open();
   await drawn(page);
   await page.getByRole("radio", { name: "Cell", exact: true }).click();
-  const floor = await page.evaluate(() => window.twincellScene!.project([0.9, -0.75, 0]));
   await page.getByRole("button", { name: /^Pallet EUR 1/ }).hover();
+  // The drawer takes room from the view.
+  await page.waitForFunction(
+    () =>
+      document.querySelector("canvas")!.getBoundingClientRect().bottom <=
+      document.querySelector(".parts")!.getBoundingClientRect().top + 1,
+  );
+  const floor = await page.evaluate(() => window.twincellScene!.project([0.3, 0.75, 0]));
   await page.mouse.down();
   await page.mouse.move(floor.x - 20, floor.y - 20);
   await page.mouse.move(floor.x, floor.y, { steps: 4 });
@@ -176,10 +182,10 @@ test("T-62 M-19 a part is dragged from the library onto the floor, another onto 
     window.twincell.stores.cellStore.getState().document!.objects.some(object => object.id === "pallet-1"),
   );
   const pallet = await placeOf(page, "pallet-1");
-  expect(pallet[0]).toBeCloseTo(0.9, 1);
-  expect(pallet[1]).toBeCloseTo(-0.75, 1);
+  expect(pallet[0]).toBeCloseTo(0.3, 1);
+  expect(pallet[1]).toBeCloseTo(0.75, 1);
   expect(pallet[2]).toBe(0);
-  const top = await page.evaluate(() => window.twincellScene!.project([0.9, -0.75, 0.144]));
+  const top = await page.evaluate(() => window.twincellScene!.project([0.3, 0.75, 0.144]));
   await page
     .getByRole("button", { name: /^Carton/ })
     .last()
@@ -210,9 +216,13 @@ test("T-62 M-19 a part is dragged from the library onto the floor, another onto 
   await page.getByRole("button", { name: /^Work table/ }).click();
   await page.getByRole("button", { name: /^Person/ }).click();
   await page.getByRole("button", { name: /^Fence/ }).click();
-  await page.keyboard.press("f");
   await page.evaluate(() => window.twincell.run("view.fit"));
-  await page.waitForTimeout(1500);
+  // The flight to the new view has ended when no frame follows any more.
+  await page.waitForFunction(async () => {
+    const before = window.twincellScene!.frames;
+    await new Promise(resolve => setTimeout(resolve, 400));
+    return window.twincellScene!.frames === before;
+  });
   await page.screenshot({ path: picture("building-parts") });
   await page.evaluate(() => {
     for (let i = 0; i < 4; i++) window.twincell.run("edit.undo");
