@@ -117,7 +117,7 @@ async function drag(page: Page, { from, to }: Awaited<ReturnType<typeof handle>>
   await page.mouse.up();
 }
 
-test("T-59 the carton is moved by its handle on the grid, by a typed number and back with one undo each; locked it has none", async () => {
+test("the carton is moved by its handle on the grid, by a typed number and back with one undo each; locked it has none", async () => {
   const { page, problems } = await studio.open();
   await drawn(page);
   await page
@@ -161,7 +161,7 @@ test("T-59 the carton is moved by its handle on the grid, by a typed number and 
   expect(problems).toEqual([]);
 }, 120_000);
 
-test("T-62 M-19 a part is dragged from the library onto the floor, another onto the table; its length is typed; one undo each", async () => {
+test("a part is dragged from the library onto the floor, another onto the table; its length is typed; one undo each", async () => {
   const { page, problems } = await studio.open();
   await drawn(page);
   await page.getByRole("radio", { name: "Cell", exact: true }).click();
@@ -228,5 +228,32 @@ test("T-62 M-19 a part is dragged from the library onto the floor, another onto 
     for (let i = 0; i < 4; i++) window.twincell.run("edit.undo");
   });
   expect(await conveyor()).toBe(1.6);
+  expect(problems).toEqual([]);
+}, 120_000);
+
+test("M-07 two corners of the carton are measured by two clicks: 400.0 mm apart; carton and table interfere or not, with the number", async () => {
+  const { page, problems } = await studio.open();
+  await drawn(page);
+  await page.getByRole("radio", { name: "Cell", exact: true }).click();
+  await page.getByRole("button", { name: /^Pallet EUR 1/ }).waitFor();
+  await page.waitForFunction(
+    () =>
+      document.querySelector("canvas")!.getBoundingClientRect().bottom <=
+      document.querySelector(".parts")!.getBoundingClientRect().top + 1,
+  );
+  await page.getByRole("button", { name: "Measure" }).click();
+  const click = async (point: Vector3): Promise<void> => {
+    const at = await page.evaluate(where => window.twincellScene!.project(where), point);
+    await page.mouse.click(at.x, at.y);
+  };
+  // A little inside the two corners of the top's front edge.
+  await click([cx + 0.148, cy - 0.198, cz + 0.1]);
+  await click([cx + 0.148, cy + 0.198, cz + 0.1]);
+  const card = page.getByRole("region", { name: "Measure" });
+  await card.getByText("400.0").first().waitFor();
+  expect(await card.innerText()).not.toContain("interfere");
+  await page.screenshot({ path: picture("building-measure") });
+  await page.keyboard.press("Escape");
+  await card.getByText("Pick a corner").waitFor();
   expect(problems).toEqual([]);
 }, 120_000);

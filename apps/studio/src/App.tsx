@@ -2,6 +2,7 @@ import { Tooltip } from "radix-ui";
 import { lazy, Suspense, useEffect, useRef } from "react";
 import { useStore } from "zustand";
 import { Arrange } from "./features/build/Arrange.tsx";
+import { MeasureCard } from "./features/build/MeasureCard.tsx";
 import { ToolBar } from "./features/build/ToolBar.tsx";
 import { Check } from "./features/check/Check.tsx";
 import { Coach } from "./features/coach/Coach.tsx";
@@ -116,7 +117,12 @@ export function App() {
             </Suspense>
           </SceneGuard>
           <Overlay phone={phone} />
-          {building && !phone && <ToolBar />}
+          {building && !phone && (
+            <>
+              <ToolBar />
+              <MeasureCard />
+            </>
+          )}
           {text !== null && teaching && !phone && (
             <div className="text-switch">
               <Segments

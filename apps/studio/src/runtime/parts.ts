@@ -7,6 +7,7 @@ import { select } from "../stores/selection.ts";
 
 /** Where a part comes when no place is shown: beside what stands there already, never into it. */
 const GAP_M = 0.2;
+const GRID_M = 0.05;
 
 function freePlace(document: CellDocument): Vector3 {
   let x_m = 0.8;
@@ -34,7 +35,7 @@ export function placePart(part: string, at_m?: Vector3, numbers: PartNumbers = {
   const object = partObject(kind, { id, name: n === 1 ? name : `${name} ${n}` }, pose(), numbers);
   const size = worldBounds(object.shape, object.worldFromObject);
   const free = freePlace(document);
-  const place: Vector3 = at_m ?? [free[0] - size.lower[0], 0, 0];
+  const place: Vector3 = at_m ?? [Math.ceil((free[0] - size.lower[0]) / GRID_M) * GRID_M, 0, 0];
   commit(words.undo.place(name), before => ({
     ...before,
     objects: [...before.objects, { ...object, worldFromObject: pose(place) }],

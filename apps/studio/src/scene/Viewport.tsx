@@ -4,6 +4,7 @@ import { lazy, Suspense, useEffect, useMemo, useRef, useState } from "react";
 import { type Group, type Mesh, NeutralToneMapping, PCFShadowMap, PerspectiveCamera } from "three";
 import { useStore } from "zustand";
 import { dragFollows } from "../runtime/jog/drag.ts";
+import { buildStore } from "../stores/build.ts";
 import { cellStore } from "../stores/cell.ts";
 import { registerCommands } from "../stores/commands.ts";
 import { physicsStore } from "../stores/physics.ts";
@@ -44,6 +45,7 @@ import { askForHeadset } from "./xr/availability.ts";
 /** Everything a headset needs is fetched when one is first asked for. */
 const StationViews = lazy(() => import("./robot/station-view.tsx").then(part => ({ default: part.StationViews })));
 const Gizmo = lazy(() => import("./gizmo/gizmo.tsx"));
+const MeasureView = lazy(() => import("./gizmo/measure-view.tsx"));
 const Headset = lazy(() => import("./xr/headset.tsx").then(part => ({ default: part.Headset })));
 const meter = new FrameMeter();
 const BARE_FLANGE: Pose<"flange", "tcp"> = identity();
@@ -58,6 +60,7 @@ export function Viewport() {
   const playing = useStore(playStore, state => state.playing) || physics;
   const tracing = useStore(traceStore, state => state.active);
   const stations = useStore(stationStore, state => state.stations.length);
+  const measuring = useStore(buildStore, state => state.tool === "measure");
   const anything = useStore(selectionStore, state => state.selected !== null);
   const theme = useStore(viewStore, state => state.theme);
   const colours = useMemo(() => readTheme(theme), [theme]);
@@ -127,6 +130,11 @@ export function Viewport() {
             {document && mode === "cell" && anything && !inHeadset && (
               <Suspense fallback={null}>
                 <Gizmo world={world} document={document} interaction={interaction} label={label} />
+              </Suspense>
+            )}
+            {mode === "cell" && measuring && (
+              <Suspense fallback={null}>
+                <MeasureView />
               </Suspense>
             )}
             <Outline world={world} theme={colours} />

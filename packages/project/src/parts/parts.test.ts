@@ -13,7 +13,7 @@ const partOf = (id: string, pick: "value" | "min" | "max" = "value") =>
   ({ kind: "part", part: id, parameters: numbersOf(id, pick) }) as const;
 
 test.each(PARTS.flatMap(({ id }) => (["value", "min", "max"] as const).map(pick => [id, pick] as const)))(
-  "M-19 %s with its numbers at %s stands on the floor, closed and wound outward, as large as its numbers say",
+  "%s with its numbers at %s stands on the floor, closed and wound outward, as large as its numbers say",
   (id, pick) => {
     const shape = partOf(id, pick);
     const mesh = partSolid(shape);
@@ -31,7 +31,7 @@ test.each(PARTS.flatMap(({ id }) => (["value", "min", "max"] as const).map(pick 
   },
 );
 
-test("M-19 X-16 a part in a cell has mass, friction and, as a conveyor, a belt; it is saved, opened, checked against and simulated", () => {
+test("a part in a cell has mass, friction and, as a conveyor, a belt; it is saved, opened, checked against and simulated", () => {
   const conveyor = partObject(partById("roller-conveyor")!, { id: "c", name: "Infeed" }, pose([1.5, 0, 0]), {
     length: 2,
   });

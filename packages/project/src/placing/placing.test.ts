@@ -4,6 +4,7 @@ import { expect, test } from "vitest";
 import type { ObjectRecord } from "../document.ts";
 import { aligned, circularPattern, linearPattern, mirrored, movedWith, scaledShape } from "./arrange.ts";
 import { boundsOfAll, shapeBounds, worldBounds } from "./bounds.ts";
+import { clearanceBetween, measured } from "./measure.ts";
 import { snapBox, toGrid } from "./snap.ts";
 
 const number = fc.double({ min: -3, max: 3, noNaN: true });
@@ -66,7 +67,7 @@ test("where nothing is near, the grid counts; farther than the tolerance nothing
   expect(toGrid(0.123, 0)).toBe(0.123);
 });
 
-test("M-10 a box along the world's axes holds every corner of a turned one", () => {
+test("a box along the world's axes holds every corner of a turned one", () => {
   const turned = pose<"world", "object">([1, 2, 3], fromAxisAngle([0, 0, 1], Math.PI / 4));
   const { lower, upper } = worldBounds({ kind: "box", size_m: [1, 1, 1] }, turned);
   expect(upper[0] - lower[0]).toBeCloseTo(Math.SQRT2, 9);
@@ -113,7 +114,7 @@ test("patterns: five in a row 100 mm apart; six on a circle, each turned by 60°
   }
 });
 
-test("M-08 a scaled shape is as many times as long: box, cylinder, revolved and mesh", () => {
+test("a scaled shape is as many times as long: box, cylinder, revolved and mesh", () => {
   expect(scaledShape({ kind: "box", size_m: [1, 2, 3] }, [2, 3, 4])).toEqual({ kind: "box", size_m: [2, 6, 12] });
   expect(scaledShape({ kind: "cylinder", radius_m: 1, height_m: 2 }, [2, 2, 0.5])).toEqual({
     kind: "cylinder",
@@ -131,4 +132,25 @@ test("M-08 a scaled shape is as many times as long: box, cylinder, revolved and 
     [2, 2, 3],
   );
   expect(shapeBounds(cone).upper[2]).toBeCloseTo(3, 9);
+});
+
+test("distance, its share along every axis, and the angle of two faces", () => {
+  const { distance_m, delta_m, angle_rad } = measured(
+    { at_m: [1, 2, 3], normal: [0, 0, 1] },
+    { at_m: [1.3, 2, 2.6], normal: [1, 0, 0] },
+  );
+  expect(distance_m).toBeCloseTo(0.5, 9);
+  expect(delta_m.map(value => Number(value.toFixed(9)))).toEqual([0.3, 0, -0.4]);
+  expect(angle_rad).toBeCloseTo(Math.PI / 2, 9);
+  expect(measured({ at_m: [0, 0, 0] }, { at_m: [0, 0, 0] }).angle_rad).toBeNull();
+});
+
+test("M-07 two parts 50 mm apart are that far apart; pushed into one another, or one inside the other, they interfere", () => {
+  const a = box("a", [0, 0, 0]);
+  const apart = clearanceBetween(a, box("b", [0.25, 0, 0]));
+  expect(apart.distance_m).toBeCloseTo(0.05, 9);
+  expect(apart.from_m[0]).toBeCloseTo(0.1, 9);
+  expect(apart.to_m[0]).toBeCloseTo(0.15, 9);
+  expect(clearanceBetween(a, box("b", [0.19, 0.1, 0.1])).distance_m).toBe(0);
+  expect(clearanceBetween(a, box("b", [0, 0, 0], [0.01, 0.01, 0.01])).distance_m).toBe(0);
 });

@@ -6,6 +6,8 @@ import { type Group, type Mesh, PerspectiveCamera, Raycaster, Vector3 as V } fro
 import { beginDrag, dragTcp } from "../../runtime/jog/drag.ts";
 import { theLive } from "../../runtime/live.ts";
 import { alsoSelect, hover, select, selectionStore, selectObjects, type Thing } from "../../stores/selection.ts";
+import { buildStore } from "../../stores/build.ts";
+import { pickToMeasure } from "../../stores/measure.ts";
 import { traceStore } from "../../stores/trace.ts";
 import { viewStore } from "../../stores/view.ts";
 import type { FrameMeter } from "../frame-meter.ts";
@@ -15,12 +17,15 @@ import { type HandlePart, type Interaction, type PointerLabel, sayAtPointer } fr
 import { toWorld } from "../world-space.ts";
 import { WORDS } from "../words.ts";
 import { chosenEdges, edgeUnder } from "./edges.ts";
+import { measurePoint } from "./measure-point.ts";
 import { nearestThing } from "./raycast.ts";
 import { thingWords } from "./thing-words.ts";
 
 const CLICK_PX = 5;
 const EDGE_TOLERANCE_PX = 9;
 const SNAP_M = 0.005;
+/** Corners and edges this near to the pointer are picked to be measured: a share of the distance to the eye. */
+const MEASURE_SHARE = 0.012;
 const SNAP_RAD = (5 * Math.PI) / 180;
 
 /** Says what is under the pointer, selects it, drags the handle, chooses edges. One look per frame at most. */
@@ -245,6 +250,11 @@ export function Pointer({
     const trace = traceStore.getState();
     if (!trace.active) {
       const { hovered } = selectionStore.getState();
+      if (viewStore.getState().mode === "cell" && buildStore.getState().tool === "measure") {
+        const found = world.current ? nearestThing(work.caster, world.current) : null;
+        if (found) pickToMeasure(measurePoint(document, found, found.hit.distance * MEASURE_SHARE));
+        return;
+      }
       if (more && viewStore.getState().mode === "cell") {
         if (hovered?.kind === "object") alsoSelect(hovered.id);
       } else if (hovered?.kind === "object" && viewStore.getState().mode === "cell")
