@@ -257,3 +257,62 @@ test("M-07 two corners of the carton are measured by two clicks: 400.0 mm apart;
   await card.getByText("Pick a corner").waitFor();
   expect(problems).toEqual([]);
 }, 120_000);
+
+test("a palletising cell is built from an empty one by clicks and typed numbers alone, and saved", async () => {
+  const { page, problems } = await studio.open();
+  await drawn(page);
+  await page.getByRole("button", { name: /Cell menu/ }).click();
+  await page.getByRole("menuitem", { name: "New empty cell" }).click();
+  await page.waitForFunction(() => window.twincell.stores.cellStore.getState().document!.objects.length === 0);
+  await page.getByRole("radio", { name: "Cell", exact: true }).click();
+  const type = async (name: string, value: string): Promise<void> => {
+    const field = page.getByRole("textbox", { name }).first();
+    await field.fill(value);
+    await field.press("Enter");
+  };
+  const place = async (
+    part: RegExp,
+    x: string,
+    y: string,
+    z: string,
+    numbers: readonly (readonly [string, string])[] = [],
+  ) => {
+    await page.getByRole("region", { name: "Part library" }).getByRole("button", { name: part }).click();
+    for (const [name, value] of numbers) await type(name, value);
+    await type("Position X", x);
+    await type("Position Y", y);
+    await type("Position Z", z);
+  };
+  await place(/^Robot stand/, "0", "0", "0", [["Height", "300"]]);
+  await page.getByRole("button", { name: /^RX90L/ }).click();
+  await type("Position Z", "300");
+  await place(/^Roller conveyor/, "200", "-900", "0", [
+    ["Length", "2000"],
+    ["Height", "600"],
+  ]);
+  await place(/^Pallet EUR 1/, "900", "200", "0");
+  await place(/^Carton/, "200", "-900", "600", [
+    ["Length", "300"],
+    ["Width", "200"],
+    ["Height", "200"],
+  ]);
+  await place(/^Fence/, "0", "-1600", "0", [["Length", "4000"]]);
+  await place(/^Person/, "-1500", "-2200", "0");
+  const cell = await page.evaluate(() => window.twincell.stores.cellStore.getState().document!);
+  expect(cell.objects.map(({ id }) => id)).toEqual([
+    "robot-stand-1",
+    "roller-conveyor-1",
+    "pallet-1",
+    "carton-1",
+    "fence-1",
+    "person-1",
+  ]);
+  expect(cell.robot.worldFromBase.position[2]).toBeCloseTo(0.3, 9);
+  expect(cell.objects[1]!.belt).toMatchObject({ speed_mps: 0.25 });
+  expect(cell.objects[3]!.worldFromObject.position).toEqual([0.2, -0.9, 0.6]);
+  await page.evaluate(() => window.twincell.run("view.fit"));
+  await page.waitForFunction(() => window.twincell.stores.cellStore.getState().saving.kind === "saved");
+  await page.screenshot({ path: picture("building-palletising") });
+  expect(await page.evaluate(() => window.twincellScene!.drawn().calls)).toBeLessThanOrEqual(150);
+  expect(problems).toEqual([]);
+}, 180_000);
