@@ -9,6 +9,8 @@ export type Shape =
   | { readonly kind: "cylinder"; readonly radius_m: number; readonly height_m: number }
   /** Turned about z: [radius, z] from bottom to top. */
   | { readonly kind: "revolved"; readonly profile_m: readonly (readonly [number, number])[] }
+  /** A part of the library with its numbers: metres, metres a second, counts. */
+  | { readonly kind: "part"; readonly part: string; readonly parameters: Readonly<Record<string, number>> }
   /** An imported mesh: little-endian float32 positions and uint32 indices in base64. */
   | { readonly kind: "mesh"; readonly file: string; readonly positions: string; readonly indices: string };
 
@@ -38,6 +40,8 @@ export interface ObjectRecord {
   readonly softness_s?: number;
   /** It moves what lies on it. */
   readonly belt?: Belt;
+  /** Objects of one group are selected and moved together. */
+  readonly group?: string;
   /** Not drawn; checks and physics still know it. */
   readonly hidden?: true;
   /** Not picked in the 3D view and not moved there. */

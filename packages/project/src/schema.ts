@@ -1,6 +1,7 @@
 import { z } from "zod";
 import type { Pose } from "@twincell/core";
 import { decodeMesh } from "./mesh/codec.ts";
+import { partById } from "./parts/index.ts";
 import { TEXT_PROGRAM_FORMAT } from "./text-program.ts";
 
 /** How far a quaternion's length may be from 1 before it is taken for a mistake instead of rounding. */
@@ -38,6 +39,26 @@ const shape = z.discriminatedUnion("kind", [
     kind: z.literal("revolved"),
     profile_m: z.array(z.tuple([z.number().nonnegative(), number])).min(2),
   }),
+  z
+    .strictObject({ kind: z.literal("part"), part: text, parameters: z.record(text, number) })
+    .superRefine((part, context) => {
+      const kind = partById(part.part);
+      if (kind === undefined)
+        context.addIssue({
+          code: "custom",
+          path: ["part"],
+          message: `the library has no part ${JSON.stringify(part.part)}`,
+        });
+      for (const { id, min, max } of kind?.parameters ?? []) {
+        const value = part.parameters[id];
+        if (value !== undefined && !(value >= min && value <= max))
+          context.addIssue({
+            code: "custom",
+            path: ["parameters", id],
+            message: `${value} is not between ${min} and ${max}`,
+          });
+      }
+    }),
   z
     .strictObject({ kind: z.literal("mesh"), file: z.string(), positions: z.string(), indices: z.string() })
     .superRefine((mesh, context) => {
@@ -167,6 +188,7 @@ export const cellSchema = z.strictObject({
       friction: z.exactOptional(z.number().nonnegative().max(10)),
       softness_s: z.exactOptional(z.number().positive()),
       belt: z.exactOptional(belt),
+      group: z.exactOptional(text),
       hidden: yes,
       locked: yes,
     }),

@@ -9,6 +9,7 @@ import {
   type TriangleMesh,
 } from "@twincell/core";
 import type { CellDocument, Shape } from "../document.ts";
+import { partSolid } from "../parts/index.ts";
 import { decodeMesh } from "./codec.ts";
 
 /** Flat faces of a round shape per turn: 48 stay within 0.22 % of the radius. */
@@ -33,6 +34,8 @@ export function shapeMesh(shape: Shape): TriangleMesh {
       );
     case "revolved":
       return revolvedMesh(shape.profile_m, FACES_PER_TURN);
+    case "part":
+      return partSolid(shape);
     case "mesh": {
       const decoded = decodeMesh(shape);
       if (decoded.kind === "not-a-mesh")
