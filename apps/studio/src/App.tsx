@@ -42,6 +42,7 @@ const Viewport = lazy(() => import("./scene/Viewport.tsx").then(scene => ({ defa
 const Export = lazy(() => import("./features/export/Export.tsx"));
 const CollisionDialog = lazy(() => import("./features/collide/CollisionDialog.tsx"));
 const Start = lazy(() => import("./features/start/Start.tsx"));
+const DemonstrationDialog = lazy(() => import("./features/demonstration/DemonstrationDialog.tsx"));
 const RunQuestion = lazy(() => import("./features/run/RunQuestion.tsx"));
 const ShapeDialog = lazy(() => import("./features/shapes/ShapeDialog.tsx"));
 const Robots = lazy(() => import("./features/robots/Robots.tsx"));
@@ -183,6 +184,9 @@ export function App() {
         </Suspense>
         <Suspense>
           <RunQuestion />
+        </Suspense>
+        <Suspense>
+          <DemonstrationDialog />
         </Suspense>
         <Suspense>
           <Cameras />

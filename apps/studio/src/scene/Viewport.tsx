@@ -22,6 +22,7 @@ import { PartDrop } from "./objects/part-drop.tsx";
 import { ObjectView } from "./objects/object-view.tsx";
 import { PathView } from "./path/path-view.tsx";
 import { PastView } from "./robot/past-view.tsx";
+import { DemonstrationView } from "./path/demonstration-view.tsx";
 import { OverlayView } from "./path/overlay-view.tsx";
 import { TcpTrace } from "./path/tcp-trace.tsx";
 import { Waypoints } from "./path/waypoints.tsx";
@@ -119,6 +120,7 @@ export function Viewport() {
             <TcpTrace theme={colours} />
             <PastView />
             <OverlayView theme={colours} />
+            <DemonstrationView theme={colours} />
             <EdgeView theme={colours} />
             <TcpHandle
               interaction={interaction}

@@ -13,7 +13,8 @@ export type DialogName =
   | "collision"
   | "cameras"
   | "shapes"
-  | "run-question";
+  | "run-question"
+  | "demonstration";
 export interface DialogState {
   readonly open: DialogName | null;
 }

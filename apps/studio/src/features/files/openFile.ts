@@ -5,6 +5,7 @@ import { importShapes, type FileAt } from "../../runtime/mesh-import.ts";
 import { endingOf, IMPORT_ENDINGS } from "@twincell/formats";
 import { DIALECTS } from "@twincell/languages";
 import { words } from "../../messages/index.ts";
+import { openDemonstration } from "../../runtime/planning/demonstrating.ts";
 import { openTextFiles } from "../../runtime/open-text.ts";
 
 /** Whether files with that ending are programs of a robot language. */
@@ -18,6 +19,7 @@ export async function openFile(file: File): Promise<void> {
     if (kind === "mcap") await (await import("../../runtime/robot/cell-control.ts")).openRecordingFiles([file]);
     else if (kind === "json") openCellText(await file.text(), file.name);
     else if (isShape(file.name)) await importShapes([{ path: file.name, file }]);
+    else if (kind === "csv") openDemonstration(await file.text(), file.name);
     else if (isProgram(kind) && kind !== "txt") await openTexts([file]);
     else if (kind === "txt") {
       const [fault] = importText(await file.text(), file.name);
