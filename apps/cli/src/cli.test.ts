@@ -55,6 +55,10 @@ test("robots lists the whole library, with and without --json: id, name, family,
     }),
   );
   expect(robots).toContainEqual(expect.objectContaining({ id: "kuka_lbr_iiwa_14_r820", dof: 7 }));
+  expect(robots).toContainEqual(
+    expect.objectContaining({ id: "ur5e", vendor: "Universal Robots", family: "three-parallel", reach_m: 0.85 }),
+  );
+  expect(new Set(robots.map(({ vendor }) => vendor)).size).toBeGreaterThanOrEqual(14);
   expect(robots.filter(robot => "made_up_geometry" in robot).map(robot => robot.id)).toEqual(["lola_rl15_placeholder"]);
 });
 

@@ -1,5 +1,5 @@
 import { dirname, join } from "node:path";
-import { dhFromArm, LIBRARY, type Pose, type Robot } from "@twincell/core";
+import { catalogueRobots, dhFromArm, LIBRARY, type Pose, type Robot } from "@twincell/core";
 import { dhTableText, writeDhTable, writeStl, writeUrdf } from "@twincell/formats";
 import { given, type Given } from "../io/arguments.ts";
 import { lineWriter } from "../io/json-lines.ts";
@@ -9,10 +9,10 @@ import { UseFault, type Command } from "../io/usage.ts";
 
 export const robotsCommand: Command = {
   name: "robots",
-  summary: "the robots of the library",
+  summary: "the robots of library and catalogue",
   usage: `twincell robots [--urdf R [-o FILE]] [--dh R [--convention standard|modified]]
 
-One JSON line per robot: id, name, vendor, family, dof, payload_kg, mass_kg, reach_m and between which points, shape_error_m,
+One JSON line per robot, the library first, then the catalogue (data alone, drawn from dimensions): id, name, vendor, family, dof, payload_kg, mass_kg, reach_m and between which points, shape_error_m,
 limits, where each number comes from, what was assumed. made_up_geometry marks an arm whose lengths nobody publishes.
 --json is accepted; the output is JSON either way.
 
@@ -47,7 +47,7 @@ limits, where each number comes from, what was assumed. made_up_geometry marks a
       return 0;
     }
     const writer = lineWriter();
-    for (const robot of LIBRARY) writer.write(lineOf(robot));
+    for (const robot of [...LIBRARY, ...catalogueRobots()]) writer.write(lineOf(robot));
     await writer.end();
     return 0;
   },
