@@ -34,12 +34,9 @@ interface Description {
   readonly base?: string;
   readonly tip?: string;
   readonly world?: string;
-  readonly payload_kg: number;
-  readonly reach_mm: number;
-  readonly repeatability_mm?: number;
-  readonly mass_kg?: number;
-  readonly reach_to?: string;
   readonly home_deg?: readonly number[];
+  /** Where witness.py cannot compute it. */
+  readonly unverified?: true;
 }
 interface Listing {
   readonly repositories: Readonly<Record<string, { readonly licence: string; readonly commit: string }>>;
@@ -145,7 +142,7 @@ function table(arm: SerialArm, baseFromWorld: Pose | undefined): string {
 const framesOf = new Map<string, readonly [base: string, tip: string]>();
 
 function entryOf(description: Description, folder: string): string {
-  const { id, name, repository, path, args, base, world = "base", payload_kg, reach_mm } = description;
+  const { id, name, repository, path, args, base, world = "base" } = description;
   const read = readRobot(join(folder, repository.replace("/", "+"), path), disk, args === undefined ? {} : { args });
   if (read.kind !== "read") throw new Error(`${id}: ${read.sentence}`);
   const robot = exactRobot(read.robot);
@@ -158,18 +155,14 @@ function entryOf(description: Description, folder: string): string {
         inverse(chainOf(robot, description, world).arm.joints[0]!.parentFromJoint as Pose),
       )
     : undefined;
-  const { repeatability_mm, mass_kg, reach_to, home_deg } = description;
+  const { home_deg, unverified } = description;
   const given = Object.entries(args ?? {}).map(([key, value]) => ` ${key}:=${value}`);
   return [
     "  {",
     `    id: ${JSON.stringify(id)},`,
     `    name: ${JSON.stringify(name)},`,
-    `    payload_kg: ${payload_kg},`,
-    `    reach_mm: ${reach_mm},`,
-    ...(repeatability_mm === undefined ? [] : [`    repeatability_mm: ${repeatability_mm},`]),
-    ...(mass_kg === undefined ? [] : [`    mass_kg: ${mass_kg},`]),
-    ...(reach_to === undefined ? [] : [`    reach_to: ${JSON.stringify(reach_to)},`]),
     ...(home_deg === undefined ? [] : [`    home_deg: [${home_deg.join(", ")}],`]),
+    ...(unverified === undefined ? [] : ["    unverified: true,"]),
     `    frames: [${JSON.stringify(chain.base)}, ${JSON.stringify(chain.tip)}],`,
     `    repository: ${JSON.stringify(repository)},`,
     `    path: ${JSON.stringify(`${path}${given.join("")}`)},`,

@@ -1,5 +1,6 @@
 #!/usr/bin/env node
-import { Fault } from "@twincell/core";
+import { addCatalogue, Fault } from "@twincell/core";
+import { CATALOGUE } from "@twincell/core/catalogue";
 import { COMMANDS } from "./commands/index.ts";
 import { UseFault } from "./io/usage.ts";
 
@@ -28,6 +29,7 @@ async function main(argv: readonly string[]): Promise<number> {
   return command.run(rest);
 }
 
+addCatalogue(CATALOGUE);
 try {
   process.exitCode = await main(process.argv.slice(2));
 } catch (problem) {

@@ -7,8 +7,6 @@ export const DENSO: CatalogueMaker = {
     {
       id: "denso_cobotta",
       name: "DENSO COBOTTA",
-      payload_kg: 0.5,
-      reach_mm: 342,
       frames: ["base_link", "J6"],
       repository: "DENSORobot/denso_robot_ros2",
       path: "denso_robot_descriptions/urdf/denso_robot.urdf.xacro model:=cobotta",

@@ -3,7 +3,7 @@ import { radians } from "../../spatial/units.ts";
 import type { Vector3 } from "../../spatial/vector.ts";
 import type { Joint, SerialArm } from "../arm.ts";
 import { robotFromArm } from "../foreign.ts";
-import { ACCELERATIONS_ASSUMED, FROM_MEMORY, SHAPES_ESTIMATED, inDegrees, joint, turned } from "../library/write.ts";
+import { ACCELERATIONS_ASSUMED, SHAPES_ESTIMATED, inDegrees, joint, turned } from "../library/write.ts";
 import type { Robot } from "../robot.ts";
 import { homeOf } from "./home.ts";
 import { REPOSITORIES } from "./repositories.ts";
@@ -18,18 +18,11 @@ export interface CatalogueMaker {
 export interface CatalogueEntry {
   readonly id: string;
   readonly name: string;
-  readonly payload_kg: number;
-  readonly reach_mm: number;
-  readonly repeatability_mm?: number;
-  readonly mass_kg?: number;
-  /**
-   * Where the reach ends: at the wrist centre unless said, at the flange, or a working radius of which the maker does not say
-   * between which points it is measured.
-   */
-  readonly reach_to?: "flange" | "radius";
   readonly home_deg?: readonly number[];
   /** Names of root link and tip frame in the description. */
   readonly frames: readonly [base: string, tip: string];
+  /** True where no program that is not this project's was held against the arm's forward kinematics. */
+  readonly unverified?: true;
   /** Public description that axes, limits and speeds were read from: repository, then path with its arguments. */
   readonly repository: string;
   readonly path: string;
@@ -46,8 +39,6 @@ export interface CatalogueEntry {
 /** How far the shapes drawn from dimensions alone may be off, as a share of the reach: an estimate, not measured. */
 const SHAPE_ERROR_SHARE = 0.08;
 const LEAST_SHAPE_ERROR_M = 0.03;
-const WORKING_RADIUS =
-  "The reach is the working radius that the maker quotes; between which points it is measured is not said.";
 const AXES: Readonly<Record<string, Vector3>> = {
   x: [1, 0, 0],
   y: [0, 1, 0],
@@ -59,30 +50,23 @@ const AXES: Readonly<Record<string, Vector3>> = {
 
 /** The robot of an entry: its arm from the table, its closed form read off the axes, what is not published assumed and said. */
 export function robotOfEntry(entry: CatalogueEntry, vendor: string): Robot {
-  const { id, name, payload_kg, reach_mm, repeatability_mm, mass_kg, reach_to, home_deg, frames } = entry;
+  const { id, name, home_deg, frames, unverified } = entry;
   const { arm, baseFromVendorWorld } = armOfTable(name, entry.table);
-  const reach_m = reach_mm / 1000;
   const robot = robotFromArm(arm, {
     id,
     name,
     vendor,
     frames: { base: frames[0], tip: frames[1] },
     baseFromVendorWorld,
-    payload_kg,
-    reach_m,
-    reachMeasuredTo: reach_to === undefined ? "wrist" : "flange",
-    ...(repeatability_mm === undefined ? {} : { repeatability_m: repeatability_mm / 1000 }),
-    ...(mass_kg === undefined ? {} : { mass_kg }),
-    shapeError_m: Math.max(LEAST_SHAPE_ERROR_M, SHAPE_ERROR_SHARE * reach_m),
+    ...(unverified === undefined ? {} : { unverified }),
     sources: {
       "lengths, limits, speeds": `${entry.repository} (${REPOSITORIES[entry.repository]!}), ${entry.path}.`,
-      "payload, reach": FROM_MEMORY,
-      ...(mass_kg === undefined ? {} : { mass: FROM_MEMORY }),
-      ...(repeatability_mm === undefined ? {} : { repeatability: FROM_MEMORY }),
+      reach: "Computed from these lengths.",
     },
-    assumptions: [ACCELERATIONS_ASSUMED, SHAPES_ESTIMATED, ...(reach_to === "radius" ? [WORKING_RADIUS] : [])],
+    assumptions: [ACCELERATIONS_ASSUMED, SHAPES_ESTIMATED],
   });
-  return { ...robot, home_rad: home_deg?.map(radians) ?? homeOf(arm, robot.family) };
+  const shapeError_m = Math.max(LEAST_SHAPE_ERROR_M, SHAPE_ERROR_SHARE * robot.reach_m);
+  return { ...robot, shapeError_m, home_rad: home_deg?.map(radians) ?? homeOf(arm, robot.family) };
 }
 
 /** Reads a table of an entry. Throws where a line has no number: the tables are data of this repository, held by a test. */

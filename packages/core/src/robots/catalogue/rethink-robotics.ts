@@ -7,9 +7,6 @@ export const RETHINK_ROBOTICS: CatalogueMaker = {
     {
       id: "rethink_sawyer",
       name: "Rethink Sawyer",
-      payload_kg: 4,
-      reach_mm: 1260,
-      reach_to: "radius",
       home_deg: [0, -67.5, 0, 125, 0, 32.5, 0],
       frames: ["base", "right_hand"],
       repository: "RethinkRobotics/sawyer_robot",
