@@ -79,7 +79,7 @@ test("robots filters by maker, words, reach and payload; robots of unknown paylo
   expect([none.code, none.out]).toEqual([1, ""]);
 });
 
-test("T-16 a robot file is enough for fk and ik; a fault in it is named with its place", () => {
+test("a robot file is enough for fk and ik; a fault in it is named with its place", () => {
   const pose = twincell(["fk", "--robot", "examples/robots/small-arm.json"], '{"q":[0.3,0.2,0.1,0.4,0.7,-0.2]}');
   expect(pose.code).toBe(0);
   const [answer] = twincell(

@@ -39,6 +39,7 @@ const Viewport = lazy(() => import("./scene/Viewport.tsx").then(scene => ({ defa
 const Export = lazy(() => import("./features/export/Export.tsx"));
 const CollisionDialog = lazy(() => import("./features/collide/CollisionDialog.tsx"));
 const Start = lazy(() => import("./features/start/Start.tsx"));
+const RunQuestion = lazy(() => import("./features/run/RunQuestion.tsx"));
 const ShapeDialog = lazy(() => import("./features/shapes/ShapeDialog.tsx"));
 const Robots = lazy(() => import("./features/robots/Robots.tsx"));
 const AddStation = lazy(() => import("./features/stations/AddStation.tsx"));
@@ -166,6 +167,9 @@ export function App() {
         </Suspense>
         <Suspense>
           <ShapeDialog />
+        </Suspense>
+        <Suspense>
+          <RunQuestion />
         </Suspense>
         <Suspense>
           <Cameras />

@@ -99,7 +99,7 @@ export function attachSteps(
     const pose = compose(inverse(worldFromFrame), worldFromTcp);
     if (!("q" in target)) return { ...target, frame: name, pose };
     const branch = branchOf(robot, target.q);
-    return { pose, frame: name, tool: target.tool ?? cell.tool, ...(branch === undefined ? {} : { branch }) };
+    return { pose, frame: name, tool: target.tool ?? "flange", ...(branch === undefined ? {} : { branch }) };
   };
   const list = (inside: readonly Step[]): readonly Step[] =>
     inside.map((step): Step => {
@@ -141,7 +141,8 @@ function worldFromTarget(cell: CellDocument, program: Program, target: Target): 
     return worldFromFrame === undefined ? undefined : compose(worldFromFrame, target.pose);
   }
   const robot = robotById(cell.robot.id)!;
-  const tool = target.tool ?? cell.tool;
+  // Joint angles without a tool are those of the flange, whichever tool the cell uses now.
+  const tool = target.tool ?? "flange";
   const flangeFromTcp =
     program.tools[tool] ?? cell.tools.find(each => each.name === tool)?.flangeFromTcp ?? identity<"flange", "tcp">();
   return compose(compose(cell.robot.worldFromBase, flangePose(robot.arm, target.q)), flangeFromTcp);

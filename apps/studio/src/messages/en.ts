@@ -595,6 +595,10 @@ export const en = {
     last: "Last trace",
     options: "Tool angle and tolerances",
     stopped: "The points could not be laid.",
+    unreached: (n: number, edges: number, edge: number, why: string) =>
+      `${n} of ${plural(edges, "edge")} cannot be followed as ${edges === 1 ? "it is" : "they are"}. Edge ${edge}: ${why}`,
+    unreachedHint:
+      "Its points are in the program, red; Check offers repairs. Or move the object or the robot: they follow.",
     cannot: (edge: number, why: string) => `Edge ${edge} cannot be traced. ${why}`,
     cannotHint: "Change the tool angle, move the object, or trace fewer edges.",
     leave: "Done tracing",
@@ -740,6 +744,22 @@ export const en = {
     deg: "°",
     degS: "°/s",
     start: "To the start",
+  },
+  runQuestion: {
+    titles: {
+      checking: "The check is under way",
+      red: "The check is red",
+      unchecked: "Not checked",
+    },
+    checking: (percent: number) => `The program runs as soon as it is checked: ${percent} % done.`,
+    unchecked: "This program has not been checked. What it touches or cannot reach is not known.",
+    red: (count: number) => (count === 1 ? "The check found a problem:" : `The check found ${count} problems:`),
+    more: (count: number) => `${count} more in Check.`,
+    guard:
+      "While it runs, the guard stops the robot before it touches what the cell knows. It is no certified safety device.",
+    show: "Show",
+    leave: "Do not run",
+    anyway: "Run all the same",
   },
   run: {
     title: "Run",

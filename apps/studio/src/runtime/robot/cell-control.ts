@@ -22,6 +22,7 @@ import { branchOf, type Branch } from "../history/fork.ts";
 import { cellVersion } from "../cell-version.ts";
 import { momentFrom, momentHash, type MomentLink } from "../history/moment-link.ts";
 import { openInWorker } from "../history/recordings.ts";
+import { askBeforeRun, startRunQuestions } from "../run/ask-before-run.ts";
 import { controlCell, type CellControl } from "../run/run.ts";
 import { pageScheduler } from "../scheduler.ts";
 import { startStations } from "./stations.ts";
@@ -195,6 +196,7 @@ export function startCellControl(): void {
   onInput((signal, value) => {
     theControl()?.setInput(signal, value);
   });
+  startRunQuestions();
   registerCommands([
     {
       id: "run.start",
@@ -204,7 +206,10 @@ export function startCellControl(): void {
       run: () => {
         // A vendor's text runs as it stands, with its breakpoints, where it is seen.
         if (textOf(cellStore.getState().document)) viewStore.setState({ mode: "run" });
-        else void startRun();
+        else
+          askBeforeRun(() => {
+            void startRun();
+          });
       },
     },
     {
