@@ -2,6 +2,7 @@
 import { addCatalogue, Fault } from "@twincell/core";
 import { CATALOGUE } from "@twincell/core/catalogue";
 import { COMMANDS } from "./commands/index.ts";
+import { missingPart } from "./io/optional-parts.ts";
 import { UseFault } from "./io/usage.ts";
 
 const help = (): string => `twincell COMMAND [options]
@@ -33,6 +34,11 @@ addCatalogue(CATALOGUE);
 try {
   process.exitCode = await main(process.argv.slice(2));
 } catch (problem) {
+  const part = missingPart(problem);
+  if (part !== undefined) {
+    process.stderr.write(`twincell: ${part}\n`);
+    process.exit(2);
+  }
   if (!(problem instanceof Fault)) throw problem;
   process.stderr.write(`twincell: ${problem.message}${problem.hint ? ` ${problem.hint}` : ""}\n`);
   process.exitCode = 2;
