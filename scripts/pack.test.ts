@@ -1,5 +1,15 @@
 import { spawn, spawnSync } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
+import {
+  copyFileSync,
+  existsSync,
+  mkdirSync,
+  mkdtempSync,
+  readFileSync,
+  readdirSync,
+  rmSync,
+  statSync,
+  writeFileSync,
+} from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -9,6 +19,7 @@ import { isAllowed, released } from "./licences.mjs";
 
 const root = fileURLToPath(new URL("..", import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), "twincell-install-"));
+let tarball = "";
 const bin = join(folder, "node_modules/twincell/cli/twincell.js");
 const env = { PATH: process.env["PATH"] ?? "", HOME: folder };
 const MOST_BYTES = 25e6;
@@ -30,7 +41,7 @@ describe("M-64 the package that npm run pack makes", () => {
   beforeAll(() => {
     const packed = spawnSync(process.execPath, ["scripts/pack.mjs"], { cwd: root, encoding: "utf8" });
     expect(packed.status, packed.stderr).toBe(0);
-    const tarball = /^(\S+\.tgz):/m.exec(packed.stdout)![1]!;
+    tarball = /^(\S+\.tgz):/m.exec(packed.stdout)![1]!;
     writeFileSync(join(folder, "package.json"), '{"private":true}\n');
     const args = ["install", "--offline", "--ignore-scripts", "--no-audit", "--no-fund", tarball];
     const installed = spawnSync("npm", args, { cwd: folder, encoding: "utf8", shell: process.platform === "win32" });
@@ -95,6 +106,24 @@ describe("M-64 the package that npm run pack makes", () => {
       server.kill();
     }
   });
+
+  test.skipIf(process.platform === "win32")(
+    "the install step of the container file installs a command that serves the command line of its last line",
+    () => {
+      const file = readFileSync(join(root, "Containerfile"), "utf8");
+      const step = /^RUN (npm install .*)$/m.exec(file)![1]!.replaceAll("/tmp/", `${folder}/`);
+      copyFileSync(tarball, join(folder, "twincell.tgz"));
+      mkdirSync(join(folder, "global"));
+      const inside = { ...env, npm_config_prefix: join(folder, "global") };
+      const made = spawnSync("sh", ["-c", step], { cwd: folder, env: inside, encoding: "utf8" });
+      expect(made.status, made.stderr).toBe(0);
+      expect(existsSync(join(folder, "twincell.tgz"))).toBe(false);
+      const [command, ...args] = JSON.parse(/^CMD (.*)$/m.exec(file)![1]!) as string[];
+      const installed = join(folder, "global/bin", command!);
+      const help = spawnSync(installed, [args[0]!, "--help"], { env, encoding: "utf8" });
+      for (const option of args.filter(arg => arg.startsWith("--"))) expect(help.stdout).toContain(option);
+    },
+  );
 
   test("doctor says a line for each thing it looked at", () => {
     const { stdout, status } = twincell("doctor");
