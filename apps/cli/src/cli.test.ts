@@ -58,7 +58,7 @@ test("robots lists the whole library, with and without --json: id, name, family,
   expect(robots.filter(robot => "made_up_geometry" in robot).map(robot => robot.id)).toEqual(["lola_rl15_placeholder"]);
 });
 
-test("T-16 a robot file is enough for fk and ik; a fault in it is named with its place", () => {
+test("a robot file is enough for fk and ik; a fault in it is named with its place", () => {
   const pose = twincell(["fk", "--robot", "examples/robots/small-arm.json"], '{"q":[0.3,0.2,0.1,0.4,0.7,-0.2]}');
   expect(pose.code).toBe(0);
   const [answer] = twincell(

@@ -3,6 +3,7 @@ import { benchCommand } from "./bench.ts";
 import { calibrateCommand } from "./calibrate.ts";
 import { checkCommand } from "./check.ts";
 import { datasetCommand } from "./dataset.ts";
+import { demonstrateCommand } from "./demonstrate.ts";
 import { dialectsCommand } from "./dialects.ts";
 import { diffCommand } from "./diff.ts";
 import { fkCommand } from "./fk.ts";
@@ -38,6 +39,7 @@ export const COMMANDS: readonly Command[] = [
   recordCommand,
   replayCommand,
   calibrateCommand,
+  demonstrateCommand,
   importCommand,
   meshCommand,
   benchCommand,

@@ -12,7 +12,8 @@ export type DialogName =
   | "station"
   | "collision"
   | "cameras"
-  | "shapes";
+  | "shapes"
+  | "run-question";
 export interface DialogState {
   readonly open: DialogName | null;
 }

@@ -12,6 +12,8 @@ export interface PlayState {
   readonly verdict: Verdict | null;
   /** Progress 0 … 1 of the check under way; null when none is. */
   readonly checking: number | null;
+  /** The cell changed since the verdict, and its check is not done yet. */
+  readonly stale: boolean;
   /** The check itself could not be done: why. */
   readonly trouble: string | null;
   /** Seconds; written at most ten times a second while playing (the frame loop keeps the exact time in `live/playhead.ts`). */
@@ -30,6 +32,7 @@ export const playStore = createStore<PlayState>(() => ({
   plan: null,
   verdict: null,
   checking: null,
+  stale: false,
   trouble: null,
   t_s: 0,
   playing: false,

@@ -13,6 +13,7 @@ import { checkReach } from "./checks/reach.ts";
 import type { CheckScene } from "./checks/scene.ts";
 import { checkSingular } from "./checks/singular.ts";
 import { checkSpeed } from "./checks/speed.ts";
+import { checkEdges } from "./checks/edges.ts";
 import { FindingCollector } from "./checks/finding-collector.ts";
 import { checkFlow } from "./checks/flow.ts";
 import { checkPayload } from "./checks/payload.ts";
@@ -101,6 +102,7 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
   checkPayload(scene);
   checkFlow(scene);
   const torque = checkTorque(scene, options.payload);
+  if (cell !== undefined) checkEdges(scene, cell);
   const unjudged = cell === undefined ? [] : checkStand(scene, cell, options.payload?.mass_kg);
   const margin_m = options.margin_m ?? 0;
   const certificates: SegmentCertificate[] | undefined =

@@ -9,6 +9,7 @@ import { onStop } from "../../stores/stop.ts";
 import { words } from "../../messages/index.ts";
 import { theControl } from "../robot/cell-control.ts";
 import { leaveRobot, takeRobot } from "../robot/motion-owner.ts";
+import { askBeforeRun } from "./ask-before-run.ts";
 import { textRun, type TextEnding, type TextRun } from "./text-run.ts";
 
 let run: TextRun | null = null;
@@ -16,8 +17,19 @@ onStop(() => {
   run?.stop();
 });
 
-/** Runs the text that is open on the virtual controller, on from where it stands. `single`: one statement. */
+/**
+ * Runs the text that is open on the virtual controller, on from where it stands. `single`: one statement. The text of the
+ * cell is checked as its steps are, and a check that is not content asks first.
+ */
 export function runForeign(single: boolean): void {
+  if (!run && foreignStore.getState().open?.ofCell === true) {
+    askBeforeRun(() => {
+      goOn(single);
+    });
+  } else goOn(single);
+}
+
+function goOn(single: boolean): void {
   const { open } = foreignStore.getState();
   const { document } = cellStore.getState();
   const robot = robotOf(document);
