@@ -6,6 +6,7 @@ import { datasetCommand } from "./dataset.ts";
 import { demonstrateCommand } from "./demonstrate.ts";
 import { dialectsCommand } from "./dialects.ts";
 import { diffCommand } from "./diff.ts";
+import { doctorCommand } from "./doctor.ts";
 import { fkCommand } from "./fk.ts";
 import { ikCommand } from "./ik.ts";
 import { importCommand } from "./import.ts";
@@ -42,5 +43,6 @@ export const COMMANDS: readonly Command[] = [
   demonstrateCommand,
   importCommand,
   meshCommand,
+  doctorCommand,
   benchCommand,
 ];
