@@ -1238,9 +1238,8 @@ export const en = {
     snapTip: "Flush with floor, faces and middles of other objects, else on the grid. Shift leaves it.",
     grid: "Grid",
     noGrid: "No grid",
-    world: "World",
-    local: "Own axes",
-    space: "Axes of the handles",
+    world: "Handles along the axes of the world",
+    local: "Handles along the object's own axes",
     onto: {
       floor: (_name: string) => "on the floor",
       face: (name: string) => `flush with ${name}`,

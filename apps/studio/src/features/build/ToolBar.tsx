@@ -1,4 +1,4 @@
-import { Magnet, MousePointer2, Move3d, Rotate3d, Ruler, Scale3d } from "lucide-react";
+import { Axis3d, Magnet, MousePointer2, Move3d, Rotate3d, Ruler, Scale3d } from "lucide-react";
 import type { ReactNode } from "react";
 import { useStore } from "zustand";
 import { buildStore, chooseTool, type BuildState, type BuildTool } from "../../stores/build.ts";
@@ -57,9 +57,14 @@ export function ToolBar() {
         options={GRIDS_M.map(each => ({ value: String(each), words: gridWords(each) }))}
         onChange={value => buildStore.setState({ grid_m: Number(value) })}
       />
-      <Tip words={words.build.space} keys="L">
-        <button className="btn quiet" onClick={() => runCommand("build.space")}>
-          {space === "world" ? words.build.world : words.build.local}
+      <Tip words={space === "world" ? words.build.world : words.build.local} keys="L">
+        <button
+          className="btn quiet icon"
+          aria-label={words.build.local}
+          aria-pressed={space === "local"}
+          onClick={() => runCommand("build.space")}
+        >
+          <Axis3d />
         </button>
       </Tip>
       <Chooser<BuildState["display"]>

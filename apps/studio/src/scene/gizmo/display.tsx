@@ -55,13 +55,19 @@ export default function Display({ world }: { readonly world: RefObject<Group | n
   return null;
 }
 
+const NEUTRAL = "#8a949c";
+const WOODEN = "#b98f5f";
+
 /** @returns what draws the mesh as before. */
 function drawnAs(mesh: Mesh, display: Exclude<BuildState["display"], "smooth">): () => void {
   const before: Material | Material[] = mesh.material;
   const first = Array.isArray(before) ? before[0] : before;
-  const color = first instanceof MeshStandardMaterial ? first.color : new Color("#8a949c");
+  const standard = first instanceof MeshStandardMaterial ? first : null;
+  // What wears a picture has no colour of its own.
+  const color = standard && !standard.map ? standard.color : new Color(standard?.map ? WOODEN : NEUTRAL);
+  const vertexColors = standard?.vertexColors ?? false;
   if (display === "flat") {
-    const flat = new MeshStandardMaterial({ color, roughness: 0.8, flatShading: true });
+    const flat = new MeshStandardMaterial({ color, roughness: 0.8, flatShading: true, vertexColors });
     mesh.material = flat;
     return () => {
       mesh.material = before;
@@ -69,7 +75,7 @@ function drawnAs(mesh: Mesh, display: Exclude<BuildState["display"], "smooth">):
     };
   }
   if (display === "wire") {
-    const wire = new MeshBasicMaterial({ color, wireframe: true });
+    const wire = new MeshBasicMaterial({ color, wireframe: true, vertexColors });
     mesh.material = wire;
     return () => {
       mesh.material = before;
@@ -77,7 +83,7 @@ function drawnAs(mesh: Mesh, display: Exclude<BuildState["display"], "smooth">):
     };
   }
   const hidden = new MeshBasicMaterial({ colorWrite: false, depthWrite: false });
-  const dots = new PointsMaterial({ color, size: 2, sizeAttenuation: false });
+  const dots = new PointsMaterial({ color, size: 2, sizeAttenuation: false, vertexColors });
   const geometry: BufferGeometry = mesh.geometry;
   const points = new Points(geometry, dots);
   points.raycast = () => undefined;
