@@ -77,6 +77,14 @@ export interface PairsRecord extends PairMatrix {
   readonly tool: string;
 }
 
+/** Measured on the real cell: none is known when left out. */
+export interface CellErrorsRecord {
+  /** Residual of the registration of robot and objects: how far an object may be from where it is drawn [m]. */
+  readonly registration_m?: number;
+  /** How far the tool of the real robot may be from that of the twin [m]. */
+  readonly twin_m?: number;
+}
+
 /** Everything a person saves: one robot, its tools, what stands around it, and the programs taught there. */
 export interface CellDocument {
   readonly format: "twincell.cell";
@@ -85,6 +93,8 @@ export interface CellDocument {
   /** Made for people who learn: tasks to do, hints, nothing that drives a real robot. */
   readonly training?: true;
   readonly robot: { readonly id: string; readonly worldFromBase: Pose<"world", "base"> };
+  /** What the cell is not known better than; counted in every distance that is checked or guarded. */
+  readonly errors?: CellErrorsRecord;
   readonly tools: readonly ToolRecord[];
   /** Name of the tool in use; "flange" for none. */
   readonly tool: string;

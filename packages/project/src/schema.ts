@@ -155,6 +155,9 @@ export const textProgramSchema = z
         });
   });
 
+/** More than half a metre is no error of a measurement. */
+const error_m = z.exactOptional(z.number().nonnegative().max(0.5));
+
 /** The newest version of the cell file; docs/cell.schema.json is printed from it. Each program in it is read on its own: steps by core's `parseProgram`. */
 export const cellSchema = z.strictObject({
   format: z.literal("twincell.cell"),
@@ -162,6 +165,7 @@ export const cellSchema = z.strictObject({
   name: z.string(),
   training: yes,
   robot: z.strictObject({ id: text, worldFromBase: poseOf<"world", "base">() }),
+  errors: z.exactOptional(z.strictObject({ registration_m: error_m, twin_m: error_m })),
   tools: z.array(
     z.strictObject({
       name: text,

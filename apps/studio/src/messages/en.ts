@@ -329,6 +329,7 @@ export const en = {
     kinds: { ratio: "% of joints", mps: "TCP speed", time_s: "duration" },
   },
   undo: {
+    errors: "Set measured errors",
     recordPoint: "Record point",
     recordPath: "Record path",
     addWait: "Add wait",
@@ -641,6 +642,10 @@ export const en = {
     },
     kept: "Kept from the cell",
     shapeError: "Shape error of the drawn links",
+    errors: "Errors measured on the real cell",
+    errorNames: { registration_m: "Registration", twin_m: "Twin" },
+    errorsSum: (mm: string) =>
+      `With the shape error ${mm} mm are kept between the arm and what stands, in the check, by hand, in a run and by the guard of a connected robot.`,
     braking: "Braking from full speed",
     keptSays: (mm: string) => `${mm} mm`,
     brakingSays: (s: string, mm: string) => `${s} s, up to ${mm} mm of the tool`,

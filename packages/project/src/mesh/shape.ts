@@ -68,7 +68,14 @@ export function cellGeometry(document: CellDocument, links: readonly LinkSolid[]
     allowedPairs: document.allowedPairs,
     ...pairsOf(document),
     shapeError_m: robotById(document.robot.id)?.shapeError_m ?? 0,
+    ...placeErrorOf(document),
   };
+}
+
+/** Both errors may point the same way: they add up. */
+function placeErrorOf({ errors }: CellDocument): Pick<CellGeometry, "placeError_m"> {
+  const placeError_m = (errors?.registration_m ?? 0) + (errors?.twin_m ?? 0);
+  return placeError_m > 0 ? { placeError_m } : {};
 }
 
 /**
