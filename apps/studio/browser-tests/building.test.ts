@@ -258,7 +258,7 @@ test("M-07 two corners of the carton are measured by two clicks: 400.0 mm apart;
   expect(problems).toEqual([]);
 }, 120_000);
 
-test("a palletising cell is built from an empty one by clicks and typed numbers alone, and saved", async () => {
+test("M-10 a palletising cell is built from an empty one by clicks and typed numbers alone, saved, and drawn in four ways", async () => {
   const { page, problems } = await studio.open();
   await drawn(page);
   await page.getByRole("button", { name: /Cell menu/ }).click();
@@ -314,5 +314,34 @@ test("a palletising cell is built from an empty one by clicks and typed numbers 
   await page.waitForFunction(() => window.twincell.stores.cellStore.getState().saving.kind === "saved");
   await page.screenshot({ path: picture("building-palletising") });
   expect(await page.evaluate(() => window.twincellScene!.drawn().calls)).toBeLessThanOrEqual(150);
+
+  // M-10: drawn as wire, as points, flat, and smooth again, which is what it was.
+  const materials = () =>
+    page.evaluate(() => {
+      const kinds: string[] = [];
+      window.twincellScene!.scene.getObjectByName("pallet-1")!.traverse(each => {
+        const { material, isPoints } = each as unknown as {
+          material?: { wireframe?: boolean; flatShading?: boolean };
+          isPoints?: boolean;
+        };
+        if (material)
+          kinds.push(isPoints ? "points" : material.wireframe ? "wire" : material.flatShading ? "flat" : "plain");
+      });
+      return kinds;
+    });
+  const choose = async (name: string): Promise<void> => {
+    await page.getByRole("combobox", { name: "Drawn as" }).click();
+    await page.getByRole("option", { name, exact: true }).click();
+  };
+  expect(await materials()).toEqual(["plain"]);
+  await choose("Wire");
+  await expect.poll(materials).toEqual(["wire"]);
+  await page.screenshot({ path: picture("building-wire") });
+  await choose("Points");
+  await expect.poll(materials).toEqual(["plain", "points"]);
+  await choose("Flat");
+  await expect.poll(materials).toEqual(["flat"]);
+  await choose("Smooth");
+  await expect.poll(materials).toEqual(["plain"]);
   expect(problems).toEqual([]);
 }, 180_000);

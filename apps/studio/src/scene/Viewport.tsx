@@ -46,6 +46,7 @@ import { askForHeadset } from "./xr/availability.ts";
 /** Everything a headset needs is fetched when one is first asked for. */
 const StationViews = lazy(() => import("./robot/station-view.tsx").then(part => ({ default: part.StationViews })));
 const Gizmo = lazy(() => import("./gizmo/gizmo.tsx"));
+const Display = lazy(() => import("./gizmo/display.tsx"));
 const MeasureView = lazy(() => import("./gizmo/measure-view.tsx"));
 const Headset = lazy(() => import("./xr/headset.tsx").then(part => ({ default: part.Headset })));
 const meter = new FrameMeter();
@@ -61,6 +62,7 @@ export function Viewport() {
   const playing = useStore(playStore, state => state.playing) || physics;
   const tracing = useStore(traceStore, state => state.active);
   const stations = useStore(stationStore, state => state.stations.length);
+  const otherwise = useStore(buildStore, state => state.display !== "smooth" || state.section_m !== null);
   const measuring = useStore(buildStore, state => state.tool === "measure");
   const anything = useStore(selectionStore, state => state.selected !== null);
   const theme = useStore(viewStore, state => state.theme);
@@ -137,6 +139,11 @@ export function Viewport() {
             {mode === "cell" && measuring && (
               <Suspense fallback={null}>
                 <MeasureView />
+              </Suspense>
+            )}
+            {mode === "cell" && otherwise && (
+              <Suspense fallback={null}>
+                <Display world={world} />
               </Suspense>
             )}
             <Outline world={world} theme={colours} />

@@ -28,11 +28,10 @@ export function measurePoint(
     local,
     near_m,
   );
-  return {
-    ...found,
-    object: object.id,
-    ...(snapped ? { at_m: transformPoint(object.worldFromObject, snapped) } : {}),
-  };
+  // At a corner or an edge several faces meet: none of them has the angle.
+  return snapped
+    ? { at_m: transformPoint(object.worldFromObject, snapped), object: object.id }
+    : { ...found, object: object.id };
 }
 
 /** The nearest corner of these lines, else the nearest spot on one of them; undefined when all are farther away. */
