@@ -1,6 +1,7 @@
 import { createHash } from "node:crypto";
 import {
   closeSync,
+  fsync,
   fsyncSync,
   ftruncateSync,
   mkdirSync,
@@ -76,7 +77,7 @@ export function readAudit(text: string): { readonly lines: readonly AuditLine[];
 }
 
 export interface AuditLog {
-  /** On the disk when it returns. */
+  /** With the operating system when it returns, and on the disk soon after: no robot's link waits for a disk. */
   write(act: AuditAct): void;
   close(): void;
 }
@@ -85,7 +86,13 @@ export interface AuditLog {
  * Opens the log of a data folder to write at its end. What a crash left unfinished is taken away and said in the next line; a log that was
  * changed is not written on: throws with one sentence.
  */
-export function openAuditLog(data: string, now_ms: () => number): AuditLog {
+export function openAuditLog(
+  data: string,
+  now_ms: () => number,
+  onTrouble: (sentence: string) => void = sentence => {
+    console.error(sentence);
+  },
+): AuditLog {
   mkdirSync(data, { recursive: true });
   const path = auditFile(data);
   const free = lock(data);
@@ -102,11 +109,26 @@ export function openAuditLog(data: string, now_ms: () => number): AuditLog {
     );
   }
   let { lines: number, last: previous } = verdict;
+  let flushing = false;
+  let unflushed = false;
+  let closed = false;
+  const flush = (): void => {
+    unflushed = true;
+    if (flushing) return;
+    flushing = true;
+    unflushed = false;
+    fsync(file, problem => {
+      flushing = false;
+      if (closed) closeSync(file);
+      else if (problem) onTrouble(`The audit log may not be on the disk: ${problem.message}.`);
+      else if (unflushed) flush();
+    });
+  };
   const write = (act: AuditAct): void => {
     const rest = { number: number + 1, time: new Date(now_ms()).toISOString(), ...act, previous };
     const hash = hashOf(rest);
     writeSync(file, `${JSON.stringify({ ...rest, hash })}\n`);
-    fsyncSync(file);
+    flush();
     number++;
     previous = hash;
   };
@@ -123,7 +145,10 @@ export function openAuditLog(data: string, now_ms: () => number): AuditLog {
   return {
     write,
     close() {
-      closeSync(file);
+      fsyncSync(file);
+      closed = true;
+      // A flush that is under way keeps its file until it has ended.
+      if (!flushing) closeSync(file);
       free();
     },
   };
