@@ -18,7 +18,7 @@ afterEach(async () => {
 });
 
 test.skipIf(missing)(
-  "the Python client connects, moves, streams into pandas, plans, checks, writes, records and says what is refused, with and without asyncio",
+  "the Python client connects, moves, streams into pandas, plans, checks, writes, records and says what is refused, with and without asyncio; its notebook runs top to bottom",
   async () => {
     const studio = mkdtempSync(join(tmpdir(), "twincell-studio-"));
     writeFileSync(join(studio, "index.html"), "<title>studio</title>");
@@ -39,7 +39,7 @@ test.skipIf(missing)(
     run.stderr.on("data", part => (out += String(part)));
     const status = await new Promise(resolve => run.on("close", resolve));
     expect(status, out).toBe(0);
-    expect(out).toMatch(/6 passed/);
+    expect(out).toMatch(/7 passed/);
   },
   120_000,
 );
