@@ -19,6 +19,7 @@ const MODULES = [
   "jsonschema",
   "mcap_ros2.reader",
   "openapi_spec_validator",
+  "pandas",
   "py_openshowvar",
   "pytest",
   "rapidchecker",

@@ -1,5 +1,5 @@
 import type { IncomingMessage, RequestListener, ServerResponse } from "node:http";
-import { askForCode, type AccessCode } from "./access.ts";
+import { askForCode, clientOf, type AccessCode } from "./access.ts";
 import { isApiPath } from "./api/calls.ts";
 import type { apiListener } from "./api/listener.ts";
 import type { staticFiles } from "./static-files.ts";
@@ -82,7 +82,11 @@ export function studioListener(
       return;
     }
     if (access) {
-      const entry = access.enter(request.headers.cookie, url.searchParams.get("code"));
+      const entry = access.enter(
+        request.headers.cookie,
+        url.searchParams.get("code"),
+        clientOf(request.socket.remoteAddress),
+      );
       if (entry.kind === "too-many-tries") {
         say(429, "Too many wrong codes. Wait a minute, then type it again.\n");
         return;

@@ -1,4 +1,4 @@
-import { createServer as createHttp, type IncomingMessage } from "node:http";
+import { createServer as createHttp } from "node:http";
 import { createServer as createHttps } from "node:https";
 import type { AddressInfo } from "node:net";
 import { join } from "node:path";
@@ -6,7 +6,7 @@ import { createVideoRelay } from "@twincell/protocol";
 import { accessCode } from "./access.ts";
 import { apiHandlers } from "./api/handlers.ts";
 import { createJudge } from "./api/judge.ts";
-import { apiListener, type Entered } from "./api/listener.ts";
+import { apiListener } from "./api/listener.ts";
 import { createApiRobots, schedulerWith, type ApiRobots } from "./api/robots.ts";
 import { streamRoute } from "./api/stream.ts";
 import { certificate, lanAddresses } from "./lan.ts";
@@ -18,6 +18,10 @@ import { recordServer } from "./stations/record-host.ts";
 import { openRoutes } from "./sockets/doors.ts";
 import { connectionRoute } from "./stations/socket.ts";
 import { videoRoute } from "./video/door.ts";
+import { auditHost } from "./people/audit-host.ts";
+import { openAuditLog } from "./people/audit-log.ts";
+import { createGate } from "./people/gate.ts";
+import { tokenReader } from "./people/tokens.ts";
 import { staticFiles } from "./static-files.ts";
 
 export interface ServeOptions {
@@ -63,6 +67,18 @@ export async function serve(options: ServeOptions): Promise<Served> {
     { training: options.training, robots: allowed },
   );
   const robots = (parts.robots = createApiRobots(stations, nodeScheduler));
+  const say = (sentence: string): void => {
+    console.error(sentence);
+  };
+  const audit = options.data === undefined ? null : openAuditLog(options.data, () => Date.now());
+  const auditing = audit && auditHost(stations, audit, say);
+  const gate = createGate({
+    access,
+    tokens: tokenReader(options.data, () => Date.now(), say),
+    audit,
+    scheduler: nodeScheduler,
+    onTrouble: say,
+  });
   const judge = createJudge();
   const counts = new Map<number, number>();
   let ready = true;
@@ -79,7 +95,8 @@ export async function serve(options: ServeOptions): Promise<Served> {
     }),
     headers: HEADERS,
     counts,
-    enter: (request, route) => (route.access === "open" ? { kind: "in", who: "anyone" } : entered(access, request)),
+    enter: (request, route) => gate.enter(request, route.access),
+    audit,
   });
   const listener = studioListener(staticFiles(options.studio), hosts, access, api);
   const server = options.lan
@@ -91,6 +108,8 @@ export async function serve(options: ServeOptions): Promise<Served> {
     stations.close();
     programs.close();
     judge.close();
+    auditing?.();
+    audit?.close();
   };
   try {
     await new Promise<void>((resolve, reject) => {
@@ -116,9 +135,8 @@ export async function serve(options: ServeOptions): Promise<Served> {
   );
   const socket = openRoutes(
     server,
-    [connectionRoute(stations), streamRoute(stations, nodeScheduler), videoRoute(relay)],
-    request =>
-      isServed(hosts, request) && (access === null || access.enter(request.headers.cookie, null).kind === "welcome"),
+    [connectionRoute(stations, gate.nameOf), streamRoute(stations, nodeScheduler), videoRoute(relay)],
+    request => isServed(hosts, request) && gate.socket(request),
   );
   return {
     url: `${scheme}://127.0.0.1:${port}/${query}`,
@@ -135,20 +153,4 @@ export async function serve(options: ServeOptions): Promise<Served> {
         });
       }),
   };
-}
-
-/** Who has the code of the local network, by cookie or as a token; on loopback everybody of this machine is in. */
-function entered(access: ReturnType<typeof accessCode> | null, request: IncomingMessage): Entered {
-  if (access === null) return { kind: "in", who: "api" };
-  const token = /^Bearer (.+)$/.exec(request.headers.authorization ?? "")?.[1] ?? null;
-  const entry = access.enter(request.headers.cookie, token);
-  if (entry.kind === "welcome" || entry.kind === "welcome-with-cookie") return { kind: "in", who: "api" };
-  return entry.kind === "ask"
-    ? {
-        kind: "out",
-        status: 401,
-        sentence: "This server asks for its access code.",
-        hint: "Send it as the header authorization: Bearer CODE.",
-      }
-    : { kind: "out", status: 429, sentence: "Too many wrong codes.", hint: "Wait a minute, then send it again." };
 }

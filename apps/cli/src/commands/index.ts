@@ -1,4 +1,5 @@
 import type { Command } from "../io/usage.ts";
+import { auditCommand } from "./audit.ts";
 import { benchCommand } from "./bench.ts";
 import { calibrateCommand } from "./calibrate.ts";
 import { checkCommand } from "./check.ts";
@@ -19,6 +20,7 @@ import { robotsCommand } from "./robots.ts";
 import { runCommand } from "./run.ts";
 import { serveCommand } from "./serve.ts";
 import { simulateCommand } from "./simulate.ts";
+import { tokenCommand } from "./token.ts";
 import { validateCommand } from "./validate.ts";
 import { virtualCommand } from "./virtual.ts";
 
@@ -44,5 +46,7 @@ export const COMMANDS: readonly Command[] = [
   importCommand,
   meshCommand,
   doctorCommand,
+  tokenCommand,
+  auditCommand,
   benchCommand,
 ];

@@ -9,6 +9,8 @@ export interface Call<Id extends ApiRouteId> {
   /** The lease that the request names, or "". */
   readonly lease: string;
   readonly who: string;
+  /** Whether a token says who it is. */
+  readonly named: boolean;
   /** Whether it came from another machine. */
   readonly remote: boolean;
   /** Told when whoever asked is gone before the answer. */

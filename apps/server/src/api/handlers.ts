@@ -182,7 +182,9 @@ function robotHandlers({ host, robots }: ApiParts): Pick<Handlers, RobotRoutes> 
     async takeLease(call) {
       const id = call.params["id"]!;
       if (!robots.find(id)) return noRobot(id);
-      const taken = await robots.take(id, call.body.who ?? call.who, call.body.expires_s);
+      const { who: said = call.who, expires_s: ends_s } = call.body;
+      // Whoever has a token commands under its name.
+      const taken = await robots.take(id, call.named && said !== call.who ? `${said} of ${call.who}` : said, ends_s);
       if ("kind" in taken) return outcomeAnswer(taken);
       const { token, robot, who, expires_s } = taken;
       return json({ lease: token, robot, who, expires_s });

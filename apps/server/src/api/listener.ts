@@ -1,6 +1,7 @@
 import type { IncomingMessage, ServerResponse } from "node:http";
 import { once } from "node:events";
 import { sameOrigin } from "../sockets/doors.ts";
+import type { AuditLog } from "../people/audit-log.ts";
 import { findRoute, json, readBody, refusal, type Answer, type Call } from "./calls.ts";
 import type { Handlers } from "./handlers.ts";
 import type { ApiRoute, ApiRouteId } from "@twincell/protocol";
@@ -8,7 +9,7 @@ import { LEASE_HEADER } from "@twincell/protocol";
 
 /** Who asks, or why they are turned away. */
 export type Entered =
-  | { readonly kind: "in"; readonly who: string }
+  | { readonly kind: "in"; readonly who: string; readonly named: boolean }
   | { readonly kind: "out"; readonly status: 401 | 403 | 429; readonly sentence: string; readonly hint: string };
 
 export interface ApiOptions {
@@ -16,11 +17,13 @@ export interface ApiOptions {
   readonly headers: Readonly<Record<string, string>>;
   readonly enter: (request: IncomingMessage, route: ApiRoute) => Entered;
   readonly counts: Map<number, number>;
+  /** Where changes of documents are written down; acts at robots are by their host. */
+  readonly audit: AuditLog | null;
 }
 const isLoopback = (address = ""): boolean => address === "::1" || /^(::ffff:)?127\./.test(address);
 
 /** Answers one request at an address of the API. */
-export function apiListener({ handlers, headers, enter, counts }: ApiOptions) {
+export function apiListener({ handlers, headers, enter, counts, audit }: ApiOptions) {
   return async function answer(request: IncomingMessage, response: ServerResponse, path: string): Promise<void> {
     const gone = new Set<() => void>();
     response.on("close", () => {
@@ -96,6 +99,7 @@ export function apiListener({ handlers, headers, enter, counts }: ApiOptions) {
       body: body as never,
       lease: String(request.headers[LEASE_HEADER] ?? ""),
       who: entered.who,
+      named: entered.named,
       remote: !isLoopback(request.socket.remoteAddress),
       onGone(listen) {
         if (request.socket.destroyed) listen();
@@ -103,7 +107,16 @@ export function apiListener({ handlers, headers, enter, counts }: ApiOptions) {
       },
     };
     const handle = handlers[found.id as ApiRouteId] as (call: Call<never>) => Answer | Promise<Answer>;
-    return { answer: await handle(call) };
+    const answered = await handle(call);
+    if (found.route.access === "write")
+      audit?.write({
+        who: entered.who,
+        action: found.id,
+        robot: "",
+        detail: path,
+        outcome: answered.kind === "json" && (answered.status ?? 200) >= 400 ? "refused" : "done",
+      });
+    return { answer: answered };
   }
 }
 
