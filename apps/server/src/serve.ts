@@ -1,12 +1,17 @@
-import { createServer as createHttp } from "node:http";
+import { createServer as createHttp, type IncomingMessage } from "node:http";
 import { createServer as createHttps } from "node:https";
 import type { AddressInfo } from "node:net";
 import { join } from "node:path";
 import { createVideoRelay } from "@twincell/protocol";
 import { accessCode } from "./access.ts";
+import { apiHandlers } from "./api/handlers.ts";
+import { createJudge } from "./api/judge.ts";
+import { apiListener, type Entered } from "./api/listener.ts";
+import { createApiRobots, schedulerWith, type ApiRobots } from "./api/robots.ts";
+import { streamRoute } from "./api/stream.ts";
 import { certificate, lanAddresses } from "./lan.ts";
 import { nodeScheduler } from "./clock.ts";
-import { isServed, LOOPBACK, studioListener } from "./pages.ts";
+import { HEADERS, isServed, LOOPBACK, studioListener } from "./pages.ts";
 import { stationHost } from "./stations/host.ts";
 import { prepareJobInWorker } from "./stations/lay-out.ts";
 import { recordServer } from "./stations/record-host.ts";
@@ -46,21 +51,56 @@ export async function serve(options: ServeOptions): Promise<Served> {
   const addresses = options.lan ? lanAddresses() : [];
   const access = options.lan ? accessCode(() => nodeScheduler.now_s()) : null;
   const hosts = new Set([...LOOPBACK, ...addresses]);
-  const listener = studioListener(staticFiles(options.studio), hosts, access);
+  const programs = prepareJobInWorker();
+  // Whoever has the code may open controllers: on a network only those that whoever started the server named.
+  const allowed = options.robots ?? (options.lan ? ["127.0.0.1", "localhost"] : undefined);
+  const version = options.version ?? "";
+  const parts: { robots?: ApiRobots } = {};
+  const stations = stationHost(
+    schedulerWith(nodeScheduler, () => parts.robots?.beat()),
+    version,
+    programs.layOut,
+    { training: options.training, robots: allowed },
+  );
+  const robots = (parts.robots = createApiRobots(stations, nodeScheduler));
+  const judge = createJudge();
+  const counts = new Map<number, number>();
+  let ready = true;
+  const api = apiListener({
+    handlers: apiHandlers({
+      version,
+      host: stations,
+      robots,
+      judge,
+      scheduler: nodeScheduler,
+      data: options.data,
+      requests: { byClass: counts },
+      ready: () => ready,
+    }),
+    headers: HEADERS,
+    counts,
+    enter: (request, route) => (route.access === "open" ? { kind: "in", who: "anyone" } : entered(access, request)),
+  });
+  const listener = studioListener(staticFiles(options.studio), hosts, access, api);
   const server = options.lan
     ? createHttps({ ...(await certificate(options.data, addresses)) }, listener)
     : createHttp(listener);
-  await new Promise<void>((resolve, reject) => {
-    server.once("error", reject);
-    server.listen(options.port, options.host ?? (options.lan ? "0.0.0.0" : "127.0.0.1"), resolve);
-  });
-  const programs = prepareJobInWorker();
-  // Whoever has the code may open controllers: on a network only those that whoever started the server named.
-  const robots = options.robots ?? (options.lan ? ["127.0.0.1", "localhost"] : undefined);
-  const stations = stationHost(nodeScheduler, options.version ?? "", programs.layOut, {
-    training: options.training,
-    robots,
-  });
+  const end = (): void => {
+    ready = false;
+    robots.close();
+    stations.close();
+    programs.close();
+    judge.close();
+  };
+  try {
+    await new Promise<void>((resolve, reject) => {
+      server.once("error", reject);
+      server.listen(options.port, options.host ?? (options.lan ? "0.0.0.0" : "127.0.0.1"), resolve);
+    });
+  } catch (problem) {
+    end();
+    throw problem;
+  }
   const recorder =
     options.data === undefined
       ? null
@@ -76,7 +116,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
   );
   const socket = openRoutes(
     server,
-    [connectionRoute(stations), videoRoute(relay)],
+    [connectionRoute(stations), streamRoute(stations, nodeScheduler), videoRoute(relay)],
     request =>
       isServed(hosts, request) && (access === null || access.enter(request.headers.cookie, null).kind === "welcome"),
   );
@@ -87,8 +127,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     close: () =>
       new Promise(resolve => {
         recorder?.close();
-        stations.close();
-        programs.close();
+        end();
         socket.close();
         server.closeAllConnections();
         server.close(() => {
@@ -96,4 +135,20 @@ export async function serve(options: ServeOptions): Promise<Served> {
         });
       }),
   };
+}
+
+/** Who has the code of the local network, by cookie or as a token; on loopback everybody of this machine is in. */
+function entered(access: ReturnType<typeof accessCode> | null, request: IncomingMessage): Entered {
+  if (access === null) return { kind: "in", who: "api" };
+  const token = /^Bearer (.+)$/.exec(request.headers.authorization ?? "")?.[1] ?? null;
+  const entry = access.enter(request.headers.cookie, token);
+  if (entry.kind === "welcome" || entry.kind === "welcome-with-cookie") return { kind: "in", who: "api" };
+  return entry.kind === "ask"
+    ? {
+        kind: "out",
+        status: 401,
+        sentence: "This server asks for its access code.",
+        hint: "Send it as the header authorization: Bearer CODE.",
+      }
+    : { kind: "out", status: 429, sentence: "Too many wrong codes.", hint: "Wait a minute, then send it again." };
 }

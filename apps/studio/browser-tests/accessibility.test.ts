@@ -145,7 +145,7 @@ describe("by keyboard alone", () => {
     await page.keyboard.press("Control+Shift+Z");
     expect(await steps()).toBe(2);
 
-    await page.keyboard.press("2");
+    await page.keyboard.press("3");
     await page.waitForFunction(
       () =>
         window.twincell.stores.playStore.getState().verdict?.steps.length === 2 &&
@@ -166,7 +166,7 @@ describe("by keyboard alone", () => {
         window.twincell.stores.historyStore.getState().runs.length === 1 &&
         !window.twincell.stores.controlStore.getState().running,
     );
-    await page.keyboard.press("4");
+    await page.keyboard.press("5");
     expect(await page.evaluate(() => window.twincell.stores.viewStore.getState().mode)).toBe("history");
     await page.keyboard.press("Pause");
     await page.waitForFunction(() =>

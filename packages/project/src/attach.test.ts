@@ -1,7 +1,7 @@
 import { readFileSync } from "node:fs";
 import { compose, flangePose, pose, posesAgree, robotById, type MoveStep, type Pose } from "@twincell/core";
 import { expect, test } from "vitest";
-import { attachFrame, attachSteps, followObjects, objectOfTarget } from "./attach.ts";
+import { attachFrame, attachSteps, followObjects, objectOfTarget, placeFrame } from "./attach.ts";
 import type { CellDocument } from "./document.ts";
 import { tracedCartonCell } from "./example/index.ts";
 import { openDocument } from "./open.ts";
@@ -77,6 +77,16 @@ test("taught points of joint angles and of poses are attached where they stand, 
   const opened = openDocument(saveDocument(after));
   expect(opened).toMatchObject({ kind: "opened", lifted: [] });
   expect(opened.kind === "opened" && saveDocument(opened.document)).toBe(saveDocument(after));
+});
+
+test("an attached frame that is placed elsewhere stays there and still follows its object", () => {
+  const cell = tracedCartonCell();
+  const object = cell.frames[0]!.attachedTo!.object;
+  const there: Pose<"world", "frame"> = pose([0.5, 0.1, 0.7], [0, 0, half, half]);
+  const placed = followObjects(placeFrame(cell, cell.frames[0]!.name, there));
+  expect(posesAgree(placed.frames[0]!.worldFromFrame, there, 1e-12, 1e-12)).toBe(true);
+  expect(posesAgree(moved(placed, object).frames[0]!.worldFromFrame, there, 1e-3, 1e-3)).toBe(false);
+  expect(placeFrame(cell, "nobody", there)).toBe(cell);
 });
 
 test("a frame whose object is taken out stays where it is; a file that names an object it does not have is refused", () => {

@@ -71,6 +71,26 @@ export function attachFrame(cell: CellDocument, name: string, object: string | n
   };
 }
 
+/** A frame at another place of the world; one that is attached stays attached, there. A frame that is not there changes nothing. */
+export function placeFrame(cell: CellDocument, name: string, worldFromFrame: Pose<"world", "frame">): CellDocument {
+  if (!cell.frames.some(frame => frame.name === name)) return cell;
+  return {
+    ...cell,
+    frames: cell.frames.map((frame): FrameRecord => {
+      if (frame.name !== name) return frame;
+      const { attachedTo } = frame;
+      const object = cell.objects.find(each => each.id === attachedTo?.object);
+      return attachedTo === undefined || object === undefined
+        ? { ...frame, worldFromFrame }
+        : {
+            ...frame,
+            worldFromFrame,
+            attachedTo: { ...attachedTo, objectFromFrame: compose(inverse(object.worldFromObject), worldFromFrame) },
+          };
+    }),
+  };
+}
+
 /**
  * Attaches taught points (a traced edge is all steps of its group) where they stand: each target becomes a pose in a hidden
  * frame of the object. Joint angles become the pose they reach, with their branch; targets at the places of a pallet stay.

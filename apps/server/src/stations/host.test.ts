@@ -210,7 +210,9 @@ describe("A the guard of a connected robot knows the objects of its cell", () =>
       kind: "refused",
       why: { code: "guard.lease-taken" },
     });
-    expect(await ask({ type: "cell", station: "s", cell: { ...cell, objects: [] } })).toEqual({ kind: "done" });
+    expect(await ask({ type: "cell", station: "s", cell: { ...cell, objects: [], frames: [] } })).toEqual({
+      kind: "done",
+    });
     expect(await ask({ type: "cell", station: "s", cell: { ...cell, objects: table } })).toEqual({ kind: "done" });
     expect(await ask(run)).toMatchObject({ kind: "refused", why: { code: "collision.contact" } });
     for (const { q_rad } of samples("s")) expect(q_rad[1]).toBeCloseTo(robot.home_rad[1]!, 3);

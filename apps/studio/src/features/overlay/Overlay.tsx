@@ -16,10 +16,11 @@ import "./overlay.css";
 
 /** What floats over the view: what a click does, and where the TCP is. */
 export function Overlay({ phone }: { phone: boolean }) {
+  const mode = useStore(viewStore, state => state.mode);
   return (
     <>
       {!phone && <Hint />}
-      <Readout />
+      {mode !== "cell" && <Readout />}
       <ClearanceTag />
       <TraceTool />
     </>
@@ -30,15 +31,17 @@ function Hint() {
   const mode = useStore(viewStore, state => state.mode);
   const tracing = useStore(traceStore, state => state.active);
   const hint =
-    mode === "check"
-      ? words.view.hintCheck
-      : mode === "run"
-        ? words.view.hintRun
-        : mode === "history"
-          ? words.view.hintHistory
-          : tracing
-            ? words.view.hintTrace
-            : words.view.hintTeach;
+    mode === "cell"
+      ? words.view.hintCell
+      : mode === "check"
+        ? words.view.hintCheck
+        : mode === "run"
+          ? words.view.hintRun
+          : mode === "history"
+            ? words.view.hintHistory
+            : tracing
+              ? words.view.hintTrace
+              : words.view.hintTeach;
   return (
     <p className="hint float">
       {hint.map(([strong, rest], i) => (

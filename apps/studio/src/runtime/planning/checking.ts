@@ -191,4 +191,5 @@ const solidsDiffer = (a: CellDocument, b: CellDocument): boolean =>
   a.tool !== b.tool ||
   a.robot !== b.robot ||
   a.allowedPairs !== b.allowedPairs ||
-  a.pairs !== b.pairs;
+  a.pairs !== b.pairs ||
+  a.errors !== b.errors;

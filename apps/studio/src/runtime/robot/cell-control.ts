@@ -33,14 +33,15 @@ let control: CellControl | null = null;
 let made: Solids | null = null;
 
 /** What the controller and its guard are made from. */
-type Solids = Pick<CellDocument, "robot" | "objects" | "tools" | "tool" | "allowedPairs" | "pairs">;
+type Solids = Pick<CellDocument, "robot" | "objects" | "tools" | "tool" | "allowedPairs" | "pairs" | "errors">;
 const same = (a: Solids, b: Solids): boolean =>
   a.robot === b.robot &&
   a.objects === b.objects &&
   a.tools === b.tools &&
   a.tool === b.tool &&
   a.allowedPairs === b.allowedPairs &&
-  a.pairs === b.pairs;
+  a.pairs === b.pairs &&
+  a.errors === b.errors;
 
 /** The controller of the open cell; made anew when robot, tool or surroundings change, but never under a run. */
 export function theControl(): CellControl | null {

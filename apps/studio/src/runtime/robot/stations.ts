@@ -517,7 +517,8 @@ const sameForGuards = (a: CellDocument, b: CellDocument): boolean =>
   a.tools === b.tools &&
   a.tool === b.tool &&
   a.allowedPairs === b.allowedPairs &&
-  a.pairs === b.pairs;
+  a.pairs === b.pairs &&
+  a.errors === b.errors;
 const CELL_EVERY_MS = 100;
 let cellDue: number | undefined;
 
