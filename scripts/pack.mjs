@@ -58,18 +58,22 @@ execFileSync("npm", ["pack", folder, "--pack-destination", out, "--loglevel", "e
 });
 console.log(`${tarball}: ${megabytes(statSync(tarball).size)} MB, ${megabytes(bytesUnder(folder))} MB installed`);
 
-/** The command line and its worker thread as modules of one folder. */
+/** The command line and its worker threads as modules of one folder. */
 async function bundle() {
   const made = await rolldown({
     cwd: root,
-    input: { twincell: "apps/cli/src/main.ts", "lay-out.worker": "apps/server/src/stations/lay-out.worker.ts" },
+    input: {
+      twincell: "apps/cli/src/main.ts",
+      "lay-out.worker": "apps/server/src/stations/lay-out.worker.ts",
+      "judge.worker": "apps/server/src/api/judge.worker.ts",
+    },
     platform: "node",
     external: [...OPTIONAL, "bufferutil", "utf-8-validate"],
     plugins: [
       {
         name: "worker-address",
         transform: code =>
-          code.includes('"./lay-out.worker.ts"') ? code.replaceAll("./lay-out.worker.ts", "./lay-out.worker.js") : null,
+          code.includes('.worker.ts"') ? code.replaceAll(/"\.\/([\w-]+\.worker)\.ts"/g, '"./$1.js"') : null,
       },
     ],
   });

@@ -69,6 +69,18 @@ describe("M-64 the package that npm run pack makes", () => {
     expect(readFileSync(join(folder, "out", written!), "utf8")).toContain(".PROGRAM");
   });
 
+  test("has every worker thread that its code starts beside that code", () => {
+    const cli = join(folder, "node_modules/twincell/cli");
+    const modules = readdirSync(cli).filter(name => name.endsWith(".js"));
+    const started = modules.flatMap(name =>
+      [...readFileSync(join(cli, name), "utf8").matchAll(/new URL\("\.\/([^"]+)", import\.meta\.url\)/g)].map(
+        found => found[1]!,
+      ),
+    );
+    expect(started.length).toBeGreaterThanOrEqual(2);
+    for (const name of started) expect(modules, name).toContain(name);
+  });
+
   test("says in one sentence how to add physics, and that benchmarks are in the repository", () => {
     const physics = twincell("validate", "--robot", "ur10e");
     expect(physics.status).toBe(2);

@@ -2,7 +2,7 @@ import { createReadStream } from "node:fs";
 import { readdir, stat } from "node:fs/promises";
 import { join } from "node:path";
 import { DRIVER_KINDS } from "@twincell/controllers";
-import { isSlide, LIBRARY, type CommandOutcome, type Scheduler } from "@twincell/core";
+import { catalogueRobots, isSlide, LIBRARY, type CommandOutcome, type Scheduler } from "@twincell/core";
 import { DIALECTS } from "@twincell/languages";
 import {
   API_VERSION,
@@ -80,7 +80,7 @@ export function apiHandlers(parts: ApiParts): Handlers {
         openapi: "/api/openapi.json",
         asyncapi: "/api/asyncapi.json",
       }),
-    models: () => json({ models: MODELS }),
+    models: () => json({ models: models() }),
     drivers: () =>
       json({
         drivers: DRIVER_KINDS.map(({ id, name, vendor, dialect, ports }) => ({ id, name, vendor, dialect, ports })),
@@ -92,21 +92,23 @@ export function apiHandlers(parts: ApiParts): Handlers {
     ...recordingHandlers(parts.data === undefined ? undefined : join(parts.data, "recordings")),
   };
 }
-const MODELS = LIBRARY.map(robot => ({
-  id: robot.id,
-  name: robot.name,
-  vendor: robot.vendor,
-  joints: robot.arm.joints.map(joint => ({
-    name: joint.name,
-    slides: isSlide(joint),
-    lower_rad: joint.limits.lower_rad,
-    upper_rad: joint.limits.upper_rad,
-    speed_rad_s: joint.limits.speed_rad_s,
-  })),
-  home_rad: Array.from(robot.home_rad),
-  payload_kg: robot.payload_kg,
-  reach_m: robot.reach_m,
-}));
+/** Asked for at each call: the catalogue is added by whoever starts the server. */
+const models = () =>
+  [...LIBRARY, ...catalogueRobots()].map(robot => ({
+    id: robot.id,
+    name: robot.name,
+    vendor: robot.vendor,
+    joints: robot.arm.joints.map(joint => ({
+      name: joint.name,
+      slides: isSlide(joint),
+      lower_rad: joint.limits.lower_rad,
+      upper_rad: joint.limits.upper_rad,
+      speed_rad_s: joint.limits.speed_rad_s,
+    })),
+    home_rad: Array.from(robot.home_rad),
+    payload_kg: robot.payload_kg ?? null,
+    reach_m: robot.reach_m,
+  }));
 
 type RobotRoutes =
   | "listRobots"

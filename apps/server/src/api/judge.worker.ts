@@ -1,5 +1,6 @@
 import { parentPort } from "node:worker_threads";
 import {
+  addCatalogue,
   checkProgram,
   linkSolids,
   parseProgram,
@@ -11,10 +12,12 @@ import {
   type Program,
   type Robot,
 } from "@twincell/core";
+import { CATALOGUE } from "@twincell/core/catalogue";
 import { dialectById, proveText, runnableFile } from "@twincell/languages";
 import { cellGeometry, openDocument, type CellDocument } from "@twincell/project";
 import type { JudgeAnswer, JudgeRequest } from "./judge.ts";
 
+addCatalogue(CATALOGUE);
 const refused = (code: string, sentence: string, hint: string): JudgeAnswer => ({
   kind: "refused",
   why: { code, sentence, hint },

@@ -103,7 +103,7 @@ export const modelsSchema = z.object({
         }),
       ),
       home_rad: z.array(z.number()),
-      payload_kg: z.number(),
+      payload_kg: z.number().nullable().describe("null where no source states it"),
       reach_m: z.number(),
     }),
   ),
