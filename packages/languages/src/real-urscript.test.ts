@@ -4,8 +4,7 @@
  */
 import { robotById, SignalTable, type MoveStep } from "@twincell/core";
 import { expect, test } from "vitest";
-import { executeText } from "../patch/index.ts";
-import { urScript } from "./index.ts";
+import { executeText, urScript } from "./index.ts";
 
 const robot = robotById("ur10e")!;
 const run = (...lines: string[]): ReturnType<typeof executeText> =>

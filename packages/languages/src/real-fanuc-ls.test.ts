@@ -4,8 +4,7 @@
  */
 import { robotById, type MoveStep } from "@twincell/core";
 import { expect, test } from "vitest";
-import { executeText } from "../patch/index.ts";
-import { fanucLs } from "./index.ts";
+import { executeText, fanucLs } from "./index.ts";
 
 const robot = robotById("fanuc_lrmate200id")!;
 /** Where the world of the controller counts from [m]: the height of joint 2. */

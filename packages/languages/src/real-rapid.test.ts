@@ -1,8 +1,7 @@
 /* Routines with optional arguments, given on or not. Written for this test; the motions are worked out by hand. */
 import { robotById, type MoveStep } from "@twincell/core";
 import { expect, test } from "vitest";
-import { executeText } from "../patch/index.ts";
-import { rapid } from "./index.ts";
+import { executeText, rapid } from "./index.ts";
 
 const robot = robotById("abb_irb120")!;
 const TEXT = [
