@@ -7,6 +7,7 @@ import { datasetCommand } from "./dataset.ts";
 import { demonstrateCommand } from "./demonstrate.ts";
 import { dialectsCommand } from "./dialects.ts";
 import { diffCommand } from "./diff.ts";
+import { doctorCommand } from "./doctor.ts";
 import { fkCommand } from "./fk.ts";
 import { ikCommand } from "./ik.ts";
 import { importCommand } from "./import.ts";
@@ -46,5 +47,6 @@ export const COMMANDS: readonly Command[] = [
   meshCommand,
   tokenCommand,
   auditCommand,
+  doctorCommand,
   benchCommand,
 ];

@@ -99,7 +99,7 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
   checkImpasses(scene);
   checkSingular(scene);
   checkSignals(scene);
-  checkPayload(scene);
+  const unweighed = checkPayload(scene);
   checkFlow(scene);
   const torque = checkTorque(scene, options.payload);
   if (cell !== undefined) checkEdges(scene, cell);
@@ -128,7 +128,10 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
   const written = [...everyStep(program)];
   const steps = written.map(step => {
     const evaluated =
-      (layout.complete || layout.evaluated.has(step.id)) && !unproven.has(step.id) && !layout.unjudged.has(step.id);
+      (layout.complete || layout.evaluated.has(step.id)) &&
+      !unproven.has(step.id) &&
+      !layout.unjudged.has(step.id) &&
+      !unweighed.has(step.id);
     return { id: step.id, verdict: book.verdictOf(step.id, evaluated), findings: book.of(step.id) };
   });
   const ok = steps.every(step => step.verdict === "ok" || step.verdict === "warn");

@@ -1,4 +1,5 @@
 import { notify } from "../../stores/notices.ts";
+import { loadCatalogue } from "../../stores/catalogue.ts";
 import { openCellText } from "../../stores/opening.ts";
 import { importText } from "../../stores/importing.ts";
 import { importShapes, type FileAt } from "../../runtime/mesh-import.ts";
@@ -16,8 +17,10 @@ export async function openFile(file: File): Promise<void> {
   const kind = /\.([a-z0-9]+)$/i.exec(file.name)?.[1]?.toLowerCase() ?? "";
   try {
     if (kind === "mcap") await (await import("../../runtime/robot/cell-control.ts")).openRecordingFiles([file]);
-    else if (kind === "json") openCellText(await file.text(), file.name);
-    else if (isShape(file.name)) await importShapes([{ path: file.name, file }]);
+    else if (kind === "json") {
+      await loadCatalogue();
+      openCellText(await file.text(), file.name);
+    } else if (isShape(file.name)) await importShapes([{ path: file.name, file }]);
     else if (isProgram(kind) && kind !== "txt") await openTexts([file]);
     else if (kind === "txt") {
       const [fault] = importText(await file.text(), file.name);
