@@ -208,7 +208,8 @@ test("state is read without a lease and without signs of life; a motion needs th
     status: 409,
     body: { kind: "refused" },
   });
-  expect(await ask("POST", "/api/v1/robots/arm/move", { q_rad: target }, lease)).toMatchObject({
+  const moved = await ask("POST", "/api/v1/robots/arm/move", { q_rad: target }, lease);
+  expect(moved, moved.text).toMatchObject({
     status: 200,
     body: { kind: "done" },
   });
