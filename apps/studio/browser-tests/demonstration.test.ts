@@ -71,7 +71,7 @@ test("M-38 M-39 M-40 M-47 L-32 a dropped demonstration is filtered, laid over th
   expect(await drawnLines()).toEqual([0, 0]);
   const kinds = await page.evaluate(() => {
     const [program] = window.twincell.stores.cellStore.getState().document!.programs;
-    return program!.format === "twincell.program"
+    return program?.format === "twincell.program"
       ? program.steps.map(step => (step.type === "move" ? step.path : step.type))
       : [];
   });

@@ -11,7 +11,7 @@ import { select } from "../../stores/selection.ts";
 import { viewStore } from "../../stores/view.ts";
 import { Frame } from "../../ui/Frame.tsx";
 import { words } from "../../messages/index.ts";
-import { whyCards, type Why } from "../check/why.ts";
+import { whyCards, type Why } from "../../runtime/planning/why-cards.ts";
 import "./run.css";
 
 /** So many findings are named; the rest is counted. */
