@@ -134,7 +134,11 @@ for (const [maker, option, robot] of [
     await jog(page, 5, 0.08);
     await sameJoints(page);
     await page.getByRole("button", { name: "PTP", exact: true }).click();
-    const steps = await page.evaluate(() => window.twincell.stores.cellStore.getState().document!.programs[0]!.steps);
+    const steps = await page.evaluate(() =>
+      window.twincell.stores.cellStore
+        .getState()
+        .document!.programs.flatMap(each => (each.format === "twincell.program" ? each.steps : [])),
+    );
     expect(steps.map(({ type }) => type)).toEqual(["move", "move", "move"]);
     expect(await page.evaluate(() => window.twincell.stores.connectionStore.getState().view)).toBe("live");
     const taught = await reported(page);
@@ -258,9 +262,13 @@ for (const [maker, option, robot] of [
     await page.getByRole("combobox", { name: "Connection" }).click();
     await page.getByRole("option", { name: "Simulated" }).click();
     await page.waitForFunction(() => window.twincell.stores.stationStore.getState().stations.length === 0);
-    expect(await page.evaluate(() => window.twincell.stores.cellStore.getState().document!.programs[0]!.steps)).toEqual(
-      steps,
-    );
+    expect(
+      await page.evaluate(() =>
+        window.twincell.stores.cellStore
+          .getState()
+          .document!.programs.flatMap(each => (each.format === "twincell.program" ? each.steps : [])),
+      ),
+    ).toEqual(steps);
     expect(problems).toEqual([]);
     await page.context().close();
   }, 240_000);
