@@ -117,8 +117,8 @@ class AsyncLease:
     async def move(self, q_rad: Sequence[float]) -> None:
         await self._motion(self.sync.move, q_rad)
 
-    async def run(self, program: Any, as_text: bool = False) -> None:
-        await self._motion(self.sync.run, program, as_text)
+    async def run(self, program: Any, as_text: bool = False, despite: Sequence[str] = ()) -> None:
+        await self._motion(self.sync.run, program, as_text, despite)
 
     async def release(self) -> None:
         await asyncio.to_thread(self.sync.release)

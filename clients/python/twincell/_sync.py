@@ -148,9 +148,12 @@ class Lease:
         """
         self._post("move", {"q_rad": [float(q) for q in q_rad]}, None)
 
-    def run(self, program: Any, as_text: bool = False) -> None:
-        """Checks a program, runs it and returns at its end."""
-        self._post("run", {"program": program, "asText": as_text}, None)
+    def run(self, program: Any, as_text: bool = False, despite: Sequence[str] = ()) -> None:
+        """Checks a program, runs it and returns at its end.
+
+        A program whose check is red is refused; `despite` names the codes of findings you have seen and go on in spite of.
+        """
+        self._post("run", {"program": program, "asText": as_text, "despite": list(despite)}, None)
 
     def release(self) -> None:
         self.robot.connection.request("DELETE", robot_path(self.robot.id, "lease"), lease=self.token)

@@ -15,9 +15,17 @@ export type AuditEntry =
       ConnectionRequest,
       { readonly type: "alive" | "ping" | "open" | "visit" | "look-ahead" | "preview" | "together" }
     >
-  | { readonly type: "together"; readonly program: unknown; readonly asText: boolean; readonly members: number };
+  | {
+      readonly type: "together";
+      readonly program: unknown;
+      readonly asText: boolean;
+      readonly despite?: readonly string[];
+      readonly members: number;
+    };
 
 const AS_TEXT = " as text of the controller's own language";
+const inSpiteOf = (codes: readonly string[] = []): string =>
+  codes.length > 0 ? `, in spite of ${codes.join(", ")}` : "";
 const degrees = (q_rad: readonly number[]): string => q_rad.map(q => `${((q * 180) / Math.PI).toFixed(2)}°`).join(", ");
 
 export function auditEntryState(act: AuditEntry): AuditEntryState {
@@ -54,11 +62,11 @@ export function auditEntryState(act: AuditEntry): AuditEntryState {
     case "zero":
       return command("moves all joints to zero");
     case "run":
-      return command("runs a program", `${nameOf(act.program)}${act.asText ? AS_TEXT : ""}`);
+      return command("runs a program", `${nameOf(act.program)}${act.asText ? AS_TEXT : ""}${inSpiteOf(act.despite)}`);
     case "together":
       return command(
         `starts a program together with ${act.members - 1} more`,
-        `${nameOf(act.program)}${act.asText ? AS_TEXT : ""}`,
+        `${nameOf(act.program)}${act.asText ? AS_TEXT : ""}${inSpiteOf(act.despite)}`,
       );
     case "watch":
       return plain(act.on ? "only watches from now on" : "may command again");

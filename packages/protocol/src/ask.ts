@@ -11,6 +11,8 @@ const pose = z
   .transform((value): Pose<"world", "base"> => value);
 const port = z.int().min(1).max(65_535);
 const station = { station: text } as const;
+/** Codes of red findings that a person has seen and sends a program in spite of; any other keeps it from being sent. */
+const despite = z.array(text).max(100);
 /** Answered by the `answer` of the same number. */
 const asked = { id: z.int().nonnegative() } as const;
 
@@ -84,7 +86,14 @@ export const requestSchema = z.discriminatedUnion("type", [
   z.object({ type: z.literal("speed"), ...asked, ...station, percent: z.number() }),
   z.object({ type: z.literal("move"), ...asked, ...station, q_rad: angles }),
   z.object({ type: z.literal("zero"), ...asked, ...station }),
-  z.object({ type: z.literal("run"), ...asked, ...station, program: z.unknown(), asText: z.boolean() }),
+  z.object({
+    type: z.literal("run"),
+    ...asked,
+    ...station,
+    program: z.unknown(),
+    asText: z.boolean(),
+    despite: z.exactOptional(despite),
+  }),
   /** How far ahead of the robot is looked [s]. */
   z.object({ type: z.literal("look-ahead"), ...asked, ...station, seconds: z.number().min(0.5).max(10) }),
   /** Shows where a program would take the robot; nothing is sent to it. */
@@ -94,7 +103,7 @@ export const requestSchema = z.discriminatedUnion("type", [
     type: z.literal("together"),
     ...asked,
     members: z
-      .array(z.object({ station: text, program: z.unknown(), asText: z.boolean() }))
+      .array(z.object({ station: text, program: z.unknown(), asText: z.boolean(), despite: z.exactOptional(despite) }))
       .min(2)
       .max(16),
   }),

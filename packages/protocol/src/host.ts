@@ -48,9 +48,9 @@ export interface ServedConnection<Seat extends ServedCommander = ServedCommander
     ): () => void;
   };
   preview(program: Program): Promise<CommandOutcome>;
-  run(seat: Seat, program: Program, asText: boolean): Promise<CommandOutcome>;
+  run(seat: Seat, program: Program, asText: boolean, despite?: readonly string[]): Promise<CommandOutcome>;
   /** Makes a program ready to be started: what may be refused is told before anything moves. */
-  prepare(seat: Seat, program: Program, asText: boolean): Promise<ServedRun>;
+  prepare(seat: Seat, program: Program, asText: boolean, despite?: readonly string[]): Promise<ServedRun>;
   stop(emergency: boolean): void;
   /** The cell whose objects and tool its guard keeps it from. */
   setCell(document: unknown): CommandOutcome;
@@ -368,7 +368,7 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
           case "run": {
             const parsed = parseProgram(ask.program);
             if (parsed.kind !== "program") return unreadable(parsed.faults[0]?.sentence);
-            return station.run(seat, parsed.program, ask.asText);
+            return station.run(seat, parsed.program, ask.asText, ask.despite);
           }
           case "pendant":
             return visitTo(station)?.act(ask.act) ?? noPendant(station);
@@ -400,7 +400,7 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
         const ready: ServedMember[] = [];
         if (new Set(ids).size < ids.length)
           return refuse("group.twice", "A station is named twice in the group.", "Name each once.");
-        for (const { station: id, program, asText } of members) {
+        for (const { station: id, program, asText, despite } of members) {
           const station = stations.get(id)?.station;
           const parsed = parseProgram(program);
           if (!station) return noStation(id);
@@ -411,10 +411,14 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
               "Export it again.",
             );
           const seat = seatAt(station);
-          ready.push({ station, prepare: () => station.prepare(seat, parsed.program, asText) });
+          ready.push({ station, prepare: () => station.prepare(seat, parsed.program, asText, despite) });
         }
-        const told = members.map(({ station, program, asText }) =>
-          tellAct(who, { type: "together", program, asText, members: members.length }, station),
+        const told = members.map(({ station, program, asText, despite }) =>
+          tellAct(
+            who,
+            { type: "together", program, asText, ...(despite ? { despite } : {}), members: members.length },
+            station,
+          ),
         );
         const { outcome, each } = await options.together(ready, ({ spread_s }) => {
           all({ type: "began", stations: ids, spread_s });

@@ -208,6 +208,7 @@ function robotHandlers({ host, robots }: ApiParts): Pick<Handlers, RobotRoutes> 
         station: call.params["id"]!,
         program: call.body.program,
         asText: call.body.asText,
+        ...(call.body.despite ? { despite: call.body.despite } : {}),
       }),
     setCell: call => unlessTaken(call, { type: "cell", station: call.params["id"]!, cell: call.body.cell }),
     stop(call) {

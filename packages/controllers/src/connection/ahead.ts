@@ -22,7 +22,7 @@ export interface Ahead {
   /** Looks ahead of a robot that carries out a plan until the returned function is called. */
   follow(plan: Plan, findings: readonly Finding[], progress: () => Progress): () => void;
   /** Shows where the plan would take it, at full override, without a word to the robot; the answer is what is found on the way. */
-  preview(plan: Plan, findings: readonly Finding[]): ReturnType<LookAhead["preview"]>;
+  preview(plan: Plan, findings: readonly Finding[], bad: readonly Finding[]): ReturnType<LookAhead["preview"]>;
   /** null: nothing is looked ahead any more. */
   onChange(listen: (words: AheadWords | null) => void): () => void;
   close(): void;
@@ -84,8 +84,8 @@ export function createAhead({
     },
     follow: (plan, findings, progress) =>
       begin(new LookAhead({ name, plan, findings, place, joints: q_rad.length }), progress),
-    preview(plan, findings) {
-      const look = new LookAhead({ name, plan, findings, place, joints: q_rad.length });
+    preview(plan, findings, bad) {
+      const look = new LookAhead({ name, plan, findings, bad, place, joints: q_rad.length });
       const from_s = scheduler.now_s();
       // The ghost runs ahead of where the robot would be.
       begin(look, () => {

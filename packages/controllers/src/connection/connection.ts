@@ -55,6 +55,8 @@ export interface RobotJob {
   readonly plan?: Plan;
   /** What the check found on the plan. */
   readonly findings?: readonly Finding[];
+  /** Those of them that make the check red. */
+  readonly bad?: readonly Finding[];
 }
 
 /** A program that a controller has and is ready for. */

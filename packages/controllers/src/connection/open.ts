@@ -77,12 +77,17 @@ export interface VendorConnection extends RobotConnection {
   readonly pendant: VirtualPendant | null;
   /** Pulls the plug of the wire to a virtual controller, or puts it back. */
   readonly plug: ((pulled: boolean) => void) | null;
-  /** Runs a program from that seat, compared with its plan all the way; as text where wanted and taken. */
-  run(commander: Commander, program: Program, asText: boolean): Promise<CommandOutcome>;
+  /**
+   * Runs a program from that seat, compared with its plan all the way; as text where wanted and taken. It is planned from where the
+   * robot stands and checked in its cell first: what makes the check red keeps it from being sent.
+   *
+   * @param despite  codes of findings that a person has seen and sends it in spite of; the guard stops it before contact all the same.
+   */
+  run(commander: Commander, program: Program, asText: boolean, despite?: readonly string[]): Promise<CommandOutcome>;
   /** Shows where it would take the robot, without a word to it; refused with the first thing in the way. */
   preview(program: Program): Promise<CommandOutcome>;
   /** The same in two, for a start together with others: what may be refused is told before anything moves. */
-  prepare(commander: Commander, program: Program, asText: boolean): Promise<PreparedRun>;
+  prepare(commander: Commander, program: Program, asText: boolean, despite?: readonly string[]): Promise<PreparedRun>;
   stop(emergency: boolean): void;
   /** Another cell, or the same one changed. What moves is stopped if it is too near to something in it; one that cannot be read leaves the one before. */
   setCell(document: unknown): CommandOutcome;
@@ -227,10 +232,31 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
       program,
       steps: () => atTerminals(program, brand, controller.signals),
       findings: laid.findings,
+      bad: laid.bad,
       ...(laid.plan ? { plan: laid.plan } : {}),
       ...(laid.files ? { files: laid.files } : {}),
     };
     return { kind: "job", job, stuck: laid.stuck };
+  }
+  /**
+   * The first thing that keeps a planned program from being sent: a red finding that nobody has agreed to, or a robot that stands in
+   * its way. With others in a common start, robots that stand now may move then.
+   */
+  function blockedBy(
+    { plan, findings = [], bad = [] }: RobotJob,
+    despite: readonly string[],
+    withOthers: boolean,
+  ): Refusal | null {
+    if (!plan) return null;
+    const { blocked } = new LookAhead({
+      name,
+      plan,
+      findings,
+      bad: bad.filter(({ code }) => !despite.includes(code)),
+      place: withOthers ? null : (place ?? null),
+      joints: robot.arm.joints.length,
+    }).preview();
+    return blocked && !despite.includes(blocked.code) ? pathBlocked(blocked) : null;
   }
   /** Stops that were asked for: a program that is still being planned then does not begin after it. */
   let stops = 0;
@@ -284,34 +310,25 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
         const rejoined = await rejoin(station);
         return on ? rejoined : rejoined.kind === "done" ? commander.watch(false) : rejoined;
       },
-      async run(commander, program, asText) {
+      async run(commander, program, asText, despite = []) {
         const before = stops;
         const answer = await jobOf(program, asText);
         if (answer.kind === "refused") return answer;
         if (stops !== before) return refused(stoppedMeanwhile(name));
         // What cannot be planned cannot be checked: it is not sent to find out where it ends.
         if (answer.stuck) return refused(answer.stuck);
-        const { job } = answer;
-        const blocked =
-          job.plan &&
-          new LookAhead({
-            name,
-            plan: job.plan,
-            findings: job.findings ?? [],
-            place: place ?? null,
-            joints: robot.arm.joints.length,
-          }).preview().blocked;
-        return blocked ? refused(pathBlocked(blocked)) : station.carryOut(commander, job);
+        const blocked = blockedBy(answer.job, despite, false);
+        return blocked ? refused(blocked) : station.carryOut(commander, answer.job);
       },
       async preview(program) {
         const answer = await jobOf(program, false);
         if (answer.kind === "refused") return answer;
         const {
-          job: { plan, findings = [] },
+          job: { plan, findings = [], bad = [] },
           stuck,
         } = answer;
         if (!plan) return refused(stuck!);
-        const { blocked, told } = station.ahead.preview(plan, findings);
+        const { blocked, told } = station.ahead.preview(plan, findings, bad);
         const first = blocked ?? told;
         return first
           ? refused({
@@ -322,12 +339,13 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
             })
           : DONE;
       },
-      async prepare(commander, program, asText) {
+      async prepare(commander, program, asText, despite = []) {
         const before = stops;
         const answer = await jobOf(program, asText);
         if (answer.kind === "refused") return answer;
         if (stops !== before) return { kind: "refused", why: stoppedMeanwhile(name) };
-        return answer.stuck ? { kind: "refused", why: answer.stuck } : station.arm(commander, answer.job);
+        const why = answer.stuck ?? blockedBy(answer.job, despite, true);
+        return why ? { kind: "refused", why } : station.arm(commander, answer.job);
       },
       close(then) {
         station.close(() => {

@@ -38,6 +38,8 @@ export interface PreparedJob {
   readonly stuck: Refusal | null;
   /** What the check found on the plan, in order of time. */
   readonly findings: readonly Finding[];
+  /** Those of them that make the check red. */
+  readonly bad: readonly Finding[];
   /** The text, with the postures of the plan; null when steps are sent. */
   readonly files: readonly EmittedFile[] | null;
   /** Why it cannot be written. */
@@ -59,9 +61,8 @@ export function prepareJob({ program, robot, start_rad, worldFromBase, cell, dia
     },
     robot,
   );
-  const findings = checkProgram(program, robot, { ...from, cell: keptClearOf })
-    .verdict.steps.flatMap(step => step.findings)
-    .sort((a, b) => a.at_s - b.at_s);
+  const { verdict, bad } = checkProgram(program, robot, { ...from, cell: keptClearOf });
+  const findings = verdict.steps.flatMap(step => step.findings).sort((a, b) => a.at_s - b.at_s);
   const written = dialect?.emit(
     withBranches(program, robot, { where: "needed", ...(worldFromBase ? { worldFromBase } : {}) }),
     robot,
@@ -69,6 +70,7 @@ export function prepareJob({ program, robot, start_rad, worldFromBase, cell, dia
   );
   return {
     findings,
+    bad,
     plan: answer.kind === "planned" ? answer.plan : null,
     stuck:
       answer.kind === "planned"

@@ -5,8 +5,6 @@ import type { CellMember } from "../cell/index.ts";
 const STEP_S = 0.1;
 /** A way is looked through before it is sent as far as this [s]. */
 export const PREVIEW_S = 60;
-/** Findings that keep a program from being sent; the others are told. */
-const BLOCKS = /^(collision\.|limits\.joint$|reach\.)/;
 /** How far ahead a person may look [s]. */
 export const MIN_AHEAD_S = 0.5;
 export const MAX_AHEAD_S = 10;
@@ -24,6 +22,8 @@ export interface LookAheadOptions {
   readonly joints: number;
   /** What the check found on the plan, in order of time. */
   readonly findings: readonly Finding[];
+  /** Those of them that keep the program from being sent; the others are told. */
+  readonly bad?: readonly Finding[];
   /** Among the other robots of the cell. */
   readonly place: CellMember | null;
 }
@@ -87,7 +87,7 @@ export class LookAhead {
 
   /** The first thing in the way from the start on, at full override: what keeps it from being sent, and what is only told. */
   preview(): { readonly blocked: Foreseen | null; readonly told: Foreseen | null } {
-    const { plan, findings } = this.#options;
+    const { plan, bad: red = [] } = this.#options;
     const end_s = Math.min(PREVIEW_S, plan.duration_s);
     let standing: Foreseen | null = null;
     let met: Foreseen | null = null;
@@ -100,7 +100,7 @@ export class LookAhead {
       met ??= standing ?? this.#meets(t_s, t_s, false);
     }
     // The check looked at the whole plan: what it found late blocks as what it found at once.
-    const bad = findings.find(({ code }) => BLOCKS.test(code));
+    const [bad] = red;
     return {
       blocked: earlier(bad ? { code: bad.code, sentence: bad.sentence, in_s: bad.at_s } : null, standing),
       told: earlier(this.#found(0, 1, end_s), met),

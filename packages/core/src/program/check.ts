@@ -24,7 +24,7 @@ import { checkWorkspace } from "./checks/workspace.ts";
 import type { ProgramCertificate, SegmentCertificate } from "./certificate.ts";
 import { GRIP_REACH_M, partsAreFollowed } from "./grasped-parts.ts";
 import type { Program, Step } from "./program.ts";
-import type { Verdict } from "./verdict.ts";
+import type { Finding, Verdict } from "./verdict.ts";
 import { everyStep } from "./walk.ts";
 
 export interface CheckOptions {
@@ -48,6 +48,8 @@ export interface CheckOptions {
 
 export interface Checked {
   readonly verdict: Verdict;
+  /** The findings of the verdict that make its steps bad, in order of time; the others warn. */
+  readonly bad: readonly Finding[];
   readonly plan: Plan;
   /** With `certify` and a cell: motions that are not clear have none. Steps are named as they are in the plan. */
   readonly certificate?: ProgramCertificate;
@@ -154,9 +156,10 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
     ],
   };
   const plan = asWritten(layout);
-  if (certificates === undefined) return { verdict, plan };
+  const bad = book.bad();
+  if (certificates === undefined) return { verdict, bad, plan };
   const segments = certificates.map(each => ({ ...each, step: writtenId(layout, each.step) }));
-  return { verdict, plan, certificate: { robot: robot.id, program: program.name, margin_m, segments } };
+  return { verdict, bad, plan, certificate: { robot: robot.id, program: program.name, margin_m, segments } };
 }
 
 /** What is taken for true of the parts that are gripped. */

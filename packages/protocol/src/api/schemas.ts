@@ -39,6 +39,9 @@ export const speedBody = z.object({ percent: z.number().min(0).max(100) });
 export const runBody = z.object({
   program,
   asText: z.boolean().default(false).describe("true: as a program of the controller's own language."),
+  despite: z
+    .exactOptional(z.array(text).max(100))
+    .describe("Codes of red findings that you have seen and send it in spite of; any other keeps it from being sent."),
 });
 export const stopBody = z.object({ emergency: z.boolean().default(false) });
 export const cellBody = z.object({ cell });

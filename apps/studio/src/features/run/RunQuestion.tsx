@@ -1,5 +1,5 @@
 import { useStore } from "zustand";
-import { leaveRunQuestion } from "../../runtime/run/ask-before-run.ts";
+import { leaveRunQuestion, seenFindings } from "../../runtime/run/ask-before-run.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { dialogStore } from "../../stores/dialogs.ts";
 import { programOf } from "../../stores/document.ts";
@@ -49,7 +49,7 @@ export default function RunQuestion() {
               className="btn danger"
               onClick={() => {
                 leaveRunQuestion();
-                question?.proceed();
+                question?.proceed(seenFindings());
               }}
             >
               {words.runQuestion.anyway}

@@ -67,8 +67,8 @@ export function Stations() {
             onClick={() => {
               askBeforeSending(
                 ready.map(({ id }) => id),
-                () => {
-                  void runAll();
+                despite => {
+                  void runAll(despite);
                 },
               );
             }}
@@ -193,8 +193,8 @@ function Card({ station }: { readonly station: StationState }) {
             className="btn"
             disabled={!open || safety !== "normal" || guard.link !== "up"}
             onClick={() => {
-              askBeforeSending([id], () => {
-                void runStation(id).then(outcome => {
+              askBeforeSending([id], despite => {
+                void runStation(id, despite).then(outcome => {
                   if (outcome.kind === "done") notify("done", words.stations.done(name));
                   else tell(name, outcome);
                 });

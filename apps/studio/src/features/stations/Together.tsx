@@ -15,8 +15,8 @@ export function SynchronizedStart({ stations }: { readonly stations: readonly St
   const chosen = able.filter(({ id }) => !left.includes(id));
   const start = (): void => {
     const ids = chosen.map(({ id }) => id);
-    askBeforeSending(ids, () => {
-      void startSynchronized(ids).then(outcome => {
+    askBeforeSending(ids, despite => {
+      void startSynchronized(ids, despite).then(outcome => {
         if (outcome.kind === "done") notify("done", words.stations.togetherDone);
         else notify(outcome.kind === "stopped" ? "warn" : "bad", outcome.why.sentence, outcome.why.hint);
       });

@@ -78,10 +78,10 @@ export function theControl(): CellControl | null {
 export const theHistory: TravelBack = travelBack(shelf, pageScheduler, openInWorker, () => Date.now());
 
 /** On the connected robot, live, recorded as every run. */
-async function runConnected(id: string): Promise<void> {
+async function runConnected(id: string, despite: readonly string[]): Promise<void> {
   showAs("live");
   viewStore.setState({ mode: "run" });
-  const outcome = await runStation(id);
+  const outcome = await runStation(id, despite);
   const name = stationOf(id)?.name ?? id;
   if (outcome.kind === "done") {
     sound("done");
@@ -90,7 +90,7 @@ async function runConnected(id: string): Promise<void> {
 }
 
 /** Runs the program's exported text; says in words how it ended. */
-export async function startRun(from?: Branch): Promise<void> {
+export async function startRun(from?: Branch, despite: readonly string[] = []): Promise<void> {
   const { document } = cellStore.getState();
   const program = programOf(document);
   const running = theControl();
@@ -102,7 +102,7 @@ export async function startRun(from?: Branch): Promise<void> {
   const { station } = connectionStore.getState();
   // What goes on from a past moment is a simulation of its own: it is seen on the clone.
   if (station !== null && !from) {
-    await runConnected(station);
+    await runConnected(station, despite);
     return;
   }
   takeRobot("run", () => {
@@ -238,8 +238,8 @@ export function startCellControl(): void {
         // A vendor's text runs as it stands, with its breakpoints, where it is seen.
         if (textOf(cellStore.getState().document)) viewStore.setState({ mode: "run" });
         else
-          askBeforeRun(() => {
-            void startRun();
+          askBeforeRun(despite => {
+            void startRun(undefined, despite);
           });
       },
     },

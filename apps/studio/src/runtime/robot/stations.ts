@@ -238,8 +238,12 @@ export function programFor(id: string): { readonly program: Program; readonly un
   return { program: { ...moved, robot: to.id }, unreached };
 }
 
-/** Runs the present program there as text of its own language, recorded from beginning to end. */
-export async function runStation(id: string): Promise<CommandOutcome> {
+/**
+ * Runs the present program there as text of its own language, recorded from beginning to end.
+ *
+ * @param despite  codes of red findings that the person has seen; its connection refuses the program for any other.
+ */
+export async function runStation(id: string, despite: readonly string[] = []): Promise<CommandOutcome> {
   const wanted = programFor(id);
   const host = hostOf(id);
   const station = stationOf(id);
@@ -250,18 +254,26 @@ export async function runStation(id: string): Promise<CommandOutcome> {
     return refusedAs(words.stations.unreached(live.robot.name, wanted.unreached.length), words.stations.unreachedHint);
   changeStation(id, { running: true, notice: "" });
   const recording = beginRecording(station, live, wanted.program.name);
-  const outcome = await host.ask({ type: "run", station: id, program: wanted.program, asText: true });
+  const outcome = await host.ask({
+    type: "run",
+    station: id,
+    program: wanted.program,
+    asText: true,
+    despite: [...despite],
+  });
   await endRecording(id, recording, outcome);
   changeStation(id, { running: false, notice: outcome.kind === "done" ? "" : outcome.why.sentence });
   return outcome;
 }
 
 /** All that are at rest begin in the same turn. */
-export async function runAll(): Promise<void> {
+export async function runAll(despite: readonly string[] = []): Promise<void> {
   const ready = stationStore
     .getState()
     .stations.filter(({ running, link, guard }) => !running && link.state === "open" && !guard.watching);
-  const outcomes = await Promise.all(ready.map(async station => ({ station, outcome: await runStation(station.id) })));
+  const outcomes = await Promise.all(
+    ready.map(async station => ({ station, outcome: await runStation(station.id, despite) })),
+  );
   for (const { station, outcome } of outcomes)
     if (outcome.kind !== "done")
       notify(outcome.kind === "stopped" ? "warn" : "bad", `${station.name}: ${outcome.why.sentence}`, outcome.why.hint);
@@ -271,7 +283,10 @@ export async function runAll(): Promise<void> {
 const groupEnds = new Map<string, CommandOutcome>();
 
 /** All or none: every one is made ready first, then all begin on the clock of their host, and whoever is stopped stops all. */
-export async function startSynchronized(ids: readonly string[]): Promise<CommandOutcome> {
+export async function startSynchronized(
+  ids: readonly string[],
+  despite: readonly string[] = [],
+): Promise<CommandOutcome> {
   const group: { readonly station: StationState; readonly live: StationLive; readonly program: Program }[] = [];
   for (const id of ids) {
     const wanted = programFor(id);
@@ -298,7 +313,12 @@ export async function startSynchronized(ids: readonly string[]): Promise<Command
   for (const id of ids) groupEnds.delete(id);
   const outcome = await host.ask({
     type: "together",
-    members: group.map(({ station, program }) => ({ station: station.id, program, asText: true })),
+    members: group.map(({ station, program }) => ({
+      station: station.id,
+      program,
+      asText: true,
+      despite: [...despite],
+    })),
   });
   for (const { id, recording } of running) {
     const own = groupEnds.get(id) ?? outcome;

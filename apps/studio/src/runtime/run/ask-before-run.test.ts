@@ -6,7 +6,7 @@ import { dialogStore } from "../../stores/dialogs.ts";
 import { showDocument } from "../../stores/document.ts";
 import { playStore } from "../../stores/play.ts";
 import { runQuestionStore } from "../../stores/run-question.ts";
-import { askBeforeRun, leaveRunQuestion, startRunQuestions } from "./ask-before-run.ts";
+import { askBeforeRun, leaveRunQuestion, seenFindings, startRunQuestions } from "./ask-before-run.ts";
 
 const verdictOf = (ok: boolean): Verdict => ({
   ok,
@@ -42,8 +42,36 @@ test("a program whose check is content begins at once; a red one asks, and begin
   leaveRunQuestion();
   expect([begun, dialogStore.getState().open]).toEqual([1, null]);
   askBeforeRun(begin);
-  runQuestionStore.getState().question!.proceed();
+  runQuestionStore.getState().question!.proceed([]);
   expect(begun).toBe(2);
+});
+
+test("who goes on in spite of a red check goes on in spite of what was shown, and of nothing when it is green", () => {
+  const finding = (code: string) => ({ code }) as StepReport["findings"][number];
+  const told: (readonly string[])[] = [];
+  const proceed = (despite: readonly string[]): void => {
+    told.push(despite);
+  };
+  playStore.setState({
+    stale: false,
+    checking: null,
+    trouble: null,
+    verdict: {
+      ...verdictOf(false),
+      steps: [
+        { id: "a", verdict: "bad", findings: [finding("torque.joint")] },
+        { id: "b", verdict: "warn", findings: [finding("singular.near")] },
+        { id: "c", verdict: "bad", findings: [finding("torque.joint"), finding("collision.contact")] },
+      ],
+    },
+  });
+  askBeforeRun(proceed);
+  expect(told).toEqual([]);
+  runQuestionStore.getState().question!.proceed(seenFindings());
+  leaveRunQuestion();
+  playStore.setState({ verdict: verdictOf(true) });
+  askBeforeRun(proceed);
+  expect(told).toEqual([["torque.joint", "collision.contact"], []]);
 });
 
 test("a verdict of what was there before the last change does not count: the check is waited for, then it begins or asks", () => {

@@ -10,12 +10,14 @@ import { runQuestionStore } from "../../stores/run-question.ts";
  * Begins a run when the check of what the cell holds now is content with it; otherwise asks first. A check that is under way
  * is waited for, since the verdict of what was there before says nothing of what is there now. A program without steps has
  * nothing to be checked.
+ *
+ * @param proceed  is given the codes of the red findings that the person has seen and goes on in spite of.
  */
-export function askBeforeRun(proceed: () => void): void {
+export function askBeforeRun(proceed: (despite: readonly string[]) => void): void {
   const { stale, checking, verdict, trouble } = playStore.getState();
   const program = programOf(cellStore.getState().document);
   if (program?.steps.length === 0 || (!stale && verdict?.ok === true)) {
-    proceed();
+    proceed([]);
     return;
   }
   const kind = stale ? "checking" : verdict ? "red" : "unchecked";
@@ -29,10 +31,16 @@ export function askBeforeRun(proceed: () => void): void {
  * The same before a program goes to connected controllers. The check speaks of the cell's robot: a controller of another
  * model gets a program that was taught anew for it, which its own connection checks before it is sent.
  */
-export function askBeforeSending(ids: readonly string[], proceed: () => void): void {
+export function askBeforeSending(ids: readonly string[], proceed: (despite: readonly string[]) => void): void {
   const robot = cellStore.getState().document?.robot.id;
   if (ids.some(id => stationLive(id)?.robot.id === robot)) askBeforeRun(proceed);
-  else proceed();
+  else proceed([]);
+}
+
+/** Codes of what makes the check red that is shown: who goes on all the same has seen these. */
+export function seenFindings(): readonly string[] {
+  const red = playStore.getState().verdict?.steps.filter(({ verdict }) => verdict === "bad") ?? [];
+  return [...new Set(red.flatMap(({ findings }) => findings.map(({ code }) => code)))];
 }
 
 /** Takes the question away; the run does not begin. */

@@ -43,6 +43,13 @@ export class FindingCollector {
     return [...list.filter(one => one.severity === "bad"), ...list.filter(one => one.severity === "warn")].map(told);
   }
 
+  /** What makes steps bad, in order of time. */
+  bad(): readonly Finding[] {
+    return [...this.found.values()]
+      .flatMap(list => list.filter(one => one.severity === "bad").map(told))
+      .sort((a, b) => a.at_s - b.at_s);
+  }
+
   verdictOf(step: string, evaluated: boolean): StepVerdict {
     const list = this.found.get(step) ?? [];
     if (list.some(one => one.severity === "bad")) return "bad";
