@@ -9,7 +9,7 @@ const failed = (faultInjection: string): PreparedJob => {
     sentence: `The program could not be planned: ${faultInjection}`,
     hint: "Send it again; if it stays so, start the server anew.",
   };
-  return { plan: null, stuck: why, findings: [], bad: [], files: null, unwritten: why };
+  return { plan: null, stuck: why, findings: [], bad: [], carried: [], files: null, unwritten: why };
 };
 
 /**

@@ -1,5 +1,6 @@
 import {
   samplePlan,
+  type CarriedPart,
   type CommandOutcome,
   type EmittedFile,
   type Finding,
@@ -57,6 +58,8 @@ export interface RobotJob {
   readonly findings?: readonly Finding[];
   /** Those of them that make the check red. */
   readonly bad?: readonly Finding[];
+  /** The parts of the cell that it carries. */
+  readonly carried?: readonly CarriedPart[];
 }
 
 /** A program that a controller has and is ready for. */

@@ -15,7 +15,7 @@ import { createRealController, type DriverKind, type ControllerData, type PortNu
 import { memoryNetwork, type Network } from "../transport/index.ts";
 import { withLines } from "../runner/index.ts";
 import type { SharedCell } from "../cell/index.ts";
-import { clearOf, type Commander } from "../guard/index.ts";
+import { clearOf, type ClearOf, type Commander } from "../guard/index.ts";
 import { LookAhead, pathBlocked } from "../twin/index.ts";
 import { listeners } from "../listeners.ts";
 import { DONE, refused } from "../outcomes.ts";
@@ -189,13 +189,18 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
     ...(options.heartbeat_s === undefined ? {} : { heartbeat_s: options.heartbeat_s }),
     deadMan: options.deadMan ?? near === null,
   });
+  let clear: ClearOf | null = null;
   function keepClearOf(definition: CellDefinition): void {
     cell = definition;
-    const { isSafe, contactsAt } = clearOf(withLinks(definition, robot), robot);
+    const before = clear;
+    clear = clearOf(withLinks(definition, robot), robot);
+    if (before) clear.goOnFrom(before);
+    const { isSafe, contactsAt, gripper } = clear;
     const { flangeFromGrip } = definition;
     station.guard.setCell({
       isSafe,
       contactsAt,
+      gripper,
       ...(flangeFromGrip ? { flangeFromTcp: flangeFromGrip as Pose as Pose<"flange", "tcp"> } : {}),
     });
   }
@@ -217,12 +222,13 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
     | { readonly kind: "refused"; readonly why: Refusal }
   > {
     const start_rad = controller.jointAngles().slice();
+    const held = clear?.held();
     const laid = await (options.layOut ?? (question => Promise.resolve(prepareJob(question))))({
       program,
       robot,
       start_rad,
       ...(worldFromBase ? { worldFromBase } : {}),
-      ...(cell ? { cell } : {}),
+      ...(cell ? { cell: held ? { ...cell, held } : cell } : {}),
       ...(asText && controller.runText ? { dialect } : {}),
     });
     if (laid.unwritten) return { kind: "refused", why: laid.unwritten };
@@ -233,6 +239,7 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
       steps: () => atTerminals(program, brand, controller.signals),
       findings: laid.findings,
       bad: laid.bad,
+      carried: laid.carried,
       ...(laid.plan ? { plan: laid.plan } : {}),
       ...(laid.files ? { files: laid.files } : {}),
     };
@@ -257,6 +264,15 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
       joints: robot.arm.joints.length,
     }).preview();
     return blocked && !despite.includes(blocked.code) ? pathBlocked(blocked) : null;
+  }
+  /** While it runs the guard knows which parts the program takes, and where it puts them. */
+  async function carrying({ carried = [] }: RobotJob, go: () => Promise<CommandOutcome>): Promise<CommandOutcome> {
+    clear?.begin(carried);
+    try {
+      return await go();
+    } finally {
+      clear?.end();
+    }
   }
   /** Stops that were asked for: a program that is still being planned then does not begin after it. */
   let stops = 0;
@@ -318,7 +334,7 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
         // What cannot be planned cannot be checked: it is not sent to find out where it ends.
         if (answer.stuck) return refused(answer.stuck);
         const blocked = blockedBy(answer.job, despite, false);
-        return blocked ? refused(blocked) : station.carryOut(commander, answer.job);
+        return blocked ? refused(blocked) : carrying(answer.job, () => station.carryOut(commander, answer.job));
       },
       async preview(program) {
         const answer = await jobOf(program, false);
@@ -345,7 +361,9 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
         if (answer.kind === "refused") return answer;
         if (stops !== before) return { kind: "refused", why: stoppedMeanwhile(name) };
         const why = answer.stuck ?? blockedBy(answer.job, despite, true);
-        return why ? { kind: "refused", why } : station.arm(commander, answer.job);
+        if (why) return { kind: "refused", why };
+        const armed = await station.arm(commander, answer.job);
+        return armed.kind === "armed" ? { ...armed, start: () => carrying(answer.job, () => armed.start()) } : armed;
       },
       close(then) {
         station.close(() => {

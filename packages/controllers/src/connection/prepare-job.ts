@@ -4,6 +4,7 @@ import {
   linkSolids,
   planProgram,
   withBranches,
+  type CarriedPart,
   type CellGeometry,
   type Dialect,
   type EmittedFile,
@@ -40,6 +41,8 @@ export interface PreparedJob {
   readonly findings: readonly Finding[];
   /** Those of them that make the check red. */
   readonly bad: readonly Finding[];
+  /** The parts it carries, in the order they are taken. */
+  readonly carried: readonly CarriedPart[];
   /** The text, with the postures of the plan; null when steps are sent. */
   readonly files: readonly EmittedFile[] | null;
   /** Why it cannot be written. */
@@ -61,7 +64,7 @@ export function prepareJob({ program, robot, start_rad, worldFromBase, cell, dia
     },
     robot,
   );
-  const { verdict, bad } = checkProgram(program, robot, { ...from, cell: keptClearOf });
+  const { verdict, bad, carried } = checkProgram(program, robot, { ...from, cell: keptClearOf });
   const findings = verdict.steps.flatMap(step => step.findings).sort((a, b) => a.at_s - b.at_s);
   const written = dialect?.emit(
     withBranches(program, robot, { where: "needed", ...(worldFromBase ? { worldFromBase } : {}) }),
@@ -71,6 +74,7 @@ export function prepareJob({ program, robot, start_rad, worldFromBase, cell, dia
   return {
     findings,
     bad,
+    carried,
     plan: answer.kind === "planned" ? answer.plan : null,
     stuck:
       answer.kind === "planned"

@@ -3,10 +3,12 @@ import {
   marginOf,
   robotAndCell,
   PathValidator,
+  type CarriedPart,
   type CellGeometry,
   type Contact,
   type Robot,
 } from "@twincell/core";
+import { HeldParts } from "./held-parts.ts";
 
 export interface ClearOfOptions {
   /** Room to keep between robot and cell [m]; 0 asks for no contact only. */
@@ -22,6 +24,15 @@ export interface ClearOf {
   readonly contactsAt: (q_rad: ArrayLike<number>) => readonly string[];
   /** What comes too near at q; null where q is safe. */
   readonly inTheWay: (q_rad: ArrayLike<number>) => Contact | null;
+  /** The gripper closed or opened at q: what it closes on moves with the flange and is kept from the rest. */
+  readonly gripper: (closed: boolean, q_rad: ArrayLike<number>) => void;
+  /** A program that was checked begins, which carries these parts; and ends. */
+  readonly begin: (carried: readonly CarriedPart[]) => void;
+  readonly end: () => void;
+  /** What the gripper holds. */
+  readonly held: () => CellGeometry["held"] | null;
+  /** Takes over what another cell's gripper held. */
+  readonly goOnFrom: (before: ClearOf) => void;
   /** What is kept between a link and an object, all errors in it [m]: never less than they are, unless nothing is to be kept. */
   readonly kept_m: number;
 }
@@ -38,12 +49,44 @@ export function clearOf(
   const collider = new CellCollider(cell, robot.arm);
   const wanted_m = margin_m + registrationError_m;
   collider.allowContactsAt(robot.home_rad);
-  const checker = new PathValidator(collider, robot.arm, { margin_m: wanted_m, keepsMargin: robotAndCell });
+  const parts = new HeldParts(collider, cell, robot, wanted_m + (cell.placeError_m ?? 0));
+  let asked_rad: ArrayLike<number> = robot.home_rad;
+  const checker = new PathValidator(collider, robot.arm, {
+    margin_m: wanted_m,
+    keepsMargin: robotAndCell,
+    excused: each => parts.excuses(each, asked_rad),
+  });
+  const inTheWay = (q_rad: ArrayLike<number>): Contact | null => {
+    asked_rad = q_rad;
+    return checker.inTheWay(q_rad);
+  };
   const pair = collider.pairs.find(each => each.a.kind === "link" && each.b.kind === "object");
-  return {
-    isSafe: q_rad => checker.free(q_rad),
-    contactsAt: q_rad => collider.check(q_rad).map(({ a, b }) => `${a}|${b}`),
-    inTheWay: q_rad => checker.inTheWay(q_rad),
+  const clear: ClearOf = {
+    isSafe: q_rad => inTheWay(q_rad) === null,
+    contactsAt(q_rad) {
+      collider.place(q_rad);
+      return collider.pairs
+        .filter(each => collider.touchOf(each) && !parts.excuses(each, q_rad))
+        .map(({ contact: { a, b } }) => `${a}|${b}`);
+    },
+    inTheWay,
+    gripper: (closed, q_rad) => {
+      parts.gripper(closed, q_rad);
+    },
+    begin: carried => {
+      parts.begin(carried);
+    },
+    end: () => {
+      parts.end();
+    },
+    held: () => parts.held,
+    goOnFrom(before) {
+      const other = partsOf.get(before);
+      if (other) parts.goOnFrom(other);
+    },
     kept_m: pair === undefined ? wanted_m : marginOf(pair, wanted_m, cell),
   };
+  partsOf.set(clear, parts);
+  return clear;
 }
+const partsOf = new WeakMap<ClearOf, HeldParts>();

@@ -59,6 +59,8 @@ export interface GuardedCell {
   readonly isSafe: (q_rad: Float64Array) => boolean;
   /** The pairs that touch: a motion that begins too near to something is stopped before it adds one. */
   readonly contactsAt?: (q_rad: Float64Array) => readonly string[];
+  /** Told when the gripper closes or opens, and where: what it holds moves with the flange. */
+  readonly gripper?: (closed: boolean, q_rad: Float64Array) => void;
   readonly flangeFromTcp?: Pose<"flange", "tcp">;
 }
 
@@ -123,6 +125,8 @@ export function createGuard(options: GuardOptions): Guard {
   const cap_mps = options.manualCap_mps ?? MANUAL_CAP_MPS;
   const braking_s = options.brakingTime_s ?? hardBrakingTime_s(robot);
   let contactsAt: GuardedCell["contactsAt"];
+  let gripper: GuardedCell["gripper"];
+  let gripperClosed = false;
   let flangeFromTcp = options.flangeFromTcp ?? identity<"flange", "tcp">();
   let tcp = tcpOf(robot.arm, flangeFromTcp);
   let bound_mps = speedBound(robot, flangeFromTcp);
@@ -282,6 +286,10 @@ export function createGuard(options: GuardOptions): Guard {
       between_rad[i] = (q_rad[i]! + ahead_rad[i]!) / 2;
     }
     time_s = lent.time_s;
+    if (lent.gripperClosed !== gripperClosed) {
+      ({ gripperClosed } = lent);
+      gripper?.(gripperClosed, q_rad);
+    }
     [tip, tipBefore] = [tipBefore, tip];
     tcp(q_rad, tip);
     const underWay = state.motion === "moving" || state.motion === "returning";
@@ -461,7 +469,8 @@ export function createGuard(options: GuardOptions): Guard {
       }
     },
     setCell(cell) {
-      ({ isSafe, contactsAt } = cell);
+      ({ isSafe, contactsAt, gripper } = cell);
+      if (gripperClosed) gripper?.(true, q_rad);
       flangeFromTcp = cell.flangeFromTcp ?? identity<"flange", "tcp">();
       tcp = tcpOf(robot.arm, flangeFromTcp);
       bound_mps = speedBound(robot, flangeFromTcp);

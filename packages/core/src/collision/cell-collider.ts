@@ -180,6 +180,13 @@ export class CellCollider {
     return nearest;
   }
 
+  /** Where the standing object of this id stands; undefined for one that is held or not there. */
+  standsAt(id: string): Pose<"world", "object"> | undefined {
+    const body = this.#object(id);
+    if (body?.carrier !== WORLD) return undefined;
+    return copyPose(body.carrierFromBody) as Pose as Pose<"world", "object">;
+  }
+
   /** Standing objects nearer than `within_m` to the standing object of this id. */
   standingNear(id: string, within_m: number): string[] {
     const body = this.#object(id);

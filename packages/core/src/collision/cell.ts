@@ -30,6 +30,8 @@ export interface CellGeometry {
   /** Where the fingers of the tool meet, or where it sucks. */
   readonly flangeFromGrip?: Pose<"flange", "grip">;
   readonly objects: readonly CellObject[];
+  /** The object that the gripper holds already, and how: it moves with the flange from the beginning. */
+  readonly held?: { readonly id: string; readonly flangeFromObject: Pose<"flange", "object"> };
   /** Pairs that may touch, by link name, "tool" or object id (the tool tip and the work piece it traces, for instance). */
   readonly allowedPairs: readonly (readonly [string, string])[];
   /** Which parts of the robot are checked against which, as learnt and edited. What it says of a pair is final; other pairs are checked. */

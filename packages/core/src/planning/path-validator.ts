@@ -9,6 +9,8 @@ export interface PathRules {
   readonly margin_m?: number;
   /** Which pairs keep the margin; the others only must not touch. All pairs by default. */
   readonly keepsMargin?: (pair: SolidPair) => boolean;
+  /** Asked of a pair that is too near in the posture last placed: whether it may be so. Not asked by `prove`. */
+  readonly excused?: (pair: SolidPair) => boolean;
 }
 
 /**
@@ -30,7 +32,11 @@ export class PathValidator {
   constructor(collider: CellCollider, arm: SerialArm, rules: PathRules = {}) {
     this.collider = collider;
     this.arm = arm;
-    this.#rules = { margin_m: rules.margin_m ?? 0, keepsMargin: rules.keepsMargin ?? (() => true) };
+    this.#rules = {
+      margin_m: rules.margin_m ?? 0,
+      keepsMargin: rules.keepsMargin ?? (() => true),
+      excused: rules.excused ?? (() => false),
+    };
     this.#maps = new ClearanceMaps(collider, arm);
     this.#q = new Float64Array(arm.joints.length);
   }
@@ -53,6 +59,7 @@ export class PathValidator {
       const margin = margins[i]!;
       if (this.#maps.provenAround(pair, margin, q, null, 0)) continue;
       if (margin > 0 ? collider.distanceOf(pair, margin, margin) >= margin : !collider.touchOf(pair)) continue;
+      if (this.#rules.excused(pair)) continue;
       pairs.splice(i, 1);
       pairs.unshift(pair);
       margins.splice(i, 1);

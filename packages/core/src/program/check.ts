@@ -22,7 +22,7 @@ import { checkStand } from "./checks/stand.ts";
 import { checkTorque } from "./checks/torque.ts";
 import { checkWorkspace } from "./checks/workspace.ts";
 import type { ProgramCertificate, SegmentCertificate } from "./certificate.ts";
-import { GRIP_REACH_M, partsAreFollowed } from "./grasped-parts.ts";
+import { GRIP_REACH_M, partsAreFollowed, type CarriedPart } from "./grasped-parts.ts";
 import type { Program, Step } from "./program.ts";
 import type { Finding, Verdict } from "./verdict.ts";
 import { everyStep } from "./walk.ts";
@@ -51,6 +51,8 @@ export interface Checked {
   /** The findings of the verdict that make its steps bad, in order of time; the others warn. */
   readonly bad: readonly Finding[];
   readonly plan: Plan;
+  /** The parts of the cell that the program carries, in the order they are taken. */
+  readonly carried: readonly CarriedPart[];
   /** With `certify` and a cell: motions that are not clear have none. Steps are named as they are in the plan. */
   readonly certificate?: ProgramCertificate;
 }
@@ -157,9 +159,16 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
   };
   const plan = asWritten(layout);
   const bad = book.bad();
-  if (certificates === undefined) return { verdict, bad, plan };
+  const parts = collision?.carried ?? [];
+  if (certificates === undefined) return { verdict, bad, plan, carried: parts };
   const segments = certificates.map(each => ({ ...each, step: writtenId(layout, each.step) }));
-  return { verdict, bad, plan, certificate: { robot: robot.id, program: program.name, margin_m, segments } };
+  return {
+    verdict,
+    bad,
+    plan,
+    carried: parts,
+    certificate: { robot: robot.id, program: program.name, margin_m, segments },
+  };
 }
 
 /** What is taken for true of the parts that are gripped. */

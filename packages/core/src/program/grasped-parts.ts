@@ -26,19 +26,22 @@ export interface Stretch {
   readonly keepsMargin: (pair: SolidPair) => boolean;
 }
 
-/** A part on its way from one grasp to its release. */
-interface Hold {
+/** A part that a program carries: how the gripper holds it, where it is taken, and where it is put down if it is. */
+export interface CarriedPart {
   readonly id: string;
-  readonly radius_m: number;
   readonly flangeFromObject: Pose<"flange", "object">;
-  readonly taken: Commander;
-  /** Where it is put down; none when the program ends before. */
-  put: Commander | undefined;
+  readonly taken: Seat;
+  readonly put: Seat | undefined;
+}
+/** A part on its way from one grasp to its release. */
+interface Hold extends CarriedPart {
+  readonly radius_m: number;
+  put: Seat | undefined;
   /** The motions in between, in order. */
   readonly motions: MotionSegment[];
 }
 /** Where a part rests, and the objects it touches there. */
-interface Commander {
+export interface Seat {
   readonly worldFromObject: Pose<"world", "object">;
   readonly on: ReadonlySet<string>;
 }
@@ -82,7 +85,7 @@ function gripOf(program: Program, cell: CellGeometry): Pose<"flange", "grip"> {
  * A part is taken where the gripper closes: it moves with the flange as it stood then, does not count as an obstacle for the last
  * link and the tool, and where the gripper opens it stays. One part is held at a time, and it takes nothing along that lies on it. A
  * part may touch what it rests on (all that is nearer than `TOUCH_M`) for `SEAT_M` of its way, and be nearer than the margin for so
- * much more; beyond that it is watched like any other solid of the robot.
+ * much more; beyond that it is watched like any other solid of the robot. What the cell says is held is carried from the start.
  */
 export class GraspedParts {
   /** Times the gripper closed on a part, and on nothing. */
@@ -95,6 +98,7 @@ export class GraspedParts {
   readonly #changes = new Map<Segment, () => void>();
   readonly #stretches = new Map<Segment, readonly Stretch[]>();
   readonly #q: Float64Array;
+  readonly #holds: Hold[] = [];
   #held: string | undefined = undefined;
 
   /** @param collider  stands as the cell does, and again afterwards; lent. */
@@ -111,13 +115,17 @@ export class GraspedParts {
     this.#arm = arm;
     this.#margin_m = margin_m;
     this.#q = new Float64Array(arm.joints.length);
-    if (!partsAreFollowed(program)) return;
+    if (!partsAreFollowed(program)) {
+      // Nobody knows when it lets go: what is held is carried all the way.
+      this.rewind();
+      return;
+    }
     const parts = new Set(cell.objects.filter(({ graspable }) => graspable === true).map(({ id }) => id));
     const grip = gripOf(program, cell);
-    const holds: Hold[] = [];
+    const holds = this.#holds;
     const stands = new Map(cell.objects.map(({ id, worldFromObject }) => [id, worldFromObject]));
-    let closed = false;
-    let hold: Hold | undefined;
+    let hold = this.#heldFromTheStart(segments);
+    let closed = hold !== undefined;
     for (const segment of segments) {
       if (segment.kind === "motion") {
         if (segment.times_s.length > 1) hold?.motions.push(segment);
@@ -160,6 +168,11 @@ export class GraspedParts {
     this.rewind();
   }
 
+  /** The parts that are carried, in the order they are taken. */
+  get carried(): readonly CarriedPart[] {
+    return this.#holds.map(({ id, flangeFromObject, taken, put }) => ({ id, flangeFromObject, taken, put }));
+  }
+
   /** Id of the part that is held in the segment entered last. */
   get held(): string | undefined {
     return this.#held;
@@ -167,10 +180,30 @@ export class GraspedParts {
 
   /** All parts stand where the cell has them. */
   rewind(): void {
-    this.#held = undefined;
-    if (this.taken > 0)
+    const { held } = this.#cell;
+    this.#held = held?.id;
+    if (this.taken > 0 || held)
       for (const { id, worldFromObject, graspable } of this.#cell.objects)
         if (graspable === true) this.#collider.detach(id, worldFromObject);
+    if (held) this.#collider.attach(held.id, held.flangeFromObject);
+  }
+
+  /** What is held already, which may rest on something where the program begins. */
+  #heldFromTheStart(segments: readonly Segment[]): Hold | undefined {
+    const { held } = this.#cell;
+    const [first] = segments;
+    if (!held || !first) return undefined;
+    const { id, flangeFromObject } = held;
+    const worldFromObject = compose(
+      this.#flangeAt(first.q_rad.slice(0, this.#arm.joints.length)),
+      flangeFromObject,
+    ) as Pose as Pose<"world", "object">;
+    this.#collider.detach(id, worldFromObject);
+    const taken = { worldFromObject, on: new Set(this.#collider.standingNear(id, TOUCH_M)) };
+    this.#collider.attach(id, flangeFromObject);
+    const hold = { id, radius_m: radiusOf(this.#cell, id), flangeFromObject, taken, put: undefined, motions: [] };
+    this.#holds.push(hold);
+    return hold;
   }
 
   /** Takes or puts down what the gripper does in this segment, and says what is to be watched through it. */
@@ -241,7 +274,7 @@ export class GraspedParts {
   #within(
     { flangeFromObject, radius_m }: Hold,
     motion: MotionSegment,
-    { worldFromObject }: Commander,
+    { worldFromObject }: Seat,
     reach_m: number,
     back: boolean,
   ): number {
@@ -270,12 +303,12 @@ const joins = ({ contact: { a, b } }: SolidPair, id: string, others: ReadonlySet
   (a === id && others.has(b)) || (b === id && others.has(a));
 
 /** No point of a body of this radius lies farther from where it was [m]:  |Δp| + 2 r |sin(φ/2)|. */
-function movedBy(from: Pose, to: Pose, radius_m: number): number {
+export function movedBy(from: Pose, to: Pose, radius_m: number): number {
   const [x, y, z] = compose(inverse(from), to).quaternion;
   return Math.hypot(...from.position.map((at, k) => to.position[k]! - at)) + 2 * radius_m * Math.hypot(x, y, z);
 }
 
-function radiusOf(cell: CellGeometry, id: string): number {
+export function radiusOf(cell: Pick<CellGeometry, "objects">, id: string): number {
   const { positions } = cell.objects.find(object => object.id === id)!.mesh;
   let most_m = 0;
   for (let i = 0; i < positions.length; i += 3)

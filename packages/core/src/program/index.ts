@@ -15,6 +15,7 @@ export * from "./certificate-file.ts";
 export * from "./detour.ts";
 export { SHARP_RAD, tracedEdgeOf, type TracedEdgeRecord } from "./checks/edges.ts";
 export { standOf } from "./checks/stand.ts";
+export { GRIP_REACH_M, movedBy, radiusOf, SEAT_M, type CarriedPart, type Seat } from "./grasped-parts.ts";
 export * from "./with-branches.ts";
 export { NEAR_LIMIT_RAD } from "./checks/limits.ts";
 export { NEAR_SINGULAR_RAD } from "./checks/singular.ts";

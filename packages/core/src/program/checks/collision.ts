@@ -10,7 +10,7 @@ import { RunPlanner } from "../../trajectory/run.ts";
 import { sampleSegment } from "../../trajectory/sample.ts";
 import { motionOf, type SegmentCertificate } from "../certificate.ts";
 import { freshStepIds } from "../edit.ts";
-import { GraspedParts, type Stretch } from "../grasped-parts.ts";
+import { GraspedParts, type CarriedPart, type Stretch } from "../grasped-parts.ts";
 import type { MoveStep } from "../program.ts";
 import type { Repair } from "../verdict.ts";
 import { raised } from "./repairs.ts";
@@ -44,6 +44,7 @@ export interface Collisions {
   /** Times the gripper closed on a part, and on nothing. */
   readonly taken: number;
   readonly missed: number;
+  readonly carried: readonly CarriedPart[];
 }
 
 /**
@@ -95,7 +96,7 @@ export function checkCollision(scene: CheckScene, options: CollisionOptions): Co
       repairs,
     });
   }
-  const { taken, missed } = parts;
+  const { taken, missed, carried } = parts;
   return {
     clearance_m:
       cell.objects.length === 0
@@ -104,6 +105,7 @@ export function checkCollision(scene: CheckScene, options: CollisionOptions): Co
     unproven,
     taken,
     missed,
+    carried,
   };
 }
 
