@@ -3,6 +3,7 @@ import { chmodSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, w
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
+import { robotById } from "@twincell/core";
 import { afterAll, describe, expect, test } from "vitest";
 
 const root = fileURLToPath(new URL("../../../", import.meta.url));
@@ -85,6 +86,17 @@ describe("check", () => {
     expect(xml).toContain(`failures="${bad.length}"`);
     expect(readdirSync(join(folder, "deep"))).toEqual(["report.xml"]);
   });
+  test("T-64 says every part of the distance that is kept: asked for, shape, registration and twin, in the verdict and, where the cell was measured, on stderr", () => {
+    const cell = JSON.parse(readFileSync(`${root}${CELL}`, "utf8")) as Record<string, unknown>;
+    const path = join(folder, "measured.json");
+    writeFileSync(path, JSON.stringify({ ...cell, errors: { registration_m: 0.003, twin_m: 0.002 } }));
+    const { out, err } = twincell("check", PROGRAM, "--cell", path, "--margin", "0.001");
+    const shape_mm = 1000 * robotById("staubli_rx90l")!.shapeError_m;
+    const kept = `Between the robot and what stands around it ${(6 + shape_mm).toFixed(0)} mm are kept: 1.0 mm asked for, ${shape_mm.toFixed(0)} mm for the drawn shape of the links, 3.0 mm for the registration, 2.0 mm for the twin.`;
+    expect((JSON.parse(out) as { assumptions: string[] }).assumptions).toContain(kept);
+    expect(err).toContain(kept);
+  });
+
   test("M-49 a certificate is written, proven again, and refuted for a cell that has changed", () => {
     const file = join(folder, "certificate.json");
     const crowded = join(folder, "crowded.json");

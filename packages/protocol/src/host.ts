@@ -28,7 +28,9 @@ export interface ServedCommander {
 export interface ServedConnection<Seat extends ServedCommander = ServedCommander> {
   readonly words: ConnectionInfo;
   readonly link: LinkReport | null;
-  readonly guard: { readonly state: Omit<EventOf<"guard">, "type" | "station"> };
+  readonly guard: { readonly state: Omit<EventOf<"guard">, "type" | "station" | "cell" | "kept_m"> };
+  /** Whether its guard knows a cell, and how much it keeps from what stands there [m]. */
+  readonly kept: { readonly cell: boolean; readonly kept_m: number };
   readonly deviation: { readonly plan_rad: number; readonly command_rad: number };
   commander(who: string): Seat;
   connect(): Promise<CommandOutcome>;
@@ -168,6 +170,7 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
     type: "guard",
     station: station.words.id,
     ...station.guard.state,
+    ...station.kept,
   });
   const tellLink = (station: ServedConnection): void => {
     const says = linkWords(station);
@@ -238,6 +241,12 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
     return () => {
       for (const off of offs) off();
     };
+  }
+
+  function setCell(station: ServedConnection, cell: unknown): CommandOutcome {
+    const outcome = station.setCell(cell);
+    if (outcome.kind === "done") all(guardWords(station));
+    return outcome;
   }
 
   async function open(ask: RequestOf<"open">): Promise<CommandOutcome> {
@@ -352,7 +361,7 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
           case "confirm":
             return seat.acknowledge();
           case "cell":
-            return othersLease(station) ?? station.setCell(ask.cell);
+            return othersLease(station) ?? setCell(station, ask.cell);
           case "reset":
             return seat.robot.reset();
           case "watch":

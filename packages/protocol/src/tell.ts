@@ -121,6 +121,10 @@ export const eventSchema = z.discriminatedUnion("type", [
     trip: z.enum(["none", "return-due", "return-wanted"]),
     emergency: z.boolean(),
     watching: z.boolean(),
+    /** Objects of a cell are known to it; false: the robot is kept from itself only. */
+    cell: z.exactOptional(z.boolean()),
+    /** Between links of the robot and objects at least this is kept, all errors in it [m]. */
+    kept_m: z.exactOptional(z.number()),
   }),
   /** Where the robot will be in so many seconds, and the first thing in its way; null when nothing is looked ahead any more. */
   z.object({

@@ -1,5 +1,6 @@
 import {
   checkProgram,
+  keptSentence,
   linkSolids,
   robotById,
   readCertificate,
@@ -84,6 +85,7 @@ ${ROBOT_HELP}`,
       await writeOne(certificatePath, writeCertificate(certificate));
     if (junit !== undefined) await writeOne(junit, junitReport(program.name, verdict));
     process.stdout.write(`${JSON.stringify(verdict)}\n`);
+    if (cell?.placeErrors) process.stderr.write(`${keptSentence(cell, margin_m)}\n`);
     if (verdict.torque.kind === "known") process.stderr.write(`${verdict.torque.sentence}\n`);
     return verdict.ok ? 0 : 1;
   },

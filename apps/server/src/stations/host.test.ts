@@ -176,7 +176,7 @@ describe("A the guard of a connected robot knows the objects of its cell", () =>
     ],
   };
   async function opened(given: unknown) {
-    const { scheduler, join, samples } = bench();
+    const { scheduler, join, samples, told } = bench();
     const { client } = join("you");
     const other = join("another").client;
     const ask = (request: Request, from = client) => answered(scheduler, client, "s", from.ask(request));
@@ -188,7 +188,7 @@ describe("A the guard of a connected robot knows the objects of its cell", () =>
       worldFromBase,
       ...(given === undefined ? {} : { cell: given }),
     });
-    return { ask, samples, outcome, other };
+    return { ask, samples, told, outcome, other };
   }
   async function ready(given: unknown) {
     const { ask, outcome, ...rest } = await opened(given);
@@ -216,6 +216,17 @@ describe("A the guard of a connected robot knows the objects of its cell", () =>
     expect(await ask({ type: "cell", station: "s", cell: { ...cell, objects: table } })).toEqual({ kind: "done" });
     expect(await ask(run)).toMatchObject({ kind: "refused", why: { code: "collision.contact" } });
     for (const { q_rad } of samples("s")) expect(q_rad[1]).toBeCloseTo(robot.home_rad[1]!, 3);
+  }, 60_000);
+
+  test("T-64 what is told of a guard says whether a cell is known to it and what is kept, from the opening on and when the cell changes", async () => {
+    const { ask, told } = await ready(undefined);
+    const guard = () => told.findLast((message): message is EventOf<"guard"> => message.type === "guard")!;
+    expect(guard()).toMatchObject({ cell: false });
+    expect(told.find(({ type }) => type === "notice")).toMatchObject({ why: { code: "station.no-cell" } });
+    const measured = { ...cell, errors: { registration_m: 0.003, twin_m: 0.002 } };
+    expect(await ask({ type: "cell", station: "s", cell: measured })).toEqual({ kind: "done" });
+    expect(guard().cell).toBe(true);
+    expect(guard().kept_m).toBeCloseTo(robot.shapeError_m + 0.005, 12);
   }, 60_000);
 
   test("a cell that cannot be read is refused with the place, and the one before counts on", async () => {

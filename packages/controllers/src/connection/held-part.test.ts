@@ -42,7 +42,7 @@ const block = (robot: Robot): CellObject => ({
   worldFromObject: beforeFlange(robot, turned(robot, 0.7), 0.45),
   mesh: boxMesh([0.1, 0.1, 0.1]),
 });
-const cellOf = (robot: Robot, ...objects: CellObject[]): CellDefinition => ({
+const cellOf = (...objects: CellObject[]): CellDefinition => ({
   worldFromBase: pose(),
   allowedPairs: [],
   shapeError_m: 0,
@@ -103,7 +103,7 @@ async function bench(brand: DriverKind, cellFor: (robot: Robot) => CellDefinitio
 const gripping = DRIVER_KINDS.filter(({ id }) => ["ur", "yaskawa", "abb"].includes(id));
 
 describe.each(gripping.map(brand => [brand.id, brand] as const))("a part in the gripper of %s", (_, brand) => {
-  const withBlock = (robot: Robot): CellDefinition => cellOf(robot, bar(robot), block(robot));
+  const withBlock = (robot: Robot): CellDefinition => cellOf(bar(robot), block(robot));
 
   test("T-45 M-49 moves with the flange for the guard: moved by hand the robot is stopped before the part touches; let go of, it is held no more", async () => {
     const { robot, scheduler, station, seat, ended, ...seen } = await bench(brand, withBlock);
@@ -164,6 +164,7 @@ describe.each(gripping.map(brand => [brand.id, brand] as const))("a part in the 
           "tcp"
         >,
         frame: "base",
+        tool: "flange",
       },
       speed: { mps: 0.15 },
       blend_m: 0,
@@ -171,7 +172,7 @@ describe.each(gripping.map(brand => [brand.id, brand] as const))("a part in the 
     const above = (robot: Robot, id: string, by_rad: number): Step =>
       ({ ...near(robot, id, by_rad, 0.1), path: "ptp", speed: { ratio: 0.3 } }) as Step;
     const { robot, station, seat, ended, scheduler } = await bench(brand, robot =>
-      cellOf(robot, bar(robot), table(robot, "first", 0), table(robot, "second", 0.9)),
+      cellOf(bar(robot), table(robot, "first", 0), table(robot, "second", 0.9)),
     );
     const program = programOf(
       robot,

@@ -91,6 +91,8 @@ export interface VendorConnection extends RobotConnection {
   stop(emergency: boolean): void;
   /** Another cell, or the same one changed. What moves is stopped if it is too near to something in it; one that cannot be read leaves the one before. */
   setCell(document: unknown): CommandOutcome;
+  /** Whether a cell is known to its guard, and what is kept between its links and what stands there, all errors in it [m]. */
+  readonly kept: { readonly cell: boolean; readonly kept_m: number };
   /** Only to watch it from now on, or to command it again. */
   watch(commander: Commander, on: boolean): Promise<CommandOutcome>;
 }
@@ -303,6 +305,9 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
         return outcome;
       },
       onNotice: listen => notices.add(listen),
+      get kept() {
+        return { cell: knowsCell, kept_m: clear?.kept_m ?? 0 };
+      },
       stop(emergency) {
         stops++;
         station.guard.stop(emergency);

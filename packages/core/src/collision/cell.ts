@@ -43,6 +43,8 @@ export interface CellGeometry {
    * the twin. Added to the distance between what the arm moves and what stands. 0 when left out.
    */
   readonly placeError_m?: number;
+  /** What `placeError_m` is the sum of, where that is known [m]; only said. */
+  readonly placeErrors?: { readonly registration_m: number; readonly twin_m: number };
 }
 
 /** Two solids that touch. Names are those of links ("link 4"), "tool", or ids of objects. */

@@ -6,7 +6,7 @@ import type { Plan } from "../trajectory/plan.ts";
 import { GRIPPER_S } from "../trajectory/planner.ts";
 import { motionAssumptions } from "../robots/jerk.ts";
 import { checkBranch, checkImpasses } from "./checks/branch.ts";
-import { checkCollision, type Collisions } from "./checks/collision.ts";
+import { checkCollision, keptSentence, type Collisions } from "./checks/collision.ts";
 import { prepareJob, type Layout } from "./checks/layout.ts";
 import { checkLimits } from "./checks/limits.ts";
 import { checkReach } from "./checks/reach.ts";
@@ -154,6 +154,7 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
       cell === undefined
         ? "Collisions were not looked at: no cell was given."
         : "Objects stand where the cell draws them.",
+      ...(cell === undefined || cell.objects.length === 0 ? [] : [keptSentence(cell, margin_m)]),
       ...(collision === undefined ? [] : carried(program, written, collision)),
     ],
   };

@@ -13,6 +13,7 @@ export * from "./check.ts";
 export * from "./certificate.ts";
 export * from "./certificate-file.ts";
 export * from "./detour.ts";
+export { keptSentence } from "./checks/collision.ts";
 export { SHARP_RAD, tracedEdgeOf, type TracedEdgeRecord } from "./checks/edges.ts";
 export { standOf } from "./checks/stand.ts";
 export { GRIP_REACH_M, movedBy, radiusOf, SEAT_M, type CarriedPart, type Seat } from "./grasped-parts.ts";

@@ -73,9 +73,11 @@ export function cellGeometry(document: CellDocument, links: readonly LinkSolid[]
 }
 
 /** Both errors may point the same way: they add up. */
-function placeErrorOf({ errors }: CellDocument): Pick<CellGeometry, "placeError_m"> {
-  const placeError_m = (errors?.registration_m ?? 0) + (errors?.twin_m ?? 0);
-  return placeError_m > 0 ? { placeError_m } : {};
+function placeErrorOf({ errors }: CellDocument): Pick<CellGeometry, "placeError_m" | "placeErrors"> {
+  const registration_m = errors?.registration_m ?? 0;
+  const twin_m = errors?.twin_m ?? 0;
+  const placeError_m = registration_m + twin_m;
+  return placeError_m > 0 ? { placeError_m, placeErrors: { registration_m, twin_m } } : {};
 }
 
 /**

@@ -121,16 +121,36 @@ function sentenceOf(
   const other = first === contact.a ? contact.b : contact.a;
   const a = carried ? `the held ${nameOf(first, cell)}` : nameOf(first, cell);
   const b = nameOf(other, cell);
-  const place_m = cell.placeError_m ?? 0;
-  const shape_m = contact.margin_m - Math.max(0, asked_m) - place_m;
+  const shape_m = contact.margin_m - Math.max(0, asked_m) - (cell.placeError_m ?? 0);
   const parts = [
     ...(shape_m > 1e-9 ? [`${mm(shape_m)} of it for the error of the drawn shape`] : []),
-    ...(place_m > 1e-9 ? [`${mm(place_m)} for where the robot may stand`] : []),
+    ...placeErrors(cell),
   ];
   const because = parts.map(part => `, ${part}`).join("");
   return contact.margin_m > 0 && contact.distance_m > 0
     ? `${capital(a)} comes within ${mm(contact.distance_m)} of ${b} at ${seconds(at_s)}; the margin is ${mm(contact.margin_m)}${because}.`
     : `${capital(a)} ${carried ? "would touch" : "touches"} ${b} at ${seconds(at_s)}.`;
+}
+
+/** The errors of place, each with what it is for. */
+function placeErrors({ placeError_m = 0, placeErrors: parts }: CellGeometry): string[] {
+  if (!parts) return placeError_m > 1e-9 ? [`${mm(placeError_m)} for where the robot may stand`] : [];
+  return [
+    ...(parts.registration_m > 1e-9 ? [`${mm(parts.registration_m)} for the registration`] : []),
+    ...(parts.twin_m > 1e-9 ? [`${mm(parts.twin_m)} for the twin`] : []),
+  ];
+}
+
+/** What is kept between the robot and what stands around it, and every part of that (row T-64). */
+export function keptSentence(cell: CellGeometry, asked_m: number): string {
+  const wanted_m = Math.max(0, asked_m);
+  const total_m = wanted_m + cell.shapeError_m + (cell.placeError_m ?? 0);
+  const each = [
+    `${mm(wanted_m)} asked for`,
+    `${mm(cell.shapeError_m)} for the drawn shape of the links`,
+    ...placeErrors(cell),
+  ];
+  return `Between the robot and what stands around it ${mm(total_m)} are kept: ${each.join(", ")}.`;
 }
 
 /** Proves single motions; keeps the working memory of one collider. */
