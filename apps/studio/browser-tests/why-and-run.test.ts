@@ -108,6 +108,37 @@ test("Why cards name step, fact and way out; one click repairs, one key takes it
   expect(problems).toEqual([]);
 });
 
+test("a program with red findings asks before it runs: the findings with numbers, Cancel runs nothing, Show goes to Check, Run anyway runs", async () => {
+  const { page, problems } = await studio.open();
+  await opened(
+    page,
+    withSteps(steps => [...steps.slice(0, 1), to("in", "Inside", 0.6, 0, 0.45)]),
+  );
+  const question = page.getByRole("dialog", { name: "Run it all the same?" });
+  const running = () => page.evaluate(() => window.twincell.stores.controlStore.getState().running);
+  await page.evaluate(() => window.twincell.run("run.start"));
+  await question.getByText(/The check has \d+ red finding/).waitFor();
+  expect(await question.innerText()).toMatch(/touches “Carton”/);
+  expect(await question.innerText()).toMatch(/\d+(\.\d+)? (mm|%|s)/);
+  expect(await running()).toBe(false);
+  await page.screenshot({ path: picture("run-question") });
+  await question.getByRole("button", { name: "Cancel" }).click();
+  await question.waitFor({ state: "detached" });
+  expect(await running()).toBe(false);
+
+  await page.evaluate(() => window.twincell.run("run.start"));
+  await question.getByRole("button", { name: "Show" }).click();
+  await page.locator("article.why", { hasText: "Inside" }).waitFor();
+  expect(await running()).toBe(false);
+
+  await page.evaluate(() => window.twincell.run("run.start"));
+  await question.getByRole("button", { name: "Run anyway" }).click();
+  await page.waitForFunction(() => window.twincell.stores.controlStore.getState().running, null, { polling: 50 });
+  await page.getByRole("button", { name: "STOP", exact: true }).click();
+  await page.waitForFunction(() => !window.twincell.stores.controlStore.getState().running, null, { polling: 50 });
+  expect(problems).toEqual([]);
+}, 120_000);
+
 test("the timeline plays at any speed, holds at 0 %, and the robot stands where the plan says", async () => {
   const { page, problems } = await studio.open();
   await opened(page, cell);

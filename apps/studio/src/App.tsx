@@ -46,6 +46,7 @@ const Cameras = lazy(() => import("./features/video/Cameras.tsx"));
 const VideoPanels = lazy(() => import("./features/video/VideoPanels.tsx"));
 const Stations = lazy(() => import("./features/stations/Stations.tsx").then(part => ({ default: part.Stations })));
 const Run = lazy(() => import("./features/run/Run.tsx"));
+const RunQuestion = lazy(() => import("./features/run/RunQuestion.tsx"));
 const History = lazy(() => import("./features/history/History.tsx"));
 const Rewind = lazy(() => import("./features/history/Rewind.tsx"));
 
@@ -160,6 +161,9 @@ export function App() {
         </Suspense>
         <Suspense>
           <AddStation />
+        </Suspense>
+        <Suspense>
+          <RunQuestion />
         </Suspense>
         <Suspense>
           <CollisionDialog />

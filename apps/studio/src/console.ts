@@ -23,6 +23,7 @@ import { foreignStore } from "./stores/foreign.ts";
 import { languageStore } from "./stores/languages.ts";
 import { postStore } from "./stores/post.ts";
 import { roomStore } from "./stores/room.ts";
+import { runQuestionStore } from "./stores/run-question.ts";
 import { seek } from "./stores/seek.ts";
 import { selectionStore } from "./stores/selection.ts";
 import { cardOf, shapeStore } from "./stores/shapes.ts";
@@ -53,6 +54,7 @@ const twincell = {
     playStore,
     postStore,
     roomStore,
+    runQuestionStore,
     selectionStore,
     shapeStore,
     soundStore,

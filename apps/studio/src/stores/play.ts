@@ -10,6 +10,8 @@ export interface PathStretch {
 export interface PlayState {
   readonly plan: Plan | null;
   readonly verdict: Verdict | null;
+  /** The verdict is of the program and the cell as they are now, not as they were before the last edit. */
+  readonly current: boolean;
   /** Progress 0 … 1 of the check under way; null when none is. */
   readonly checking: number | null;
   /** The check itself could not be done: why. */
@@ -29,6 +31,7 @@ export interface PlayState {
 export const playStore = createStore<PlayState>(() => ({
   plan: null,
   verdict: null,
+  current: false,
   checking: null,
   trouble: null,
   t_s: 0,

@@ -188,6 +188,7 @@ function Card({ station }: { readonly station: StationState }) {
             disabled={!open || safety !== "normal" || guard.link !== "up"}
             onClick={() => {
               void runStation(id).then(outcome => {
+                if (!outcome) return;
                 if (outcome.kind === "done") notify("done", words.stations.done(name));
                 else tell(name, outcome);
               });

@@ -14,6 +14,7 @@ export function SynchronizedStart({ stations }: { readonly stations: readonly St
   const chosen = able.filter(({ id }) => !left.includes(id));
   const start = (): void => {
     void startSynchronized(chosen.map(({ id }) => id)).then(outcome => {
+      if (!outcome) return;
       if (outcome.kind === "done") notify("done", words.stations.togetherDone);
       else notify(outcome.kind === "stopped" ? "warn" : "bad", outcome.why.sentence, outcome.why.hint);
     });

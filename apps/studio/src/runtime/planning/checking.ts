@@ -69,7 +69,7 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
       case "checked": {
         busy = false;
         const { plan, verdict, path } = message;
-        playStore.setState({ checking: null, trouble: null, plan, verdict, path });
+        playStore.setState({ checking: null, trouble: null, plan, verdict, path, current: true });
         loadReel(
           plan.segments.length > 0
             ? {
@@ -136,6 +136,7 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
     // A vendor's text says what it does a while after it changed.
     if (now !== executions) {
       executions = now;
+      playStore.setState({ current: false });
       later();
     }
     if (document === judged) return;
@@ -146,7 +147,11 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
     }
     const matters = !document || !judged || programOf(document) !== programOf(judged) || solidsDiffer(document, judged);
     judged = document;
-    if (matters) later();
+    if (matters) {
+      // What runs before the new check is done has not been checked.
+      playStore.setState({ current: false });
+      later();
+    }
   });
   if (judged) later();
   return {

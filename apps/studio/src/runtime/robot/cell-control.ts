@@ -22,6 +22,7 @@ import { branchOf, type Branch } from "../history/fork.ts";
 import { cellVersion } from "../cell-version.ts";
 import { momentFrom, momentHash, type MomentLink } from "../history/moment-link.ts";
 import { openInWorker } from "../history/recordings.ts";
+import { mayRun } from "../run/before-run.ts";
 import { controlCell, type CellControl } from "../run/run.ts";
 import { pageScheduler } from "../scheduler.ts";
 import { startStations } from "./stations.ts";
@@ -81,6 +82,8 @@ export async function startRun(from?: Branch): Promise<void> {
     notify("info", words.run.nothing);
     return;
   }
+  const { name } = robotOf(document)!;
+  if (!(await mayRun({ robots: [words.runQuestion.simulated(name)], real: false, otherModels: [] }))) return;
   takeRobot("run", () => {
     running.stop();
   });
