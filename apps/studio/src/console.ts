@@ -9,6 +9,7 @@ import { orientationPresetStore } from "./stores/aids.ts";
 import { bindingStore } from "./stores/bindings.ts";
 import { cellStore } from "./stores/cell.ts";
 import { commandStore, runCommand } from "./stores/commands.ts";
+import { connectionStore } from "./stores/connection.ts";
 import { controlStore } from "./stores/control.ts";
 import { dialogStore } from "./stores/dialogs.ts";
 import { commit, redo, showDocument, undo } from "./stores/document.ts";
@@ -42,6 +43,7 @@ const twincell = {
     bindingStore,
     cellStore,
     commandStore,
+    connectionStore,
     controlStore,
     dialogStore,
     foreignStore,

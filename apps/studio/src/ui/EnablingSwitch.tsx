@@ -1,6 +1,7 @@
 import { Hand } from "lucide-react";
 import { words } from "../messages/index.ts";
 import type { EnablingSwitch as Switch } from "./useEnablingSwitch.ts";
+import "./enabling-switch.css";
 
 /** The enabling switch of a panel: outlined when released, filled while held. */
 export function EnablingSwitch({ of: { enabled, press }, disabled }: { of: Switch; disabled: boolean }) {

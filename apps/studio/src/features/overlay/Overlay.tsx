@@ -6,6 +6,7 @@ import { readFrame, readTcp } from "../../runtime/jog/readout.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { runCommand } from "../../stores/commands.ts";
 import { worldFromFrameOf } from "../../stores/document.ts";
+import { connectionStore } from "../../stores/connection.ts";
 import { jogStore } from "../../stores/jog.ts";
 import { traceStore } from "../../stores/trace.ts";
 import { viewStore } from "../../stores/view.ts";
@@ -19,10 +20,23 @@ export function Overlay({ phone }: { phone: boolean }) {
   return (
     <>
       {!phone && <Hint />}
+      <ConnectionBadge />
       <Readout />
       <ClearanceTag />
       <TraceTool />
     </>
+  );
+}
+
+/** Whether what is moved on screen is the robot or its clone: to be seen in every mode as long as one is connected. */
+function ConnectionBadge() {
+  const connected = useStore(connectionStore, state => state.station !== null);
+  const view = useStore(connectionStore, state => state.view);
+  if (!connected) return null;
+  return (
+    <p className="connection-badge float" role="status" data-view={view}>
+      {view === "live" ? words.connection.liveBadge : words.connection.cloneBadge}
+    </p>
   );
 }
 

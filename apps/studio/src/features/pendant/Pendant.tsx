@@ -12,6 +12,7 @@ import { HoldButton } from "../../ui/HoldButton.tsx";
 import { useLive } from "../../ui/useLive.ts";
 import { words } from "../../messages/index.ts";
 import { nearness } from "./nearness.ts";
+import { Connection } from "./Connection.tsx";
 import { JointGauges } from "./JointGauges.tsx";
 import { JogMode } from "./Manner.tsx";
 import { PointButtons } from "./PointButtons.tsx";
@@ -32,6 +33,7 @@ export function Pendant() {
         <span className="grow">{words.jog.title}</span>
       </h2>
       <div className="section stack">
+        <Connection />
         <Segments
           label={words.jog.frame}
           value={frame}

@@ -4,6 +4,7 @@ import { useStore } from "zustand";
 import { lookForServer } from "../../runtime/robot/station-hosts.ts";
 import { addStation } from "../../runtime/robot/stations.ts";
 import { cellStore } from "../../stores/cell.ts";
+import { connectionStore } from "../../stores/connection.ts";
 import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
 import { notify } from "../../stores/notices.ts";
 import { stationStore, type ServerAddress } from "../../stores/stations.ts";
@@ -32,9 +33,19 @@ function Open() {
   const document = useStore(cellStore, state => state.document);
   const count = useStore(stationStore, state => state.stations.length);
   const server = useStore(stationStore, state => state.server);
-  const [brand, setBrand] = useState(DRIVER_LIST[0]?.id ?? "");
-  const [robot, setRobot] = useState("");
-  const [wanted, setPlace] = useState<ServerAddress>("page");
+  const connected = useStore(connectionStore, state => state.station !== null);
+  // First of all the robot that stands in the cell is connected.
+  const [brand, setBrand] = useState(
+    () =>
+      (connected
+        ? undefined
+        : DRIVER_LIST.find(({ robots: of }) => of.some(({ id }) => id === document?.robot.id))?.id) ??
+      DRIVER_LIST[0]?.id ??
+      "",
+  );
+  const [beside, setBeside] = useState(false);
+  const [robot, setRobot] = useState(document?.robot.id ?? "");
+  const [wanted, setPlace] = useState<ServerAddress>(dialogStore.getState().real ? "server" : "page");
   const [host, setHost] = useState("");
   const [x_m, setX] = useState(0);
   const [y_m, setY] = useState((count + 1) * APART_M);
@@ -62,9 +73,11 @@ function Open() {
       data[id]!.every(value => Number.isFinite(value) && value !== 0),
   );
   if (!document) return null;
+  const mayBeCell = !connected && robotId === document.robot.id;
+  const ofCell = mayBeCell && !beside;
   const add = async (): Promise<void> => {
     setBusy(true);
-    const beside: Pose<"base", "base"> = {
+    const besideCell: Pose<"base", "base"> = {
       ...identity(),
       position: [x_m, y_m, 0],
       quaternion: [0, 0, Math.sin(turned_rad / 2), Math.cos(turned_rad / 2)],
@@ -73,7 +86,8 @@ function Open() {
       brand,
       robot: robotId,
       place,
-      stand: compose(document.robot.worldFromBase, beside),
+      ofCell,
+      stand: ofCell ? document.robot.worldFromBase : compose(document.robot.worldFromBase, besideCell),
       watch: purpose === "watch",
       ...(place === "server"
         ? {
@@ -139,6 +153,20 @@ function Open() {
             options={robots.map(({ id, name }) => ({ value: id, words: name }))}
           />
         </div>
+        {mayBeCell && (
+          <div className="pair">
+            <span className="label">{words.connection.as}</span>
+            <Segments
+              label={words.connection.as}
+              value={beside ? "beside" : "cell"}
+              onChange={value => setBeside(value === "beside")}
+              options={[
+                { value: "cell", words: words.connection.ofCell },
+                { value: "beside", words: words.connection.beside },
+              ]}
+            />
+          </div>
+        )}
         <div className="pair">
           <span className="label">{words.stations.where}</span>
           <Segments
@@ -220,21 +248,37 @@ function Open() {
             </span>
           </div>
         ))}
-        <div className="pair">
-          <span className="label">{words.stations.stand}</span>
-          <span className="fields-3">
-            <NumberField label={words.stations.x} mark="X" quantity="length" value={x_m} decimals={0} onChange={setX} />
-            <NumberField label={words.stations.y} mark="Y" quantity="length" value={y_m} decimals={0} onChange={setY} />
-            <NumberField
-              label={words.stations.turned}
-              mark="Rz"
-              quantity="angle"
-              value={turned_rad}
-              decimals={0}
-              onChange={setTurned}
-            />
-          </span>
-        </div>
+        {!ofCell && (
+          <div className="pair">
+            <span className="label">{words.stations.stand}</span>
+            <span className="fields-3">
+              <NumberField
+                label={words.stations.x}
+                mark="X"
+                quantity="length"
+                value={x_m}
+                decimals={0}
+                onChange={setX}
+              />
+              <NumberField
+                label={words.stations.y}
+                mark="Y"
+                quantity="length"
+                value={y_m}
+                decimals={0}
+                onChange={setY}
+              />
+              <NumberField
+                label={words.stations.turned}
+                mark="Rz"
+                quantity="angle"
+                value={turned_rad}
+                decimals={0}
+                onChange={setTurned}
+              />
+            </span>
+          </div>
+        )}
       </form>
     </Frame>
   );

@@ -2,11 +2,13 @@ import { CellCollider, linkSolids, PathValidator, type Robot } from "@twincell/c
 import { cellGeometry } from "@twincell/project";
 import { cellStore } from "../../stores/cell.ts";
 import { collideStore } from "../../stores/collide.ts";
+import { isLive } from "../../stores/connection.ts";
 import { notify } from "../../stores/notices.ts";
 import { words } from "../../messages/index.ts";
 import { interpolateTo } from "./joint-interpolation.ts";
 import { namesOf } from "./hand-motion.ts";
 import { theLive } from "../live.ts";
+import { goLive } from "../robot/cell-connection.ts";
 import { goAround } from "../planning/planning.ts";
 
 /** Looks that the straight way may cost before the page answers; more is left to the worker. */
@@ -21,6 +23,10 @@ export function goThere(
   q_rad: ArrayLike<number>,
   done: (arrived: boolean) => void = () => undefined,
 ): void {
+  if (isLive()) {
+    goLive(q_rad, done);
+    return;
+  }
   const { behaviour } = collideStore.getState();
   const { document } = cellStore.getState();
   if (behaviour === "alert" || behaviour === "refuse" || !document) {

@@ -9,6 +9,7 @@ import {
   type Vector3,
 } from "@twincell/core";
 import { cellStore } from "../../stores/cell.ts";
+import { isLive } from "../../stores/connection.ts";
 import { controlStore } from "../../stores/control.ts";
 import { flangeFromTcpOf, robotOf, worldFromFrameOf } from "../../stores/document.ts";
 import { jogStore, type JogState } from "../../stores/jog.ts";
@@ -18,6 +19,7 @@ import { onFrame } from "./jog-frames.ts";
 import { heldNow, MAX_COORDINATES } from "./pressed-inputs.ts";
 import { moveByHand } from "./hand-motion.ts";
 import { theLive } from "../live.ts";
+import { jogLive } from "../robot/cell-connection.ts";
 import { leaveRobot, moverNow, takeRobot } from "../robot/motion-owner.ts";
 
 /** Manual mode: the TCP never goes faster (ISO 10218-1). */
@@ -97,6 +99,11 @@ export function createJogger(): Jogger {
       const any = heldNow(held);
       const jog = jogStore.getState();
       if (jog.moving !== any) jogStore.setState({ moving: any });
+      if (isLive()) {
+        jogLive(held, now_ms);
+        if (jog.blocked && now_ms >= jog.blocked.until_ms) jogStore.setState({ blocked: null });
+        return;
+      }
       if (jog.aid !== null && any && (jog.frame === "joint" || held[3] !== 0 || held[4] !== 0 || held[5] !== 0))
         jogStore.setState({ aid: null });
       if (jog.manner === "steps") {

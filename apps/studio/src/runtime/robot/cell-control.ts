@@ -3,6 +3,7 @@ import { linkSolids } from "@twincell/core";
 import { cellGeometry, type CellDocument } from "@twincell/project";
 import { cellStore } from "../../stores/cell.ts";
 import { registerCommands } from "../../stores/commands.ts";
+import { connectionStore } from "../../stores/connection.ts";
 import { controlStore } from "../../stores/control.ts";
 import { flangeFromTcpOf, programOf, robotOf, textOf } from "../../stores/document.ts";
 import { historyStore } from "../../stores/history.ts";
@@ -11,6 +12,7 @@ import { theLanguage } from "../../stores/languages.ts";
 import { notify } from "../../stores/notices.ts";
 import { playStore } from "../../stores/play.ts";
 import { sound } from "../../stores/sound.ts";
+import { stationOf } from "../../stores/stations.ts";
 import { onStop } from "../../stores/stop.ts";
 import { viewStore } from "../../stores/view.ts";
 import { words } from "../../messages/index.ts";
@@ -25,7 +27,8 @@ import { openInWorker } from "../history/recordings.ts";
 import { mayRun } from "../run/before-run.ts";
 import { controlCell, type CellControl } from "../run/run.ts";
 import { pageScheduler } from "../scheduler.ts";
-import { startStations } from "./stations.ts";
+import { showAs, startCellConnection, tellRefused, theConnected } from "./cell-connection.ts";
+import { runStation, startStations } from "./stations.ts";
 import { travelBack, type TravelBack } from "../history/travel-back.ts";
 
 const shelf = browserRunStorage();
@@ -58,6 +61,7 @@ export function theControl(): CellControl | null {
       shelf,
       clock_ms: () => Date.now(),
       cellVersion: () => cellVersion(document),
+      elsewhere: () => connectionStore.getState().station !== null,
     },
     {
       robot,
@@ -72,6 +76,19 @@ export function theControl(): CellControl | null {
 
 export const theHistory: TravelBack = travelBack(shelf, pageScheduler, openInWorker, () => Date.now());
 
+/** On the connected robot, live, recorded as every run. */
+async function runConnected(id: string): Promise<void> {
+  showAs("live");
+  viewStore.setState({ mode: "run" });
+  const outcome = await runStation(id);
+  if (!outcome) return;
+  const name = stationOf(id)?.name ?? id;
+  if (outcome.kind === "done") {
+    sound("done");
+    notify("done", words.stations.done(name), words.run.kept);
+  } else notify(outcome.kind === "stopped" ? "warn" : "bad", `${name}: ${outcome.why.sentence}`, outcome.why.hint);
+}
+
 /** Runs the program's exported text; says in words how it ended. */
 export async function startRun(from?: Branch): Promise<void> {
   const { document } = cellStore.getState();
@@ -80,6 +97,12 @@ export async function startRun(from?: Branch): Promise<void> {
   if (!document || !program || !running) return;
   if (program.steps.length === 0) {
     notify("info", words.run.nothing);
+    return;
+  }
+  const { station } = connectionStore.getState();
+  // What goes on from a past moment is a simulation of its own: it is seen on the clone.
+  if (station !== null && !from) {
+    await runConnected(station);
     return;
   }
   const { name } = robotOf(document)!;
@@ -177,6 +200,14 @@ export function startCellControl(): void {
     void openLinkedMoment();
   });
   startStations();
+  startCellConnection();
+  // Back on the simulated controller, the chip is its again.
+  connectionStore.subscribe((state, before) => {
+    if (before.station === null || state.station !== null) return;
+    control?.close();
+    control = null;
+    theControl();
+  });
   // Another robot is another controller, as the chip says at once.
   cellStore.subscribe((state, before) => {
     if (state.document?.robot.id !== before.document?.robot.id) theControl();
@@ -215,6 +246,11 @@ export function startCellControl(): void {
       group: "play",
       words: words.control.reset,
       run: () => {
+        const connected = theConnected();
+        if (connected) {
+          tellRefused(connected.reset());
+          return;
+        }
         const outcome = theControl()?.reset();
         if (outcome && outcome.kind !== "done") notify("bad", outcome.why.sentence, outcome.why.hint);
       },

@@ -1,4 +1,4 @@
-import { flangePose, robotById } from "@twincell/core";
+import { compose, distance, flangePose, fromAxisAngle, identity, robotById, rotate } from "@twincell/core";
 import { expect, test } from "vitest";
 import { cartesianTarget, jointTarget, shifted } from "./jog-targets.ts";
 
@@ -52,4 +52,19 @@ test("a held Cartesian jog ends where the arm ends, and a whole step beyond reac
   let at = held!;
   for (let presses = 0; presses < 10; presses++) at = cartesianTarget(robot, at, 0, Infinity, "base") ?? at;
   expect(cartesianTarget(robot, at, 0, 0.01, "base")).toBeNull();
+});
+
+test("axes of their own: a step goes along them, a turn leaves the tool centre point where it is", () => {
+  const flangeFromTcp = { ...identity<"flange", "tcp">(), position: [0, 0.05, 0.2] as [number, number, number] };
+  const axes = { baseFromAxes: fromAxisAngle([0, 0, 1], Math.PI / 2), flangeFromTcp };
+  const tcp = (q: ArrayLike<number>) => compose(flangePose(robot.arm, q), flangeFromTcp);
+  const from = tcp(q_rad);
+  const moved = tcp(cartesianTarget(robot, q_rad, 0, -0.02, axes)!);
+  const along = rotate(axes.baseFromAxes, [1, 0, 0]);
+  for (const i of [0, 1, 2]) expect(moved.position[i]! - from.position[i]!).toBeCloseTo(-0.02 * along[i]!, 7);
+  const turned = tcp(cartesianTarget(robot, q_rad, 5, 0.1, axes)!);
+  expect(distance(turned.position, from.position)).toBeLessThan(1e-7);
+  const x = rotate(turned.quaternion, [1, 0, 0]);
+  const x0 = rotate(from.quaternion, [1, 0, 0]);
+  expect(Math.hypot(x[0] - x0[0], x[1] - x0[1], x[2] - x0[2])).toBeGreaterThan(0.01);
 });

@@ -1,18 +1,26 @@
 import {
+  compose,
   flangePose,
+  inverse,
   multiply,
   fromAxisAngle,
   rotate,
   solveAll,
   type Pose,
+  type Quaternion,
   type Robot,
   type Vector3,
 } from "@twincell/core";
 
 /** Directions of a Cartesian jog: along x, y, z, then about them. */
 export type CartesianAxis = 0 | 1 | 2 | 3 | 4 | 5;
-/** Whose axes those are: the base's, or the flange's as it stands when the jog begins. */
-export type JogFrame = "base" | "flange";
+/** Axes of their own, seen from the base; turns are about the tool centre point. */
+export interface JogAxes {
+  readonly baseFromAxes: Quaternion;
+  readonly flangeFromTcp: Pose<"flange", "tcp">;
+}
+/** Whose axes those are: the base's, or the flange's as it stands when the jog begins, about the flange; or others. */
+export type JogFrame = "base" | "flange" | JogAxes;
 
 /** A jog key held for long ends this far inside a joint limit [rad], so that rounding in a controller does not refuse it. */
 const INSIDE_LIMIT_RAD = 1e-3;
@@ -49,6 +57,7 @@ export function jointTarget(robot: Robot, q_rad: ArrayLike<number>, joint: numbe
  *
  *   base:    p' = p + d·e,         R' = Rot(e, d)·R
  *   flange:  p' = p + d·(R·e),     R' = R·Rot(e, d)
+ *   others:  as base with e turned into the base, for the tool centre point instead of the flange
  */
 export function shifted(
   baseFromFlange: Pose<"base", "flange">,
@@ -58,6 +67,16 @@ export function shifted(
 ): Pose<"base", "flange"> {
   const unit: Vector3 = [0, 0, 0];
   unit[axis % 3] = 1;
+  if (typeof frame === "object") {
+    const baseFromTcp = compose(baseFromFlange, frame.flangeFromTcp);
+    const along = rotate(frame.baseFromAxes, unit);
+    const [x, y, z] = baseFromTcp.position;
+    const moved: Pose<"base", "tcp"> =
+      axis < 3
+        ? { ...baseFromTcp, position: [x + by * along[0], y + by * along[1], z + by * along[2]] }
+        : { ...baseFromTcp, quaternion: multiply(fromAxisAngle(along, by), baseFromTcp.quaternion) };
+    return compose(moved, inverse(frame.flangeFromTcp));
+  }
   const { position, quaternion } = baseFromFlange;
   if (axis < 3) {
     const along = frame === "base" ? unit : rotate(quaternion, unit);

@@ -12,6 +12,7 @@ import type { CellDocument } from "@twincell/project";
 import { createRunRecorder, type RunRecorder } from "@twincell/recording";
 import { createVirtualPendantLink, type VirtualPendantLink } from "../../virtual-pendant/link.ts";
 import { cellStore } from "../../stores/cell.ts";
+import { connectionStore } from "../../stores/connection.ts";
 import { programOf, robotOf } from "../../stores/document.ts";
 import { historyStore, type RunEnding } from "../../stores/history.ts";
 import { notify } from "../../stores/notices.ts";
@@ -82,6 +83,12 @@ const AT_REST: StationState["guard"] = {
   watching: false,
 };
 
+let listenToSample: (id: string, q_rad: Float64Array) => void = () => undefined;
+/** Told of every sample, with the angles in the array that is written in place. */
+export function onStationSample(listen: (id: string, q_rad: Float64Array) => void): void {
+  listenToSample = listen;
+}
+
 export const stationLive = (id: string): StationLive | undefined => lives.get(id);
 
 export interface NewStation {
@@ -96,6 +103,8 @@ export interface NewStation {
   };
   /** Only to watch what others do with it. */
   readonly watch?: boolean;
+  /** It is the connection of the robot of the cell, and no robot of its own. */
+  readonly ofCell?: boolean;
 }
 
 const refusedAs = (sentence: string, hint: string): CommandOutcome => ({
@@ -115,6 +124,7 @@ export async function addStation({
   stand,
   address,
   watch = false,
+  ofCell = false,
 }: NewStation): Promise<CommandOutcome> {
   const host = hostAt(place);
   const robot = robotById(robotId);
@@ -125,6 +135,8 @@ export async function addStation({
   for (let n = 2; taken.has(id); n++) id = `${robotId} ${n}`;
   lives.set(id, newLive(robot));
   stands.set(id, stand);
+  // Before anything is heard of it: it is never drawn as a second arm.
+  if (ofCell) connectionStore.setState({ station: id, view: "live", enabled: false });
   const opened = await host.ask({
     type: "open",
     station: id,
@@ -150,12 +162,17 @@ export async function addStation({
   });
   if (opened.kind !== "done") {
     lives.delete(id);
+    leaveCell(id);
     return opened;
   }
   if (watch) return host.ask({ type: "connect", station: id });
   const took = await host.ask({ type: "take", station: id });
   return took.kind === "done" ? host.ask({ type: "connect", station: id }) : took;
 }
+const leaveCell = (id: string): void => {
+  if (connectionStore.getState().station === id)
+    connectionStore.setState({ station: null, view: "live", enabled: false });
+};
 const stands = new Map<string, Pose<"world", "base">>();
 
 export async function removeStation(id: string): Promise<void> {
@@ -334,7 +351,10 @@ function beginRecording(station: StationState, { robot }: StationLive, program: 
       duration_s: (Date.now() - startedAt.getTime()) / 1000,
       bytes: file.sink.position,
       ending,
-      station: { robot: station.robot, stand: station.stand },
+      // The robot of the cell is shown as itself.
+      ...(connectionStore.getState().station === station.id
+        ? {}
+        : { station: { robot: station.robot, stand: station.stand } }),
     });
   };
   note("running");
@@ -475,6 +495,7 @@ function vanish(id: string): void {
   clearInterval(alive.get(id));
   alive.delete(id);
   lives.delete(id);
+  leaveCell(id);
   stands.delete(id);
   cabinets.get(id)?.gone();
   cabinets.delete(id);
@@ -515,6 +536,7 @@ function show(sample: EventOf<"sample">): void {
   live.sent_s = sample.sent_s;
   live.revision++;
   noteOther();
+  listenToSample(sample.station, live.q_rad);
   const { sequence, time_s, moving, mode, safety, override, gripperClosed, step, message, plan_rad, command_rad } =
     sample;
   recordings.get(sample.station)?.recorder.record({

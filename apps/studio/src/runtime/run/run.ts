@@ -50,6 +50,8 @@ export interface RunWorld {
   readonly clock_ms: () => number;
   /** Which cell a run is recorded of; left out where there is only one. */
   readonly cellVersion?: () => string;
+  /** Whether another controller is the one of the robot on screen, so that only a run of this one is told of. */
+  readonly elsewhere?: () => boolean;
 }
 
 /** What runs: a text of which each line came from a step, or with no text the steps themselves. */
@@ -234,6 +236,7 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
     recorder?.record(sample);
     const lateness = recorder ? late.due(scheduler.now_s()) : null;
     if (lateness) recorder?.note("latency", lateness);
+    if (!running && world.elsewhere?.()) return;
     const now_s = scheduler.now_s();
     const known = controlStore.getState();
     const urgent =
