@@ -59,7 +59,7 @@ async function sameJoints(page: Page): Promise<void> {
   });
   a!.forEach((angle, j) => expect(angle).toBeCloseTo(b![j]!, 9));
 }
-/** Jogs joint 1 … with the enabling switch held by Space, until it has turned by that much [rad]. */
+/** Jogs a joint with the enabling switch held by Space, until it has turned by that much [rad]. */
 async function jog(page: Page, joint: number, by_rad: number): Promise<void> {
   const from = (await shown(page))[joint - 1]!;
   await page.keyboard.down("Space");
@@ -121,7 +121,7 @@ for (const [maker, option, robot] of [
     await page.screenshot({ path: picture(`one-connection-live-${robot}`) });
     expect(await page.evaluate(arms)).toEqual(alone);
     await page.getByRole("button", { name: "PTP", exact: true }).click();
-    await jog(page, 5, 0.08);
+    await jog(page, 6, 0.08);
     await sameJoints(page);
     await page.getByRole("button", { name: "PTP", exact: true }).click();
     const steps = await page.evaluate(() => window.twincell.stores.cellStore.getState().document!.programs[0]!.steps);
@@ -183,7 +183,7 @@ for (const [maker, option, robot] of [
     await slider.press("End");
     await page.waitForFunction(
       ([joint, at]) => Math.abs(window.twincell.live.shown().q_rad[joint!]! - at!) < 2e-3,
-      [4, taught[4]!] as const,
+      [5, taught[5]!] as const,
       { timeout: 20_000 },
     );
     expect(await page.evaluate(arms)).toEqual(alone);
