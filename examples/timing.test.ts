@@ -102,7 +102,7 @@ describe.each(programs.map(program => [program.name, program] as const))("%s", (
     for (let i = 0; i < 6; i++) expect(Math.abs(q_rad[i]! - end_rad[i]!)).toBeLessThan((0.001 * Math.PI) / 180);
   }, 60_000);
 
-  test("N-64 the predicted cycle time is within 5 % of what the virtual controller takes", async () => {
+  test("N-64 the plan's cycle time is within 5 % of what the virtual controller takes to carry out the exported text", async () => {
     const { outcome, took_s, said } = await execute(program);
     const { duration_s } = predicted(said);
     expect(outcome).toEqual({ kind: "done" });

@@ -16,12 +16,17 @@ const MODULES = [
   "abb_robot_client.egm",
   "abb_robot_client.rws",
   "fanuc_rmi",
+  "jsonschema",
   "mcap_ros2.reader",
+  "openapi_spec_validator",
+  "pandas",
   "py_openshowvar",
+  "pytest",
   "rapidchecker",
   "RSIPI",
   "rtde_control",
   "urx.urrtmon",
+  "websockets",
 ];
 
 const wanted = () => createHash("sha256").update(readFileSync(requirements)).digest("hex");

@@ -40,7 +40,7 @@ describe.each(LIBRARY.filter(({ form }) => form !== undefined).map(robot => [rob
   },
 );
 
-test("T-64 a published mesh that were 30 mm larger would not be enclosed", context => {
+test("a published mesh that were 30 mm larger would not be enclosed", context => {
   const links = vendorLinks("yaskawa_gp8");
   const robot = robotById("yaskawa_gp8")!;
   if (links === null) {

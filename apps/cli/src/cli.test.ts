@@ -40,7 +40,8 @@ test("robots lists the whole library, with and without --json: id, name, family,
   expect(robots.length).toBeGreaterThanOrEqual(11);
   for (const robot of robots) {
     for (const key of ["id", "name", "family"]) expect(robot[key]).toEqual(expect.stringMatching(/./));
-    for (const key of ["dof", "payload_kg", "reach_m", "shape_error_m"]) expect(robot[key]).toEqual(expect.any(Number));
+    for (const key of ["dof", "reach_m", "shape_error_m"]) expect(robot[key]).toEqual(expect.any(Number));
+    expect(robot.payload_kg === null || Number(robot.payload_kg) > 0).toBe(true);
     expect(Object.keys(robot.source as object).length).toBeGreaterThan(0);
     expect(Array.isArray(robot.assumptions)).toBe(true);
   }
@@ -55,10 +56,30 @@ test("robots lists the whole library, with and without --json: id, name, family,
     }),
   );
   expect(robots).toContainEqual(expect.objectContaining({ id: "kuka_lbr_iiwa_14_r820", dof: 7 }));
+  expect(robots).toContainEqual(
+    expect.objectContaining({ id: "ur5e", vendor: "Universal Robots", family: "three-parallel", payload_kg: null }),
+  );
+  expect(new Set(robots.map(({ vendor }) => vendor)).size).toBeGreaterThanOrEqual(14);
   expect(robots.filter(robot => "made_up_geometry" in robot).map(robot => robot.id)).toEqual(["lola_rl15_placeholder"]);
 });
 
-test("T-16 a robot file is enough for fk and ik; a fault in it is named with its place", () => {
+test("robots filters by maker, words, reach and payload; robots of unknown payload come last and are said to be so", () => {
+  const ids = (...args: string[]) =>
+    (twincell(["robots", ...args]).lines() as { id: string; payload_kg: number | null }[]).map(({ id }) => id);
+  expect(ids("--maker", "universal").toSorted()).toContain("ur5e");
+  expect(ids("--find", "universal ur5e")).toEqual(["ur5e"]);
+  const lifting = twincell(["robots", "--payload", "9", "--reach", "1200"]).lines() as Record<string, number | null>[];
+  const firstUnknown = lifting.findIndex(({ payload_kg }) => payload_kg === null);
+  expect(firstUnknown).toBeGreaterThan(0);
+  expect(lifting.slice(0, firstUnknown).every(({ payload_kg }) => payload_kg! >= 9)).toBe(true);
+  expect(lifting.slice(firstUnknown).every(({ payload_kg }) => payload_kg === null)).toBe(true);
+  expect(lifting.every(({ reach_m }) => reach_m! >= 1.2)).toBe(true);
+  expect(twincell(["robots", "--find", "ur5e", "--text"]).out).toMatch(/^ur5e .*mm {2}payload unknown\n$/);
+  const none = twincell(["robots", "--maker", "nobody"]);
+  expect([none.code, none.out]).toEqual([1, ""]);
+});
+
+test("a robot file is enough for fk and ik; a fault in it is named with its place", () => {
   const pose = twincell(["fk", "--robot", "examples/robots/small-arm.json"], '{"q":[0.3,0.2,0.1,0.4,0.7,-0.2]}');
   expect(pose.code).toBe(0);
   const [answer] = twincell(

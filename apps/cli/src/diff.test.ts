@@ -30,16 +30,18 @@ test("diff names what was moved and renamed, one line each, and exits with 1; --
   expect(from.stdout).toBe("");
   expect(run.status).toBe(1);
   const lines = run.stdout.trim().split("\n");
-  expect(lines).toHaveLength(2);
+  // The frame at the corner of the carton goes with it.
+  expect(lines).toHaveLength(3);
   expect(lines[0]).toMatch(/^~ object Carton, pose, position: .* mm → 500, 0, 900 mm \(moved by [\d.]+ mm\)$/);
-  expect(lines[1]).toBe(`~ cell, name: ${cell.name} → Line 2`);
+  expect(lines[1]).toMatch(/^~ frame Carton corner/);
+  expect(lines[2]).toBe(`~ cell, name: ${cell.name} → Line 2`);
   const json = diff([EXAMPLE, "-", "--json"], after);
   expect(
     json.stdout
       .trim()
       .split("\n")
       .map(line => (JSON.parse(line) as { kind: string }).kind),
-  ).toEqual(["changed", "changed"]);
+  ).toEqual(["changed", "changed", "changed"]);
 });
 
 test("diff of one file, or of a file that is no cell, is one sentence and exit 2", () => {

@@ -1,6 +1,8 @@
 #!/usr/bin/env node
-import { Fault } from "@twincell/core";
+import { addCatalogue, Fault } from "@twincell/core";
+import { CATALOGUE } from "@twincell/core/catalogue";
 import { COMMANDS } from "./commands/index.ts";
+import { missingPart } from "./io/optional-parts.ts";
 import { UseFault } from "./io/usage.ts";
 
 const help = (): string => `twincell COMMAND [options]
@@ -28,9 +30,15 @@ async function main(argv: readonly string[]): Promise<number> {
   return command.run(rest);
 }
 
+addCatalogue(CATALOGUE);
 try {
   process.exitCode = await main(process.argv.slice(2));
 } catch (problem) {
+  const part = missingPart(problem);
+  if (part !== undefined) {
+    process.stderr.write(`twincell: ${part}\n`);
+    process.exit(2);
+  }
   if (!(problem instanceof Fault)) throw problem;
   process.stderr.write(`twincell: ${problem.message}${problem.hint ? ` ${problem.hint}` : ""}\n`);
   process.exitCode = 2;

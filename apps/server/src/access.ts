@@ -1,9 +1,20 @@
 import { randomBytes, randomInt, timingSafeEqual } from "node:crypto";
 
 const COOKIE = "twincell_access";
-/** So many wrong codes, then nobody's code is looked at for a while: guessing a million takes weeks, and whoever mistyped waits a minute. */
+/**
+ * So many wrong codes of one client, then its codes are not looked at for a minute, and after each further wrong one twice as long, up to
+ * an hour: 250 clients together try some 13,000 of a million codes a day. Nobody else is kept out.
+ */
 const TRIES = 20;
 const PAUSE_S = 60;
+const LONGEST_PAUSE_S = 3600;
+/** Clients that are remembered; beyond it the one that was wrong longest ago is forgotten. */
+const MOST_CLIENTS = 10_000;
+/** A client is its address; of IPv6 the network, since one machine has all addresses of it. */
+export const clientOf = (address = ""): string =>
+  address.includes(":") && !address.startsWith("::ffff:")
+    ? [...address.split("::")[0]!.split(":"), "0", "0", "0", "0"].slice(0, 4).join(":")
+    : address;
 
 export type Entry =
   | { readonly kind: "welcome" }
@@ -14,32 +25,37 @@ export type Entry =
 /** Six digits stand between the local network and the studio: typed once, or carried by the QR code's address. */
 export interface AccessCode {
   readonly code: string;
-  enter(cookies: string | undefined, given: string | null): Entry;
+  /** @param client  whose wrong codes are counted together: `clientOf` its address. */
+  enter(cookies: string | undefined, given: string | null, client: string): Entry;
 }
 
 /** @param now_s  seconds that never run backwards. */
 export function accessCode(now_s: () => number): AccessCode {
   const code = String(randomInt(0, 1_000_000)).padStart(6, "0");
   const token = randomBytes(24).toString("base64url");
-  let wrong = 0;
-  let closedUntil_s = -Infinity;
+  const wrong = new Map<string, { count: number; closedUntil_s: number }>();
   const same = (a: string, b: string) => a.length === b.length && timingSafeEqual(Buffer.from(a), Buffer.from(b));
   return {
     code,
-    enter(cookies, given) {
+    enter(cookies, given, client) {
       const carried = cookies
         ?.split(";")
         .map(part => part.trim())
         .find(part => part.startsWith(`${COOKIE}=`))
         ?.slice(COOKIE.length + 1);
       if (carried !== undefined && same(carried, token)) return { kind: "welcome" };
-      if (now_s() < closedUntil_s) return { kind: "too-many-tries" };
+      const tried = wrong.get(client) ?? { count: 0, closedUntil_s: -Infinity };
+      if (now_s() < tried.closedUntil_s) return { kind: "too-many-tries" };
       if (given === null) return { kind: "ask" };
-      if (same(given, code))
+      if (same(given, code)) {
+        wrong.delete(client);
         return { kind: "welcome-with-cookie", cookie: `${COOKIE}=${token}; Path=/; HttpOnly; Secure; SameSite=Strict` };
-      if (++wrong < TRIES) return { kind: "ask" };
-      wrong = 0;
-      closedUntil_s = now_s() + PAUSE_S;
+      }
+      wrong.delete(client);
+      wrong.set(client, tried);
+      if (wrong.size > MOST_CLIENTS) wrong.delete(wrong.keys().next().value!);
+      if (++tried.count < TRIES) return { kind: "ask" };
+      tried.closedUntil_s = now_s() + Math.min(LONGEST_PAUSE_S, PAUSE_S * 2 ** (tried.count - TRIES));
       return { kind: "too-many-tries" };
     },
   };

@@ -1,9 +1,11 @@
 import type { IncomingMessage, RequestListener, ServerResponse } from "node:http";
-import { askForCode, type AccessCode } from "./access.ts";
+import { askForCode, clientOf, type AccessCode } from "./access.ts";
+import { isApiPath } from "./api/calls.ts";
+import type { apiListener } from "./api/listener.ts";
 import type { staticFiles } from "./static-files.ts";
 
 /** Cross-origin isolation gives the studio precise clocks and shared memory; nothing is ever loaded from elsewhere. */
-const HEADERS: Readonly<Record<string, string>> = {
+export const HEADERS: Readonly<Record<string, string>> = {
   "content-security-policy":
     "default-src 'self'; script-src 'self' 'wasm-unsafe-eval' blob:; worker-src 'self' blob:; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' data: blob:; frame-ancestors 'none'; base-uri 'self'; form-action 'self'",
   "cross-origin-opener-policy": "same-origin",
@@ -42,6 +44,7 @@ export function studioListener(
   files: ReturnType<typeof staticFiles>,
   hosts: ReadonlySet<string>,
   access: AccessCode | null,
+  api: ReturnType<typeof apiListener> | null,
 ): RequestListener {
   return (request, response) => {
     answer(request, response).catch((problem: unknown) => {
@@ -61,10 +64,6 @@ export function studioListener(
       say(421, "This address is not served here.\n");
       return;
     }
-    if (request.method !== "GET" && request.method !== "HEAD") {
-      say(405, "Only reading is possible here.\n", { allow: "GET, HEAD" });
-      return;
-    }
     let url: URL;
     let path: string;
     try {
@@ -74,8 +73,20 @@ export function studioListener(
       say(400, `This address cannot be read: ${(problem as Error).message}.\n`);
       return;
     }
+    if (api && isApiPath(path)) {
+      await api(request, response, path);
+      return;
+    }
+    if (request.method !== "GET" && request.method !== "HEAD") {
+      say(405, "Only reading is possible here.\n", { allow: "GET, HEAD" });
+      return;
+    }
     if (access) {
-      const entry = access.enter(request.headers.cookie, url.searchParams.get("code"));
+      const entry = access.enter(
+        request.headers.cookie,
+        url.searchParams.get("code"),
+        clientOf(request.socket.remoteAddress),
+      );
       if (entry.kind === "too-many-tries") {
         say(429, "Too many wrong codes. Wait a minute, then type it again.\n");
         return;

@@ -4,15 +4,24 @@ import type { AddressInfo } from "node:net";
 import { join } from "node:path";
 import { createVideoRelay } from "@twincell/protocol";
 import { accessCode } from "./access.ts";
+import { apiHandlers } from "./api/handlers.ts";
+import { createJudge } from "./api/judge.ts";
+import { apiListener } from "./api/listener.ts";
+import { createApiRobots, schedulerWith, type ApiRobots } from "./api/robots.ts";
+import { streamRoute } from "./api/stream.ts";
 import { certificate, lanAddresses } from "./lan.ts";
 import { nodeScheduler } from "./clock.ts";
-import { isServed, LOOPBACK, studioListener } from "./pages.ts";
+import { HEADERS, isServed, LOOPBACK, studioListener } from "./pages.ts";
 import { stationHost } from "./stations/host.ts";
 import { prepareJobInWorker } from "./stations/lay-out.ts";
 import { recordServer } from "./stations/record-host.ts";
 import { openRoutes } from "./sockets/doors.ts";
 import { connectionRoute } from "./stations/socket.ts";
 import { videoRoute } from "./video/door.ts";
+import { auditHost } from "./people/audit-host.ts";
+import { openAuditLog } from "./people/audit-log.ts";
+import { createGate } from "./people/gate.ts";
+import { tokenReader } from "./people/tokens.ts";
 import { staticFiles } from "./static-files.ts";
 
 export interface ServeOptions {
@@ -46,21 +55,71 @@ export async function serve(options: ServeOptions): Promise<Served> {
   const addresses = options.lan ? lanAddresses() : [];
   const access = options.lan ? accessCode(() => nodeScheduler.now_s()) : null;
   const hosts = new Set([...LOOPBACK, ...addresses]);
-  const listener = studioListener(staticFiles(options.studio), hosts, access);
+  const programs = prepareJobInWorker();
+  // Whoever has the code may open controllers: on a network only those that whoever started the server named.
+  const allowed = options.robots ?? (options.lan ? ["127.0.0.1", "localhost"] : undefined);
+  const version = options.version ?? "";
+  const parts: { robots?: ApiRobots } = {};
+  const stations = stationHost(
+    schedulerWith(nodeScheduler, () => parts.robots?.beat()),
+    version,
+    programs.layOut,
+    { training: options.training, robots: allowed },
+  );
+  const robots = (parts.robots = createApiRobots(stations, nodeScheduler));
+  const say = (sentence: string): void => {
+    console.error(sentence);
+  };
+  const audit = options.data === undefined ? null : openAuditLog(options.data, () => Date.now());
+  const auditing = audit && auditHost(stations, audit, say);
+  const gate = createGate({
+    access,
+    tokens: tokenReader(options.data, () => Date.now(), say),
+    audit,
+    scheduler: nodeScheduler,
+    onTrouble: say,
+  });
+  const judge = createJudge();
+  const counts = new Map<number, number>();
+  let ready = true;
+  const api = apiListener({
+    handlers: apiHandlers({
+      version,
+      host: stations,
+      robots,
+      judge,
+      scheduler: nodeScheduler,
+      data: options.data,
+      requests: { byClass: counts },
+      ready: () => ready,
+    }),
+    headers: HEADERS,
+    counts,
+    enter: (request, route) => gate.enter(request, route.access),
+    audit,
+  });
+  const listener = studioListener(staticFiles(options.studio), hosts, access, api);
   const server = options.lan
     ? createHttps({ ...(await certificate(options.data, addresses)) }, listener)
     : createHttp(listener);
-  await new Promise<void>((resolve, reject) => {
-    server.once("error", reject);
-    server.listen(options.port, options.host ?? (options.lan ? "0.0.0.0" : "127.0.0.1"), resolve);
-  });
-  const programs = prepareJobInWorker();
-  // Whoever has the code may open controllers: on a network only those that whoever started the server named.
-  const robots = options.robots ?? (options.lan ? ["127.0.0.1", "localhost"] : undefined);
-  const stations = stationHost(nodeScheduler, options.version ?? "", programs.layOut, {
-    training: options.training,
-    robots,
-  });
+  const end = (): void => {
+    ready = false;
+    robots.close();
+    stations.close();
+    programs.close();
+    judge.close();
+    auditing?.();
+    audit?.close();
+  };
+  try {
+    await new Promise<void>((resolve, reject) => {
+      server.once("error", reject);
+      server.listen(options.port, options.host ?? (options.lan ? "0.0.0.0" : "127.0.0.1"), resolve);
+    });
+  } catch (problem) {
+    end();
+    throw problem;
+  }
   const recorder =
     options.data === undefined
       ? null
@@ -76,9 +135,8 @@ export async function serve(options: ServeOptions): Promise<Served> {
   );
   const socket = openRoutes(
     server,
-    [connectionRoute(stations), videoRoute(relay)],
-    request =>
-      isServed(hosts, request) && (access === null || access.enter(request.headers.cookie, null).kind === "welcome"),
+    [connectionRoute(stations, gate.nameOf), streamRoute(stations, nodeScheduler), videoRoute(relay)],
+    request => isServed(hosts, request) && gate.socket(request),
   );
   return {
     url: `${scheme}://127.0.0.1:${port}/${query}`,
@@ -87,8 +145,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     close: () =>
       new Promise(resolve => {
         recorder?.close();
-        stations.close();
-        programs.close();
+        end();
         socket.close();
         server.closeAllConnections();
         server.close(() => {

@@ -2,7 +2,7 @@ import { createHash } from "node:crypto";
 import { readFile, stat } from "node:fs/promises";
 import { extname, join, normalize, sep } from "node:path";
 import { promisify } from "node:util";
-import { brotliCompress, constants, gzip } from "node:zlib";
+import { brotliCompress, brotliDecompress, constants, gzip } from "node:zlib";
 
 const TYPES: Readonly<Record<string, string>> = {
   ".html": "text/html; charset=utf-8",
@@ -27,7 +27,10 @@ export interface StaticAnswer {
   readonly body: Buffer;
 }
 
-/** Files of one folder, compressed once and kept: the studio is small and asked for again and again. */
+/**
+ * Files of one folder, compressed once and kept: the studio is small and asked for again and again. `NAME.br` stands for NAME
+ * where there is no NAME itself: a package keeps its large files that way.
+ */
 export function staticFiles(folder: string) {
   const kept = new Map<
     string,
@@ -47,16 +50,19 @@ export function staticFiles(folder: string) {
     };
     const file = normalize(join(folder, path.endsWith("/") ? `${path}index.html` : path));
     if (path.includes("\0") || !file.startsWith(normalize(folder + sep))) return notFound;
-    const found = await stat(file).catch(() => null);
+    const own = await stat(file).catch(() => null);
+    const isPacked = own?.isFile() !== true && COMPRESSIBLE.has(extname(file).toLowerCase());
+    const stored = isPacked ? `${file}.br` : file;
+    const found = isPacked ? await stat(stored).catch(() => null) : own;
     if (!found?.isFile()) return notFound;
 
     let entry = kept.get(file);
     if (!entry || entry.mtime !== found.mtimeMs) {
-      const plain = await readFile(file);
+      const body = await readFile(stored);
       entry = {
         mtime: found.mtimeMs,
-        etag: `"${createHash("sha256").update(plain).digest("base64url").slice(0, 22)}"`,
-        bodies: new Map([["", plain]]),
+        etag: `"${createHash("sha256").update(body).digest("base64url").slice(0, 22)}"`,
+        bodies: new Map([[isPacked ? "br" : "", body]]),
       };
       kept.set(file, entry);
     }
@@ -79,7 +85,8 @@ export function staticFiles(folder: string) {
     if (knownEtag === entry.etag) return { status: 304, headers, body: Buffer.alloc(0) };
     let body = entry.bodies.get(encoding);
     if (!body) {
-      body = await compress[encoding as "br" | "gzip"](entry.bodies.get("")!);
+      const plain = entry.bodies.get("") ?? (await promisify(brotliDecompress)(entry.bodies.get("br")!));
+      body = encoding === "" ? plain : await compress[encoding as "br" | "gzip"](plain);
       entry.bodies.set(encoding, body);
     }
     return { status: 200, headers, body };

@@ -2,7 +2,7 @@ import { identity, type MoveStep, type Pose } from "@twincell/core";
 import { saveDocument, tracedCartonCell, type CellDocument } from "@twincell/project";
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
-import { drawn, picture, runAnyway, Studio } from "./support/studio.ts";
+import { drawn, picture, Studio } from "./support/studio.ts";
 
 let studio: Studio;
 beforeAll(async () => {
@@ -128,10 +128,6 @@ test("T-24 T-54 X-41 three makers' controllers at once: one program on all, the 
   await page.screenshot({ path: picture("controllers-connected") });
 
   await page.getByRole("button", { name: "Run on all" }).click();
-  // The program was checked for the cell's own robot only, and that is said.
-  const question = page.getByRole("dialog", { name: "Run it all the same?" });
-  await question.getByText(/It was not checked for .*GP8/).waitFor();
-  await runAnyway(page);
   for (const kind of ["ur", "yaskawa", "kuka"]) await until(page, kind, "moving");
   const yaskawa = page.getByRole("article", { name: /Controller .*GP8/ });
   await yaskawa.getByRole("button", { name: "Disconnect (simulate)" }).click();

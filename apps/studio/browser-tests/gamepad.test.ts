@@ -350,7 +350,7 @@ test("N-24 a pad that is pulled while it moves the robot stops it, says so once,
   expect(open.problems).toEqual([]);
 });
 
-test("N-50…N-57 the four top edges of the carton at 45° by pad, as V+ text that lies on them", async () => {
+test("N-53 N-54 N-55 the four top edges of the carton at 45° by pad, as V+ text that lies on them", async () => {
   const { page, problems } = await studio.open({ ...SMALL, script: PAD_SCRIPT });
   await page.waitForFunction(() => window.twincell?.stores.cellStore.getState().document !== null);
   const hands = new Pad(page);

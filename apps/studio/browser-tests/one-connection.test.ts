@@ -18,7 +18,7 @@ const cellOf = (robot: string): CellDocument => ({
   ...carton,
   name: "One connection",
   robot: { ...carton.robot, id: robot, ...(robot === carton.robot.id ? {} : { worldFromBase: identity() }) },
-  objects: robot === carton.robot.id ? carton.objects : [],
+  ...(robot === carton.robot.id ? {} : { objects: [], frames: [], allowedPairs: [] }),
   program: "Taught",
   programs: [{ ...carton.programs[0]!, robot, name: "Taught", groups: {}, steps: [] }],
 });
@@ -76,6 +76,13 @@ async function jog(page: Page, joint: number, by_rad: number): Promise<void> {
   await page.keyboard.up("Space");
 }
 
+/** Runs the program; a check that is not content asks, since an arm that is stretched at home turns over at once when it is left. */
+async function start(page: Page): Promise<void> {
+  await page.evaluate(() => window.twincell.run("run.start"));
+  const red = await page.evaluate(() => window.twincell.stores.playStore.getState().verdict?.ok === false);
+  if (red) await page.getByRole("button", { name: "Run all the same" }).click();
+}
+
 for (const [maker, option, robot] of [
   ["Stäubli CS7", "Virtual: Stäubli CS7 (V+)", "staubli_rx90l"],
   ["UR", "Virtual: Universal Robots", "ur10e"],
@@ -112,7 +119,11 @@ for (const [maker, option, robot] of [
     const home = await reported(page);
     await page.getByRole("button", { name: "Jog J1 up" }).hover();
     await page.mouse.down();
-    await page.getByText("Hold the enabling switch first.").first().waitFor();
+    await page.waitForFunction(
+      () => window.twincell.stores.jogStore.getState().blocked?.sentence === "Hold the enabling switch first.",
+      null,
+      { polling: 30 },
+    );
     await page.mouse.up();
     expect(await reported(page)).toEqual(home);
     await page.getByRole("button", { name: "PTP", exact: true }).click();
@@ -124,7 +135,11 @@ for (const [maker, option, robot] of [
     await jog(page, 6, 0.08);
     await sameJoints(page);
     await page.getByRole("button", { name: "PTP", exact: true }).click();
-    const steps = await page.evaluate(() => window.twincell.stores.cellStore.getState().document!.programs[0]!.steps);
+    const steps = await page.evaluate(() =>
+      window.twincell.stores.cellStore
+        .getState()
+        .document!.programs.flatMap(each => (each.format === "twincell.program" ? each.steps : [])),
+    );
     expect(steps.map(({ type }) => type)).toEqual(["move", "move", "move"]);
     expect(await page.evaluate(() => window.twincell.stores.connectionStore.getState().view)).toBe("live");
     const taught = await reported(page);
@@ -132,14 +147,18 @@ for (const [maker, option, robot] of [
     // Run what was taught on the controller: the robot on screen is the twin, and the run is recorded.
     await page.waitForFunction(
       () => {
-        const { verdict, checking, current } = window.twincell.stores.playStore.getState();
-        return verdict !== null && current && checking === null;
+        const { verdict, stale } = window.twincell.stores.playStore.getState();
+        return verdict !== null && !stale;
       },
       null,
       { timeout: 60_000, polling: 100 },
     );
-    await page.evaluate(() => window.twincell.run("run.start"));
-    await page.waitForFunction(() => window.twincell.stores.controlStore.getState().running, null, { polling: 30 });
+    const moved = page.waitForFunction(() => window.twincell.stores.stationStore.getState().stations[0]?.moving, null, {
+      timeout: 60_000,
+      polling: 30,
+    });
+    await start(page);
+    await moved;
     const ended = (count: number) =>
       page.waitForFunction(
         runs =>
@@ -155,7 +174,7 @@ for (const [maker, option, robot] of [
     expect(await page.evaluate(arms)).toEqual(alone);
 
     // A second run is stopped by STOP: the controller stands before its end.
-    await page.evaluate(() => window.twincell.run("run.start"));
+    await start(page);
     await page.waitForFunction(() => window.twincell.stores.stationStore.getState().stations[0]?.moving, null, {
       timeout: 60_000,
       polling: 30,
@@ -245,8 +264,13 @@ for (const [maker, option, robot] of [
     await page.getByRole("combobox", { name: "Connection" }).click();
     await page.getByRole("option", { name: "Simulated" }).click();
     await page.waitForFunction(() => window.twincell.stores.stationStore.getState().stations.length === 0);
-    expect(await page.evaluate(() => window.twincell.stores.cellStore.getState().document!.programs[0]!.steps)).toEqual(
-      steps,
-    );
+    expect(
+      await page.evaluate(() =>
+        window.twincell.stores.cellStore
+          .getState()
+          .document!.programs.flatMap(each => (each.format === "twincell.program" ? each.steps : [])),
+      ),
+    ).toEqual(steps);
     expect(problems).toEqual([]);
+    await page.context().close();
   }, 240_000);

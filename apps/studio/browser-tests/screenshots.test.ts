@@ -6,7 +6,7 @@ import type { StudioMode } from "../src/stores/view.ts";
 import { picture, Studio, type OpenOptions } from "./support/studio.ts";
 
 const TRACED = saveDocument(tracedCartonCell());
-const MODES: readonly StudioMode[] = ["teach", "check", "run", "history"];
+const MODES: readonly StudioMode[] = ["cell", "teach", "check", "run", "history"];
 const THEMES = ["dark", "light"] as const;
 const SIZES: readonly (OpenOptions & {
   readonly name: string;
@@ -30,6 +30,7 @@ const FLOATING = [
   ".readout-frame",
   ".picture",
   ".trace-toggle",
+  ".build-bar",
   ".coach",
   ".notice",
   ".topbar > *",

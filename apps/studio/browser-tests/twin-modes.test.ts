@@ -2,7 +2,7 @@ import { identity, type MoveStep, type Pose } from "@twincell/core";
 import { saveDocument, tracedCartonCell, type CellDocument } from "@twincell/project";
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
-import { drawn, picture, runAnyway, Studio } from "./support/studio.ts";
+import { drawn, picture, Studio } from "./support/studio.ts";
 
 let studio: Studio;
 beforeAll(async () => {
@@ -128,7 +128,6 @@ test("T-24 T-26 T-63 two robots that face each other: the ghost runs ahead, a bl
 
   // Started together they would meet: all are stopped before they do.
   await page.getByRole("button", { name: "Start together" }).click();
-  await runAnyway(page);
   await until(page, "ur", "told why");
   await until(page, "kuka", "told why");
   const said = [(await state(page, "ur"))!.notice, (await state(page, "kuka"))!.notice].join(" ");

@@ -1,6 +1,9 @@
 import { Tooltip } from "radix-ui";
 import { lazy, Suspense, useEffect, useRef } from "react";
 import { useStore } from "zustand";
+import { Arrange } from "./features/build/Arrange.tsx";
+import { MeasureCard } from "./features/build/MeasureCard.tsx";
+import { ToolBar } from "./features/build/ToolBar.tsx";
 import { Check } from "./features/check/Check.tsx";
 import { Coach } from "./features/coach/Coach.tsx";
 import { Files } from "./features/files/Files.tsx";
@@ -39,6 +42,8 @@ const Viewport = lazy(() => import("./scene/Viewport.tsx").then(scene => ({ defa
 const Export = lazy(() => import("./features/export/Export.tsx"));
 const CollisionDialog = lazy(() => import("./features/collide/CollisionDialog.tsx"));
 const Start = lazy(() => import("./features/start/Start.tsx"));
+const DemonstrationDialog = lazy(() => import("./features/demonstration/DemonstrationDialog.tsx"));
+const RunQuestion = lazy(() => import("./features/run/RunQuestion.tsx"));
 const ShapeDialog = lazy(() => import("./features/shapes/ShapeDialog.tsx"));
 const Robots = lazy(() => import("./features/robots/Robots.tsx"));
 const AddStation = lazy(() => import("./features/stations/AddStation.tsx"));
@@ -46,16 +51,19 @@ const Cameras = lazy(() => import("./features/video/Cameras.tsx"));
 const VideoPanels = lazy(() => import("./features/video/VideoPanels.tsx"));
 const Stations = lazy(() => import("./features/stations/Stations.tsx").then(part => ({ default: part.Stations })));
 const Run = lazy(() => import("./features/run/Run.tsx"));
-const RunQuestion = lazy(() => import("./features/run/RunQuestion.tsx"));
+const PartLibrary = lazy(() =>
+  import("./features/parts/PartLibrary.tsx").then(part => ({ default: part.PartLibrary })),
+);
 const History = lazy(() => import("./features/history/History.tsx"));
 const Rewind = lazy(() => import("./features/history/Rewind.tsx"));
 
-/** The shell: four modes around one scene. Nothing here changes many times a second. */
+/** The shell: five modes around one scene. Nothing here changes many times a second. */
 export function App() {
   const phone = useMedia(PHONE);
   const theme = useStore(viewStore, state => state.theme);
   const text = useStore(cellStore, state => textOf(state.document));
   const teaching = useStore(viewStore, state => state.mode === "teach");
+  const building = useStore(viewStore, state => state.mode === "cell");
   const layout = useStore(textStore, state => state.layout);
   const side = text !== null && teaching && layout === "side" && !phone;
   useEffect(() => {
@@ -110,6 +118,12 @@ export function App() {
             </Suspense>
           </SceneGuard>
           <Overlay phone={phone} />
+          {building && !phone && (
+            <>
+              <ToolBar />
+              <MeasureCard />
+            </>
+          )}
           {text !== null && teaching && !phone && (
             <div className="text-switch">
               <Segments
@@ -127,7 +141,7 @@ export function App() {
           <Suspense>
             <VideoPanels />
           </Suspense>
-          {!phone && <Coach />}
+          {!phone && !building && <Coach />}
           <Welcome />
           <Notices />
           <span className="visually-hidden" id="reorder-hint">
@@ -163,13 +177,16 @@ export function App() {
           <AddStation />
         </Suspense>
         <Suspense>
-          <RunQuestion />
-        </Suspense>
-        <Suspense>
           <CollisionDialog />
         </Suspense>
         <Suspense>
           <ShapeDialog />
+        </Suspense>
+        <Suspense>
+          <RunQuestion />
+        </Suspense>
+        <Suspense>
+          <DemonstrationDialog />
         </Suspense>
         <Suspense>
           <Cameras />
@@ -194,6 +211,13 @@ function RightSide() {
   // A recorded point is selected at once: its numbers stay below, or the record buttons would move away under the pointer.
   const first = useStore(selectionStore, ({ selected }) => selected !== null && selected.kind !== "step");
   switch (mode) {
+    case "cell":
+      return (
+        <>
+          <Inspector />
+          <Arrange />
+        </>
+      );
     case "teach":
       return (
         <>
@@ -226,12 +250,16 @@ function RightSide() {
       );
   }
 }
-/** In History the time is that of the open run. */
+/** In History the time is that of the open run; in Cell the part library takes the place of the time line. */
 function BottomSide() {
-  const history = useStore(viewStore, state => state.mode === "history");
+  const mode = useStore(viewStore, state => state.mode);
   return (
-    <footer className="area-bottom" aria-label={words.app.region.time}>
-      {history ? (
+    <footer className="area-bottom" aria-label={mode === "cell" ? words.parts.title : words.app.region.time}>
+      {mode === "cell" ? (
+        <Suspense fallback={<div className="parts" />}>
+          <PartLibrary />
+        </Suspense>
+      ) : mode === "history" ? (
         <Suspense>
           <Rewind />
         </Suspense>

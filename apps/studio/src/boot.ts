@@ -14,6 +14,7 @@ import { pause, startPlayhead } from "./runtime/history/playhead.ts";
 import { startPreview } from "./runtime/planning/preview.ts";
 import { startTexts } from "./runtime/text-program.ts";
 import { keepDocument, openKept } from "./stores/autosave.ts";
+import { loadCatalogue } from "./stores/catalogue.ts";
 import { CellLibrary, setLibrary, type KeyValueStore } from "./stores/library.ts";
 import { notify } from "./stores/notices.ts";
 import { keepPresent, onKeepFacts } from "./stores/opening.ts";
@@ -75,7 +76,11 @@ export function boot(): void {
     .then(() => import("./runtime/robot/cell-control.ts"))
     .then(({ startCellControl }) => {
       startCellControl();
-    });
+      return loadCatalogue();
+    })
+    .catch((fault: unknown) =>
+      notify("warn", words.robots.noCatalogue(fault instanceof Error ? fault.message : String(fault))),
+    );
   watchCollisions();
   startTexts();
   const checking = startChecking();

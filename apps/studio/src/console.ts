@@ -24,7 +24,6 @@ import { foreignStore } from "./stores/foreign.ts";
 import { languageStore } from "./stores/languages.ts";
 import { postStore } from "./stores/post.ts";
 import { roomStore } from "./stores/room.ts";
-import { runQuestionStore } from "./stores/run-question.ts";
 import { seek } from "./stores/seek.ts";
 import { selectionStore } from "./stores/selection.ts";
 import { cardOf, shapeStore } from "./stores/shapes.ts";
@@ -56,7 +55,6 @@ const twincell = {
     playStore,
     postStore,
     roomStore,
-    runQuestionStore,
     selectionStore,
     shapeStore,
     soundStore,

@@ -206,6 +206,8 @@ export type Interpreted =
       readonly run: (signals?: Signals) => Iterator<Executed, void>;
       readonly context: TextContext;
       readonly skipped?: readonly Skipped[];
+      /** Statements that are kept and shown but not executed, none of which moves the robot: each with what it would do. */
+      readonly notExecuted?: readonly TextFault[];
     }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 

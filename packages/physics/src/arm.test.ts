@@ -180,5 +180,15 @@ test("X-15 the arm pushes a box: it moves with the arm, and stays where it was l
   }
   const pushed = at(world, 0);
   expect(pushed[1]).toBeGreaterThan(0.35);
+  // The arm goes back without it.
+  for (let i = 1; i <= steps; i++) {
+    const s = 1 - i / steps;
+    const q = from.map((angle, j) => angle + (to[j]! - angle) * s);
+    const qd = from.map((angle, j) => (angle - to[j]!) / seconds);
+    expect(world.step({ q_rad: q, qd_rad_s: qd, qdd_rad_s2: none, gripperClosed: false }).kind).toBe("running");
+  }
+  const left = at(world, 0);
+  // It slid on by no more than friction lets it: v²/(2 μ g) = 0.15²/(2 · 0.4 · 9.81) = 2.9 mm.
+  for (let k = 0; k < 3; k++) expect(Math.abs(left[k]! - pushed[k]!)).toBeLessThan(0.005);
   world.close();
 });

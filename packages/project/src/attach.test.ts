@@ -1,7 +1,7 @@
 import { readFileSync } from "node:fs";
 import { compose, flangePose, pose, posesAgree, robotById, type MoveStep, type Pose } from "@twincell/core";
 import { expect, test } from "vitest";
-import { attachFrame, attachSteps, followObjects, objectOfTarget } from "./attach.ts";
+import { attachFrame, attachSteps, followObjects, objectOfTarget, placeFrame } from "./attach.ts";
 import type { CellDocument } from "./document.ts";
 import { tracedCartonCell } from "./example/index.ts";
 import { openDocument } from "./open.ts";
@@ -79,12 +79,25 @@ test("taught points of joint angles and of poses are attached where they stand, 
   expect(opened.kind === "opened" && saveDocument(opened.document)).toBe(saveDocument(after));
 });
 
+test("an attached frame that is placed elsewhere stays there and still follows its object", () => {
+  const cell = tracedCartonCell();
+  const object = cell.frames[0]!.attachedTo!.object;
+  const there: Pose<"world", "frame"> = pose([0.5, 0.1, 0.7], [0, 0, half, half]);
+  const placed = followObjects(placeFrame(cell, cell.frames[0]!.name, there));
+  expect(posesAgree(placed.frames[0]!.worldFromFrame, there, 1e-12, 1e-12)).toBe(true);
+  expect(posesAgree(moved(placed, object).frames[0]!.worldFromFrame, there, 1e-3, 1e-3)).toBe(false);
+  expect(placeFrame(cell, "nobody", there)).toBe(cell);
+});
+
 test("a frame whose object is taken out stays where it is; a file that names an object it does not have is refused", () => {
   const cell = tracedCartonCell();
   const object = cell.objects.at(-1)!;
   const attached = attachFrame(cell, cell.frames[0]!.name, object.id);
   const without = { ...attached, objects: attached.objects.filter(each => each.id !== object.id) };
-  expect(followObjects(without).frames[0]).toEqual(cell.frames[0]);
+  expect(followObjects(without).frames[0]).toEqual({
+    name: cell.frames[0]!.name,
+    worldFromFrame: cell.frames[0]!.worldFromFrame,
+  });
   const opened = openDocument(saveDocument(without));
   expect(opened).toEqual({
     kind: "not-a-cell",

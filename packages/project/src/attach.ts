@@ -71,6 +71,26 @@ export function attachFrame(cell: CellDocument, name: string, object: string | n
   };
 }
 
+/** A frame at another place of the world; one that is attached stays attached, there. A frame that is not there changes nothing. */
+export function placeFrame(cell: CellDocument, name: string, worldFromFrame: Pose<"world", "frame">): CellDocument {
+  if (!cell.frames.some(frame => frame.name === name)) return cell;
+  return {
+    ...cell,
+    frames: cell.frames.map((frame): FrameRecord => {
+      if (frame.name !== name) return frame;
+      const { attachedTo } = frame;
+      const object = cell.objects.find(each => each.id === attachedTo?.object);
+      return attachedTo === undefined || object === undefined
+        ? { ...frame, worldFromFrame }
+        : {
+            ...frame,
+            worldFromFrame,
+            attachedTo: { ...attachedTo, objectFromFrame: compose(inverse(object.worldFromObject), worldFromFrame) },
+          };
+    }),
+  };
+}
+
 /**
  * Attaches taught points (a traced edge is all steps of its group) where they stand: each target becomes a pose in a hidden
  * frame of the object. Joint angles become the pose they reach, with their branch; targets at the places of a pallet stay.
@@ -99,7 +119,7 @@ export function attachSteps(
     const pose = compose(inverse(worldFromFrame), worldFromTcp);
     if (!("q" in target)) return { ...target, frame: name, pose };
     const branch = branchOf(robot, target.q);
-    return { pose, frame: name, tool: target.tool ?? cell.tool, ...(branch === undefined ? {} : { branch }) };
+    return { pose, frame: name, tool: target.tool ?? "flange", ...(branch === undefined ? {} : { branch }) };
   };
   const list = (inside: readonly Step[]): readonly Step[] =>
     inside.map((step): Step => {
@@ -141,7 +161,8 @@ function worldFromTarget(cell: CellDocument, program: Program, target: Target): 
     return worldFromFrame === undefined ? undefined : compose(worldFromFrame, target.pose);
   }
   const robot = robotById(cell.robot.id)!;
-  const tool = target.tool ?? cell.tool;
+  // Joint angles without a tool are those of the flange, whichever tool the cell uses now.
+  const tool = target.tool ?? "flange";
   const flangeFromTcp =
     program.tools[tool] ?? cell.tools.find(each => each.name === tool)?.flangeFromTcp ?? identity<"flange", "tcp">();
   return compose(compose(cell.robot.worldFromBase, flangePose(robot.arm, target.q)), flangeFromTcp);

@@ -39,7 +39,7 @@ test("L-44 AddCoords: a frame is added where the tool tip is, under a name of it
     expect(frame.worldFromFrame).toEqual({ position: [...poses[i]!.position], quaternion: [...poses[i]!.quaternion] });
   expect(after.frames.slice(0, cell.frames.length)).toEqual(cell.frames);
   expect(openDocument(saveDocument(after))).toMatchObject({ kind: "opened", document: after });
-  expect(names(addCoords(after, poses[0]!, "carton"))).toContain("carton 2");
+  expect(names(addCoords(after, poses[0]!, "Carton corner"))).toContain("Carton corner 2");
 });
 
 test("L-45 EditCoords: a saved pose moves, also to where the robot cannot go, and its moves go along", () => {

@@ -9,6 +9,8 @@ export type Shape =
   | { readonly kind: "cylinder"; readonly radius_m: number; readonly height_m: number }
   /** Turned about z: [radius, z] from bottom to top. */
   | { readonly kind: "revolved"; readonly profile_m: readonly (readonly [number, number])[] }
+  /** A part of the library with its numbers: metres, metres a second, counts. */
+  | { readonly kind: "part"; readonly part: string; readonly parameters: Readonly<Record<string, number>> }
   /** An imported mesh: little-endian float32 positions and uint32 indices in base64. */
   | { readonly kind: "mesh"; readonly file: string; readonly positions: string; readonly indices: string };
 
@@ -38,6 +40,8 @@ export interface ObjectRecord {
   readonly softness_s?: number;
   /** It moves what lies on it. */
   readonly belt?: Belt;
+  /** Objects of one group are selected and moved together. */
+  readonly group?: string;
   /** Not drawn; checks and physics still know it. */
   readonly hidden?: true;
   /** Not picked in the 3D view and not moved there. */
@@ -73,6 +77,14 @@ export interface PairsRecord extends PairMatrix {
   readonly tool: string;
 }
 
+/** Measured on the real cell: none is known when left out. */
+export interface CellErrorsRecord {
+  /** Residual of the registration of robot and objects: how far an object may be from where it is drawn [m]. */
+  readonly registration_m?: number;
+  /** How far the tool of the real robot may be from that of the twin [m]. */
+  readonly twin_m?: number;
+}
+
 /** Everything a person saves: one robot, its tools, what stands around it, and the programs taught there. */
 export interface CellDocument {
   readonly format: "twincell.cell";
@@ -81,6 +93,8 @@ export interface CellDocument {
   /** Made for people who learn: tasks to do, hints, nothing that drives a real robot. */
   readonly training?: true;
   readonly robot: { readonly id: string; readonly worldFromBase: Pose<"world", "base"> };
+  /** What the cell is not known better than; counted in every distance that is checked or guarded. */
+  readonly errors?: CellErrorsRecord;
   readonly tools: readonly ToolRecord[];
   /** Name of the tool in use; "flange" for none. */
   readonly tool: string;

@@ -12,3 +12,5 @@ export * from "./history.ts";
 export * from "./mesh/index.ts";
 export * from "./imported.ts";
 export * from "./example/index.ts";
+export * from "./parts/index.ts";
+export * from "./placing/index.ts";

@@ -71,4 +71,5 @@ function gripperOf({ tools, tool }: CellDocument, program: Program | undefined):
   };
 }
 
-const solid = (shape: Shape): SolidShape => (shape.kind === "mesh" ? { kind: "mesh", mesh: shapeMesh(shape) } : shape);
+const solid = (shape: Shape): SolidShape =>
+  shape.kind === "mesh" || shape.kind === "part" ? { kind: "mesh", mesh: shapeMesh(shape) } : shape;

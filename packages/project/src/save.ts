@@ -19,6 +19,7 @@ const FIRST = [
   "encoding",
   "text",
   "worldFromBase",
+  "errors",
   "flangeFromTcp",
   "worldFromObject",
   "worldFromFrame",

@@ -1,6 +1,7 @@
 import { z } from "zod";
 import type { Pose } from "@twincell/core";
 import { decodeMesh } from "./mesh/codec.ts";
+import { partById } from "./parts/index.ts";
 import { TEXT_PROGRAM_FORMAT } from "./text-program.ts";
 
 /** How far a quaternion's length may be from 1 before it is taken for a mistake instead of rounding. */
@@ -38,6 +39,26 @@ const shape = z.discriminatedUnion("kind", [
     kind: z.literal("revolved"),
     profile_m: z.array(z.tuple([z.number().nonnegative(), number])).min(2),
   }),
+  z
+    .strictObject({ kind: z.literal("part"), part: text, parameters: z.record(text, number) })
+    .superRefine((part, context) => {
+      const kind = partById(part.part);
+      if (kind === undefined)
+        context.addIssue({
+          code: "custom",
+          path: ["part"],
+          message: `the library has no part ${JSON.stringify(part.part)}`,
+        });
+      for (const { id, min, max } of kind?.parameters ?? []) {
+        const value = part.parameters[id];
+        if (value !== undefined && !(value >= min && value <= max))
+          context.addIssue({
+            code: "custom",
+            path: ["parameters", id],
+            message: `${value} is not between ${min} and ${max}`,
+          });
+      }
+    }),
   z
     .strictObject({ kind: z.literal("mesh"), file: z.string(), positions: z.string(), indices: z.string() })
     .superRefine((mesh, context) => {
@@ -134,6 +155,9 @@ export const textProgramSchema = z
         });
   });
 
+/** More than half a metre is no error of a measurement. */
+const error_m = z.exactOptional(z.number().nonnegative().max(0.5));
+
 /** The newest version of the cell file; docs/cell.schema.json is printed from it. Each program in it is read on its own: steps by core's `parseProgram`. */
 export const cellSchema = z.strictObject({
   format: z.literal("twincell.cell"),
@@ -141,6 +165,7 @@ export const cellSchema = z.strictObject({
   name: z.string(),
   training: yes,
   robot: z.strictObject({ id: text, worldFromBase: poseOf<"world", "base">() }),
+  errors: z.exactOptional(z.strictObject({ registration_m: error_m, twin_m: error_m })),
   tools: z.array(
     z.strictObject({
       name: text,
@@ -163,6 +188,7 @@ export const cellSchema = z.strictObject({
       friction: z.exactOptional(z.number().nonnegative().max(10)),
       softness_s: z.exactOptional(z.number().positive()),
       belt: z.exactOptional(belt),
+      group: z.exactOptional(text),
       hidden: yes,
       locked: yes,
     }),

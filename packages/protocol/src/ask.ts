@@ -4,7 +4,7 @@ import { z } from "zod";
 const text = z.string().min(1).max(200);
 const angles = z.array(z.number()).max(16);
 const pose = z
-  .strictObject({
+  .object({
     position: z.tuple([z.number(), z.number(), z.number()]),
     quaternion: z.tuple([z.number(), z.number(), z.number(), z.number()]),
   })
@@ -16,39 +16,39 @@ const asked = { id: z.int().nonnegative() } as const;
 
 /** What a person does at the pendant and at the cabinet of a virtual controller. Joints count from 1. */
 export const pendantSchema = z.discriminatedUnion("do", [
-  z.strictObject({ do: z.literal("mode"), mode: z.enum(["manual", "automatic", "remote"]) }),
+  z.object({ do: z.literal("mode"), mode: z.enum(["manual", "automatic", "remote"]) }),
   /** The mode key, by the id of one of the brand's own positions. */
-  z.strictObject({ do: z.literal("key"), position: text }),
+  z.object({ do: z.literal("key"), position: text }),
   /** The enabling switch: counts as let go when whoever holds it is not heard of (`alive`). */
-  z.strictObject({ do: z.literal("enable"), pressed: z.boolean() }),
+  z.object({ do: z.literal("enable"), pressed: z.boolean() }),
   /** A jog key goes down, or with 0 up. Answered when the jog has ended. */
-  z.strictObject({
+  z.object({
     do: z.literal("jog"),
     joint: z.int().min(1).max(16),
     direction: z.union([z.literal(-1), z.literal(0), z.literal(1)]),
   }),
-  z.strictObject({ do: z.literal("servo"), on: z.boolean() }),
-  z.strictObject({ do: z.literal("override"), percent: z.number() }),
-  z.strictObject({ do: z.literal("reset") }),
-  z.strictObject({ do: z.literal("emergency-stop"), pressed: z.boolean() }),
-  z.strictObject({ do: z.literal("guard"), open: z.boolean() }),
+  z.object({ do: z.literal("servo"), on: z.boolean() }),
+  z.object({ do: z.literal("override"), percent: z.number() }),
+  z.object({ do: z.literal("reset") }),
+  z.object({ do: z.literal("emergency-stop"), pressed: z.boolean() }),
+  z.object({ do: z.literal("guard"), open: z.boolean() }),
   /** What the proximity sensor sees (row T-27). */
-  z.strictObject({ do: z.literal("near"), somebody: z.boolean() }),
-  z.strictObject({ do: z.literal("protective-stop"), because: text }),
-  z.strictObject({ do: z.literal("input"), signal: text, value: z.union([z.boolean(), z.number()]) }),
-  z.strictObject({
+  z.object({ do: z.literal("near"), somebody: z.boolean() }),
+  z.object({ do: z.literal("protective-stop"), because: text }),
+  z.object({ do: z.literal("input"), signal: text, value: z.union([z.boolean(), z.number()]) }),
+  z.object({
     do: z.literal("trouble"),
     delay_s: z.exactOptional(z.number().min(0).max(10)),
     loss: z.exactOptional(z.number().min(0).max(1)),
     hangs: z.exactOptional(z.boolean()),
     unplugged: z.exactOptional(z.boolean()),
   }),
-  z.strictObject({ do: z.literal("reboot") }),
+  z.object({ do: z.literal("reboot") }),
 ]);
 
 /** What one who commands may say to a host of stations. Lengths and counts are bounded; a program has its own door in core. */
 export const requestSchema = z.discriminatedUnion("type", [
-  z.strictObject({
+  z.object({
     type: z.literal("open"),
     ...asked,
     ...station,
@@ -60,7 +60,7 @@ export const requestSchema = z.discriminatedUnion("type", [
     stand: z.exactOptional(pose),
     /** Where the controller is; left out, a virtual one is started where the host is. */
     address: z.exactOptional(
-      z.strictObject({
+      z.object({
         host: text,
         ports: z.exactOptional(z.record(text, port)),
         data: z.exactOptional(z.record(text, angles)),
@@ -72,42 +72,42 @@ export const requestSchema = z.discriminatedUnion("type", [
     watch: z.exactOptional(z.boolean()),
   }),
   /** Only to watch it from now on, or to command it again. */
-  z.strictObject({ type: z.literal("watch"), ...asked, ...station, on: z.boolean() }),
-  z.strictObject({
+  z.object({ type: z.literal("watch"), ...asked, ...station, on: z.boolean() }),
+  z.object({
     type: z.enum(["close", "connect", "disconnect", "take", "release", "confirm", "reset"]),
     ...asked,
     ...station,
   }),
   /** The cell is another from now on, or its objects or its tool are: its guard keeps the robot from them, in motion too. */
-  z.strictObject({ type: z.literal("cell"), ...asked, ...station, cell: z.unknown() }),
-  z.strictObject({ type: z.literal("hold"), ...asked, ...station, pressed: z.boolean() }),
-  z.strictObject({ type: z.literal("speed"), ...asked, ...station, percent: z.number() }),
-  z.strictObject({ type: z.literal("move"), ...asked, ...station, q_rad: angles }),
-  z.strictObject({ type: z.literal("zero"), ...asked, ...station }),
-  z.strictObject({ type: z.literal("run"), ...asked, ...station, program: z.unknown(), asText: z.boolean() }),
+  z.object({ type: z.literal("cell"), ...asked, ...station, cell: z.unknown() }),
+  z.object({ type: z.literal("hold"), ...asked, ...station, pressed: z.boolean() }),
+  z.object({ type: z.literal("speed"), ...asked, ...station, percent: z.number() }),
+  z.object({ type: z.literal("move"), ...asked, ...station, q_rad: angles }),
+  z.object({ type: z.literal("zero"), ...asked, ...station }),
+  z.object({ type: z.literal("run"), ...asked, ...station, program: z.unknown(), asText: z.boolean() }),
   /** How far ahead of the robot is looked [s]. */
-  z.strictObject({ type: z.literal("look-ahead"), ...asked, ...station, seconds: z.number().min(0.5).max(10) }),
+  z.object({ type: z.literal("look-ahead"), ...asked, ...station, seconds: z.number().min(0.5).max(10) }),
   /** Shows where a program would take the robot; nothing is sent to it. */
-  z.strictObject({ type: z.literal("preview"), ...asked, ...station, program: z.unknown() }),
+  z.object({ type: z.literal("preview"), ...asked, ...station, program: z.unknown() }),
   /** All or none: every one is made ready first, then all start on one clock, and whoever is stopped stops all. */
-  z.strictObject({
+  z.object({
     type: z.literal("together"),
     ...asked,
     members: z
-      .array(z.strictObject({ station: text, program: z.unknown(), asText: z.boolean() }))
+      .array(z.object({ station: text, program: z.unknown(), asText: z.boolean() }))
       .min(2)
       .max(16),
   }),
   /** Anyone may. Without a station it is all of them. */
-  z.strictObject({ type: z.literal("stop"), station: z.exactOptional(text), emergency: z.boolean() }),
-  z.strictObject({ type: z.literal("pendant"), ...asked, ...station, act: pendantSchema }),
+  z.object({ type: z.literal("stop"), station: z.exactOptional(text), emergency: z.boolean() }),
+  z.object({ type: z.literal("pendant"), ...asked, ...station, act: pendantSchema }),
   /** To be told, or no longer told, what the pendant of a virtual controller shows. */
-  z.strictObject({ type: z.literal("visit"), ...asked, ...station, on: z.boolean() }),
+  z.object({ type: z.literal("visit"), ...asked, ...station, on: z.boolean() }),
   /** Pulls the plug of a virtual controller, or puts it back. */
-  z.strictObject({ type: z.literal("plug"), ...asked, ...station, pulled: z.boolean() }),
-  z.strictObject({ type: z.literal("alive"), ...station }),
+  z.object({ type: z.literal("plug"), ...asked, ...station, pulled: z.boolean() }),
+  z.object({ type: z.literal("alive"), ...station }),
   /** Comes back as it is, for the time it takes (row T-61). */
-  z.strictObject({ type: z.literal("ping"), sent_s: z.number() }),
+  z.object({ type: z.literal("ping"), sent_s: z.number() }),
 ]);
 
 export type ConnectionRequest = z.infer<typeof requestSchema>;

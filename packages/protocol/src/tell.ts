@@ -5,7 +5,7 @@ const angles = z.array(z.number()).max(16);
 /** JSON knows no NaN: what is not known is null. */
 const maybe = z.number().nullable();
 const value = z.union([z.boolean(), z.number()]);
-const refusal = z.strictObject({
+const refusal = z.object({
   code: text,
   sentence: text,
   hint: text,
@@ -14,12 +14,12 @@ const refusal = z.strictObject({
   limit: z.exactOptional(z.number()),
 });
 export const outcomeSchema = z.discriminatedUnion("kind", [
-  z.strictObject({ kind: z.literal("done") }),
-  z.strictObject({ kind: z.literal("refused"), why: refusal }),
-  z.strictObject({ kind: z.literal("stopped"), why: refusal }),
+  z.object({ kind: z.literal("done") }),
+  z.object({ kind: z.literal("refused"), why: refusal }),
+  z.object({ kind: z.literal("stopped"), why: refusal }),
 ]);
 const station = { station: text } as const;
-const stationWords = z.strictObject({
+const stationWords = z.object({
   id: text,
   name: text,
   brand: text,
@@ -32,20 +32,20 @@ const names = z.array(text).max(64);
 const place = z.tuple([z.number(), z.number(), z.number()]);
 const mode = z.enum(["manual", "automatic", "remote"]);
 /** What does not change about the pendant of a virtual controller while it is on. */
-export const pendantWordsSchema = z.strictObject({
+export const pendantWordsSchema = z.object({
   brand: text,
   brandName: text,
   robotName: text,
   host: text,
   ports: z.record(text, z.number()),
-  keys: z.array(z.strictObject({ id: text, name: text, mode })).max(8),
-  labels: z.strictObject({ servo: text, reset: text }),
-  joints: z.array(z.strictObject({ lower_rad: z.number(), upper_rad: z.number(), slides: z.boolean() })).max(16),
+  keys: z.array(z.object({ id: text, name: text, mode })).max(8),
+  labels: z.object({ servo: text, reset: text }),
+  joints: z.array(z.object({ lower_rad: z.number(), upper_rad: z.number(), slides: z.boolean() })).max(16),
   inputs: names,
   outputs: names,
 });
 /** What lamps, screen and read-out of the pendant say now; the truth of the controller itself, not what a driver knows of it. */
-export const pendantShownSchema = z.strictObject({
+export const pendantShownSchema = z.object({
   key: text,
   servo: z.enum(["on", "coming", "off"]),
   safety: z.enum(["normal", "guard-stop", "protective-stop", "emergency-stop"]),
@@ -54,35 +54,33 @@ export const pendantShownSchema = z.strictObject({
   running: z.boolean(),
   alarms: z.array(text).max(200),
   q_rad: angles,
-  flange: z.strictObject({ position: place, quaternion: z.tuple([z.number(), z.number(), z.number(), z.number()]) }),
+  flange: z.object({ position: place, quaternion: z.tuple([z.number(), z.number(), z.number(), z.number()]) }),
   points: z.array(place).max(20),
   moving: z.boolean(),
   enabled: z.boolean(),
-  jog: z.strictObject({ joint: z.int(), direction: z.union([z.literal(-1), z.literal(1)]) }).nullable(),
+  jog: z.object({ joint: z.int(), direction: z.union([z.literal(-1), z.literal(1)]) }).nullable(),
   pressed: z.boolean(),
   gateOpen: z.boolean(),
   near: z.boolean(),
   on: z.array(text).max(128),
-  trouble: z.strictObject({ delay_s: z.number(), loss: z.number(), hangs: z.boolean(), unplugged: z.boolean() }),
+  trouble: z.object({ delay_s: z.number(), loss: z.number(), hangs: z.boolean(), unplugged: z.boolean() }),
   peers: z.array(text).max(256),
   says: text,
 });
 
 /** What a host of stations says. */
 export const eventSchema = z.discriminatedUnion("type", [
-  z.strictObject({
+  z.object({
     type: z.literal("hello"),
     protocol: z.int(),
     version: text,
-    brands: z.array(
-      z.strictObject({ id: text, name: text, vendor: text, dialect: text, ports: z.record(text, z.number()) }),
-    ),
+    brands: z.array(z.object({ id: text, name: text, vendor: text, dialect: text, ports: z.record(text, z.number()) })),
     stations: z.array(stationWords),
   }),
-  z.strictObject({ type: z.literal("opened"), ...stationWords.shape }),
-  z.strictObject({ type: z.literal("closed"), ...station }),
-  z.strictObject({ type: z.literal("answer"), id: z.int(), outcome: outcomeSchema }),
-  z.strictObject({
+  z.object({ type: z.literal("opened"), ...stationWords.shape }),
+  z.object({ type: z.literal("closed"), ...station }),
+  z.object({ type: z.literal("answer"), id: z.int(), outcome: outcomeSchema }),
+  z.object({
     type: z.literal("sample"),
     ...station,
     sequence: z.number(),
@@ -102,7 +100,7 @@ export const eventSchema = z.discriminatedUnion("type", [
     plan_rad: maybe,
     command_rad: maybe,
   }),
-  z.strictObject({
+  z.object({
     type: z.literal("link"),
     ...station,
     state: z.enum(["closed", "connecting", "open", "lost"]),
@@ -113,7 +111,7 @@ export const eventSchema = z.discriminatedUnion("type", [
     roundTrip_s: maybe,
     missing: z.number(),
   }),
-  z.strictObject({
+  z.object({
     type: z.literal("guard"),
     ...station,
     holder: text.nullable(),
@@ -125,25 +123,25 @@ export const eventSchema = z.discriminatedUnion("type", [
     watching: z.boolean(),
   }),
   /** Where the robot will be in so many seconds, and the first thing in its way; null when nothing is looked ahead any more. */
-  z.strictObject({
+  z.object({
     type: z.literal("ahead"),
     ...station,
     ahead: z
-      .strictObject({
+      .object({
         q_rad: angles,
         in_s: z.number(),
-        problem: z.strictObject({ code: text, sentence: text, in_s: z.number() }).nullable(),
+        problem: z.object({ code: text, sentence: text, in_s: z.number() }).nullable(),
       })
       .nullable(),
   }),
   /** A group began: from the first to the last that was seen moving, on the host's clock [s]. Or it ended, each in its way. */
-  z.strictObject({ type: z.literal("began"), stations: z.array(text), spread_s: z.number() }),
-  z.strictObject({
+  z.object({ type: z.literal("began"), stations: z.array(text), spread_s: z.number() }),
+  z.object({
     type: z.literal("ended"),
-    stations: z.array(z.strictObject({ station: text, outcome: outcomeSchema })),
+    stations: z.array(z.object({ station: text, outcome: outcomeSchema })),
   }),
   /** Somebody did something there; told when it was asked for, and once more with what became of it. Acts with the same number are one. */
-  z.strictObject({
+  z.object({
     type: z.literal("act"),
     ...station,
     number: z.int(),
@@ -154,17 +152,17 @@ export const eventSchema = z.discriminatedUnion("type", [
     target: angles,
     outcome: outcomeSchema.nullable(),
   }),
-  z.strictObject({ type: z.literal("notice"), ...station, why: refusal }),
+  z.object({ type: z.literal("notice"), ...station, why: refusal }),
   /** To those who watch: `words` once, then only what is shown. */
-  z.strictObject({
+  z.object({
     type: z.literal("pendant"),
     ...station,
     words: z.exactOptional(pendantWordsSchema),
     shown: pendantShownSchema,
   }),
-  z.strictObject({ type: z.literal("pong"), sent_s: z.number(), host_s: z.number() }),
+  z.object({ type: z.literal("pong"), sent_s: z.number(), host_s: z.number() }),
   /** Something came that could not be read; the connection ends after it. */
-  z.strictObject({ type: z.literal("fault"), sentence: text }),
+  z.object({ type: z.literal("fault"), sentence: text }),
 ]);
 
 export type ConnectionEvent = z.infer<typeof eventSchema>;

@@ -1,3 +1,4 @@
+import { existsSync } from "node:fs";
 import { readdir } from "node:fs/promises";
 import { given } from "../io/arguments.ts";
 import { lineWriter } from "../io/json-lines.ts";
@@ -14,6 +15,11 @@ Runs the benchmarks named (all when none is), one after the other, and prints on
 {"name":"ik/kr6","unit":"us","median":…,"min":…,"max":…,"n":…}`,
   async run(args) {
     const { positionals } = given(args, { json: { type: "boolean" } });
+    if (!existsSync(folder))
+      throw new UseFault(
+        "The benchmarks are not in the installed package.",
+        "Run them in a checkout of the repository.",
+      );
     const files = (await readdir(folder))
       .filter(name => name.endsWith(".ts") && name !== "figure.ts")
       .map(name => name.slice(0, -3))

@@ -1,7 +1,9 @@
 import {
+  fitAccelerometer,
   flangePose,
   frameFromThreePoints,
   pose,
+  profileOfHand,
   registerPoints,
   tcpFromTouches,
   tcpOrientation,
@@ -17,9 +19,10 @@ import { jointsAt, poseAt } from "../io/values.ts";
 
 export const calibrateCommand: Command = {
   name: "calibrate",
-  summary: "a tool tip from touches of one point, or a frame from measured points, with what is left over",
+  summary: "a tool tip from touches, a frame from measured points, or the glove of a hand, with what is left over",
   usage: `twincell calibrate tcp FILE [--robot R]
 twincell calibrate frame FILE
+twincell calibrate hand FILE
 
 FILE is JSON, "-" is standard input. Lengths in metres. Writes one JSON object; ends with 1 where the measurements do not suffice,
 and "sentence" says what is missing.
@@ -31,21 +34,24 @@ tcp     {"touches":[POSE, POSE, POSE, POSE, …]}   poses of the flange while th
 frame   {"origin":[x,y,z],"alongX":[x,y,z],"inXy":[x,y,z]}
         → {"kind":"frame","frame":POSE,"alongX_m","inPlane_m","angle_rad","offSquare_rad","sentence"}
         or {"points":[{"known":[x,y,z],"measured":[x,y,z]}, …]}, three or more, known in the thing's own frame
-        → {"kind":"registered","frame":POSE,"rms_m","worst_m","worst","each_m":[…],"sentence"}`,
+        → {"kind":"registered","frame":POSE,"rms_m","worst_m","worst","each_m":[…],"sentence"}
+hand    {"name":"Ana","fingers":[[raw, …] five times],"accelerometer":[{"voltage_V","acceleration_mps2"}, …]}   raw readings (0…4095) of each finger
+        while the hand opens and closes, thumb first; voltages of the tracker at known accelerations, turned to +g, 0 and −g for instance
+        → the profile of that hand for "twincell demonstrate raw", with "rms_mps2"`,
   async run(args) {
     const options = given(args, { robot: { type: "string" }, json: { type: "boolean" } });
     const [what, path] = options.positionals;
-    if (what !== "tcp" && what !== "frame")
+    if (what !== "tcp" && what !== "frame" && what !== "hand")
       throw new UseFault(
         what === undefined ? "What to calibrate is missing." : `"${what}" cannot be calibrated.`,
-        "Give tcp or frame, then FILE.",
+        "Give tcp, frame or hand, then FILE.",
       );
     if (path === undefined) throw new UseFault("FILE is missing.", 'Give the path of a JSON file, or "-".');
     const file = recordOf(path, await readText(path));
     const robot = options.text("robot") === undefined ? undefined : (await robotOf(options)).robot;
-    const answer = what === "tcp" ? tcp(path, file, robot) : frame(path, file);
+    const answer = what === "tcp" ? tcp(path, file, robot) : what === "frame" ? frame(path, file) : hand(path, file);
     process.stdout.write(`${JSON.stringify(answer)}\n`);
-    return answer["kind"] === "calibrated" || answer["kind"] === "frame" || answer["kind"] === "registered" ? 0 : 1;
+    return answer["sentence"] === undefined || GOOD.has(answer["kind"]) ? 0 : 1;
   },
 };
 
@@ -97,6 +103,27 @@ function frame(path: string, file: Answer): Answer {
   if (answer.kind !== "registered") return { ...answer };
   return { kind: answer.kind, frame: answer.intoFromFrame, ...answer.residual, sentence: answer.sentence };
 }
+
+const GOOD = new Set<unknown>(["calibrated", "frame", "registered"]);
+
+function hand(path: string, file: Answer): Answer {
+  const { name, fingers, accelerometer } = file;
+  if (typeof name !== "string" || name.trim() === "") throw new UseFault(`${path} wants "name", the person's.`);
+  if (!Array.isArray(fingers) || !fingers.every(isNumbers))
+    throw new UseFault(`${path} wants "fingers" as five lists of numbers.`);
+  const readings = (Array.isArray(accelerometer) ? accelerometer : []).map((reading: unknown, i) => {
+    const { voltage_V, acceleration_mps2 } = isRecord(reading) ? reading : {};
+    if (typeof voltage_V !== "number" || typeof acceleration_mps2 !== "number")
+      throw new UseFault(`${path}: reading ${i + 1} wants {"voltage_V","acceleration_mps2"}.`);
+    return { voltage_V, acceleration_mps2 };
+  });
+  const line = fitAccelerometer(readings);
+  if (line.kind !== "fitted") return { ...line };
+  const answer = profileOfHand(name, fingers, line.line);
+  return answer.kind === "profile" ? { ...answer.profile, rms_mps2: line.rms_mps2 } : { ...answer };
+}
+const isNumbers = (value: unknown): value is number[] =>
+  Array.isArray(value) && value.every(each => typeof each === "number");
 
 const isRecord = (value: unknown): value is Answer =>
   typeof value === "object" && value !== null && !Array.isArray(value);

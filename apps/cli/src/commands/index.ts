@@ -1,10 +1,13 @@
 import type { Command } from "../io/usage.ts";
+import { auditCommand } from "./audit.ts";
 import { benchCommand } from "./bench.ts";
 import { calibrateCommand } from "./calibrate.ts";
 import { checkCommand } from "./check.ts";
 import { datasetCommand } from "./dataset.ts";
+import { demonstrateCommand } from "./demonstrate.ts";
 import { dialectsCommand } from "./dialects.ts";
 import { diffCommand } from "./diff.ts";
+import { doctorCommand } from "./doctor.ts";
 import { fkCommand } from "./fk.ts";
 import { ikCommand } from "./ik.ts";
 import { importCommand } from "./import.ts";
@@ -17,6 +20,7 @@ import { robotsCommand } from "./robots.ts";
 import { runCommand } from "./run.ts";
 import { serveCommand } from "./serve.ts";
 import { simulateCommand } from "./simulate.ts";
+import { tokenCommand } from "./token.ts";
 import { validateCommand } from "./validate.ts";
 import { virtualCommand } from "./virtual.ts";
 
@@ -38,7 +42,11 @@ export const COMMANDS: readonly Command[] = [
   recordCommand,
   replayCommand,
   calibrateCommand,
+  demonstrateCommand,
   importCommand,
   meshCommand,
+  doctorCommand,
+  tokenCommand,
+  auditCommand,
   benchCommand,
 ];

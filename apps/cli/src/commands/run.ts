@@ -47,6 +47,8 @@ FILE is a program text, several of one program, a folder of them, or a cell whos
       path,
       (interpreted.skipped ?? []).map(each => ({ ...each, line: project.placeOf(each.line).line })),
     );
+    for (const { line, sentence } of interpreted.notExecuted ?? [])
+      process.stderr.write(`twincell: ${placeText(project, line)}: ${sentence}\n`);
 
     const seen = new Map<string, { readonly line: number; readonly tool: string }>();
     let tool = "flange";

@@ -1,13 +1,13 @@
 import { existsSync } from "node:fs";
 import { spawn } from "node:child_process";
-import { fileURLToPath } from "node:url";
 import { serve, type Served, type ServeOptions } from "@twincell/server";
 import { toString as qrText } from "qrcode";
 import { given } from "../io/arguments.ts";
+import { studioFolder } from "../io/studio-folder.ts";
 import { UseFault, type Command } from "../io/usage.ts";
 
 const DEFAULT_PORT = 7341;
-const studio = fileURLToPath(new URL("../../../studio/dist", import.meta.url));
+const studio = studioFolder();
 
 export const serveCommand: Command = {
   name: "serve",

@@ -1,6 +1,5 @@
 import { existsSync } from "node:fs";
 import { createInterface } from "node:readline";
-import { fileURLToPath } from "node:url";
 import {
   DRIVER_KINDS,
   driverKindById,
@@ -13,6 +12,7 @@ import { dialectById } from "@twincell/languages";
 import { nodeNetwork, nodeScheduler, servePendant } from "@twincell/server";
 import { given, type Given } from "../io/arguments.ts";
 import { robotOf, ROBOT_OPTIONS } from "../io/robot.ts";
+import { studioFolder } from "../io/studio-folder.ts";
 import { UseFault, type Command } from "../io/usage.ts";
 
 /** `realTime` is asked for as `--port-real-time`. */
@@ -22,7 +22,7 @@ const portsOf = (brand: DriverKind): string =>
     .map(([name, port]) => `--${portOption(name)} ${port}`)
     .join(", ");
 
-const studio = fileURLToPath(new URL("../../../studio/dist", import.meta.url));
+const studio = studioFolder();
 
 /** What a word on standard input does. */
 const WORDS: ReadonlyMap<string, VirtualPendantAction> = new Map<string, VirtualPendantAction>([

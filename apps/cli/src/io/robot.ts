@@ -1,4 +1,5 @@
 import {
+  catalogueRobots,
   compose,
   inverse,
   LIBRARY,
@@ -41,7 +42,8 @@ export async function robotOf(options: Given, wanted = options.text("robot")): P
   const base = options.text("base");
   const tip = options.text("tip");
   const args = xacroArguments(options.list("arg"));
-  const choices = `Library: ${LIBRARY.map(robot => robot.id).join(", ")}; or the path of a URDF, xacro, D-H table or robot file.`;
+  const more = catalogueRobots().length;
+  const choices = `Library: ${LIBRARY.map(robot => robot.id).join(", ")}, and ${more} of the catalogue ("twincell robots" lists all); or the path of a URDF, xacro, D-H table or robot file.`;
   if (wanted === undefined) throw new UseFault("--robot is missing.", choices);
   const known = robotById(wanted);
   if (known) return libraryRobot(known, base, tip);

@@ -7,7 +7,7 @@ export interface Route {
   readonly path: string;
   /** A longer message ends the connection before it is kept [bytes]. */
   readonly longest: number;
-  welcome(socket: WebSocket): void;
+  welcome(socket: WebSocket, request: IncomingMessage): void;
 }
 
 /**
@@ -58,7 +58,8 @@ export function openRoutes(
   };
 }
 
-function sameOrigin({ headers: { origin, host } }: IncomingMessage): boolean {
+/** Whether a request comes from a page of this server, or from no page at all. */
+export function sameOrigin({ headers: { origin, host } }: IncomingMessage): boolean {
   if (origin === undefined) return true; // No browser: a program of this machine or one that knows the code.
   try {
     return new URL(origin).host === host;

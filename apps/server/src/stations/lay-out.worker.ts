@@ -1,9 +1,11 @@
 import { parentPort } from "node:worker_threads";
 import { prepareJob } from "@twincell/controllers";
-import { robotById } from "@twincell/core";
+import { addCatalogue, robotById } from "@twincell/core";
+import { CATALOGUE } from "@twincell/core/catalogue";
 import { dialectById } from "@twincell/languages";
 import type { PrepareJobAnswer, PrepareJobRequest } from "./lay-out-messages.ts";
 
+addCatalogue(CATALOGUE);
 parentPort!.on(
   "message",
   ({ id, robot: robotId, dialect: dialectId, program, start_rad, worldFromBase, cell }: PrepareJobRequest) => {

@@ -132,13 +132,6 @@ export async function drawn(page: Page): Promise<void> {
   );
 }
 
-/** Answers the question that comes before a program whose check is not green for every robot that would run it. */
-export async function runAnyway(page: Page): Promise<void> {
-  const dialog = page.getByRole("dialog", { name: "Run it all the same?" });
-  await dialog.getByRole("button", { name: "Run anyway" }).click();
-  await dialog.waitFor({ state: "detached" });
-}
-
 export interface StudioPage {
   readonly page: Page;
   readonly context: BrowserContext;

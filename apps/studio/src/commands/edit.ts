@@ -1,6 +1,7 @@
 import { cellStore } from "../stores/cell.ts";
 import type { Command } from "../stores/commands.ts";
 import { commit, redo, undo } from "../stores/document.ts";
+import { clearMeasure, measureStore } from "../stores/measure.ts";
 import { notify } from "../stores/notices.ts";
 import { stopEverything } from "../stores/stop.ts";
 import { select, selectionStore } from "../stores/selection.ts";
@@ -68,6 +69,7 @@ function leave(): void {
   const trace = traceStore.getState();
   if (trace.active && trace.chosen.length > 0) traceStore.setState({ chosen: [], hovered: null });
   else if (trace.active) traceStore.setState({ active: false, hovered: null });
+  else if (measureStore.getState().picks.length > 0) clearMeasure();
   else if (selectionStore.getState().selected) select(null);
 }
 function stop(): void {

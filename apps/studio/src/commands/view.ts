@@ -13,7 +13,7 @@ import {
 } from "../stores/view.ts";
 import { words } from "../messages/index.ts";
 
-const MODES: readonly StudioMode[] = ["teach", "check", "run", "history"];
+const MODES: readonly StudioMode[] = ["cell", "teach", "check", "run", "history"];
 
 export const viewCommands = (): readonly Command[] => [
   ...MODES.map(

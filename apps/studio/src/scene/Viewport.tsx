@@ -4,10 +4,12 @@ import { lazy, Suspense, useEffect, useMemo, useRef, useState } from "react";
 import { type Group, type Mesh, NeutralToneMapping, PCFShadowMap, PerspectiveCamera } from "three";
 import { useStore } from "zustand";
 import { dragFollows } from "../runtime/jog/drag.ts";
+import { buildStore } from "../stores/build.ts";
 import { cellStore } from "../stores/cell.ts";
 import { registerCommands } from "../stores/commands.ts";
 import { physicsStore } from "../stores/physics.ts";
 import { playStore } from "../stores/play.ts";
+import { selectionStore } from "../stores/selection.ts";
 import { stationStore } from "../stores/stations.ts";
 import { traceStore } from "../stores/trace.ts";
 import { viewStore } from "../stores/view.ts";
@@ -16,9 +18,11 @@ import { ViewCube } from "./camera/view-cube.tsx";
 import { FrameMeter } from "./frame-meter.ts";
 import { Ghost, TcpHandle } from "./handle/tcp-handle.tsx";
 import { newInteraction, type PointerLabel } from "./interaction.ts";
+import { PartDrop } from "./objects/part-drop.tsx";
 import { ObjectView } from "./objects/object-view.tsx";
 import { PathView } from "./path/path-view.tsx";
 import { PastView } from "./robot/past-view.tsx";
+import { DemonstrationView } from "./path/demonstration-view.tsx";
 import { OverlayView } from "./path/overlay-view.tsx";
 import { TcpTrace } from "./path/tcp-trace.tsx";
 import { Waypoints } from "./path/waypoints.tsx";
@@ -41,6 +45,9 @@ import { askForHeadset } from "./xr/availability.ts";
 
 /** Everything a headset needs is fetched when one is first asked for. */
 const StationViews = lazy(() => import("./robot/station-view.tsx").then(part => ({ default: part.StationViews })));
+const Gizmo = lazy(() => import("./gizmo/gizmo.tsx"));
+const Display = lazy(() => import("./gizmo/display.tsx"));
+const MeasureView = lazy(() => import("./gizmo/measure-view.tsx"));
 const Headset = lazy(() => import("./xr/headset.tsx").then(part => ({ default: part.Headset })));
 const meter = new FrameMeter();
 const BARE_FLANGE: Pose<"flange", "tcp"> = identity();
@@ -55,6 +62,9 @@ export function Viewport() {
   const playing = useStore(playStore, state => state.playing) || physics;
   const tracing = useStore(traceStore, state => state.active);
   const stations = useStore(stationStore, state => state.stations.length);
+  const otherwise = useStore(buildStore, state => state.display !== "smooth" || state.section_m !== null);
+  const measuring = useStore(buildStore, state => state.tool === "measure");
+  const anything = useStore(selectionStore, state => state.selected !== null);
   const theme = useStore(viewStore, state => state.theme);
   const colours = useMemo(() => readTheme(theme), [theme]);
   const [pictured, setPictured] = useState(true);
@@ -112,6 +122,7 @@ export function Viewport() {
             <TcpTrace theme={colours} />
             <PastView />
             <OverlayView theme={colours} />
+            <DemonstrationView theme={colours} />
             <EdgeView theme={colours} />
             <TcpHandle
               interaction={interaction}
@@ -120,6 +131,21 @@ export function Viewport() {
               targets={targets}
             />
             <Ghost interaction={interaction} tool={tool} theme={colours} />
+            {document && mode === "cell" && anything && !inHeadset && (
+              <Suspense fallback={null}>
+                <Gizmo world={world} document={document} interaction={interaction} label={label} />
+              </Suspense>
+            )}
+            {mode === "cell" && measuring && (
+              <Suspense fallback={null}>
+                <MeasureView />
+              </Suspense>
+            )}
+            {mode === "cell" && otherwise && (
+              <Suspense fallback={null}>
+                <Display world={world} />
+              </Suspense>
+            )}
             <Outline world={world} theme={colours} />
           </group>
           {document && wish > 0 && (
@@ -127,6 +153,7 @@ export function Viewport() {
               <Headset wish={wish} document={document} interaction={interaction} world={world} />
             </Suspense>
           )}
+          {document && mode === "cell" && <PartDrop world={world} />}
           {document && (
             <Pointer
               interaction={interaction}
@@ -140,7 +167,9 @@ export function Viewport() {
         </Canvas>
       </div>
       <ViewCube cube={cube} wishes={wishes} />
-      {pictured && robot && !inHeadset && <Picture picture={picture} onHide={() => setPictured(false)} />}
+      {pictured && robot && !inHeadset && mode !== "cell" && (
+        <Picture picture={picture} onHide={() => setPictured(false)} />
+      )}
       <div
         className="pointer-label"
         hidden

@@ -17,6 +17,8 @@ export interface Interaction {
   hoveredPart: HandlePart | null;
   draggedPart: HandlePart | null;
   shift: boolean;
+  /** The pointer is over a handle of what moves objects, or drags it: a click there selects nothing. */
+  overGizmo: boolean;
   /** Where the drag wants the tool tip; shown as a ghost while the robot is not there. */
   readonly wanted: Pose<"world", "tcp">;
   wanting: boolean;
@@ -32,6 +34,7 @@ export const newInteraction = (): Interaction => ({
   hoveredPart: null,
   draggedPart: null,
   shift: false,
+  overGizmo: false,
   wanted: { position: [0, 0, 0], quaternion: [0, 0, 0, 1] },
   wanting: false,
 });

@@ -1,4 +1,5 @@
-import { edgeTraceCell, openDocument, saveDocument, type CellDocument } from "@twincell/project";
+import { edgeTraceCell, saveDocument, type CellDocument } from "@twincell/project";
+import { openSaved } from "./catalogue.ts";
 import { words } from "../messages/index.ts";
 import { cellStore } from "./cell.ts";
 import { showDocument } from "./document.ts";
@@ -44,7 +45,7 @@ async function readKept(keeper: Keeper, library?: CellLibrary): Promise<Kept> {
     for (const key of order) {
       const text = await keeper.get(key);
       if (text === undefined) continue;
-      const opened = typeof text === "string" ? openDocument(text) : null;
+      const opened = typeof text === "string" ? await openSaved(text) : null;
       if (opened?.kind === "opened") {
         const id = await keeper.get(idKey(key));
         return { document: opened.document, id: typeof id === "string" ? id : fresh, found: true, damaged };

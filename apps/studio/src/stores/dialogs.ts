@@ -12,7 +12,9 @@ export type DialogName =
   | "station"
   | "collision"
   | "cameras"
-  | "shapes";
+  | "shapes"
+  | "run-question"
+  | "demonstration";
 export interface DialogState {
   readonly open: DialogName | null;
   /** The controller that is asked for is a real one, on the network. */

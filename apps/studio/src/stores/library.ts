@@ -3,12 +3,12 @@ import {
   edgeTraceCell,
   emptyCell,
   isTextProgram,
-  openDocument,
   saveDocument,
   tracedCartonCell,
   type CellDocument,
 } from "@twincell/project";
 import { createStore } from "zustand/vanilla";
+import { openSaved } from "./catalogue.ts";
 import type { Keeper } from "./keeper.ts";
 import { inStep } from "./document.ts";
 
@@ -136,7 +136,7 @@ export class CellLibrary {
     const wanted = version === undefined ? cell.versions.map(each => each.number).reverse() : [version];
     for (const number of wanted) {
       const text = await this.#store.get(contentKey(id, number));
-      const opened = typeof text === "string" ? openDocument(text) : null;
+      const opened = typeof text === "string" ? await openSaved(text) : null;
       if (opened?.kind === "opened") return { kind: "opened", document: opened.document };
     }
     return { kind: "missing", sentence: `“${cell.name}” could not be read.` };
@@ -224,7 +224,7 @@ export class CellLibrary {
     if (known && known.versions.at(-1)?.number === numbers.at(-1)) return { ...known, id, versions };
     for (const number of [...numbers].reverse()) {
       const text = await this.#store.get(contentKey(id, number));
-      const opened = typeof text === "string" ? openDocument(text) : null;
+      const opened = typeof text === "string" ? await openSaved(text) : null;
       if (opened?.kind !== "opened") continue;
       const saved_ms = known?.saved_ms ?? 0;
       return { ...known, ...described(opened.document), id, saved_ms, trashed_ms: known?.trashed_ms ?? null, versions };

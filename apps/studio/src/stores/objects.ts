@@ -44,6 +44,56 @@ export function duplicateObject(id: string): string | null {
   select({ kind: "object", id: copy });
   return copy;
 }
+/** Copies of an object at these poses, each under a name and id of its own; one undo step. @returns their ids. */
+export function addCopies(
+  id: string,
+  label: string,
+  poses: (object: ObjectRecord) => readonly ObjectRecord["worldFromObject"][],
+): readonly string[] {
+  const ids: string[] = [];
+  commit(label, before => {
+    const object = before.objects.find(each => each.id === id);
+    if (!object) return before;
+    const stem = object.name.replace(/ \d+$/, "");
+    const names = new Set(before.objects.map(each => each.name));
+    const taken = new Set(before.objects.map(each => each.id));
+    const { locked: _, ...free } = object;
+    const copies = poses(object).map((worldFromObject): ObjectRecord => {
+      const name = firstFree(2, n => `${stem} ${n}`, names);
+      const copy = firstFree(2, n => `${id}-${n}`, taken);
+      names.add(name);
+      taken.add(copy);
+      ids.push(copy);
+      return { ...free, id: copy, name, worldFromObject };
+    });
+    return copies.length === 0 ? before : { ...before, objects: [...before.objects, ...copies] };
+  });
+  return ids;
+}
+
+/** From now on these are selected and moved together. */
+export const groupObjects = (ids: readonly string[]): boolean =>
+  commit(words.undo.group, before => {
+    const group = firstFree(
+      1,
+      n => `Group ${n}`,
+      new Set(before.objects.flatMap(object => (object.group === undefined ? [] : [object.group]))),
+    );
+    return {
+      ...before,
+      objects: before.objects.map(object => (ids.includes(object.id) ? { ...object, group } : object)),
+    };
+  });
+export const ungroupObjects = (ids: readonly string[]): boolean =>
+  commit(words.undo.ungroup, before => ({
+    ...before,
+    objects: before.objects.map(object => {
+      if (!ids.includes(object.id) || object.group === undefined) return object;
+      const { group: _, ...alone } = object;
+      return alone;
+    }),
+  }));
+
 function firstFree(from: number, make: (n: number) => string, taken: ReadonlySet<string>): string {
   for (let n = from; ; n++) if (!taken.has(make(n))) return make(n);
 }
@@ -64,10 +114,11 @@ function toggle(id: string, field: "hidden" | "locked", on: string, off: string)
   );
 }
 
-export function deleteObject(id: string): boolean {
+export const deleteObject = (id: string): boolean => deleteObjects([id]);
+export function deleteObjects(ids: readonly string[]): boolean {
   const done = commit(words.undo.deleteObject, before =>
-    before.objects.some(object => object.id === id)
-      ? { ...before, objects: before.objects.filter(object => object.id !== id) }
+    before.objects.some(object => ids.includes(object.id))
+      ? { ...before, objects: before.objects.filter(object => !ids.includes(object.id)) }
       : before,
   );
   if (done) select(null);

@@ -10,10 +10,10 @@ export interface PathStretch {
 export interface PlayState {
   readonly plan: Plan | null;
   readonly verdict: Verdict | null;
-  /** The verdict is of the program and the cell as they are now, not as they were before the last edit. */
-  readonly current: boolean;
   /** Progress 0 … 1 of the check under way; null when none is. */
   readonly checking: number | null;
+  /** The cell changed since the verdict, and its check is not done yet. */
+  readonly stale: boolean;
   /** The check itself could not be done: why. */
   readonly trouble: string | null;
   /** Seconds; written at most ten times a second while playing (the frame loop keeps the exact time in `live/playhead.ts`). */
@@ -31,8 +31,8 @@ export interface PlayState {
 export const playStore = createStore<PlayState>(() => ({
   plan: null,
   verdict: null,
-  current: false,
   checking: null,
+  stale: false,
   trouble: null,
   t_s: 0,
   playing: false,

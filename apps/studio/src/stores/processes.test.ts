@@ -12,6 +12,7 @@ import {
   planProgram,
   robotById,
   rotate,
+  SHARP_RAD,
   type MoveStep,
   type Vector3,
 } from "@twincell/core";
@@ -22,7 +23,7 @@ import { traceProgram } from "../runtime/planning/tracing.ts";
 import { words } from "../messages/index.ts";
 import { showDocument, theProgram } from "./document.ts";
 import { PROCESS_NAMES, PROCESSES, processOf } from "./processes.ts";
-import { SHARP_RAD, traceStore } from "./trace.ts";
+import { traceStore } from "./trace.ts";
 
 const cell = edgeTraceCell();
 const robot = robotById(cell.robot.id)!;
@@ -64,7 +65,9 @@ test.each(PROCESS_NAMES)(
     });
     if (answer.kind !== "traced") throw new Error(answer.sentence);
     expect(answer.deviation_m).toBeLessThanOrEqual(options.pathTolerance_m);
-    for (const { q } of answer.edges[0]!.filter(({ role }) => role === "edge")) {
+    for (const point of answer.edges[0]!.filter(({ role }) => role === "edge")) {
+      if (!("q" in point)) throw new Error("a point is out of reach");
+      const { q } = point;
       const tcp = compose(compose(worldFromBase, flangePose(robot.arm, q)), flangeFromTcp);
       expect(distanceToPolyline(curve.points, tcp.position)).toBeLessThan(1e-5);
       // Elevation of the tool above the top of the carton.
@@ -74,7 +77,7 @@ test.each(PROCESS_NAMES)(
       );
     }
     showDocument(cell);
-    addTrace(answer.edges, options, robot, cell.tool);
+    addTrace(answer.edges, options, robot, cell.tool, chosen);
     const planned = planProgram(theProgram()!, robot, { worldFromBase });
     expect(planned.kind).toBe("planned");
     const on = theProgram()!.steps.filter(

@@ -25,6 +25,7 @@ import {
   type Step,
   type Verdict,
 } from "@twincell/core";
+import type { CellDocument } from "@twincell/project";
 import { words } from "../messages/index.ts";
 import { commit, theProgram, withProgram } from "./document.ts";
 import { select, selectionStore } from "./selection.ts";
@@ -51,18 +52,24 @@ function insertSelected(program: Program, steps: readonly Step[]): Program {
 const edit = (label: string, change: (program: Program) => Program, gesture?: string): boolean =>
   commit(label, document => withProgram(document, change), gesture);
 
-/** Adds steps, selects the last of them and says whether there was a program to add them to. */
+/** Adds steps, selects the last of them and says whether there was a program to add them to. `settle` sees the cell with the steps in it, in the same undo step. */
 export function addSteps(
   label: string,
   make: (program: Program) => readonly Step[],
   change: (program: Program) => Program = program => program,
   gesture?: string,
+  settle: (document: CellDocument, steps: readonly Step[]) => CellDocument = document => document,
 ): boolean {
   const program = theProgram();
   if (!program) return false;
   const steps = make(program);
   const last = steps.at(-1);
-  if (!last || !edit(label, before => change(insertSelected(before, steps)), gesture)) return false;
+  const add = (document: CellDocument): CellDocument =>
+    settle(
+      withProgram(document, before => change(insertSelected(before, steps))),
+      steps,
+    );
+  if (!last || !commit(label, add, gesture)) return false;
   select({ kind: "step", id: last.id });
   return true;
 }

@@ -1,34 +1,11 @@
 import { createStore } from "zustand/vanilla";
 
-/** Whether a program may run although its check is not green; asked by a dialog. */
+/** A run that was asked for and has not begun: the check is under way, or it is not content. */
 export interface RunQuestion {
-  /** Who would run it, by name. */
-  readonly robots: readonly string[];
-  /** At least one of them is a real robot: running anyway must be typed. */
-  readonly real: boolean;
-  /** Models that run it and were not the one it was checked for. */
-  readonly otherModels: readonly string[];
-  /** A text that is not the cell's: what the check says is of another program. */
-  readonly otherText?: boolean;
+  /** "checking": waits for the check. "red": it found something. "unchecked": it could not be done, and `sentence` says why. */
+  readonly kind: "checking" | "red" | "unchecked";
+  readonly sentence: string;
+  /** Begins it all the same. */
+  readonly proceed: () => void;
 }
-export interface RunQuestionState {
-  readonly question: RunQuestion | null;
-}
-export const runQuestionStore = createStore<RunQuestionState>(() => ({ question: null }));
-
-let waiting: ((run: boolean) => void) | null = null;
-
-/** Resolves with what the person answers. A second question answers the one before with no. */
-export function askToRun(question: RunQuestion): Promise<boolean> {
-  waiting?.(false);
-  return new Promise(resolve => {
-    waiting = resolve;
-    runQuestionStore.setState({ question });
-  });
-}
-export function answerToRun(run: boolean): void {
-  const tell = waiting;
-  waiting = null;
-  runQuestionStore.setState({ question: null });
-  tell?.(run);
-}
+export const runQuestionStore = createStore<{ readonly question: RunQuestion | null }>(() => ({ question: null }));

@@ -12,8 +12,6 @@ export interface TraceOptions {
   readonly motion: "joint" | "straight";
   readonly speed_mps: number;
 }
-/** Faces that bend by more than this meet in an edge [rad]. */
-export const SHARP_RAD = 0.5;
 
 /** What came of the last trace. */
 export interface TraceResult {

@@ -1,6 +1,6 @@
 import { createStore } from "zustand/vanilla";
 
-export type StudioMode = "teach" | "check" | "run" | "history";
+export type StudioMode = "cell" | "teach" | "check" | "run" | "history";
 export type SheetTab = "jog" | "program" | "why" | "run";
 export interface ViewState {
   readonly mode: StudioMode;

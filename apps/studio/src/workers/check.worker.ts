@@ -1,3 +1,4 @@
+import "./know-robots.ts";
 import { checkProgram, robotById, type CellGeometry } from "@twincell/core";
 import { tcpPath } from "../runtime/planning/tcp-path.ts";
 import type { FromChecker, ToChecker } from "./check-messages.ts";

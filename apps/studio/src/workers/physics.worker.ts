@@ -1,3 +1,4 @@
+import "./know-robots.ts";
 import { robotById, SignalTable } from "@twincell/core";
 import { createWorld, loadEngine, PhysicsRun, type MujocoWorld } from "@twincell/physics";
 import { physicalScene } from "@twincell/project";

@@ -1,3 +1,4 @@
+import "./know-robots.ts";
 import { planTask } from "../runtime/planning/plan-task.ts";
 import type { FromPlanner, ToPlanner } from "./plan-messages.ts";
 

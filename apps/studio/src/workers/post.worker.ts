@@ -1,3 +1,4 @@
+import "./know-robots.ts";
 import { robotById } from "@twincell/core";
 import { dialectById, proveText, runnableFile } from "@twincell/languages";
 import { writeProgram } from "../runtime/run/written-program.ts";

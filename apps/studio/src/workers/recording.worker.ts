@@ -1,3 +1,4 @@
+import "./know-robots.ts";
 import { catalogue } from "@twincell/recording";
 import { zstd } from "@twincell/recording/zstd";
 import { blobFiles } from "../runtime/history/recordings.ts";

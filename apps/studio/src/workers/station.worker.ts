@@ -1,3 +1,4 @@
+import "./know-robots.ts";
 import {
   driverKindById,
   DRIVER_KINDS,

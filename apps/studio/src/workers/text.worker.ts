@@ -1,3 +1,4 @@
+import "./know-robots.ts";
 import { textTask } from "../runtime/text-task.ts";
 import type { FromTextWorker, ToTextWorker } from "./text-messages.ts";
 

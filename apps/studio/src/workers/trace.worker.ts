@@ -1,3 +1,4 @@
+import "./know-robots.ts";
 import { traceProgram, type TraceAnswer } from "../runtime/planning/tracing.ts";
 import type { FromTracer, ToTracer } from "./trace-messages.ts";
 

@@ -125,6 +125,26 @@ describe.each(DRIVER_KINDS.map(brand => [brand.id, brand] as const))(
       station.close();
     });
 
+    test("T-64 a post that stands up to 40 mm from where the cell says is not touched when the registration error says so", async () => {
+      const placeError_m = 0.04;
+      const cell = await bench(brand, robot => ({ ...empty(robot), objects: [post(robot, 0.7)], placeError_m }));
+      const { robot, scheduler, station, seat, ended } = cell;
+      // Wherever it truly stands within its error, it stands in this.
+      const grown = { ...post(robot, 0.7), mesh: boxMesh([0.06 + 2 * placeError_m, 0.06 + 2 * placeError_m, 2]) };
+      const collider = new CellCollider({ ...empty(robot), objects: [grown], links: linkSolids(robot) }, robot.arm);
+      let near = 0;
+      station.onSample(({ q_rad }) => {
+        if (collider.check(q_rad).some(({ a, b }) => a === "post" || b === "post")) near++;
+      });
+      expect(await ended(seat.robot.moveJoints(turned(robot, 1.4)))).toMatchObject({
+        kind: "stopped",
+        why: { code: "guard.clearance" },
+      });
+      await scheduler.elapse(6);
+      expect([near, cell.touched]).toEqual([0, 0]);
+      station.close();
+    });
+
     test("T-43 an object that is put in the way of a robot that moves stops it before it is touched", async () => {
       const cell = await bench(brand, empty);
       const { robot, scheduler, station, seat, ended } = cell;

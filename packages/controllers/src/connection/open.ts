@@ -1,4 +1,5 @@
 import {
+  pose,
   unrolled,
   type CommandOutcome,
   type Dialect,
@@ -16,11 +17,12 @@ import { withLines } from "../runner/index.ts";
 import type { SharedCell } from "../cell/index.ts";
 import { clearOf, type Commander } from "../guard/index.ts";
 import { LookAhead, pathBlocked } from "../twin/index.ts";
+import { listeners } from "../listeners.ts";
 import { DONE, refused } from "../outcomes.ts";
 import { prepareJob, withLinks, type CellDefinition, type PrepareJob } from "./prepare-job.ts";
 import { openVirtualPendant, type VirtualPendant, type VirtualPendantOpened } from "./virtual-pendant.ts";
 import { createRobotConnection, type PreparedRun, type RobotConnection, type RobotJob } from "./connection.ts";
-import { movedMeanwhile, stoppedMeanwhile } from "./words.ts";
+import { movedMeanwhile, noCell, stoppedMeanwhile } from "./words.ts";
 
 /** A cell that was read from a document, or why it was not. */
 export type CellRead =
@@ -192,7 +194,15 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
       ...(flangeFromGrip ? { flangeFromTcp: flangeFromGrip as Pose as Pose<"flange", "tcp"> } : {}),
     });
   }
-  if (cell) keepClearOf(cell);
+  keepClearOf(
+    cell ?? { worldFromBase: worldFromBase ?? pose(), objects: [], allowedPairs: [], shapeError_m: robot.shapeError_m },
+  );
+  /** Whether objects are known that it must not touch; without a cell it is kept from itself alone, and that is said. */
+  let knowsCell = options.cell !== undefined;
+  const notices = listeners<Refusal>();
+  const unnotice = station.onNotice(why => {
+    notices.call(why);
+  });
   /** The program with its plan from where the robot stands, what the check finds on it, and its text; or why it is not sent. */
   async function jobOf(
     program: Program,
@@ -245,6 +255,12 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
         (pulled => {
           void virtualPendant.act("", { do: "trouble", unplugged: pulled });
         }),
+      async connect() {
+        const outcome = await station.connect();
+        if (outcome.kind === "done" && !knowsCell && !station.guard.state.watching) notices.call(noCell(name));
+        return outcome;
+      },
+      onNotice: listen => notices.add(listen),
       stop(emergency) {
         stops++;
         station.guard.stop(emergency);
@@ -253,6 +269,7 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
         const read = readCell(document);
         if (read.kind === "refused") return read;
         keepClearOf(read.cell);
+        knowsCell = true;
         return DONE;
       },
       async watch(commander, on) {
@@ -272,6 +289,8 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
         const answer = await jobOf(program, asText);
         if (answer.kind === "refused") return answer;
         if (stops !== before) return refused(stoppedMeanwhile(name));
+        // What cannot be planned cannot be checked: it is not sent to find out where it ends.
+        if (answer.stuck) return refused(answer.stuck);
         const { job } = answer;
         const blocked =
           job.plan &&
@@ -312,6 +331,8 @@ export async function openRobotConnection(options: OpenOptions): Promise<OpenedD
       },
       close(then) {
         station.close(() => {
+          unnotice();
+          notices.clear();
           opened?.close();
           near?.close();
           then?.();

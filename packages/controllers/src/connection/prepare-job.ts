@@ -16,9 +16,6 @@ import {
 } from "@twincell/core";
 import { notEmitted } from "./words.ts";
 
-/** Programs of more motions are not checked before they are sent. */
-const MOST_CHECKED = 500;
-
 /** A cell as it goes from thread to thread: the links of its robot are made from the robot. */
 export type CellDefinition = Omit<CellGeometry, "links">;
 /** The cell with the links of that robot in it. Pure. */
@@ -62,12 +59,9 @@ export function prepareJob({ program, robot, start_rad, worldFromBase, cell, dia
     },
     robot,
   );
-  const findings =
-    answer.plan.segments.length > MOST_CHECKED
-      ? []
-      : checkProgram(program, robot, { ...from, cell: keptClearOf })
-          .verdict.steps.flatMap(step => step.findings)
-          .sort((a, b) => a.at_s - b.at_s);
+  const findings = checkProgram(program, robot, { ...from, cell: keptClearOf })
+    .verdict.steps.flatMap(step => step.findings)
+    .sort((a, b) => a.at_s - b.at_s);
   const written = dialect?.emit(
     withBranches(program, robot, { where: "needed", ...(worldFromBase ? { worldFromBase } : {}) }),
     robot,

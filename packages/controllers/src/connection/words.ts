@@ -37,3 +37,10 @@ export const disconnected = (name: string): Refusal => ({
   sentence: `${name} was disconnected.`,
   hint: "Connect it, then confirm that motion is wanted.",
 });
+
+/** Said when a robot is connected that nobody gave a cell. */
+export const noCell = (name: string): Refusal => ({
+  code: "station.no-cell",
+  sentence: `${name} is kept from itself only: no cell was given, so tables, walls and tools are not known to its guard.`,
+  hint: "Give it the cell it stands in before it moves.",
+});

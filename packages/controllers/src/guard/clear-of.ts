@@ -44,6 +44,6 @@ export function clearOf(
     isSafe: q_rad => checker.free(q_rad),
     contactsAt: q_rad => collider.check(q_rad).map(({ a, b }) => `${a}|${b}`),
     inTheWay: q_rad => checker.inTheWay(q_rad),
-    kept_m: pair === undefined ? wanted_m : marginOf(pair, wanted_m, cell.shapeError_m),
+    kept_m: pair === undefined ? wanted_m : marginOf(pair, wanted_m, cell),
   };
 }

@@ -99,7 +99,8 @@ export class LookAhead {
       standing ??= this.#meets(t_s, t_s, true);
       met ??= standing ?? this.#meets(t_s, t_s, false);
     }
-    const bad = findings.find(({ code, at_s }) => BLOCKS.test(code) && at_s <= end_s);
+    // The check looked at the whole plan: what it found late blocks as what it found at once.
+    const bad = findings.find(({ code }) => BLOCKS.test(code));
     return {
       blocked: earlier(bad ? { code: bad.code, sentence: bad.sentence, in_s: bad.at_s } : null, standing),
       told: earlier(this.#found(0, 1, end_s), met),

@@ -138,7 +138,7 @@ describe("UR driver: what breaks on the way", () => {
     const running = watched(controller.moveJoints(FAR));
     await bench.scheduler.elapse(0.5);
     // Everything the controller says is two tenths late: questions wait, states are old.
-    bench.ur.faults.delay_s = 0.05;
+    bench.ur.faults.delay_s = 0.2;
     const began_ms = performance.now();
     controller.reset();
     controller.stop();

@@ -276,7 +276,7 @@ describe("virtual controller", () => {
     expect(runs[2]).toEqual(runs[0]);
   });
 
-  test("T-53 the next step is asked for when it is needed", async () => {
+  test("the next step is asked for when it is needed", async () => {
     const { scheduler, robot: controller } = bench();
     let asked = 0;
     function* endless(): Generator<Step> {

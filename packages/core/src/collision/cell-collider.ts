@@ -52,6 +52,7 @@ export interface SolidPair {
  */
 export class CellCollider {
   readonly shapeError_m: number;
+  readonly placeError_m: number;
   readonly #arm: SerialArm;
   readonly #shelf: FileRunStorage;
   readonly #bodies: Body[];
@@ -70,6 +71,7 @@ export class CellCollider {
   /** @param runStorage  where built trees are kept; pass the same one when a cell is built again after an edit. */
   constructor(cell: CellGeometry, arm: SerialArm, runStorage = new FileRunStorage()) {
     this.shapeError_m = cell.shapeError_m;
+    this.placeError_m = cell.placeError_m ?? 0;
     this.#arm = arm;
     this.#shelf = runStorage;
     this.#worldFromBase = copyPose(cell.worldFromBase);

@@ -36,6 +36,11 @@ export interface CellGeometry {
   readonly pairs?: PairMatrix;
   /** Uncertainty of the drawn robot shape [m], added to every margin. */
   readonly shapeError_m: number;
+  /**
+   * How far the robot may be from where it is drawn among the objects [m]: the residual of the registration and the error of
+   * the twin. Added to the distance between what the arm moves and what stands. 0 when left out.
+   */
+  readonly placeError_m?: number;
 }
 
 /** Two solids that touch. Names are those of links ("link 4"), "tool", or ids of objects. */

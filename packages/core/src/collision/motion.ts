@@ -1,5 +1,5 @@
-import type { Body } from "./bodies.ts";
-import type { Contact } from "./cell.ts";
+import { WORLD, type Body } from "./bodies.ts";
+import type { CellGeometry, Contact } from "./cell.ts";
 import type { CellCollider, SolidPair } from "./cell-collider.ts";
 import type { ClearanceMaps } from "./clearance-map.ts";
 
@@ -82,7 +82,7 @@ export function checkMotion(
   const pairs = collider.pairs;
   const rates = pairs.map(pair => relativeRate(pair, motion.maxRate));
   const turns = pairs.map(pair => relativeTurn(pair, motion.maxRate));
-  const margins = pairs.map(pair => (keepsMargin(pair) ? marginOf(pair, margin_m, collider.shapeError_m) : 0));
+  const margins = pairs.map(pair => (keepsMargin(pair) ? marginOf(pair, margin_m, collider) : 0));
   const q = new Float64Array(motion.maxRate.length);
   const stack: Interval[] = [{ from, to, open: pairs.map((_, i) => i).filter(i => watched(pairs[i]!)) }];
   let checks = 0;
@@ -178,15 +178,21 @@ function relativeTurn(pair: SolidPair, maxRate: ArrayLike<number>): number {
   return turn;
 }
 
+/** What a cell is not known better than; see `CellGeometry`. */
+export type CellErrors = Pick<CellGeometry, "shapeError_m" | "placeError_m">;
+
 /**
- * Distance a pair must keep when `margin_m` is wanted [m]: the margin, and between a link and an object, held
- * or standing, the shape error of the robot once, because only the link is drawn from fitted shapes.
+ * Distance a pair must keep when `margin_m` is wanted [m]: the margin; between a link and an object, held or standing, the
+ * shape error of the robot once, because only the link is drawn from fitted shapes; and between what the arm moves and an
+ * object that stands, how far the robot may be from where it is drawn (row T-64).
  *
  * Two parts of the robot get no shape error. Twice the error (40 mm on many arms) is more than the maker leaves between links that
  * fold past each other, so it would stop postures that every arm takes daily; and where drawn links do come close, it is the
  * maker's joint limits and `allowContactsAt` that speak for the true castings. Tools are drawn as they are.
  */
-export function marginOf({ a, b }: SolidPair, margin_m: number, shapeError_m: number): number {
+export function marginOf({ a, b }: SolidPair, margin_m: number, { shapeError_m, placeError_m }: CellErrors): number {
   const drawnAndExact = (a.kind === "link" && b.kind === "object") || (b.kind === "link" && a.kind === "object");
-  return Math.max(0, margin_m) + (drawnAndExact ? shapeError_m : 0);
+  const movedAndStanding =
+    (a.carrier === WORLD && a.kind === "object") !== (b.carrier === WORLD && b.kind === "object");
+  return Math.max(0, margin_m) + (drawnAndExact ? shapeError_m : 0) + (movedAndStanding ? (placeError_m ?? 0) : 0);
 }

@@ -198,7 +198,7 @@ describe("the shape error of the drawn links", () => {
   });
 });
 
-describe("X-11 a collider for every part: contact at its surface", () => {
+describe("a collider for every part: contact at the surface of the part's own mesh", () => {
   test.each(
     linkSolids(ur10e)
       .map(({ link }) => [NAMES[link]!, link] as const)

@@ -26,7 +26,7 @@ test("N-59 the tool centre point is within 0.01 mm of an independent forward kin
   expect(worst_mm).toBeLessThan(0.01);
 });
 
-test("N-59 the paper's accuracy table: 12 rows, every printed error is unity − real, at most 0.62 mm on an axis and 0.884 mm in space", () => {
+test("the fixture of the paper's accuracy table is as printed: 12 rows, every error is unity − real, at most 0.62 mm on an axis and 0.884 mm in space", () => {
   expect(table).toHaveLength(12);
   let axis_mm = 0;
   let space_mm = 0;

@@ -17,7 +17,7 @@ export function liftRefusal(
 ): Refusal | undefined {
   const total_kg = part.mass_kg + gripper_kg;
   const most_kg = robot.payloadMax_kg;
-  if (!(most_kg > 0) || total_kg <= most_kg + SCALE_KG) return undefined;
+  if (most_kg === undefined || total_kg <= most_kg + SCALE_KG) return undefined;
   const with_ =
     gripper_kg > 0
       ? ` with the gripper (${inKilograms(gripper_kg)}) weighs ${inKilograms(total_kg)}`

@@ -92,7 +92,7 @@ export class PathValidator {
     this.#edition = this.collider.edition;
     this.#pairs = [...this.collider.pairs];
     this.#margins = this.#pairs.map(pair =>
-      this.#rules.keepsMargin(pair) ? marginOf(pair, this.#rules.margin_m, this.collider.shapeError_m) : 0,
+      this.#rules.keepsMargin(pair) ? marginOf(pair, this.#rules.margin_m, this.collider) : 0,
     );
   }
 }

@@ -86,7 +86,7 @@ export function verifyProgram(
       const wanted = new Map(
         collider.pairs.map(pair => [
           `${pair.contact.a}\n${pair.contact.b}`,
-          watched(pair) && keepsMargin(pair) ? marginOf(pair, certificate.margin_m, cell.shapeError_m) : 0,
+          watched(pair) && keepsMargin(pair) ? marginOf(pair, certificate.margin_m, cell) : 0,
         ]),
       );
       const low = proof.pieces.find(({ a, b, atLeast_m }) => atLeast_m < (wanted.get(`${a}\n${b}`) ?? 0));

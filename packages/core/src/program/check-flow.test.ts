@@ -174,6 +174,19 @@ describe("checkProgram of programs with blocks", () => {
     });
   });
 
+  test("X-07 a load on a robot whose payload no source states is unknown, never ok; no load is ok", () => {
+    const { payload_kg, payloadMax_kg, ...unstated } = robotById("ur10e")!;
+    expect([payload_kg, payloadMax_kg]).toEqual([10, 10]);
+    const verdictOf = (mass_kg: number): Verdict =>
+      check(
+        { ...emptyProgram(unstated.id), steps: [{ id: "l", type: "payload", mass_kg, center_m: [0, 0, 0.05] }] },
+        unstated,
+      );
+    expect([verdictOf(0.1).ok, verdictOf(0.1).steps[0]!.verdict]).toEqual([false, "unknown"]);
+    expect(verdictOf(0).steps[0]!.verdict).toBe("ok");
+    expect(standLoad(unstated)).toMatchObject({ kind: "unknown" });
+  });
+
   test("X-09 the stand carries robot and load, 33.5 kg and 43.5 kg, or says by how much it does not", () => {
     const ur10e = robotById("ur10e")!;
     const program = {

@@ -1,5 +1,6 @@
 import { describe, expect, test } from "vitest";
 import type { CellGeometry } from "../collision/cell.ts";
+import { flangePose } from "../kinematics/forward.ts";
 import { linkSolids } from "../robots/shapes/index.ts";
 import { robotById } from "../robots/library/index.ts";
 import { boxMesh } from "../shapes/solids.ts";
@@ -342,6 +343,59 @@ describe("collision in a program", () => {
       /comes within [0-9.]+ mm of “Wall” at .* s; the margin is 21 mm, 21 mm of it for the error of the drawn shape\.$/,
     );
     expect(verdictAt(touching_m + ur10e.shapeError_m + 0.002).ok).toBe(true);
+  });
+
+  test("T-64 registration and twin error count between the arm and what stands, also for the tool, and are said apart from the shape's", () => {
+    const ur10e = robotById("ur10e")!;
+    const q = [0, -1.2, 1.6, -2, -1.57, 0];
+    const turn: Program = {
+      ...emptyProgram(ur10e.id),
+      steps: [
+        { id: "turn", type: "move", path: "ptp", target: { q: q.with(5, 0.3) }, speed: { ratio: 0.5 }, blend_m: 0 },
+      ],
+    };
+    const beside = (x_m: number, more: Partial<CellGeometry>): CellGeometry => ({
+      worldFromBase: identity(),
+      links: linkSolids(ur10e),
+      allowedPairs: [],
+      shapeError_m: ur10e.shapeError_m,
+      objects: [
+        {
+          id: "wall",
+          name: "Wall",
+          mesh: boxMesh([0.1, 6, 6]),
+          worldFromObject: pose<"world", "object">([x_m + 0.05, 0, 0]),
+        },
+      ],
+      ...more,
+    });
+    const verdictAt = (x_m: number, more: Partial<CellGeometry>) =>
+      checkProgram(turn, ur10e, { cell: beside(x_m, more), start_rad: q }).verdict;
+    const touching_m = 1.1 - verdictAt(1.1, {}).clearance_m!;
+    // 2 mm beyond the error of the shape is enough where nothing else is unknown, and 5 mm of registration are not.
+    const x_m = touching_m + ur10e.shapeError_m + 0.002;
+    expect(verdictAt(x_m, {}).ok).toBe(true);
+    const finding = findingOf(verdictAt(x_m, { placeError_m: 0.005 }), "turn", "collision.contact");
+    expect(finding.limit).toBeCloseTo(ur10e.shapeError_m + 0.005, 12);
+    expect(finding.sentence).toMatch(
+      /the margin is 26 mm, 21 mm of it for the error of the drawn shape, 5(\.0)? mm for where the robot may stand\.$/,
+    );
+    expect(verdictAt(x_m + 0.005, { placeError_m: 0.005 }).ok).toBe(true);
+    // A tool has no shape error, and the same error of place.
+    const tool = { name: "Bar", mesh: boxMesh([0.02, 0.02, 0.3]) };
+    // The tool points down and reaches no further than the arm: a table comes up to it instead of the wall.
+    const table = (z_m: number, place_m: number) =>
+      verdictAt(5, {
+        tool,
+        placeError_m: place_m,
+        objects: [{ id: "table", name: "Table", mesh: boxMesh([0.3, 0.3, 0.1]), worldFromObject: tableAt(z_m) }],
+      });
+    const [flangeX, flangeY, flangeZ] = flangePose(ur10e.arm, q).position;
+    const tableAt = (z_m: number) => pose<"world", "object">([flangeX, flangeY, z_m - 0.05]);
+    const tip_m = flangeZ - 0.15;
+    expect(table(tip_m - 0.003, 0).ok).toBe(true);
+    expect(findingOf(table(tip_m - 0.003, 0.005), "turn", "collision.contact").limit).toBeCloseTo(0.005, 12);
+    expect(table(tip_m - 0.007, 0.005).ok).toBe(true);
   });
 
   test("the cell's place of the robot counts", () => {

@@ -13,6 +13,7 @@ import { checkReach } from "./checks/reach.ts";
 import type { CheckScene } from "./checks/scene.ts";
 import { checkSingular } from "./checks/singular.ts";
 import { checkSpeed } from "./checks/speed.ts";
+import { checkEdges } from "./checks/edges.ts";
 import { FindingCollector } from "./checks/finding-collector.ts";
 import { checkFlow } from "./checks/flow.ts";
 import { checkPayload } from "./checks/payload.ts";
@@ -98,9 +99,10 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
   checkImpasses(scene);
   checkSingular(scene);
   checkSignals(scene);
-  checkPayload(scene);
+  const unweighed = checkPayload(scene);
   checkFlow(scene);
   const torque = checkTorque(scene, options.payload);
+  if (cell !== undefined) checkEdges(scene, cell);
   const unjudged = cell === undefined ? [] : checkStand(scene, cell, options.payload?.mass_kg);
   const margin_m = options.margin_m ?? 0;
   const certificates: SegmentCertificate[] | undefined =
@@ -126,7 +128,10 @@ export function checkProgram(program: Program, robot: Robot, options: CheckOptio
   const written = [...everyStep(program)];
   const steps = written.map(step => {
     const evaluated =
-      (layout.complete || layout.evaluated.has(step.id)) && !unproven.has(step.id) && !layout.unjudged.has(step.id);
+      (layout.complete || layout.evaluated.has(step.id)) &&
+      !unproven.has(step.id) &&
+      !layout.unjudged.has(step.id) &&
+      !unweighed.has(step.id);
     return { id: step.id, verdict: book.verdictOf(step.id, evaluated), findings: book.of(step.id) };
   });
   const ok = steps.every(step => step.verdict === "ok" || step.verdict === "warn");

@@ -13,6 +13,7 @@ export * from "./check.ts";
 export * from "./certificate.ts";
 export * from "./certificate-file.ts";
 export * from "./detour.ts";
+export { SHARP_RAD, tracedEdgeOf, type TracedEdgeRecord } from "./checks/edges.ts";
 export { standOf } from "./checks/stand.ts";
 export * from "./with-branches.ts";
 export { NEAR_LIMIT_RAD } from "./checks/limits.ts";

@@ -176,7 +176,7 @@ describe("stepper", () => {
     expect(closedAt).toBe("g");
   });
 
-  test("T-53 a step is only asked for when it is needed", () => {
+  test("a step is only asked for when it is needed", () => {
     const asked: string[] = [];
     const source = function* (): Generator<Step> {
       for (const step of steps) {

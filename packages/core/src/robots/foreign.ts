@@ -21,6 +21,8 @@ export function robotFromArm(arm: SerialArm, known: KnownOfRobot = {}): Robot {
     if (value === undefined) assumptions.push(sentence);
     return value ?? assumed;
   };
+  if (known.payload_kg === undefined)
+    assumptions.push("The payload is not stated: whether the robot carries a load is unknown.");
   const reach_m = reachOf(arm, family);
   const length = `${(reach_m * 1000).toFixed(0)} mm`;
   return {
@@ -33,16 +35,15 @@ export function robotFromArm(arm: SerialArm, known: KnownOfRobot = {}): Robot {
     baseFromVendorWorld: known.baseFromVendorWorld ?? pose(),
     home_rad:
       known.home_rad ?? arm.joints.map(({ limits }) => Math.min(limits.upper_rad, Math.max(limits.lower_rad, 0))),
-    payload_kg: assume(known.payload_kg, 0, "The payload is not known: 0 kg is shown."),
-    payloadMax_kg: known.payloadMax_kg ?? known.payload_kg ?? 0,
     reach_m: assume(
       known.reach_m,
       reach_m,
-      `The reach is not published: ${length} follows from the lengths of the links.`,
+      family.kind === "general"
+        ? `The reach is not stated: ${length} is the sum of the links, which it does not exceed.`
+        : `The reach is not stated: ${length} is computed from the lengths of the links.`,
     ),
     reachMeasuredFrom: known.reachMeasuredFrom ?? (family.kind === "ortho-parallel" ? "axis-1" : "axis-2"),
     reachMeasuredTo: known.reachMeasuredTo ?? (family.kind === "general" ? "flange" : "wrist"),
-    repeatability_m: assume(known.repeatability_m, 0, "The repeatability is not known: 0 mm is shown."),
     maxTcpSpeed_mps: assume(
       known.maxTcpSpeed_mps,
       ASSUMED_TCP_SPEED_MPS,
@@ -56,8 +57,14 @@ export function robotFromArm(arm: SerialArm, known: KnownOfRobot = {}): Robot {
 }
 
 /** What may be missing from a robot, where it is known. */
-function optional({ mass_kg, masses, workspace, madeUpGeometry, form, paint }: KnownOfRobot): Partial<Robot> {
+function optional(known: KnownOfRobot): Partial<Robot> {
+  const { payload_kg, repeatability_m, mass_kg, masses, workspace, madeUpGeometry, unverified, form, paint } = known;
+  const payloadMax_kg = known.payloadMax_kg ?? payload_kg;
   return {
+    ...(payload_kg === undefined ? {} : { payload_kg }),
+    ...(payloadMax_kg === undefined ? {} : { payloadMax_kg }),
+    ...(repeatability_m === undefined ? {} : { repeatability_m }),
+    ...(unverified === undefined ? {} : { unverified }),
     ...(mass_kg === undefined ? {} : { mass_kg }),
     ...(masses === undefined ? {} : { masses }),
     ...(workspace === undefined ? {} : { workspace }),

@@ -13,4 +13,5 @@ export * from "./parse-robot.ts";
 export * from "./dh.ts";
 export * from "./aligned.ts";
 export * from "./library/index.ts";
+export * from "./catalogue/index.ts";
 export * from "./shapes/index.ts";

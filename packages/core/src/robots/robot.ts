@@ -118,15 +118,17 @@ export interface Robot {
   /** The vendor's world origin seen from the root link: V+ counts from the shoulder. */
   readonly baseFromVendorWorld: Pose<"base", "vendor-world">;
   readonly home_rad: readonly number[];
-  readonly payload_kg: number;
-  readonly payloadMax_kg: number;
-  /** Published reach and between which points it is measured. */
+  /** Nominal load and load at reduced speed; missing where no source states them, and then nothing is judged by them. */
+  readonly payload_kg?: number;
+  readonly payloadMax_kg?: number;
+  /** Reach, published or computed (`sources` and `assumptions` say which), and between which points it is measured. */
   readonly reach_m: number;
   readonly reachMeasuredFrom: "axis-1" | "axis-2";
   readonly reachMeasuredTo: "flange" | "wrist";
   /** Workspace that the maker declares smaller than the geometry would allow (row X-08). */
   readonly workspace?: DeclaredWorkspace;
-  readonly repeatability_m: number;
+  /** Missing where no source states it. */
+  readonly repeatability_m?: number;
   readonly maxTcpSpeed_mps: number;
   /** Mass of the whole robot, base included, without cables and controller. */
   readonly mass_kg?: number;
@@ -134,6 +136,8 @@ export interface Robot {
   readonly masses?: readonly LinkMass[];
   /** True when nobody publishes the lengths of the arm and they were made up: results on geometry say nothing about the real robot. */
   readonly madeUpGeometry?: boolean;
+  /** True where no program that is not this project's was held against the arm's forward kinematics. */
+  readonly unverified?: true;
   /** How it looks; without it the arm is drawn from its dimensions alone. */
   readonly form?: RobotForm;
   /** Colours as the maker paints it. */

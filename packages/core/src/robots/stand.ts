@@ -8,7 +8,11 @@ export type StandLoad =
 /** The robot with a load on its flange; with its nominal payload unless said. Cables and controller are not in it. */
 export function standLoad(robot: Robot, payload_kg = robot.payload_kg): StandLoad {
   const { mass_kg, name } = robot;
-  return mass_kg === undefined
-    ? { kind: "unknown", sentence: `The mass of ${name} is not published: whether its stand carries it is not judged.` }
-    : { kind: "known", robot_kg: mass_kg, payload_kg, total_kg: mass_kg + payload_kg };
+  const unknown = (what: string): StandLoad => ({
+    kind: "unknown",
+    sentence: `The ${what} of ${name} is not published: whether its stand carries it is not judged.`,
+  });
+  if (mass_kg === undefined) return unknown("mass");
+  if (payload_kg === undefined) return unknown("payload");
+  return { kind: "known", robot_kg: mass_kg, payload_kg, total_kg: mass_kg + payload_kg };
 }

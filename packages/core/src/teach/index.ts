@@ -4,3 +4,4 @@ export * from "./clutch.ts";
 export * from "./aids.ts";
 export * from "./follow-target.ts";
 export * from "./glove.ts";
+export * from "./demonstration/index.ts";

@@ -223,7 +223,7 @@ describe("X-46 the programmed speed is adjusted so that the robot can hold it", 
   });
 });
 
-test("L-15, L-70 torques along a plan for a plot: they are those of inverse dynamics, with the limits beside them", () => {
+test("torques along a plan for a plot: standing still they are those of inverse dynamics, with the limits beside them", () => {
   const program = swing({ kg: 3 });
   const { plan } = planProgram(program, ur10e, START);
   const profile = torqueProfile(plan, ur10e, program);

@@ -33,7 +33,7 @@ function rowsOf(robot: Robot, program: Program, options: TrackingOptions): reado
   return answer.rows;
 }
 
-describe("X-45 accuracy over speed", () => {
+describe("accuracy over speed", () => {
   const ur10e = robotById("ur10e")!;
   const drives: Control = { kind: "drives", bandwidth_rad_s: 60 };
   const reach = (kg: number): Program =>

@@ -298,7 +298,7 @@ describe("planProgram", () => {
     for (let j = 0; j < 6; j++) expect(configuration[j]).toBeCloseTo((q[j]! + robot.home_rad[j]!) / 2, 9);
   });
 
-  test("N-64 every plan says what its duration rests on", () => {
+  test("every plan says what its duration rests on", () => {
     const answer = planProgram(programOf([START]), robot);
     expect(answer.assumptions).toEqual(
       expect.arrayContaining([

@@ -16,6 +16,7 @@ export const { interpret: interpretFanucLs, parse: parseFanucLs }: BlockReader =
   name: "FANUC TP",
   speaks: hasPendant,
   read: readSource,
+  notExecuted: ({ kept }) => kept,
   script: (source, robot, worldFromBase) => ({
     title: source.title,
     machine: (emulator, signals) => new Machine(source, robot, worldFromBase, emulator, signals, false),

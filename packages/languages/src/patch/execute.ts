@@ -31,6 +31,8 @@ export type ExecutedText =
       /** Why the text goes on where the program ends; undefined when it came to its end. */
       readonly cut?: string;
       readonly skipped: readonly Skipped[];
+      /** What is kept and shown but not executed; nothing of it moves the robot. */
+      readonly notExecuted: readonly TextFault[];
     }
   | { readonly kind: "not-understood"; readonly faults: readonly TextFault[] };
 
@@ -52,7 +54,7 @@ export function executeText(
 ): ExecutedText {
   const interpreted = dialect.interpret(text, robot, worldFromBase, { skipUnknown });
   if (interpreted.kind === "not-understood") return interpreted;
-  const { context, skipped = [] } = interpreted;
+  const { context, skipped = [], notExecuted = [] } = interpreted;
   const run: Iterator<Executed, void> = interpreted.run(new SignalTable(Object.entries(inputs)));
   const steps: Step[] = [];
   const lines = new Map<string, number>();
@@ -106,5 +108,6 @@ export function executeText(
     lines,
     ...(cut === undefined ? {} : { cut }),
     skipped,
+    notExecuted,
   };
 }

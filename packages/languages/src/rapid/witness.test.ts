@@ -293,7 +293,7 @@ describe("golden poses", () => {
   });
 });
 
-describe("L-57 M-60 what is written", () => {
+describe("L-57 what is written", () => {
   const program: Program = {
     ...emptyProgram(robot.id, "Edge trace"),
     tools: { "Torch 45°": pose([0, 0, 0.14]) },

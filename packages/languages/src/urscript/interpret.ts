@@ -1,5 +1,6 @@
 import { blockEntryPoints, constantsOf, mainScript, type BlockReader } from "../parser/structured/index.ts";
 import { readSource } from "./read/grammar.ts";
+import { keptThreads } from "./read/threads.ts";
 import { Machine, speaksUrScript } from "./run/machine.ts";
 
 /** Executes and reads URScript: one program `def … end` with the routines inside it, or the statements of a bare script. */
@@ -7,6 +8,7 @@ export const { interpret: interpretUrScript, parse: parseUrScript }: BlockReader
   name: "URScript",
   speaks: speaksUrScript,
   read: readSource,
+  notExecuted: keptThreads,
   script(source, robot, worldFromBase) {
     const constants = constantsOf(source.main, source.routines.values());
     return mainScript(

@@ -416,7 +416,7 @@ describe("faults have a place and say what is expected", () => {
     ["sleep(-1)", 2, 1],
     ["movej([0,0,0], v=0)", 2, 1],
     ["x = [1, 2][5]", 2, 12],
-    ["thread t():", 2, 1],
+    ["sec t():", 2, 1],
     ["servoj([0,0,0,0,0,0])", 2, 1],
     ["x = §", 2, 5],
     ["set_standard_digital_out(9, True)", 2, 26],

@@ -37,7 +37,7 @@ describe("X-34 X-36 pick and place over shapes, sizes and weights", () => {
     expect(wide.verdict).toBe("refused");
     expect(wide.sentence).toMatch(/^The fingers press on “box of 130 mm” with \d\.\d kN\.$/);
   });
-  test.each(["kuka_kr6r900sixx", "staubli_rx90l"])("X-35 the same with another arm: %s", id => {
+  test.each(["kuka_kr6r900sixx", "staubli_rx90l"])("the same with another arm: %s", id => {
     expect(
       pickAndPlace(engine, a(), { ...moved, robot: robotById(id)!, from_m: [0.5, -0.2], to_m: [0.5, 0.2] }).verdict,
     ).toBe("placed");
@@ -57,7 +57,7 @@ describe("the UR10e with its own torques", () => {
     });
     expect(heavy.highest_m).toBeLessThan(0.001);
   });
-  test("X-45 drives that know nothing of coupling place less exactly than computed torque", () => {
+  test("drives that know nothing of coupling place less exactly than computed torque", () => {
     const drives = pickAndPlace(engine, a({ mass_kg: 5 }), {
       robot,
       control: { kind: "drives", bandwidth_rad_s: 30 },

@@ -122,7 +122,7 @@ function fillProgram(): Program {
   const slow = { mps: 0.25 } as const;
   const steps: Step[] = [
     move("s1", "Over the belt", "ptp", at(pick_m[0], pick_m[1], pick_m[2] + OVER_M), "world", fast),
-    { id: "s2", name: "A box is there", type: "wait-for", when: { signal: "box_there", is: true }, timeout_s: 20 },
+    { id: "s2", name: "A box is there", type: "wait-for", when: { signal: "box_there", is: true } },
     { id: "s3", name: "The belt comes to rest", type: "wait", s: 0.35 },
     move("s4", "At the box", "lin", at(...pick_m), "world", slow),
     { id: "s5", type: "gripper", closed: true },
@@ -136,7 +136,7 @@ function fillProgram(): Program {
     ...emptyProgram("ur10e", "Fill the table"),
     tools: { [TOOL]: flangeFromGrip as Pose as Pose<"flange", "tcp"> },
     frames: { table: pose([0.47, 0.22, TABLE_TOP_M]) },
-    signals: { box_there: { kind: "digital-in" } },
+    signals: { box_there: { kind: "digital-in", address: 1 } },
     pallets: {
       [PLACES]: {
         frame: "table",

@@ -118,8 +118,12 @@ export function edgeTraceCell(): StepsCell {
     ],
     frames: [
       {
-        name: "carton",
+        name: "Carton corner",
         worldFromFrame: pose([0.45, -0.2, 0.5]),
+        attachedTo: {
+          object: "carton",
+          objectFromFrame: pose([-CARTON_SIZE_M[0] / 2, -CARTON_SIZE_M[1] / 2, CARTON_SIZE_M[2] / 2]),
+        },
       },
     ],
     allowedPairs: [],

@@ -1,7 +1,12 @@
 import {
   compose,
+  edgeNearPoint,
+  featureEdges,
   fromMatrix,
+  SHARP_RAD,
+  lerp,
   pose,
+  transformPoint,
   type Group,
   type MoveStep,
   type Pose,
@@ -12,8 +17,11 @@ import {
   type Vector3,
 } from "@twincell/core";
 import type { StepsCell } from "../document.ts";
+import { shapeMesh } from "../mesh/index.ts";
 import { edgeTraceCell } from "./edge-trace.ts";
 
+/** What is this near to the middle of an edge is that edge. */
+const NEAR_M = 0.001;
 /** How far the tool stays back from an edge before and after it. */
 const LEAD_M = 0.06;
 const APPROACH_RATIO = 0.3;
@@ -47,6 +55,9 @@ export function tracedCartonCell(): StepsCell {
   const tool = cell.tools[0]!;
   const frame = cell.frames[0]!;
   const home = cell.programs[0]!;
+  const carton = cell.objects.find(object => object.id === frame.attachedTo?.object)!;
+  const cartonFromFrame = frame.attachedTo!.objectFromFrame;
+  const features = featureEdges(shapeMesh(carton.shape), SHARP_RAD);
   const steps: Step[] = [];
   const groups: Record<string, Group> = {};
   const atHome = (id: string): MoveStep => ({
@@ -82,10 +93,16 @@ export function tracedCartonCell(): StepsCell {
     const from: Pose<"frame", "tcp"> = pose(CORNERS[i]!, quaternion);
     const to: Pose<"frame", "tcp"> = pose(CORNERS[(i + 1) % 4]!, quaternion);
     const back: Pose<"tcp", "tcp"> = pose([0, 0, -LEAD_M]);
-    groups[group] = { name };
+    const middle = transformPoint(cartonFromFrame, lerp(CORNERS[i]!, CORNERS[(i + 1) % 4]!, 0.5));
+    const edge = edgeNearPoint(features, middle, NEAR_M)!.chain.id;
     move(group, `${name}, before`, "ptp", compose(from, back), { ratio: APPROACH_RATIO });
+    const first = steps.length;
     move(group, `${name}, start`, "lin", from, TRACE);
     move(group, `${name}, end`, "lin", to, TRACE);
+    groups[group] = {
+      name,
+      recipe: { object: carton.id, edge, edgeSteps: steps.slice(first).map(({ id }) => id) },
+    };
     move(group, `${name}, after`, "lin", compose(to, back), TRACE);
   }
   steps.push(atHome(`s${steps.length + 1}`));

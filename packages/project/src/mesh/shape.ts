@@ -9,6 +9,7 @@ import {
   type TriangleMesh,
 } from "@twincell/core";
 import type { CellDocument, Shape } from "../document.ts";
+import { partSolid } from "../parts/index.ts";
 import { decodeMesh } from "./codec.ts";
 
 /** Flat faces of a round shape per turn: 48 stay within 0.22 % of the radius. */
@@ -33,6 +34,8 @@ export function shapeMesh(shape: Shape): TriangleMesh {
       );
     case "revolved":
       return revolvedMesh(shape.profile_m, FACES_PER_TURN);
+    case "part":
+      return partSolid(shape);
     case "mesh": {
       const decoded = decodeMesh(shape);
       if (decoded.kind === "not-a-mesh")
@@ -65,7 +68,14 @@ export function cellGeometry(document: CellDocument, links: readonly LinkSolid[]
     allowedPairs: document.allowedPairs,
     ...pairsOf(document),
     shapeError_m: robotById(document.robot.id)?.shapeError_m ?? 0,
+    ...placeErrorOf(document),
   };
+}
+
+/** Both errors may point the same way: they add up. */
+function placeErrorOf({ errors }: CellDocument): Pick<CellGeometry, "placeError_m"> {
+  const placeError_m = (errors?.registration_m ?? 0) + (errors?.twin_m ?? 0);
+  return placeError_m > 0 ? { placeError_m } : {};
 }
 
 /**

@@ -10,7 +10,7 @@ import { firstRepairs, repairStep, findStep, stepWords } from "../../stores/prog
 import { select } from "../../stores/selection.ts";
 import { previewStep, seek } from "../../stores/seek.ts";
 import { words } from "../../messages/index.ts";
-import { whyCards, type Why } from "./why.ts";
+import { whyCards, type Why } from "../../runtime/planning/why-cards.ts";
 
 const FIRST = 12;
 

@@ -3,7 +3,7 @@ import { expect, test } from "vitest";
 import { words } from "../../messages/index.ts";
 import { reachedStep, type Done } from "./reached.ts";
 
-test("N-01 the six steps of the process have a place each: objects, kinematics, interaction, scenario, check and correct, run", () => {
+test("the tracing example has six steps to learn, and an empty cell none of its objects or points", () => {
   expect(words.coach.steps.map(([title]) => title)).toEqual([
     "Look around",
     "Turn on Trace",
@@ -23,7 +23,7 @@ test("N-01 the six steps of the process have a place each: objects, kinematics, 
   ]).toEqual([true, "staubli_rx90l", 0, 0]);
 });
 
-test("N-01 doing what a step asks for leads to the next, in order, to the end", () => {
+test("doing what a step asks for leads to the next, in order, to the end", () => {
   const begun: Done = { tracing: false, chosen: 0, steps: 0, mode: "teach", judged: false, runs: 0 };
   const story: readonly Partial<Done>[] = [
     {},

@@ -4,9 +4,10 @@ import { learnMatrix } from "../../runtime/planning/planning.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { chooseBehaviour, collideStore } from "../../stores/collide.ts";
 import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
-import { robotOf } from "../../stores/document.ts";
+import { commit, robotOf } from "../../stores/document.ts";
 import { showNumber } from "../../ui/expression.ts";
 import { Frame } from "../../ui/Frame.tsx";
+import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../messages/index.ts";
 import { PairTable } from "./PairTable.tsx";
 import "./collide.css";
@@ -22,6 +23,34 @@ export default function CollisionDialog() {
     <Frame open={open} title={words.collide.title} onClose={closeDialog} width={720}>
       {open && robot && <Body robot={robot} />}
     </Frame>
+  );
+}
+
+/** What of the cell is not known better, as it was measured (row T-64): counted in every distance. */
+function Errors() {
+  const errors = useStore(cellStore, state => state.document?.errors);
+  const shape_m = useStore(cellStore, state => robotOf(state.document)?.shapeError_m ?? 0);
+  const set = (which: "registration_m" | "twin_m", value_m: number): void => {
+    commit(words.undo.errors, document => ({ ...document, errors: { ...document.errors, [which]: value_m } }), which);
+  };
+  const total_m = shape_m + (errors?.registration_m ?? 0) + (errors?.twin_m ?? 0);
+  return (
+    <fieldset className="collide-errors">
+      <legend className="label">{words.collide.errors}</legend>
+      {(["registration_m", "twin_m"] as const).map(which => (
+        <NumberField
+          key={which}
+          label={words.collide.errorNames[which]}
+          quantity="length"
+          value={errors?.[which] ?? 0}
+          min={0}
+          max={0.5}
+          decimals={1}
+          onChange={value_m => set(which, value_m)}
+        />
+      ))}
+      <p className="small muted">{words.collide.errorsSum(showNumber(total_m, "length", 1))}</p>
+    </fieldset>
   );
 }
 
@@ -69,6 +98,7 @@ function Body({ robot }: { robot: Robot }) {
           </div>
         ))}
       </dl>
+      <Errors />
       <p className="small muted">{words.collide.precision}</p>
       <section aria-label={words.collide.matrix} aria-busy={learning}>
         <div className="collide-head">

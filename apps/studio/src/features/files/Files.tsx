@@ -12,6 +12,7 @@ const KINDS = [
   ".json",
   ".mcap",
   ".txt",
+  ".csv",
   ".zip",
   ".mtl",
   ".bin",

@@ -1,10 +1,12 @@
 import { notify } from "../../stores/notices.ts";
+import { loadCatalogue } from "../../stores/catalogue.ts";
 import { openCellText } from "../../stores/opening.ts";
 import { importText } from "../../stores/importing.ts";
 import { importShapes, type FileAt } from "../../runtime/mesh-import.ts";
 import { endingOf, IMPORT_ENDINGS } from "@twincell/formats";
 import { DIALECTS } from "@twincell/languages";
 import { words } from "../../messages/index.ts";
+import { openDemonstration } from "../../runtime/planning/demonstrating.ts";
 import { openTextFiles } from "../../runtime/open-text.ts";
 
 /** Whether files with that ending are programs of a robot language. */
@@ -16,8 +18,11 @@ export async function openFile(file: File): Promise<void> {
   const kind = /\.([a-z0-9]+)$/i.exec(file.name)?.[1]?.toLowerCase() ?? "";
   try {
     if (kind === "mcap") await (await import("../../runtime/robot/cell-control.ts")).openRecordingFiles([file]);
-    else if (kind === "json") openCellText(await file.text(), file.name);
-    else if (isShape(file.name)) await importShapes([{ path: file.name, file }]);
+    else if (kind === "json") {
+      await loadCatalogue();
+      openCellText(await file.text(), file.name);
+    } else if (isShape(file.name)) await importShapes([{ path: file.name, file }]);
+    else if (kind === "csv") openDemonstration(await file.text(), file.name);
     else if (isProgram(kind) && kind !== "txt") await openTexts([file]);
     else if (kind === "txt") {
       const [fault] = importText(await file.text(), file.name);

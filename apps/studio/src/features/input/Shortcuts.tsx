@@ -31,16 +31,17 @@ export function Shortcuts() {
       const onControl =
         event.target instanceof HTMLElement &&
         event.target.closest("button, a, [role='slider'], [role='menu'], [role='listbox'], summary") !== null;
-      for (const command of commandStore.getState().commands.values()) {
-        for (const keys of command.keys ?? []) {
-          if (!isKeys(event, keys) || (event.repeat && !keys.includes("Mod"))) continue;
-          if (inDialog && !keys.includes("Mod")) return;
-          if (onControl && (keys === "Space" || keys.startsWith("Arrow"))) return;
-          event.preventDefault();
-          runCommand(command.id);
-          return;
-        }
-      }
+      const meant = Array.from(commandStore.getState().commands.values(), command => ({
+        command,
+        keys: command.keys?.find(keys => isKeys(event, keys) && (!event.repeat || keys.includes("Mod"))),
+      })).filter(({ keys }) => keys !== undefined);
+      // The same key does one thing in one mode and another elsewhere: what can be done now is what is meant.
+      const { command, keys } = meant.find(each => each.command.can?.() !== false) ?? meant[0] ?? {};
+      if (command === undefined || keys === undefined) return;
+      if (inDialog && !keys.includes("Mod")) return;
+      if (onControl && (keys === "Space" || keys.startsWith("Arrow"))) return;
+      event.preventDefault();
+      runCommand(command.id);
     };
     const up = (event: KeyboardEvent): void => {
       const action = bindingStore.getState().keyboard[event.code];

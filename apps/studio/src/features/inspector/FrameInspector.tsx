@@ -1,7 +1,8 @@
-import type { CellDocument } from "@twincell/project";
+import { attachFrame, placeFrame, type CellDocument } from "@twincell/project";
 import { commit } from "../../stores/document.ts";
 import { jogStore } from "../../stores/jog.ts";
 import { words } from "../../messages/index.ts";
+import { AttachedTo } from "./AttachedTo.tsx";
 import { PoseFields } from "./PoseFields.tsx";
 
 export function FrameInspector({ document, name }: { document: CellDocument; name: string }) {
@@ -19,17 +20,15 @@ export function FrameInspector({ document, name }: { document: CellDocument; nam
           onChange={(pose, done) =>
             commit(
               words.undo.moveObject,
-              before => ({
-                ...before,
-                frames: before.frames.map(each =>
-                  each.name === name
-                    ? { ...each, worldFromFrame: { position: pose.position, quaternion: pose.quaternion } }
-                    : each,
-                ),
-              }),
+              before => placeFrame(before, name, { position: pose.position, quaternion: pose.quaternion }),
               done ? undefined : `frame ${name}`,
             )
           }
+        />
+        <AttachedTo
+          objects={document.objects}
+          value={frame.attachedTo?.object ?? null}
+          onChange={object => commit(words.undo.attach, before => attachFrame(before, name, object))}
         />
         <button className="btn" onClick={() => jogStore.setState({ frame: "user", userFrame: name })}>
           {words.commands.frame(name)}

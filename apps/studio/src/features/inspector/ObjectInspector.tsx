@@ -4,6 +4,7 @@ import { commit, withObject } from "../../stores/document.ts";
 import { shownUnit } from "../../ui/expression.ts";
 import { NumberField } from "../../ui/NumberField.tsx";
 import { words } from "../../messages/index.ts";
+import { PartFields } from "./PartFields.tsx";
 import { PoseFields } from "./PoseFields.tsx";
 
 const SIDES = [words.inspector.width, words.inspector.depth, words.inspector.height] as const;
@@ -64,13 +65,45 @@ export function ObjectInspector({ object }: { object: ObjectRecord }) {
             </div>
           </>
         )}
+        <PartFields object={object} onChange={(next, done) => change(words.undo.part, next, done)} />
+        {/* Without a number of its own, the simulation takes that of the volume and of dry contact. */}
+        {object.mass_kg !== undefined && (
+          <div className="pair">
+            <span className="label">{words.parts.mass}</span>
+            <NumberField
+              label={words.parts.mass}
+              mark="kg"
+              quantity="plain"
+              decimals={2}
+              min={0.001}
+              max={100_000}
+              value={object.mass_kg}
+              onChange={(mass_kg, done) => change(words.undo.part, before => ({ ...before, mass_kg }), done)}
+            />
+          </div>
+        )}
+        {object.friction !== undefined && (
+          <div className="pair">
+            <span className="label">{words.parts.friction}</span>
+            <NumberField
+              label={words.parts.friction}
+              mark="µ"
+              quantity="plain"
+              decimals={2}
+              min={0}
+              max={10}
+              value={object.friction}
+              onChange={(friction, done) => change(words.undo.part, before => ({ ...before, friction }), done)}
+            />
+          </div>
+        )}
         {shape.kind === "mesh" && (
           <div className="pair">
             <span className="label">{words.inspector.shape}</span>
             <span className="num">{shape.file}</span>
           </div>
         )}
-        {shape.kind !== "mesh" && shape.kind !== "box" && (
+        {(shape.kind === "cylinder" || shape.kind === "revolved") && (
           <div className="pair">
             <span className="label">{words.inspector.shape}</span>
             <span className="num">{words.inspector.shapes[shape.kind]}</span>

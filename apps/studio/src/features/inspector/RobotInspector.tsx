@@ -17,8 +17,13 @@ export function RobotInspector({ document }: { document: CellDocument }) {
       : `${robot.mass_kg ?? 0} kg`;
   const facts = [
     [words.inspector.reach, `${showNumber(robot.reach_m, "length", 0)} mm`],
-    [words.inspector.payload, `${robot.payload_kg} kg`],
-    [words.inspector.repeatability, `±${showNumber(robot.repeatability_m, "length", 3)} mm`],
+    [words.inspector.payload, robot.payload_kg === undefined ? words.robots.unknown : `${robot.payload_kg} kg`],
+    [
+      words.inspector.repeatability,
+      robot.repeatability_m === undefined
+        ? words.robots.unknown
+        : `±${showNumber(robot.repeatability_m, "length", 3)} mm`,
+    ],
     [words.inspector.tcpSpeed, `${robot.maxTcpSpeed_mps} m/s`],
     [words.inspector.shapeError, `${showNumber(robot.shapeError_m, "length", 0)} mm`],
     ...(robot.mass_kg === undefined ? [] : [[words.inspector.mass, mass] as const]),

@@ -17,11 +17,12 @@ import "./overlay.css";
 
 /** What floats over the view: what a click does, and where the TCP is. */
 export function Overlay({ phone }: { phone: boolean }) {
+  const mode = useStore(viewStore, state => state.mode);
   return (
     <>
       {!phone && <Hint />}
       <ConnectionBadge />
-      <Readout />
+      {mode !== "cell" && <Readout />}
       <ClearanceTag />
       <TraceTool />
     </>
@@ -44,15 +45,17 @@ function Hint() {
   const mode = useStore(viewStore, state => state.mode);
   const tracing = useStore(traceStore, state => state.active);
   const hint =
-    mode === "check"
-      ? words.view.hintCheck
-      : mode === "run"
-        ? words.view.hintRun
-        : mode === "history"
-          ? words.view.hintHistory
-          : tracing
-            ? words.view.hintTrace
-            : words.view.hintTeach;
+    mode === "cell"
+      ? words.view.hintCell
+      : mode === "check"
+        ? words.view.hintCheck
+        : mode === "run"
+          ? words.view.hintRun
+          : mode === "history"
+            ? words.view.hintHistory
+            : tracing
+              ? words.view.hintTrace
+              : words.view.hintTeach;
   return (
     <p className="hint float">
       {hint.map(([strong, rest], i) => (

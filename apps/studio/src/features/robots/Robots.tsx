@@ -1,17 +1,26 @@
-import { LIBRARY, type Robot } from "@twincell/core";
-import { useMemo, useState } from "react";
+import { catalogueRobots, LIBRARY } from "@twincell/core";
+import { useEffect, useMemo, useState } from "react";
 import { useStore } from "zustand";
+import { loadCatalogue } from "../../stores/catalogue.ts";
 import { cellStore } from "../../stores/cell.ts";
 import { controlStore } from "../../stores/control.ts";
 import { closeDialog, dialogStore } from "../../stores/dialogs.ts";
 import { changeRobot } from "../../stores/robot.ts";
+import { notify } from "../../stores/notices.ts";
+import { Chooser } from "../../ui/Choice.tsx";
 import { showNumber } from "../../ui/expression.ts";
 import { Frame } from "../../ui/Frame.tsx";
 import { words } from "../../messages/index.ts";
-import { robotPicture } from "./picture.ts";
+import { ANY_ROBOT, fittingRobots, makersOf } from "./choose.ts";
+import { Details } from "./Details.tsx";
+import { Picture } from "./Picture.tsx";
 import "./robots.css";
 
-/** Another robot for the cell: all of the library, searchable. */
+const ANY = "any";
+const REACHES_MM = [500, 800, 1000, 1500, 2000, 2500];
+const PAYLOADS_KG = [1, 3, 5, 10];
+
+/** Another robot for the cell: all of library and catalogue, by words, maker, reach and payload. */
 export default function Robots() {
   const open = useStore(dialogStore, state => state.open === "robots");
   return open ? <Open /> : null;
@@ -21,8 +30,17 @@ function Open() {
   const here = useStore(cellStore, state => state.document?.robot.id ?? "");
   const running = useStore(controlStore, state => state.running);
   const [chosen, setChosen] = useState(here);
-  const [search, setSearch] = useState("");
-  const found = useMemo(() => LIBRARY.filter(robot => matches(robot, search)), [search]);
+  const [wish, setWish] = useState(ANY_ROBOT);
+  const [robots, setRobots] = useState(() => [...LIBRARY, ...catalogueRobots()]);
+  useEffect(() => {
+    loadCatalogue().then(
+      () => setRobots([...LIBRARY, ...catalogueRobots()]),
+      (fault: unknown) =>
+        notify("warn", words.robots.noCatalogue(fault instanceof Error ? fault.message : String(fault))),
+    );
+  }, []);
+  const makers = useMemo(() => makersOf(robots), [robots]);
+  const found = useMemo(() => fittingRobots(robots, wish), [robots, wish]);
   const robot = found.find(each => each.id === chosen) ?? found[0];
   const use = (): void => {
     if (!robot || running) return;
@@ -60,10 +78,41 @@ function Open() {
             autoFocus
             aria-label={words.robots.search}
             placeholder={words.robots.search}
-            value={search}
-            onChange={event => setSearch(event.currentTarget.value)}
+            value={wish.search}
+            onChange={event => setWish({ ...wish, search: event.currentTarget.value })}
           />
-          {found.length === 0 && <p className="empty">{words.robots.none(search)}</p>}
+          <div className="robots-wishes">
+            <Chooser
+              label={words.robots.vendor}
+              value={wish.maker === "" ? ANY : wish.maker}
+              onChange={maker => setWish({ ...wish, maker: maker === ANY ? "" : maker })}
+              options={[
+                { value: ANY, words: words.robots.anyMaker },
+                ...makers.map(maker => ({ value: maker, words: maker })),
+              ]}
+            />
+            <Chooser
+              label={words.inspector.reach}
+              value={String(wish.reach_m)}
+              onChange={reach => setWish({ ...wish, reach_m: Number(reach) })}
+              options={[
+                { value: "0", words: words.robots.anyReach },
+                ...REACHES_MM.map(mm => ({ value: String(mm / 1000), words: words.robots.reachFrom(mm) })),
+              ]}
+            />
+            <Chooser
+              label={words.inspector.payload}
+              value={String(wish.payload_kg)}
+              onChange={payload => setWish({ ...wish, payload_kg: Number(payload) })}
+              options={[
+                { value: "0", words: words.robots.anyPayload },
+                ...PAYLOADS_KG.map(kg => ({ value: String(kg), words: words.robots.payloadFrom(kg) })),
+              ]}
+            />
+          </div>
+          <p className="dim small" role="status">
+            {found.length === 0 ? words.robots.none(wish.search) : words.robots.found(found.length, robots.length)}
+          </p>
           <div role="radiogroup" aria-label={words.robots.title} className="robots-cards">
             {found.map(each => (
               <label key={each.id} className="robot-card" data-on={each.id === robot?.id} onDoubleClick={use}>
@@ -83,6 +132,7 @@ function Open() {
                   </span>
                 </span>
                 {each.id === here && <span className="tag">{words.robots.here}</span>}
+                {each.unverified && <span className="tag robot-made-up">{words.robots.unverified}</span>}
                 {each.madeUpGeometry && <span className="tag robot-made-up">{words.robots.madeUp}</span>}
               </label>
             ))}
@@ -91,85 +141,5 @@ function Open() {
         {robot && <Details robot={robot} />}
       </form>
     </Frame>
-  );
-}
-
-const matches = (robot: Robot, search: string): boolean =>
-  search
-    .toLowerCase()
-    .split(/\s+/)
-    .every(part =>
-      `${robot.name} ${robot.vendor} ${robot.id} ${words.tree.axes(robot.arm.joints.length)}`
-        .toLowerCase()
-        .includes(part),
-    );
-
-function Details({ robot }: { readonly robot: Robot }) {
-  return (
-    <section className="robots-details stack" aria-label={robot.name} aria-live="polite">
-      <Picture robot={robot} />
-      <h3>{robot.name}</h3>
-      {robot.madeUpGeometry && (
-        <p className="export-proof">
-          <i className="mark" data-verdict="warn" aria-hidden />
-          {words.robots.madeUpSays}
-        </p>
-      )}
-      <dl className="facts">
-        <div>
-          <dt>{words.robots.vendor}</dt>
-          <dd>{robot.vendor}</dd>
-        </div>
-        <div>
-          <dt>{words.robots.axes}</dt>
-          <dd>{robot.arm.joints.length}</dd>
-        </div>
-        <div>
-          <dt>{words.inspector.payload}</dt>
-          <dd>{robot.payload_kg} kg</dd>
-        </div>
-        <div>
-          <dt>{words.inspector.reach}</dt>
-          <dd>{showNumber(robot.reach_m, "length", 0)} mm</dd>
-        </div>
-        <div>
-          <dt>{words.inspector.repeatability}</dt>
-          <dd>±{showNumber(robot.repeatability_m, "length", 3)} mm</dd>
-        </div>
-        <div>
-          <dt>{words.inspector.shapeError}</dt>
-          <dd>{showNumber(robot.shapeError_m, "length", 0)} mm</dd>
-        </div>
-      </dl>
-      {robot.assumptions.length > 0 && (
-        <>
-          <h4 className="dim small">{words.inspector.assumptions}</h4>
-          <ul className="notes small">
-            {robot.assumptions.map(says => (
-              <li key={says}>{says}</li>
-            ))}
-          </ul>
-        </>
-      )}
-    </section>
-  );
-}
-
-function Picture({ robot }: { readonly robot: Robot }) {
-  const { viewBox, bones, joints, width } = useMemo(() => robotPicture(robot), [robot]);
-  return (
-    <svg className="robot-picture" viewBox={viewBox} aria-hidden>
-      <path
-        d={bones}
-        fill="none"
-        stroke={robot.paint?.casting ?? "#eaa50c"}
-        strokeWidth={width}
-        strokeLinecap="round"
-        strokeLinejoin="round"
-      />
-      {joints.map(([x, y], i) => (
-        <circle key={i} cx={x} cy={y} r={0.34 * width} fill={robot.paint?.dark ?? "var(--bg)"} />
-      ))}
-    </svg>
   );
 }

@@ -48,11 +48,11 @@ export function Foreign({ open }: { readonly open: ForeignText }) {
           </button>
         ) : (
           <>
-            <button className="btn primary" disabled={safety !== "normal"} onClick={() => void runForeign(false)}>
+            <button className="btn primary" disabled={safety !== "normal"} onClick={() => runForeign(false)}>
               <Play />
               {phase === "paused" ? words.run.resume : words.foreign.run}
             </button>
-            <button className="btn" disabled={safety !== "normal"} onClick={() => void runForeign(true)}>
+            <button className="btn" disabled={safety !== "normal"} onClick={() => runForeign(true)}>
               <StepForward />
               {words.foreign.step}
             </button>

@@ -29,6 +29,7 @@ import {
   stopStation,
   watchStation,
 } from "../../runtime/robot/stations.ts";
+import { askBeforeSending } from "../../runtime/run/ask-before-run.ts";
 import { Desk } from "../../virtual-pendant/Desk.tsx";
 import { openDialog } from "../../stores/dialogs.ts";
 import { notify } from "../../stores/notices.ts";
@@ -64,7 +65,12 @@ export function Stations() {
             className="btn"
             disabled={ready.length === 0}
             onClick={() => {
-              void runAll();
+              askBeforeSending(
+                ready.map(({ id }) => id),
+                () => {
+                  void runAll();
+                },
+              );
             }}
           >
             <Play />
@@ -187,10 +193,11 @@ function Card({ station }: { readonly station: StationState }) {
             className="btn"
             disabled={!open || safety !== "normal" || guard.link !== "up"}
             onClick={() => {
-              void runStation(id).then(outcome => {
-                if (!outcome) return;
-                if (outcome.kind === "done") notify("done", words.stations.done(name));
-                else tell(name, outcome);
+              askBeforeSending([id], () => {
+                void runStation(id).then(outcome => {
+                  if (outcome.kind === "done") notify("done", words.stations.done(name));
+                  else tell(name, outcome);
+                });
               });
             }}
           >

@@ -1,6 +1,7 @@
 import { Users } from "lucide-react";
 import { useState } from "react";
 import { startSynchronized } from "../../runtime/robot/stations.ts";
+import { askBeforeSending } from "../../runtime/run/ask-before-run.ts";
 import { notify } from "../../stores/notices.ts";
 import type { StationState } from "../../stores/stations.ts";
 import { Tip } from "../../ui/Tip.tsx";
@@ -13,10 +14,12 @@ export function SynchronizedStart({ stations }: { readonly stations: readonly St
   const able = stations.filter(({ link, guard }) => link.state === "open" && !guard.watching);
   const chosen = able.filter(({ id }) => !left.includes(id));
   const start = (): void => {
-    void startSynchronized(chosen.map(({ id }) => id)).then(outcome => {
-      if (!outcome) return;
-      if (outcome.kind === "done") notify("done", words.stations.togetherDone);
-      else notify(outcome.kind === "stopped" ? "warn" : "bad", outcome.why.sentence, outcome.why.hint);
+    const ids = chosen.map(({ id }) => id);
+    askBeforeSending(ids, () => {
+      void startSynchronized(ids).then(outcome => {
+        if (outcome.kind === "done") notify("done", words.stations.togetherDone);
+        else notify(outcome.kind === "stopped" ? "warn" : "bad", outcome.why.sentence, outcome.why.hint);
+      });
     });
   };
   return (

@@ -16,8 +16,25 @@ test("X-10 torques are plotted as shares of their limits between two lines at 10
   expect(plotted.data.length).toBe(1 + 6 + LIMIT_LINES);
   expect(new Set(plotted.data.map(row => row.length)).size).toBe(1);
   expect(plotted.data.slice(-LIMIT_LINES).map(row => row[0])).toEqual([-100, 100]);
-  const profile = torqueProfile(plan, ur10e, program);
-  expect(plotted.data[2]![0]).toBeCloseTo(profile.kind === "known" ? (100 * profile.torque_Nm[1]!) / 330 : NaN, 9);
+  // Against torques given by hand: two instants of two joints with limits of 50 and 20 N m.
+  const byHand = torquePlot(plan, ur10e, program, pose(), () => ({
+    kind: "known",
+    joints: 2,
+    limits_Nm: Float64Array.of(50, 20),
+    torque_Nm: Float64Array.of(25, -20, -50, 4),
+    times_s: Float64Array.of(0, 1.5),
+    assumptions: [],
+  }));
+  expect(byHand).toEqual({
+    kind: "known",
+    data: [
+      [0, 1.5],
+      [50, -100],
+      [-100, 20],
+      [-100, -100],
+      [100, 100],
+    ],
+  });
   const rx90l = robotById("staubli_rx90l")!;
   const other = programOf("staubli_rx90l", [0, -1, 2, 0, 0.6, 0]);
   expect(torquePlot(planProgram(other, rx90l).plan, rx90l, other, pose(), torqueProfile)).toMatchObject({

@@ -15,7 +15,7 @@ import { Override } from "./Override.tsx";
 import { StopButton } from "./StopButton.tsx";
 import "./topbar.css";
 
-const MODES: readonly StudioMode[] = ["teach", "check", "run", "history"];
+const MODES: readonly StudioMode[] = ["cell", "teach", "check", "run", "history"];
 const MENU: readonly (readonly string[])[] = [
   ["file.cells", "file.new", "file.load", "file.example", "file.conveyor", "file.save"],
   ["export.open", "export.import"],

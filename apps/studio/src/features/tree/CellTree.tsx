@@ -62,11 +62,19 @@ export function CellTree() {
             {object.name}
           </Leaf>
         ))}
-        {document.frames.map(frame => (
-          <Leaf key={frame.name} thing={{ kind: "frame", name: frame.name }} glyph={<Axis3d />} kind={words.tree.frame}>
-            {frame.name}
-          </Leaf>
-        ))}
+        {/* The frame that traced points are kept in has the name of its object and is nothing to choose. */}
+        {document.frames
+          .filter(frame => !frame.hidden)
+          .map(frame => (
+            <Leaf
+              key={frame.name}
+              thing={{ kind: "frame", name: frame.name }}
+              glyph={<Axis3d />}
+              kind={words.tree.frame}
+            >
+              {frame.name}
+            </Leaf>
+          ))}
       </div>
     </section>
   );

@@ -128,7 +128,8 @@ function solidsDiffer(a: CellDocument | null, b: CellDocument | null): boolean {
     a.tool !== b.tool ||
     a.robot !== b.robot ||
     a.allowedPairs !== b.allowedPairs ||
-    a.pairs !== b.pairs
+    a.pairs !== b.pairs ||
+    a.errors !== b.errors
   );
 }
 

@@ -23,7 +23,8 @@ const same = (a: CellDocument, b: CellDocument): boolean =>
   a.tool === b.tool &&
   a.robot === b.robot &&
   a.allowedPairs === b.allowedPairs &&
-  a.pairs === b.pairs;
+  a.pairs === b.pairs &&
+  a.errors === b.errors;
 
 /** What guards the hand in the open cell; made when it is first needed, and again when solids change. */
 function guardNow(): Made | null {

@@ -44,6 +44,8 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
   let checker: Checker | null = null;
   let id = 0;
   let busy = false;
+  /** Something changed that no check was asked for yet. */
+  let due = false;
   let timer: ReturnType<typeof setTimeout> | undefined;
   let geometry: CellGeometry | null = null;
   let solids: CellDocument | null = null;
@@ -64,12 +66,19 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
       case "trouble":
         fire();
         loadReel(null);
-        playStore.setState({ checking: null, trouble: message.sentence, plan: null, verdict: null, path: [] });
+        playStore.setState({
+          checking: null,
+          stale: due,
+          trouble: message.sentence,
+          plan: null,
+          verdict: null,
+          path: [],
+        });
         return;
       case "checked": {
         busy = false;
         const { plan, verdict, path } = message;
-        playStore.setState({ checking: null, trouble: null, plan, verdict, path, current: true });
+        playStore.setState({ checking: null, stale: due, trouble: null, plan, verdict, path });
         loadReel(
           plan.segments.length > 0
             ? {
@@ -85,6 +94,7 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
   };
   const ask = (): void => {
     clearTimeout(timer);
+    due = false;
     const { document } = cellStore.getState();
     const program = programOf(document);
     const robot = robotOf(document);
@@ -94,14 +104,14 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
       // A text that is not understood, or not executed yet, does nothing.
       if (busy) fire();
       loadReel(null);
-      playStore.setState({ checking: null, trouble: null, plan: null, verdict: null, path: [] });
+      playStore.setState({ checking: null, stale: false, trouble: null, plan: null, verdict: null, path: [] });
       return;
     }
     if (busy) fire();
     id++;
     if (program.steps.length === 0) {
       loadReel(null);
-      playStore.setState({ checking: null, trouble: null, plan: null, verdict: null, path: [] });
+      playStore.setState({ checking: null, stale: false, trouble: null, plan: null, verdict: null, path: [] });
       return;
     }
     if (!checker) {
@@ -115,7 +125,7 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
     // Where they stood is not where they stand the next time.
     solids = others.length > 0 ? null : document;
     busy = true;
-    playStore.setState({ checking: 0, trouble: null });
+    playStore.setState({ checking: 0, stale: true, trouble: null });
     checker.post({
       id,
       program,
@@ -127,6 +137,8 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
   };
   const later = (): void => {
     clearTimeout(timer);
+    due = true;
+    playStore.setState({ stale: true });
     timer = setTimeout(ask, WAIT_MS);
   };
 
@@ -136,7 +148,6 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
     // A vendor's text says what it does a while after it changed.
     if (now !== executions) {
       executions = now;
-      playStore.setState({ current: false });
       later();
     }
     if (document === judged) return;
@@ -147,11 +158,7 @@ export function startChecking(hire: () => Checker = workerChecker): Checking {
     }
     const matters = !document || !judged || programOf(document) !== programOf(judged) || solidsDiffer(document, judged);
     judged = document;
-    if (matters) {
-      // What runs before the new check is done has not been checked.
-      playStore.setState({ current: false });
-      later();
-    }
+    if (matters) later();
   });
   if (judged) later();
   return {
@@ -184,4 +191,5 @@ const solidsDiffer = (a: CellDocument, b: CellDocument): boolean =>
   a.tool !== b.tool ||
   a.robot !== b.robot ||
   a.allowedPairs !== b.allowedPairs ||
-  a.pairs !== b.pairs;
+  a.pairs !== b.pairs ||
+  a.errors !== b.errors;

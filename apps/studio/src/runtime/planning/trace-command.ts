@@ -1,10 +1,18 @@
-import { freshStepIds, linkSolids, type MoveStep, type Program, type Robot, type Step } from "@twincell/core";
-import { cellGeometry } from "@twincell/project";
+import {
+  freshStepIds,
+  linkSolids,
+  type MoveStep,
+  type Pose,
+  type Program,
+  type Robot,
+  type Step,
+} from "@twincell/core";
+import { attachSteps, cellGeometry, type CellDocument } from "@twincell/project";
 import { cellStore } from "../../stores/cell.ts";
 import { flangeFromTcpOf, programOf, robotOf } from "../../stores/document.ts";
 import { notify } from "../../stores/notices.ts";
 import { addSteps } from "../../stores/program.ts";
-import { traceStore, type TraceOptions } from "../../stores/trace.ts";
+import { traceStore, type TraceOptions, type TraceState } from "../../stores/trace.ts";
 import { words } from "../../messages/index.ts";
 import type { FromTracer } from "../../workers/trace-messages.ts";
 import type { TracedPoint, TraceTask } from "./tracing.ts";
@@ -14,8 +22,13 @@ const APPROACH_RATIO = 0.3;
 /** Points on the edge are passed, not stopped at; the corner this cuts is far inside the path tolerance. */
 const PASS_M = 0.0002;
 
+/** The edges a trace goes along. */
+type Chosen = readonly Pick<TraceState["chosen"][number], "object" | "edge">[];
+
 let worker: Worker | null = null;
 let id = 0;
+/** The edges that the question under way is about. */
+let asked: Chosen = [];
 
 /** Lays points along the chosen edges, away from the page, and adds them to the program as one undo step. */
 export function makeTrace(): void {
@@ -35,6 +48,7 @@ export function makeTrace(): void {
     start_rad: last && "q" in last.target ? last.target.q : robot.home_rad,
   };
   worker ??= hired();
+  asked = chosen;
   traceStore.setState({ working: true });
   worker.postMessage({ id: ++id, task });
 }
@@ -63,10 +77,17 @@ function hired(): Worker {
     if (!document || !robot) return;
     const { options } = traceStore.getState();
     const points = answer.edges.reduce((sum, edge) => sum + edge.length, 0);
-    addTrace(answer.edges, options, robot, document.tool);
+    addTrace(answer.edges, options, robot, document.tool, asked);
     const result = { points, edges: answer.edges.length, inserted: answer.inserted, deviation_m: answer.deviation_m };
     traceStore.setState({ chosen: [], hovered: null, last: result });
-    notify("done", words.trace.made(points, result.edges, result.inserted));
+    const [unreached] = answer.unreached;
+    if (unreached)
+      notify(
+        "warn",
+        words.trace.unreached(answer.unreached.length, result.edges, unreached.edge, unreached.sentence),
+        words.trace.unreachedHint,
+      );
+    else notify("done", words.trace.made(points, result.edges, result.inserted));
   });
   fresh.addEventListener("error", event => {
     cancelTrace();
@@ -75,27 +96,59 @@ function hired(): Worker {
   return fresh;
 }
 
-/** Home, then each edge as a group of its own, then home again. */
+/**
+ * Home, then each edge as a group of its own, then home again. The points belong to the object of their edge and move with it; the
+ * group remembers the edge, so that the checker can say how far they are off it.
+ */
 export function addTrace(
   edges: readonly (readonly TracedPoint[])[],
   options: TraceOptions,
   robot: Robot,
   tool: string,
+  chosen: Chosen,
 ): void {
+  let ids: readonly EdgeIds[] = [];
   addSteps(
     words.undo.trace,
-    program => traceSteps(program, edges, options, robot, tool),
-    program => ({ ...program, groups: { ...program.groups, ...traceGroups(program, edges, options) } }),
+    program => {
+      const made = traceSteps(program, edges, options, robot, tool);
+      ids = made.ids;
+      return made.steps;
+    },
+    program => ({ ...program, groups: { ...program.groups, ...traceGroups(program, ids, options, chosen) } }),
+    undefined,
+    document =>
+      chosen.reduce(
+        (cell: CellDocument, { object }, i) => attachSteps(cell, cell.program, ids[i]?.all ?? [], object),
+        document,
+      ),
   );
+}
+
+/** Steps of one edge: all of them, and those that lie on it. */
+interface EdgeIds {
+  readonly all: readonly string[];
+  readonly on: readonly string[];
 }
 
 const groupId = (program: Program, edge: number): string =>
   `edge-${Object.keys(program.groups).filter(name => name.startsWith("edge-")).length + edge + 1}`;
 
-function traceGroups(program: Program, edges: readonly unknown[], options: TraceOptions): Program["groups"] {
+function traceGroups(
+  program: Program,
+  edges: readonly EdgeIds[],
+  options: TraceOptions,
+  chosen: Chosen,
+): Program["groups"] {
   const before = Object.keys(program.groups).filter(name => name.startsWith("edge-")).length;
   return Object.fromEntries(
-    edges.map((_, i) => [groupId(program, i), { name: words.trace.group(before + i + 1), recipe: { ...options } }]),
+    edges.map(({ on }, i) => [
+      groupId(program, i),
+      {
+        name: words.trace.group(before + i + 1),
+        recipe: { ...options, object: chosen[i]?.object, edge: chosen[i]?.edge, edgeSteps: on },
+      },
+    ]),
   );
 }
 
@@ -105,29 +158,36 @@ function traceSteps(
   options: TraceOptions,
   robot: Robot,
   tool: string,
-): readonly Step[] {
+): { readonly steps: readonly Step[]; readonly ids: readonly EdgeIds[] } {
   const count = edges.reduce((sum, edge) => sum + edge.length, 0);
   const homes = program.steps.length === 0 ? 2 : 1;
   const ids = freshStepIds(program, count + homes, "p");
-  const target = (q: readonly number[]): MoveStep["target"] => (tool === "flange" ? { q } : { q, tool });
+  const angles = (q: readonly number[]): MoveStep["target"] => (tool === "flange" ? { q } : { q, tool });
+  const target = (point: TracedPoint): MoveStep["target"] =>
+    "q" in point ? angles(point.q) : { pose: point.worldFromTcp as Pose as Pose<"frame", "tcp">, frame: "world", tool };
   let next = 0;
   const home = (): Step => ({
     id: ids[next++]!,
     type: "move",
     name: words.trace.home,
     path: "ptp",
-    target: target(robot.home_rad),
+    target: angles(robot.home_rad),
     speed: { ratio: APPROACH_RATIO },
     blend_m: 0,
   });
   const steps: Step[] = homes === 2 ? [home()] : [];
+  const made: EdgeIds[] = [];
   for (const [i, edge] of edges.entries()) {
+    made.push({
+      all: edge.map((_, k) => ids[next + k]!),
+      on: edge.flatMap(({ role }, k) => (role === "edge" ? [ids[next + k]!] : [])),
+    });
     for (const [k, point] of edge.entries()) {
       const arriving = k === 0;
       const inner = point.role === "edge" && edge[k - 1]?.role === "edge" && edge[k + 1]?.role === "edge";
       const path = arriving
         ? "ptp"
-        : point.role === "edge" && edge[k - 1]?.role === "edge" && options.motion === "joint"
+        : point.role === "edge" && edge[k - 1]?.role === "edge" && options.motion === "joint" && "q" in point
           ? "ptp"
           : "lin";
       steps.push({
@@ -135,7 +195,7 @@ function traceSteps(
         type: "move",
         group: groupId(program, i),
         path,
-        target: target(point.q),
+        target: target(point),
         speed: arriving ? { ratio: APPROACH_RATIO } : { mps: options.speed_mps },
         blend_m: inner ? PASS_M : 0,
         ...(point.role === "lead-in"
@@ -146,5 +206,5 @@ function traceSteps(
       });
     }
   }
-  return [...steps, home()];
+  return { steps: [...steps, home()], ids: made };
 }

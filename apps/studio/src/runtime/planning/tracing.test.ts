@@ -1,4 +1,5 @@
 import {
+  checkProgram,
   compose,
   degrees,
   flangePose,
@@ -7,16 +8,19 @@ import {
   robotById,
   rotate,
   samplePlan,
+  SHARP_RAD,
   type MoveStep,
+  type Verdict,
   type Vector3,
 } from "@twincell/core";
 import { cellGeometry, edgeTraceCell, shapeMesh } from "@twincell/project";
 import { featureEdges, edgeLoop, edgeNearPoint, curvesOfLoop, moveCurve, distanceToPolyline } from "@twincell/core";
 import { beforeAll, expect, test } from "vitest";
-import { showDocument, theProgram } from "../../stores/document.ts";
-import { SHARP_RAD, traceStore } from "../../stores/trace.ts";
+import { cellStore } from "../../stores/cell.ts";
+import { commit, showDocument, theProgram, withObject } from "../../stores/document.ts";
+import { traceStore } from "../../stores/trace.ts";
 import { addTrace } from "./trace-command.ts";
-import { traceProgram, type TraceAnswer } from "./tracing.ts";
+import { traceProgram, type TraceAnswer, type TracedPoint } from "./tracing.ts";
 
 const cell = edgeTraceCell();
 const robot = robotById(cell.robot.id)!;
@@ -33,6 +37,11 @@ const curves = curvesOfLoop(loop).map(curve => moveCurve(curve, carton.worldFrom
 const chosen = loop.chains.map(({ chain }, i) => ({ object: carton.id, edge: chain.id, polyline: curves[i]!.points }));
 const { options } = traceStore.getState();
 let answer: TraceAnswer;
+/** A point that was reached. */
+function angles(point: TracedPoint): Extract<TracedPoint, { q: unknown }> {
+  if (!("q" in point)) throw new Error("a point is out of reach");
+  return point;
+}
 
 beforeAll(() => {
   answer = traceProgram({
@@ -51,7 +60,7 @@ test("N-53 the four top edges of the carton are traced at 45° in the order they
   if (answer.kind !== "traced") return;
   expect(answer.edges).toHaveLength(4);
   for (const [i, edge] of answer.edges.entries())
-    for (const point of edge.filter(({ role }) => role === "edge")) {
+    for (const point of edge.map(angles).filter(({ role }) => role === "edge")) {
       const tcp = compose(compose(cell.robot.worldFromBase, flangePose(robot.arm, point.q)), flangeFromTcp);
       expect(distanceToPolyline(curves[i]!.points, tcp.position)).toBeLessThan(1e-5);
       expect(degrees(Math.acos(-rotate(tcp.quaternion, [0, 0, 1])[2]))).toBeCloseTo(45, 1);
@@ -62,7 +71,7 @@ test("N-58 the executed path of the whole program stays within the stated tolera
   if (answer.kind !== "traced") throw new Error(answer.sentence);
   expect(answer.deviation_m).toBeLessThanOrEqual(options.pathTolerance_m);
   showDocument(cell);
-  addTrace(answer.edges, options, robot, cell.tool);
+  addTrace(answer.edges, options, robot, cell.tool, chosen);
   const program = theProgram()!;
   const planned = planProgram(program, robot, { worldFromBase: cell.robot.worldFromBase });
   if (planned.kind !== "planned") throw new Error(JSON.stringify(planned.stuck));
@@ -129,7 +138,7 @@ test.each(["staubli_rx160", "kuka_kr6_2", "ur10e"])(
     expect(traced.deviation_m).toBeLessThanOrEqual(options.pathTolerance_m);
     for (const [i, edge] of traced.edges.entries()) {
       expect(edge.filter(({ role }) => role === "edge").length).toBeGreaterThanOrEqual(2);
-      for (const { role, q } of edge) {
+      for (const { role, q } of edge.map(angles)) {
         const tcp = compose(compose(cell.robot.worldFromBase, flangePose(other.arm, q)), flangeFromTcp);
         if (role === "edge") expect(distanceToPolyline(curves[i]!.points, tcp.position)).toBeLessThan(1e-5);
         expect(degrees(Math.acos(-rotate(tcp.quaternion, [0, 0, 1])[2]))).toBeCloseTo(45, 1);
@@ -142,3 +151,95 @@ test.each(["staubli_rx160", "kuka_kr6_2", "ur10e"])(
   },
   60_000,
 );
+
+const checked = (): Verdict => {
+  const { document } = cellStore.getState();
+  return checkProgram(theProgram()!, robot, { cell: cellGeometry(document!, linkSolids(robot)) }).verdict;
+};
+const offEdge = (verdict: Verdict): readonly number[] =>
+  verdict.steps.flatMap(({ findings }) => findings.flatMap(({ code, value }) => (code === "edge.off" ? [value] : [])));
+const moveCarton = (x_m: number): boolean =>
+  commit("Move", before =>
+    withObject(before, carton.id, object => ({
+      ...object,
+      worldFromObject: {
+        ...object.worldFromObject,
+        position: [
+          object.worldFromObject.position[0] + x_m,
+          object.worldFromObject.position[1],
+          object.worldFromObject.position[2],
+        ],
+      },
+    })),
+  );
+
+test("traced points belong to the carton: moved by 20 mm it takes its path along, and no point is off its edge", () => {
+  if (answer.kind !== "traced") throw new Error(answer.sentence);
+  showDocument(cell);
+  addTrace(answer.edges, options, robot, cell.tool, chosen);
+  const at = (): Vector3[] =>
+    theProgram()!.steps.flatMap(step =>
+      step.type === "move" && "pose" in step.target
+        ? [compose(theProgram()!.frames[step.target.frame]!, step.target.pose).position]
+        : [],
+    );
+  const before = at();
+  expect(before.length).toBe(answer.edges.flat().length);
+  expect(offEdge(checked())).toEqual([]);
+  expect(moveCarton(0.02)).toBe(true);
+  at().forEach((point, i) => {
+    expect(point[0] - before[i]![0]).toBeCloseTo(0.02, 9);
+    expect(point[1]).toBeCloseTo(before[i]![1], 9);
+  });
+  expect(offEdge(checked())).toEqual([]);
+});
+
+test("a path that stays behind when the carton is moved by 100 mm is off its edge by 100 mm, and the check says so", () => {
+  if (answer.kind !== "traced") throw new Error(answer.sentence);
+  showDocument(cell);
+  addTrace(answer.edges, options, robot, cell.tool, chosen);
+  // Taken off the carton, the points stay where they are.
+  commit("Detach", before => ({
+    ...before,
+    frames: before.frames.map(({ attachedTo: _, ...frame }) => frame),
+  }));
+  expect(offEdge(checked())).toEqual([]);
+  moveCarton(-0.1);
+  const values = offEdge(checked());
+  // What the path was off before, within its tolerance, comes on top.
+  expect(Math.max(...values)).toBeGreaterThan(0.1 - 1e-9);
+  expect(Math.max(...values)).toBeLessThan(0.1 + options.pathTolerance_m);
+  const sentences = checked().steps.flatMap(({ verdict, findings }) =>
+    findings.flatMap(({ code, sentence }) => (code === "edge.off" ? [`${verdict}: ${sentence}`] : [])),
+  );
+  expect(sentences.find(each => /100\.\d mm off the edge of Carton/.test(each))).toMatch(/^bad: /);
+});
+
+test("an edge out of reach gets its points all the same: as poses that the check finds too far, with the reason", () => {
+  const far = {
+    ...cell,
+    objects: cell.objects.map(object =>
+      object.id === carton.id
+        ? { ...object, worldFromObject: { ...object.worldFromObject, position: [2.5, 0, 0.4] as Vector3 } }
+        : object,
+    ),
+  };
+  const traced = traceProgram({
+    chosen: chosen.slice(0, 1).map(each => ({ ...each, polyline: [] })),
+    options,
+    objects: far.objects,
+    robot: robot.id,
+    cell: cellGeometry(far, linkSolids(robot)),
+    flangeFromTcp,
+    start_rad: robot.home_rad,
+  });
+  if (traced.kind !== "traced") throw new Error(traced.sentence);
+  expect(traced.unreached).toMatchObject([{ edge: 1 }]);
+  expect(traced.unreached[0]!.sentence).toMatch(/the arm is 1100 mm long/);
+  showDocument(far);
+  addTrace(traced.edges, options, robot, cell.tool, chosen);
+  const verdict = checked();
+  const codes = verdict.steps.flatMap(({ id, findings }) => findings.map(finding => `${id} ${finding.code}`));
+  expect(codes.filter(code => code.endsWith("reach.too-far")).length).toBe(traced.edges[0]!.length);
+  expect(offEdge(verdict)).toEqual([]);
+});

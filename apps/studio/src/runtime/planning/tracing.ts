@@ -14,6 +14,7 @@ import {
   rotate,
   conjugate,
   solveAll,
+  SHARP_RAD,
   solverScratch,
   traceEdges,
   travel,
@@ -27,7 +28,7 @@ import {
   type Vector3,
 } from "@twincell/core";
 import { shapeMesh, type ObjectRecord } from "@twincell/project";
-import { SHARP_RAD, type TraceOptions, type TraceState } from "../../stores/trace.ts";
+import type { TraceOptions, TraceState } from "../../stores/trace.ts";
 
 export interface TraceTask {
   readonly chosen: TraceState["chosen"];
@@ -39,17 +40,22 @@ export interface TraceTask {
   /** Posture the trace is approached from. */
   readonly start_rad: readonly number[];
 }
-export interface TracedPoint {
+interface PointOfEdge {
   readonly role: "lead-in" | "edge" | "lead-out";
-  readonly q: readonly number[];
   readonly inserted: boolean;
 }
+/** A point of a followed edge has the joint angles found for it; one of an edge that the robot cannot follow is where the tool would have to be. */
+export type TracedPoint =
+  | (PointOfEdge & { readonly q: readonly number[] })
+  | (PointOfEdge & { readonly worldFromTcp: Pose<"world", "tcp"> });
 export type TraceAnswer =
   | {
       readonly kind: "traced";
       readonly edges: readonly (readonly TracedPoint[])[];
       readonly inserted: number;
       readonly deviation_m: number;
+      /** Edges, from 1, that cannot be followed, and why; their points are there all the same, for the checker to judge. */
+      readonly unreached: readonly { readonly edge: number; readonly sentence: string }[];
     }
   | { readonly kind: "cannot"; readonly edge: number; readonly sentence: string };
 
@@ -66,7 +72,7 @@ const SHARE = 0.8;
 /**
  * The chosen edges as joint angles: each edge with the turn about the tool axis and the arm posture that keep clear of
  * solids and limits and are nearest to where the edge before ended; with points added until joint motion between them
- * stays on the edge (rows N-52, N-53, N-58).
+ * stays on the edge (rows N-52, N-53, N-58). An edge that cannot be followed gets its points as poses, and the reason.
  */
 export function traceProgram(task: TraceTask): TraceAnswer {
   const robot = robotById(task.robot);
@@ -75,22 +81,41 @@ export function traceProgram(task: TraceTask): TraceAnswer {
   if (typeof curves === "string") return { kind: "cannot", edge: 0, sentence: curves };
   const collider = new CellCollider(task.cell, robot.arm);
   const edges: TracedPoint[][] = [];
+  const unreached: { edge: number; sentence: string }[] = [];
   let near: Float64Array = Float64Array.from(task.start_rad);
   let inserted = 0;
   let deviation_m = 0;
   for (const [i, curve] of curves.entries()) {
     const best = bestWay(task, robot, collider, curve, near);
-    if (typeof best === "string") return { kind: "cannot", edge: i + 1, sentence: best };
+    if (typeof best === "string") {
+      const points = asPoses(task, curve);
+      if (points.length === 0) return { kind: "cannot", edge: i + 1, sentence: best };
+      unreached.push({ edge: i + 1, sentence: best });
+      edges.push(points);
+      continue;
+    }
     edges.push(best.points);
     inserted += best.points.filter(point => point.inserted).length;
     deviation_m = Math.max(deviation_m, best.deviation_m);
     near = Float64Array.from(best.points.at(-1)!.q);
   }
-  return { kind: "traced", edges, inserted, deviation_m };
+  return { kind: "traced", edges, inserted, deviation_m, unreached };
 }
 
+/** The points of an edge as poses of the tool, whether the robot gets there or not. */
+function asPoses({ options }: TraceTask, curve: EdgeCurve): TracedPoint[] {
+  const [edge] = traceEdges([curve], {
+    tilt_rad: options.tilt_rad,
+    chord_m: options.chordTolerance_m,
+    leadIn_m: options.leadIn_m,
+    leadOut_m: options.leadOut_m,
+  });
+  return (edge?.points ?? []).map(({ pose, role }) => ({ role, worldFromTcp: inWorld(pose), inserted: false }));
+}
+
+type ReachedPoint = Extract<TracedPoint, { q: unknown }>;
 interface Way {
-  readonly points: TracedPoint[];
+  readonly points: ReachedPoint[];
   readonly deviation_m: number;
   readonly cost: number;
 }
@@ -181,7 +206,7 @@ function follow(
   const last = refined.points.at(-1)!;
   const end = out ? arm.solve(out.pose, last.q) : null;
   if (typeof end === "string") return end;
-  const points: TracedPoint[] = [
+  const points: ReachedPoint[] = [
     ...(into ? [pointOf("lead-in", start, false)] : []),
     ...refined.points.map((point: JointWaypoint) => pointOf("edge", point.q, point.inserted)),
     ...(end ? [pointOf("lead-out", end, false)] : []),
@@ -206,7 +231,7 @@ function follow(
     cost: travel(near, start) + (0.2 * points.length) / 10 + 20 * Math.max(0, ROOM_RAD - margin_rad),
   };
 }
-const pointOf = (role: TracedPoint["role"], q: Float64Array, inserted: boolean): TracedPoint => ({
+const pointOf = (role: TracedPoint["role"], q: Float64Array, inserted: boolean): ReachedPoint => ({
   role,
   q: Array.from(q),
   inserted,

@@ -24,7 +24,7 @@ import { branchOf, type Branch } from "../history/fork.ts";
 import { cellVersion } from "../cell-version.ts";
 import { momentFrom, momentHash, type MomentLink } from "../history/moment-link.ts";
 import { openInWorker } from "../history/recordings.ts";
-import { mayRun } from "../run/before-run.ts";
+import { askBeforeRun, startRunQuestions } from "../run/ask-before-run.ts";
 import { controlCell, type CellControl } from "../run/run.ts";
 import { pageScheduler } from "../scheduler.ts";
 import { showAs, startCellConnection, tellRefused, theConnected } from "./cell-connection.ts";
@@ -36,14 +36,15 @@ let control: CellControl | null = null;
 let made: Solids | null = null;
 
 /** What the controller and its guard are made from. */
-type Solids = Pick<CellDocument, "robot" | "objects" | "tools" | "tool" | "allowedPairs" | "pairs">;
+type Solids = Pick<CellDocument, "robot" | "objects" | "tools" | "tool" | "allowedPairs" | "pairs" | "errors">;
 const same = (a: Solids, b: Solids): boolean =>
   a.robot === b.robot &&
   a.objects === b.objects &&
   a.tools === b.tools &&
   a.tool === b.tool &&
   a.allowedPairs === b.allowedPairs &&
-  a.pairs === b.pairs;
+  a.pairs === b.pairs &&
+  a.errors === b.errors;
 
 /** The controller of the open cell; made anew when robot, tool or surroundings change, but never under a run. */
 export function theControl(): CellControl | null {
@@ -81,7 +82,6 @@ async function runConnected(id: string): Promise<void> {
   showAs("live");
   viewStore.setState({ mode: "run" });
   const outcome = await runStation(id);
-  if (!outcome) return;
   const name = stationOf(id)?.name ?? id;
   if (outcome.kind === "done") {
     sound("done");
@@ -105,8 +105,6 @@ export async function startRun(from?: Branch): Promise<void> {
     await runConnected(station);
     return;
   }
-  const { name } = robotOf(document)!;
-  if (!(await mayRun({ robots: [words.runQuestion.simulated(name)], real: false, otherModels: [] }))) return;
   takeRobot("run", () => {
     running.stop();
   });
@@ -229,6 +227,7 @@ export function startCellControl(): void {
   onInput((signal, value) => {
     theControl()?.setInput(signal, value);
   });
+  startRunQuestions();
   registerCommands([
     {
       id: "run.start",
@@ -238,7 +237,10 @@ export function startCellControl(): void {
       run: () => {
         // A vendor's text runs as it stands, with its breakpoints, where it is seen.
         if (textOf(cellStore.getState().document)) viewStore.setState({ mode: "run" });
-        else void startRun();
+        else
+          askBeforeRun(() => {
+            void startRun();
+          });
       },
     },
     {

@@ -27,7 +27,6 @@ import { shortName } from "../../stores/robot.ts";
 import { onStop } from "../../stores/stop.ts";
 import { words } from "../../messages/index.ts";
 import { browserRunStorage, listRuns, openRunFile, type RunFile } from "../history/archive.ts";
-import { mayRun } from "../run/before-run.ts";
 import { noteOther } from "./drawn-robots.ts";
 import { hostAt, onServers, type Told } from "./station-hosts.ts";
 
@@ -239,24 +238,8 @@ export function programFor(id: string): { readonly program: Program; readonly un
   return { program: { ...moved, robot: to.id }, unreached };
 }
 
-/** Asks whether the present program may run on those, unless its check is green for every one of them. */
-function mayRunOn(ids: readonly string[]): Promise<boolean> {
-  const checked = robotOf(cellStore.getState().document)?.id;
-  const known = ids.flatMap(id => stationOf(id) ?? []);
-  return mayRun({
-    robots: known.map(({ name }) => name),
-    real: known.some(({ virtual }) => !virtual),
-    otherModels: [...new Set(known.map(({ robot }) => robot).filter(robot => robot !== checked))].map(
-      robot => robotById(robot)?.name ?? robot,
-    ),
-  });
-}
-
-/** Runs the present program there as text of its own language, recorded from beginning to end. Null: the person was asked and did not want it. */
-export async function runStation(id: string): Promise<CommandOutcome | null> {
-  return (await mayRunOn([id])) ? startStation(id) : null;
-}
-async function startStation(id: string): Promise<CommandOutcome> {
+/** Runs the present program there as text of its own language, recorded from beginning to end. */
+export async function runStation(id: string): Promise<CommandOutcome> {
   const wanted = programFor(id);
   const host = hostOf(id);
   const station = stationOf(id);
@@ -278,10 +261,7 @@ export async function runAll(): Promise<void> {
   const ready = stationStore
     .getState()
     .stations.filter(({ running, link, guard }) => !running && link.state === "open" && !guard.watching);
-  if (!(await mayRunOn(ready.map(({ id }) => id)))) return;
-  const outcomes = await Promise.all(
-    ready.map(async station => ({ station, outcome: await startStation(station.id) })),
-  );
+  const outcomes = await Promise.all(ready.map(async station => ({ station, outcome: await runStation(station.id) })));
   for (const { station, outcome } of outcomes)
     if (outcome.kind !== "done")
       notify(outcome.kind === "stopped" ? "warn" : "bad", `${station.name}: ${outcome.why.sentence}`, outcome.why.hint);
@@ -290,11 +270,8 @@ export async function runAll(): Promise<void> {
 /** How each of a group ended, as its host said just before it answered. */
 const groupEnds = new Map<string, CommandOutcome>();
 
-/** All or none: every one is made ready first, then all begin on the clock of their host, and whoever is stopped stops all. Null: the person was asked and did not want it. */
-export async function startSynchronized(ids: readonly string[]): Promise<CommandOutcome | null> {
-  return (await mayRunOn(ids)) ? startTogether(ids) : null;
-}
-async function startTogether(ids: readonly string[]): Promise<CommandOutcome> {
+/** All or none: every one is made ready first, then all begin on the clock of their host, and whoever is stopped stops all. */
+export async function startSynchronized(ids: readonly string[]): Promise<CommandOutcome> {
   const group: { readonly station: StationState; readonly live: StationLive; readonly program: Program }[] = [];
   for (const id of ids) {
     const wanted = programFor(id);
@@ -562,7 +539,8 @@ const sameForGuards = (a: CellDocument, b: CellDocument): boolean =>
   a.tools === b.tools &&
   a.tool === b.tool &&
   a.allowedPairs === b.allowedPairs &&
-  a.pairs === b.pairs;
+  a.pairs === b.pairs &&
+  a.errors === b.errors;
 const CELL_EVERY_MS = 100;
 let cellDue: number | undefined;
 

@@ -9,7 +9,7 @@ import { onStop } from "../../stores/stop.ts";
 import { words } from "../../messages/index.ts";
 import { theControl } from "../robot/cell-control.ts";
 import { leaveRobot, takeRobot } from "../robot/motion-owner.ts";
-import { mayRun } from "./before-run.ts";
+import { askBeforeRun } from "./ask-before-run.ts";
 import { textRun, type TextEnding, type TextRun } from "./text-run.ts";
 
 let run: TextRun | null = null;
@@ -17,20 +17,18 @@ onStop(() => {
   run?.stop();
 });
 
-/** Runs the text that is open on the virtual controller, on from where it stands. `single`: one statement. Asks before it begins when the check is not green. */
-export async function runForeign(single: boolean): Promise<void> {
-  const { open } = foreignStore.getState();
-  const robot = robotOf(cellStore.getState().document);
-  if (!open || !robot) return;
-  const asked = {
-    robots: [words.runQuestion.simulated(robot.name)],
-    real: false,
-    otherModels: [],
-    otherText: open.ofCell !== true,
-  };
-  if (!run && !controlStore.getState().running && !(await mayRun(asked))) return;
-  goOn(single);
+/**
+ * Runs the text that is open on the virtual controller, on from where it stands. `single`: one statement. The text of the
+ * cell is checked as its steps are, and a check that is not content asks first.
+ */
+export function runForeign(single: boolean): void {
+  if (!run && foreignStore.getState().open?.ofCell === true) {
+    askBeforeRun(() => {
+      goOn(single);
+    });
+  } else goOn(single);
 }
+
 function goOn(single: boolean): void {
   const { open } = foreignStore.getState();
   const { document } = cellStore.getState();

@@ -117,11 +117,19 @@ test("T-10 an emergency stop refuses runs until reset", async () => {
 });
 
 test("T-43 the guard stops before contact and leads back to where it was safe", async () => {
-  const { scheduler, control } = bench(q => q[1]! < robot.home_rad[1]! + 0.4);
+  const wall_rad = robot.home_rad[1]! + 0.4;
+  let nearest_rad = -Infinity;
+  const { scheduler, control } = bench(q => q[1]! < wall_rad);
   const outcome = control.run(program, cell.name);
-  await scheduler.elapse(10);
+  for (let t_s = 0; t_s < 10; t_s += 0.01) {
+    await scheduler.elapse(0.01);
+    nearest_rad = Math.max(nearest_rad, control.twin.jointAngle(2));
+  }
   expect(await outcome).toMatchObject({ kind: "stopped" });
-  expect(control.twin.jointAngle(2)).toBeLessThan(robot.home_rad[1]! + 0.4);
+  // It never was at the wall, came near it, and stands further away now than where it was stopped.
+  expect(nearest_rad).toBeLessThan(wall_rad);
+  expect(nearest_rad).toBeGreaterThan(robot.home_rad[1]!);
+  expect(control.twin.jointAngle(2)).toBeLessThan(nearest_rad - 1e-6);
   control.close();
 });
 

@@ -9,6 +9,7 @@ import { paintTouching } from "../paint.ts";
 import { raycastByTree } from "../pick/raycast.ts";
 import { poseMatrix } from "../pose-matrix.ts";
 import { kraftTexture, looksLikeCardboard } from "./cardboard.ts";
+import { partGeometries, partMaterial } from "./part-geometry.ts";
 import { shapeGeometry } from "./shape-geometry.ts";
 import { wallHides } from "./walls.ts";
 import type { SceneTheme } from "../theme.ts";
@@ -64,7 +65,9 @@ export function ObjectView({ object, theme }: { readonly object: ObjectRecord; r
       visible={!object.hidden}
       userData={{ thing: { kind: "object", id: object.id }, unpickable: object.locked === true }}
     >
-      {wall ? (
+      {object.shape.kind === "part" ? (
+        <Part shape={object.shape} />
+      ) : wall ? (
         <Wall geometry={geometry} edges={edges} color={object.color} size_m={box} theme={theme} />
       ) : cardboard ? (
         <Carton geometry={geometry} size_m={box} color={object.color} />
@@ -80,6 +83,27 @@ export function ObjectView({ object, theme }: { readonly object: ObjectRecord; r
       {object.role === "workpiece" && <GraspMark id={object.id} geometry={geometry} theme={theme} />}
     </group>
   );
+}
+
+/** A part of the library: a mesh for each of its materials. */
+function Part({ shape }: { readonly shape: Extract<ObjectRecord["shape"], { kind: "part" }> }) {
+  const pieces = useMemo(() => partGeometries(shape), [shape]);
+  useEffect(
+    () => () => {
+      for (const { geometry } of pieces) geometry.dispose();
+    },
+    [pieces],
+  );
+  return pieces.map(({ material, geometry }) => (
+    <mesh
+      key={material}
+      geometry={geometry}
+      material={partMaterial(material)}
+      castShadow
+      receiveShadow
+      raycast={raycastByTree}
+    />
+  ));
 }
 
 /** A matt panel that keeps to the background, and is gone when it stands between the camera and the cell. */

@@ -6,12 +6,13 @@ import {
   featureEdges,
   inverse,
   rotate,
+  SHARP_RAD,
   conjugate,
   transformPoint,
   type Vector3,
 } from "@twincell/core";
 import { type ObjectRecord, type Shape, shapeMesh } from "@twincell/project";
-import { SHARP_RAD, type TraceState } from "../../stores/trace.ts";
+import type { TraceState } from "../../stores/trace.ts";
 import type { Ray } from "../handle/drag-maths.ts";
 
 const known = new WeakMap<Shape, FeatureEdges>();

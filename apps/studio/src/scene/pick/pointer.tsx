@@ -1,11 +1,13 @@
 import { compose, copyPose, identity, inverse, type Pose, rotate, type Vector3 } from "@twincell/core";
-import type { CellDocument } from "@twincell/project";
+import { groupOf, type CellDocument } from "@twincell/project";
 import { useFrame, useThree } from "@react-three/fiber";
 import { type RefObject, useEffect, useMemo } from "react";
 import { type Group, type Mesh, PerspectiveCamera, Raycaster, Vector3 as V } from "three";
 import { beginDrag, dragTcp } from "../../runtime/jog/drag.ts";
 import { theLive } from "../../runtime/live.ts";
-import { hover, select, selectionStore, type Thing } from "../../stores/selection.ts";
+import { alsoSelect, hover, select, selectionStore, selectObjects, type Thing } from "../../stores/selection.ts";
+import { buildStore } from "../../stores/build.ts";
+import { pickToMeasure } from "../../stores/measure.ts";
 import { traceStore } from "../../stores/trace.ts";
 import { viewStore } from "../../stores/view.ts";
 import type { FrameMeter } from "../frame-meter.ts";
@@ -15,12 +17,15 @@ import { type HandlePart, type Interaction, type PointerLabel, sayAtPointer } fr
 import { toWorld } from "../world-space.ts";
 import { WORDS } from "../words.ts";
 import { chosenEdges, edgeUnder } from "./edges.ts";
+import { measurePoint } from "./measure-point.ts";
 import { nearestThing } from "./raycast.ts";
 import { thingWords } from "./thing-words.ts";
 
 const CLICK_PX = 5;
 const EDGE_TOLERANCE_PX = 9;
 const SNAP_M = 0.005;
+/** Corners and edges this near to the pointer are picked to be measured: a share of the distance to the eye. */
+const MEASURE_SHARE = 0.012;
 const SNAP_RAD = (5 * Math.PI) / 180;
 
 /** Says what is under the pointer, selects it, drags the handle, chooses edges. One look per frame at most. */
@@ -135,10 +140,10 @@ export function Pointer({
       drop();
       work.down = false;
       interaction.turning = false;
-      if (click && !held) {
+      if (click && !held && !interaction.overGizmo) {
         place(event);
         look();
-        choose();
+        choose(event.ctrlKey || event.metaKey || event.shiftKey);
       }
       if (event.pointerType === "touch") leave();
     });
@@ -196,6 +201,12 @@ export function Pointer({
     const ray = aim();
     const part = partUnder(work.caster, handle.current);
     interaction.hoveredPart = part;
+    if (interaction.overGizmo) {
+      if (selectionStore.getState().hovered) hover(null);
+      sayAtPointer(label, "", "plain", 0, 0);
+      gl.domElement.style.cursor = "grab";
+      return;
+    }
     const found = part !== null ? null : nearestThing(work.caster, root);
     const thing: Thing | null = found?.holder.userData.thing ?? null;
     if (traceStore.getState().active) lookForEdge(ray, found?.hit.distance ?? Infinity, part !== null);
@@ -235,10 +246,20 @@ export function Pointer({
   };
 
   /** A click: takes the edge while edges are being chosen, selects the thing otherwise. */
-  const choose = (): void => {
+  const choose = (more: boolean): void => {
     const trace = traceStore.getState();
     if (!trace.active) {
-      select(selectionStore.getState().hovered);
+      const { hovered } = selectionStore.getState();
+      if (viewStore.getState().mode === "cell" && buildStore.getState().tool === "measure") {
+        const found = world.current ? nearestThing(work.caster, world.current) : null;
+        if (found) pickToMeasure(measurePoint(document, found, found.hit.distance * MEASURE_SHARE));
+        return;
+      }
+      if (more && viewStore.getState().mode === "cell") {
+        if (hovered?.kind === "object") alsoSelect(hovered.id);
+      } else if (hovered?.kind === "object" && viewStore.getState().mode === "cell")
+        selectObjects(groupOf(document, hovered.id));
+      else select(hovered);
       return;
     }
     const hit = world.current ? nearestThing(work.caster, world.current) : null;

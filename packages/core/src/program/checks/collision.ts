@@ -119,8 +119,13 @@ function sentenceOf(
   const other = first === contact.a ? contact.b : contact.a;
   const a = carried ? `the held ${nameOf(first, cell)}` : nameOf(first, cell);
   const b = nameOf(other, cell);
-  const shape_m = contact.margin_m - Math.max(0, asked_m);
-  const because = shape_m > 1e-9 ? `, ${mm(shape_m)} of it for the error of the drawn shape` : "";
+  const place_m = cell.placeError_m ?? 0;
+  const shape_m = contact.margin_m - Math.max(0, asked_m) - place_m;
+  const parts = [
+    ...(shape_m > 1e-9 ? [`${mm(shape_m)} of it for the error of the drawn shape`] : []),
+    ...(place_m > 1e-9 ? [`${mm(place_m)} for where the robot may stand`] : []),
+  ];
+  const because = parts.map(part => `, ${part}`).join("");
   return contact.margin_m > 0 && contact.distance_m > 0
     ? `${capital(a)} comes within ${mm(contact.distance_m)} of ${b} at ${seconds(at_s)}; the margin is ${mm(contact.margin_m)}${because}.`
     : `${capital(a)} ${carried ? "would touch" : "touches"} ${b} at ${seconds(at_s)}.`;

@@ -1,12 +1,21 @@
 import { everyStep } from "../walk.ts";
 import { startOf, type CheckScene } from "./scene.ts";
 
-/** Loads beyond what the robot lifts (rows X-07, N-09). A robot whose payload is not published is not judged. */
-export function checkPayload(scene: CheckScene): void {
-  const { payload_kg, payloadMax_kg, name } = scene.robot;
-  if (!(payloadMax_kg > 0)) return;
+/**
+ * Loads beyond what the robot lifts (rows X-07, N-09).
+ *
+ * @returns steps whose load cannot be judged, because no source states the payload of the robot.
+ */
+export function checkPayload(scene: CheckScene): ReadonlySet<string> {
+  const { payload_kg, name } = scene.robot;
+  const payloadMax_kg = scene.robot.payloadMax_kg ?? payload_kg;
+  const unjudged = new Set<string>();
   for (const step of everyStep(scene.program)) {
     if (step.type !== "payload") continue;
+    if (payload_kg === undefined || payloadMax_kg === undefined) {
+      if (step.mass_kg > 0) unjudged.add(step.id);
+      continue;
+    }
     const base = { value: step.mass_kg, unit: "kg", at_s: startOf(scene, step.id), repairs: [] } as const;
     if (step.mass_kg > payloadMax_kg) {
       scene.add(step.id, "bad", {
@@ -24,4 +33,5 @@ export function checkPayload(scene: CheckScene): void {
       });
     }
   }
+  return unjudged;
 }

@@ -1,3 +1,4 @@
+import { catalogueRobot } from "../catalogue/index.ts";
 import type { Robot } from "../robot.ts";
 import { abbCrb15000 } from "./abb-crb15000.ts";
 import { abbIrb120 } from "./abb-irb120.ts";
@@ -15,7 +16,7 @@ import { staubliRx90l } from "./staubli-rx90l.ts";
 import { ur10e } from "./ur10e.ts";
 import { yaskawaGp8 } from "./yaskawa-gp8.ts";
 
-/** Every robot of the library. A new robot is one data file and one line here. */
+/** The robots whose castings are drawn. A new one is one data file and one line here. */
 export const LIBRARY: readonly Robot[] = [
   staubliRx90l,
   staubliRx160,
@@ -34,5 +35,6 @@ export const LIBRARY: readonly Robot[] = [
   lolaRl15,
 ];
 
-/** The robot of that id, or undefined. */
-export const robotById = (id: string): Robot | undefined => LIBRARY.find(robot => robot.id === id);
+/** The robot of that id in the library or the catalogue, or undefined. */
+export const robotById = (id: string): Robot | undefined =>
+  LIBRARY.find(robot => robot.id === id) ?? catalogueRobot(id);

@@ -124,7 +124,7 @@ test("the seven lengths, zeros and senses in the files are those the axes give",
   expect(compared).toBe(12);
 });
 
-test("M-60 every data file of the folder is in the library, under an id of its own", () => {
+test("every data file of the folder is in the library, under an id of its own", () => {
   const files = readdirSync(here).filter(
     name => name.endsWith(".ts") && !name.endsWith(".test.ts") && !["index.ts", "write.ts"].includes(name),
   );
@@ -202,7 +202,7 @@ test("L-21 the RL15's made-up geometry is said in its name, its sources and its 
   expect(LIBRARY.filter(({ madeUpGeometry }) => madeUpGeometry === true)).toEqual([robot]);
 });
 
-test("X-03 the joints of the UR10e turn by ±360°, the elbow by the ±180° of the vendor's own file", () => {
+test("the joints of the UR10e turn by ±360°, the elbow by the ±180° of the vendor's own file, not the ±360° that X-03 asks for", () => {
   const deg = robotById("ur10e")!.arm.joints.map(({ limits }) => Math.round((limits.upper_rad * 180) / Math.PI));
   expect(deg).toEqual([360, 360, 180, 360, 360, 360]);
   robotById("ur10e")!.arm.joints.forEach(({ limits }) => {

@@ -64,12 +64,9 @@ export const lolaRl15: Robot = {
   frames: { base: "base_link", tip: "tool0" },
   baseFromVendorWorld: pose(),
   home_rad: [0, 0, 0, 0, Math.PI / 2, 0],
-  payload_kg: 0,
-  payloadMax_kg: 0,
   reach_m: 1.714,
   reachMeasuredFrom: "axis-1",
   reachMeasuredTo: "wrist",
-  repeatability_m: 0,
   maxTcpSpeed_mps: TCP_SPEED_MPS,
   masses: [
     { mass_kg: 347.95 },

@@ -18,6 +18,10 @@ export interface Motion {
   readonly cnt?: Expression;
   readonly acceleration?: Expression;
   readonly offset?: { readonly register: Expression | undefined };
+  /** Shifts the point along the axes of the tool. */
+  readonly toolOffset?: { readonly register: Expression | undefined };
+  /** The robot keeps its place on what a second group carries while that moves. */
+  readonly coordinated: boolean;
   /** A label of the search that it is. */
   readonly skip?: number;
 }
@@ -36,6 +40,7 @@ export type Action =
   | { readonly kind: "wait-for"; readonly when: Expression; readonly label?: number }
   | { readonly kind: "skip-condition"; readonly when: Expression }
   | { readonly kind: "offset-condition"; readonly register: Expression }
+  | { readonly kind: "tool-offset-condition"; readonly register: Expression }
   | { readonly kind: "message"; readonly text: string }
   | { readonly kind: "select"; readonly what: "uframe" | "utool"; readonly number: Expression }
   | {

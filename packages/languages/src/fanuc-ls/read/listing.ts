@@ -15,6 +15,8 @@ export interface PositionRecord extends TextPlace {
   readonly values: readonly number[] | undefined;
   readonly joints: boolean;
   readonly config: Config | undefined;
+  /** What further groups and axes stand at, as it is written: they are not moved here. */
+  readonly others: string;
 }
 
 /** A /PROG … /END of a text, its statements still as text: every character where it stands in the file. */
@@ -123,7 +125,7 @@ function statementOf(line: string, at: number, label: (word: string, number: num
     throw new TextError({ line: at, column: 1 }, "the number of the line and a colon", "The line has no number.");
   let rest = line
     .slice(number.length)
-    .replace(/;\s*$/, end => blank(end))
+    .replace(/;\s*(?:(?:!|--|\/\/).*)?$/, end => blank(end))
     .replaceAll(MESSAGE, " ")
     .replaceAll(REMARK, " ");
   const first = rest.trimStart();
@@ -159,6 +161,7 @@ class RecordReader {
   private ut = 0;
   private config: Config | undefined;
   private group = 1;
+  private others = "";
 
   private constructor(number: number, place: TextPlace) {
     this.number = number;
@@ -195,6 +198,10 @@ class RecordReader {
       for (const [, name, value] of line.matchAll(FIELD))
         this.fields.set(name!.toUpperCase(), value!.startsWith("*") ? undefined : Number(value));
     }
+    if (this.group > 1 || /\bE[1-9]\s*=/.test(line))
+      for (const [, name, value] of line.matchAll(FIELD))
+        if (this.group > 1 || name!.toUpperCase().startsWith("E"))
+          this.others += `${this.others === "" ? "" : ", "}GP${this.group} ${name!.toUpperCase()} ${value}`;
     if (/\}\s*;/.test(line)) return true;
     if (this.fields.size > 40 || place.line > this.place.line + 60)
       throw new TextError(place, "};", `The position P[${this.number}] is not closed.`);
@@ -202,7 +209,7 @@ class RecordReader {
   }
 
   done(): PositionRecord {
-    const { fields, uf, ut, config, place } = this;
+    const { fields, uf, ut, config, place, others } = this;
     const joints = fields.has("J1");
     const names = joints ? JOINTS : CARTESIAN;
     if (!names.every(name => fields.has(name)))
@@ -211,6 +218,6 @@ class RecordReader {
       throw new TextError(place, "UF : 0, UT : 1", `The position P[${this.number}] has no numbers of frame and tool.`);
     const values = names.map(name => fields.get(name));
     const known = values.filter(value => value !== undefined);
-    return { uf, ut, joints, config, values: known.length === names.length ? known : undefined, ...place };
+    return { uf, ut, joints, config, values: known.length === names.length ? known : undefined, others, ...place };
   }
 }

@@ -1,5 +1,5 @@
 import type { TextFault } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, textFault } from "../../parser/index.ts";
 import type { Block, Expression, Routine, Statement } from "../../parser/structured/index.ts";
 import type { Action, Fate } from "./actions.ts";
 import { readListings, type PositionRecord } from "./listing.ts";
@@ -17,6 +17,8 @@ export interface Source {
   /** What people call lines and registers, by "do5" and the like. */
   readonly labels: ReadonlyMap<string, string>;
   readonly spelling: ReadonlyMap<string, string>;
+  /** What is kept and shown but not executed; nothing of it moves the robot. */
+  readonly kept: readonly TextFault[];
   /** Jumps that are neither a loop without end nor a decision. */
   readonly hasJumps: boolean;
 }
@@ -38,6 +40,7 @@ export function readSource(text: string): SourceAnswer {
     const faults: TextFault[] = [];
     const actions = new Map<Statement, Action>();
     const fates = new Map<Statement, Fate>();
+    const kept: TextFault[] = [];
     let hasJumps = false;
     let title = "";
     for (const { name, comment, code, positions: own, line, column } of programs) {
@@ -46,6 +49,7 @@ export function readSource(text: string): SourceAnswer {
         throw new TextError({ line, column }, "a name used once", `The program ${name} is there twice.`);
       const reading = readStatements(code);
       faults.push(...reading.faults);
+      kept.push(...reading.kept, ...otherAxes(own));
       for (const [statement, action] of reading.actions) actions.set(statement, action);
       const body = new Jumps(reading.block, actions, fates);
       const made = body.structured();
@@ -67,6 +71,7 @@ export function readSource(text: string): SourceAnswer {
         fates,
         labels,
         spelling,
+        kept: kept.toSorted((a, b) => a.line - b.line),
         hasJumps,
       },
     };
@@ -74,6 +79,22 @@ export function readSource(text: string): SourceAnswer {
     if (!(cause instanceof TextError)) throw cause;
     return { kind: "not-understood", faults: [cause.fault] };
   }
+}
+
+/** Further groups and axes of the positions, told once: they are kept and not moved. */
+function otherAxes(positions: ReadonlyMap<number, PositionRecord>): readonly TextFault[] {
+  const having = [...positions].filter(([, { others }]) => others !== "");
+  const [first] = having;
+  if (first === undefined) return [];
+  const [number, { others, line, column }] = first;
+  const more = having.length > 1 ? ` and ${having.length - 1} more positions` : "";
+  return [
+    textFault(
+      { line, column },
+      "the axes of one arm",
+      `Further axes are kept and not moved: P[${number}] has ${others}${more === "" ? "" : `;${more} name theirs`}.`,
+    ),
+  ];
 }
 
 /** Whether a comment is the name with the signs that a name of a program cannot have. */

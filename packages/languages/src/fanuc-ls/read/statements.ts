@@ -1,5 +1,5 @@
 import type { TextFault, TextPlace } from "@twincell/core";
-import { TextError } from "../../parser/index.ts";
+import { TextError, textFault } from "../../parser/index.ts";
 import {
   RecoveringReader,
   readExpression,
@@ -118,12 +118,15 @@ export interface Reading {
   readonly block: Block;
   readonly actions: Map<Statement, Action>;
   readonly faults: readonly TextFault[];
+  /** What is kept and shown but not executed. */
+  readonly kept: readonly TextFault[];
 }
 
 export const readStatements = (code: string): Reading => new StatementReader(code).read();
 
 class StatementReader extends RecoveringReader {
   private readonly actions = new Map<Statement, Action>();
+  private readonly kept: TextFault[] = [];
   /** The line of the statement has been left already. */
   private isOver = false;
 
@@ -141,7 +144,7 @@ class StatementReader extends RecoveringReader {
       cursor.advance();
     });
     const block = this.block([], cursor.here);
-    return { block, actions: this.actions, faults: this.faults };
+    return { block, actions: this.actions, faults: this.faults, kept: this.kept };
   }
 
   private block(ends: readonly string[], opened: TextPlace): Block {
@@ -213,8 +216,11 @@ class StatementReader extends RecoveringReader {
       case "pr":
         return this.assignment(word, at);
       case "ar":
+        throw new TextError(at, "a statement of the motion program", "AR[] cannot be given a value.");
       case "sr":
-        throw new TextError(at, "a statement of the motion program", `${word.toUpperCase()}[] is not executed here.`);
+        return this.shown(at, "a text register is given a text");
+      case "arc":
+        return this.shown(at, "the arc of a welding torch is switched");
       case "uframe":
       case "utool": {
         const number = this.indexed();
@@ -235,6 +241,11 @@ class StatementReader extends RecoveringReader {
         cursor.expect("condition");
         cursor.expect("pr");
         return this.act({ kind: "offset-condition", register: this.indexed() }, at);
+      }
+      case "tool_offset": {
+        cursor.expect("condition");
+        cursor.expect("pr");
+        return this.act({ kind: "tool-offset-condition", register: this.indexed() }, at);
       }
       case "if":
         return this.decision(at);
@@ -272,6 +283,14 @@ class StatementReader extends RecoveringReader {
         while (!cursor.isAt("line-end") && !cursor.done) cursor.advance();
         return this.act({ kind: "nothing" }, at);
     }
+  }
+
+  /** Keeps a statement of which the robot's motion knows nothing. */
+  private shown(at: TextPlace, what: string): Statement {
+    const { cursor } = this;
+    while (!cursor.isAt("line-end") && !cursor.done) cursor.advance();
+    this.kept.push(textFault(at, "a statement that is executed", `Line ${at.line} is shown, not executed: ${what}.`));
+    return this.act({ kind: "nothing" }, at);
   }
 
   /** Where the right side of an assignment begins: names of registers are told by their places. */
@@ -437,6 +456,8 @@ class StatementReader extends RecoveringReader {
     let via: Point | undefined;
     let goal = first;
     let offset: Motion["offset"];
+    let toolOffset: Motion["toolOffset"];
+    let coordinated = false;
     if (word === "c") {
       via = first;
       // A point on the way may be shifted as its end is.
@@ -468,6 +489,14 @@ class StatementReader extends RecoveringReader {
         offset = this.offset();
         continue;
       }
+      if (cursor.accept("tool_offset")) {
+        toolOffset = this.offset();
+        continue;
+      }
+      if (cursor.accept("coord")) {
+        coordinated = true;
+        continue;
+      }
       if (cursor.accept("skip")) {
         cursor.expect(",");
         skip = this.label();
@@ -493,6 +522,8 @@ class StatementReader extends RecoveringReader {
       ...(cnt === undefined ? {} : { cnt }),
       ...(acceleration === undefined ? {} : { acceleration }),
       ...(offset === undefined ? {} : { offset }),
+      ...(toolOffset === undefined ? {} : { toolOffset }),
+      coordinated,
       ...(skip === undefined ? {} : { skip }),
     };
   }

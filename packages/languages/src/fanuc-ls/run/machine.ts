@@ -13,10 +13,12 @@ import type {
 import { TextError, nameIn, type NetworkEmulator } from "../../parser/index.ts";
 import {
   BlockMachine,
+  type Argument,
   type Block,
   type Do,
   type Expression,
   type Flow,
+  type Routine,
   type Statement,
   type WaitUntil,
 } from "../../parser/structured/index.ts";
@@ -79,6 +81,11 @@ export class Machine extends BlockMachine<Value> {
   private timeout = TIMEOUT;
   private skip: Expression | undefined;
   private offset: string | undefined;
+  private toolOffset: string | undefined;
+  /** Where the further axes stood at the last taught position. */
+  private others: string | undefined;
+  /** Arguments of the calls under way, the innermost last. */
+  private readonly given: (readonly Value[])[] = [];
   private jump: number | undefined;
 
   /** @param writesDown  the program becomes steps to be kept: poses stay poses, whatever turn of an axis the text asks for. */
@@ -159,6 +166,16 @@ export class Machine extends BlockMachine<Value> {
         const word = of.kind === "variable" ? of.name : "";
         const [first, second] = indices.map(index => this.numberOf(index));
         if (Object.hasOwn(KINDS, word)) return this.read(this.line(word, first!, expression));
+        if (word === "ar") {
+          const argument = this.given.at(-1)?.[first! - 1];
+          if (argument === undefined)
+            throw new TextError(
+              expression,
+              "an argument of the call",
+              `The program is called without an argument ${first}.`,
+            );
+          return argument;
+        }
         if (word !== "r" && word !== "pr")
           throw new TextError(expression, "R[n], PR[n] or a line", `${word.toUpperCase()}[] is not read here.`);
         const value = this.register(`${word}${first}`, expression);
@@ -228,6 +245,16 @@ export class Machine extends BlockMachine<Value> {
     if (!isSix(before) || !Number.isInteger(element) || element < 1 || element > 6)
       throw new TextError(to, "PR[n,1] … PR[n,6]", `PR[${number}] has no element ${element}.`);
     this.globals.set(name, before.with(element - 1, asNumber(value, to)));
+  }
+
+  /** The called program reads its arguments as AR[1], AR[2], … */
+  override *call(routine: Routine, args: readonly Argument[], at: TextPlace): Generator<Executed, Flow> {
+    this.given.push(args.map(({ value }) => (value === undefined ? 0 : this.evaluate(value))));
+    try {
+      return yield* super.call(routine, [], at);
+    } finally {
+      this.given.pop();
+    }
   }
 
   override *statement(statement: Statement): Generator<Executed, Flow> {
@@ -358,6 +385,9 @@ export class Machine extends BlockMachine<Value> {
       case "offset-condition":
         this.offset = `pr${this.numberOf(action.register)}`;
         return undefined;
+      case "tool-offset-condition":
+        this.toolOffset = `pr${this.numberOf(action.register)}`;
+        return undefined;
       case "timeout":
         this.timeout = this.numberOf(action.value);
         return undefined;
@@ -456,6 +486,7 @@ export class Machine extends BlockMachine<Value> {
         values,
         line: at.line,
         column: at.column,
+        others: "",
       };
     }
     const record = this.source.positions.get(this.scopes.at(-1)?.routine ?? "")?.get(n);
@@ -477,11 +508,13 @@ export class Machine extends BlockMachine<Value> {
   private motion(motion: Motion, at: Do, id: string): MoveStep {
     const { path, goal, via, cnt, acceleration, offset } = motion;
     const shifted = this.shift(offset, at);
+    const inTool = this.toolShift(motion.toolOffset, at);
+    this.further(motion, at);
     const speed = speedOf(this.numberOf(motion.speed), motion, at);
     const ratio = acceleration === undefined ? 1 : Math.min(1, this.numberOf(acceleration) / 100);
     const share = cnt === undefined ? 0 : this.numberOf(cnt) / 100;
     if (!(share >= 0 && share <= 1)) throw new TextError(at, "CNT0 … CNT100", `CNT${share * 100} is no share of 100.`);
-    const passing = via === undefined ? {} : { via: this.target(via, shifted, "on-the-way", at) };
+    const passing = via === undefined ? {} : { via: this.target(via, shifted, inTool, "on-the-way", at) };
     const common = {
       id,
       type: "move",
@@ -490,7 +523,7 @@ export class Machine extends BlockMachine<Value> {
       blend_m: 0,
       ...(share > 0 ? { blend_ratio: share } : {}),
     } as const;
-    const target = this.target(goal, shifted, path === "J" ? "by-joints" : "by-path", at);
+    const target = this.target(goal, shifted, inTool, path === "J" ? "by-joints" : "by-path", at);
     return {
       ...common,
       path: path === "J" ? "ptp" : path === "L" ? "lin" : "circ",
@@ -538,9 +571,33 @@ export class Machine extends BlockMachine<Value> {
     return { mm: [six[0]!, six[1]!, six[2]!], register };
   }
 
+  /** Tool_Offset,PR[n]: the point is shifted and turned as it is seen from itself. */
+  private toolShift(offset: Motion["toolOffset"], at: TextPlace): Matrix | undefined {
+    if (offset === undefined) return undefined;
+    const register = offset.register === undefined ? this.toolOffset : `pr${this.numberOf(offset.register)}`;
+    const six = register === undefined ? undefined : this.register(register, at);
+    if (six === undefined || !isSix(six))
+      throw new TextError(at, "Tool_Offset,PR[n]", "The offset of the tool is in no register.");
+    return fromSix(six);
+  }
+
+  /** Further axes are not moved: a motion that keeps its place on what they carry is refused when they do. */
+  private further({ goal, coordinated }: Motion, at: TextPlace): void {
+    if (goal.register !== "p") return;
+    const { others } = this.record(goal, at);
+    if (coordinated && this.others !== undefined && this.others !== others)
+      throw new TextError(
+        at,
+        "a coordinated motion whose other group stands still",
+        `With COORD the robot follows the other group, which goes from ${this.others || "nowhere"} to ${others || "nowhere"}: other groups are not moved here.`,
+      );
+    this.others = others;
+  }
+
   private target(
     point: Point,
     shifted: ReturnType<Machine["shift"]>,
+    inTool: Matrix | undefined,
     how: "by-joints" | "by-path" | "on-the-way",
     at: TextPlace,
   ): Target {
@@ -554,14 +611,14 @@ export class Machine extends BlockMachine<Value> {
     const tool = this.setup("utool", ut, at);
     const name = this.toolName(tool);
     if (record.joints) {
-      if (shifted !== undefined)
+      if (shifted !== undefined || inTool !== undefined)
         throw new TextError(at, "a position of X, Y, Z", "A position of joint angles is not shifted here.");
       const before = this.arm.remember();
       const q = this.arm.atShown(values);
       if (how === "on-the-way") before();
       return { q, tool: name };
     }
-    const written = fromSix(values);
+    const written = inTool === undefined ? fromSix(values) : times(fromSix(values), inTool);
     const seen: Matrix =
       shifted === undefined
         ? written
@@ -639,7 +696,7 @@ export class Machine extends BlockMachine<Value> {
   override remember(): () => void {
     const values = super.remember();
     const arm = this.arm.remember();
-    const { uframe, utool, timeout, skip, offset, jump } = this;
+    const { uframe, utool, timeout, skip, offset, toolOffset, others, jump } = this;
     const maps = [keep(this.outputs), keep(this.setups), keep(this.differences)];
     return () => {
       values();
@@ -650,6 +707,8 @@ export class Machine extends BlockMachine<Value> {
       this.timeout = timeout;
       this.skip = skip;
       this.offset = offset;
+      this.toolOffset = toolOffset;
+      this.others = others;
       this.jump = jump;
     };
   }

@@ -51,6 +51,8 @@ export interface BlockLanguage<S, M> {
   readonly speaks: (robot: Robot) => boolean;
   readonly read: (text: string) => { readonly kind: "source"; readonly source: S } | NotUnderstood;
   readonly script: (source: S, robot: Robot, worldFromBase: Pose<"world", "base">) => Script<M>;
+  /** What of the text is kept and shown but not executed. Throws a TextError where that could change how the robot moves. */
+  readonly notExecuted?: (source: S) => readonly TextFault[];
 }
 /** Both ways to take a text of a language of blocks: as steps, which are still to be compared with it, and executed. */
 export type BlockReader = Pick<Dialect, "interpret"> & Pick<CheckedReader, "parse">;
@@ -69,12 +71,13 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
   speaks,
   read,
   script,
+  notExecuted,
 }: BlockLanguage<S, M>): BlockReader {
   function open(
     text: string,
     robot: Robot,
     worldFromBase: Pose<"world", "base">,
-  ): { readonly kind: "open"; readonly script: Script<M> } | NotUnderstood {
+  ): { readonly kind: "open"; readonly script: Script<M>; readonly kept: readonly TextFault[] } | NotUnderstood {
     if (!speaks(robot))
       return refusal(
         textFault(
@@ -84,9 +87,14 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
         ),
       );
     const answer = read(text);
-    return answer.kind === "not-understood"
-      ? answer
-      : { kind: "open", script: script(answer.source, robot, worldFromBase) };
+    if (answer.kind === "not-understood") return answer;
+    try {
+      const kept = notExecuted?.(answer.source) ?? [];
+      return { kind: "open", script: script(answer.source, robot, worldFromBase), kept };
+    } catch (cause) {
+      if (!(cause instanceof TextError)) throw cause;
+      return refusal(cause.fault);
+    }
   }
   function executable(script: Script<M>): Extract<Interpreted, { kind: "ready" }> {
     const emulator = createNetworkEmulator();
@@ -108,7 +116,8 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
       if (opened.kind === "not-understood") return opened;
       const ready = executable(opened.script);
       const fault = dryRun({ [Symbol.iterator]: () => ready.run() });
-      return fault === undefined ? ready : refusal(fault);
+      if (fault !== undefined) return refusal(fault);
+      return opened.kept.length === 0 ? ready : { ...ready, notExecuted: opened.kept };
     },
     parse(text, robot, worldFromBase = identity()): ReadSteps {
       const opened = open(text, robot, worldFromBase);
@@ -123,7 +132,7 @@ export function blockEntryPoints<S, V, M extends OutlineMachine<V> & { spelt?(na
         return {
           kind: "parsed",
           executable: () => executable(opened.script),
-          warnings: [...outline.warnings, ...(warnings?.(machine) ?? [])],
+          warnings: [...outline.warnings, ...opened.kept, ...(warnings?.(machine) ?? [])],
           program: { ...emptyProgram(robot.id, title), ...emulator, groups, pallets, routines, steps },
         };
       } catch (cause) {

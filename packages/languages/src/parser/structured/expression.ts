@@ -130,7 +130,11 @@ function readSuffix(cursor: TokenCursor, rules: ExpressionRules, depth: number, 
     } else if (rules.components && cursor.next === ".") {
       const { line, column } = cursor.here;
       cursor.advance();
-      of = { kind: "component", of, name: cursor.name("the name of a component"), line, column };
+      const name = cursor.name("the name of a component");
+      of =
+        of.kind === "variable" && cursor.accept("(")
+          ? { kind: "call", name: `${of.name}.${name}`, args: rules.args(cursor, depth + 1), line, column }
+          : { kind: "component", of, name, line, column };
     } else return of;
   }
 }

@@ -4,6 +4,8 @@ import type { TextPlace } from "@twincell/core";
 export interface Argument extends TextPlace {
   readonly name?: string;
   readonly value?: Expression;
+  /** Only given on where the routine was itself given it: `\WObj?wobj`. */
+  readonly ifPresent?: boolean;
 }
 
 /** What languages of blocks compute with. Names are as the language compares them. */

@@ -564,9 +564,11 @@ function readArguments(cursor: TokenCursor, end: string, depth: number): readonl
     if (cursor.accept("\\")) {
       const name = cursor.name("the name of an optional argument");
       if (cursor.accept(":=")) args.push({ name, value: readExpression(cursor, RULES, depth + 1), ...at });
-      else if (cursor.next === "?")
-        throw new TextError(cursor.here, "an argument", "Conditional arguments are not executed here.");
-      else args.push({ name, ...at });
+      else if (cursor.accept("?")) {
+        const { line, column } = cursor.here;
+        const parameter = cursor.name("the name of an optional parameter");
+        args.push({ name, value: { kind: "variable", name: parameter, line, column }, ifPresent: true, ...at });
+      } else args.push({ name, ...at });
       continue;
     }
     const value = readExpression(cursor, RULES, depth + 1);

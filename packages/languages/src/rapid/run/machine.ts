@@ -13,6 +13,7 @@ import type {
 import { TextError, nameIn, type NetworkEmulator } from "../../parser/index.ts";
 import {
   BlockMachine,
+  type Argument,
   type Block,
   type Do,
   type Expression,
@@ -136,6 +137,34 @@ export class Machine extends BlockMachine<Value> {
   *main(): Generator<Executed, Flow> {
     const main = this.entry();
     return main === undefined ? "next" : yield* this.call(main, [], main);
+  }
+
+  /** Arguments without those that hang on an optional parameter which the routine was not given. */
+  private present(args: readonly Argument[]): readonly Argument[] {
+    if (!args.some(({ ifPresent }) => ifPresent === true)) return args;
+    const names = this.scopes.at(-1)?.names;
+    return args.filter(
+      ({ ifPresent, value }) => ifPresent !== true || (value?.kind === "variable" && names?.has(value.name) === true),
+    );
+  }
+
+  /** Arguments by place fill the parameters that are not optional, in their order. */
+  override *call(routine: Routine, args: readonly Argument[], at: TextPlace): Generator<Executed, Flow> {
+    const required = routine.parameters.filter(({ optional }) => optional !== true);
+    const given = this.present(args);
+    const free = given.filter(({ name }) => name === undefined).length;
+    if (free > required.length)
+      throw new TextError(
+        at,
+        `${required.length} arguments`,
+        `${this.spelt(routine.name)} takes ${required.length} arguments; ${free} are given.`,
+      );
+    let place = 0;
+    return yield* super.call(
+      routine,
+      given.map(each => (each.name === undefined ? { ...each, name: required[place++]!.name } : each)),
+      at,
+    );
   }
 
   /** PROC main, or the only routine there is. */
@@ -288,8 +317,10 @@ export class Machine extends BlockMachine<Value> {
         return name === "testdi" ? value === true : Number(value);
       }
       case "isfile":
-      case "present":
-        return false;
+      case "present": {
+        const parameter = given[0]?.value;
+        return parameter?.kind === "variable" && this.scopes.at(-1)?.names.has(parameter.name) === true;
+      }
       default:
         break;
     }
@@ -355,7 +386,7 @@ export class Machine extends BlockMachine<Value> {
 
   protected *instruction(statement: Do): Generator<Executed, Flow | undefined> {
     const { name } = statement;
-    const args = new Arguments(this.spelt(name), statement.args, statement, each => this.evaluate(each));
+    const args = new Arguments(this.spelt(name), this.present(statement.args), statement, each => this.evaluate(each));
     if (HALTS.has(name)) {
       yield this.done(statement, { id: this.stepId(statement), type: "stop" });
       return "halt";

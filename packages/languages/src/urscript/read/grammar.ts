@@ -93,7 +93,7 @@ const RULES: ExpressionRules = {
   constants: { True: true, False: false },
   tags: ["p"],
   index: "[",
-  components: false,
+  components: true,
   reserved: RESERVED,
   args: readArguments,
 };
@@ -103,6 +103,8 @@ export interface Source {
   readonly title: string;
   readonly routines: ReadonlyMap<string, Routine>;
   readonly main: Block;
+  /** Tasks beside the program, which are kept and not executed. */
+  readonly threads: ReadonlyMap<string, Routine>;
 }
 export type SourceAnswer =
   | { readonly kind: "source"; readonly source: Source }
@@ -113,6 +115,7 @@ export const readSource = (text: string): SourceAnswer => new Reader(text).sourc
 
 class Reader extends RecoveringReader {
   private readonly routines = new Map<string, Routine>();
+  private readonly threads = new Map<string, Routine>();
 
   constructor(text: string) {
     super(text, LEXICON);
@@ -141,12 +144,22 @@ class Reader extends RecoveringReader {
     if (loose.some(({ kind }) => kind !== "comment") || entry === undefined)
       return {
         kind: "source",
-        source: { title: titleOf(loose) ?? entry?.name ?? "Program", routines: this.routines, main: loose },
+        source: {
+          title: titleOf(loose) ?? entry?.name ?? "Program",
+          routines: this.routines,
+          main: loose,
+          threads: this.threads,
+        },
       };
     this.routines.delete(entry.name);
     return {
       kind: "source",
-      source: { title: titleOf(entry.body) ?? entry.name, routines: this.routines, main: entry.body },
+      source: {
+        title: titleOf(entry.body) ?? entry.name,
+        routines: this.routines,
+        main: entry.body,
+        threads: this.threads,
+      },
     };
   }
 
@@ -197,7 +210,22 @@ class Reader extends RecoveringReader {
     switch (word) {
       case "def":
         cursor.advance();
-        this.definition(at);
+        this.definition(at, this.routines);
+        return undefined;
+      case "thread":
+        cursor.advance();
+        this.definition(at, this.threads);
+        return undefined;
+      case "run":
+        return { kind: "do", name: "run", args: [{ value: this.started(), ...at }], ...at };
+      case "kill":
+      case "join":
+        cursor.advance();
+        return { kind: "do", name: word, args: [{ value: readExpression(cursor, RULES), ...at }], ...at };
+      case "enter_critical":
+      case "exit_critical":
+        // Holds the other tasks back for a while: the program itself goes on as it stands.
+        cursor.advance();
         return undefined;
       case "if":
         cursor.advance();
@@ -228,13 +256,7 @@ class Reader extends RecoveringReader {
       case "local":
         cursor.advance();
         return this.assignment(at, word === "global");
-      case "thread":
-      case "run":
-      case "kill":
-      case "join":
       case "sec":
-      case "enter_critical":
-      case "exit_critical":
         throw new TextError(
           at,
           "a statement of one task",
@@ -245,6 +267,11 @@ class Reader extends RecoveringReader {
     }
     if (RESERVED.has(word))
       throw cursor.unexpected(word === "end" ? "a statement, since no block is open" : "a statement");
+    if (cursor.second === ".") {
+      const called = readExpression(cursor, RULES);
+      if (called.kind !== "call") throw cursor.unexpected('"(" behind the name of what is called');
+      return { kind: "do", name: called.name, args: called.args, ...at };
+    }
     if (cursor.second !== "(") return this.assignment(at, false);
     cursor.advance();
     cursor.advance();
@@ -265,7 +292,19 @@ class Reader extends RecoveringReader {
     }
     const to = readExpression(cursor, RULES, 0, 100);
     cursor.expect("=");
-    return { kind: "assign", to, value: readExpression(cursor, RULES), global, ...at };
+    const value = cursor.next === "run" ? this.started() : readExpression(cursor, RULES);
+    return { kind: "assign", to, value, global, ...at };
+  }
+
+  /** `run NAME()`: a task that is started beside the program; its handle is its name. */
+  private started(): Expression {
+    const { cursor } = this;
+    const { line, column } = cursor.here;
+    cursor.advance();
+    const name = cursor.name("the name of a thread");
+    cursor.expect("(");
+    readArguments(cursor, 0);
+    return { kind: "text", value: name, line, column };
   }
 
   private branches(at: TextPlace): Statement {
@@ -286,7 +325,7 @@ class Reader extends RecoveringReader {
     return otherwise === undefined ? { kind: "if", branches, ...at } : { kind: "if", branches, otherwise, ...at };
   }
 
-  private definition(at: TextPlace): void {
+  private definition(at: TextPlace, into: Map<string, Routine>): void {
     const { cursor } = this;
     const place = cursor.here;
     const name = cursor.name("the name of the program");
@@ -307,7 +346,7 @@ class Reader extends RecoveringReader {
     // Script files that are taken in twice define their programs anew: the last one counts.
     const body = this.body(`def ${name}`, at, ["end"]);
     cursor.expect("end");
-    this.routines.set(name, { name, parameters, body, ...place });
+    into.set(name, { name, parameters, body, ...place });
   }
 }
 

@@ -10,8 +10,16 @@ import {
   type TextPlace,
 } from "@twincell/core";
 import { TextError, nameIn, type NetworkEmulator } from "../../parser/index.ts";
-import { BlockMachine, type Do, type Expression, type Flow, type WaitUntil } from "../../parser/structured/index.ts";
+import {
+  BlockMachine,
+  type Do,
+  type Expression,
+  type Flow,
+  type Statement,
+  type WaitUntil,
+} from "../../parser/structured/index.ts";
 import type { Source } from "../read/grammar.ts";
+import { SILENT } from "../read/silent.ts";
 import { ControllerArm } from "./arm.ts";
 import { matrixOf, toPose, times } from "./frame.ts";
 import { FUNCTIONS, itemOf, withItem } from "./functions.ts";
@@ -24,61 +32,9 @@ const FULL_RAD_S: Readonly<Record<string, number>> = { ur10e: (120 / 180) * Math
 export const speaksUrScript = (robot: Robot): boolean => Object.hasOwn(FULL_RAD_S, robot.id);
 const DEFAULT_RAD_S = 1.05;
 const DEFAULT_MPS = 0.25;
-/** Instructions that change nothing of where the robot goes. */
-const SILENT = new Set([
-  "sync",
-  "set_gravity",
-  "popup",
-  "set_tool_voltage",
-  "set_tool_communication",
-  "set_input_actions_to_default",
-  "set_runstate_standard_digital_output_to_value",
-  "set_standard_analog_input_domain",
-  "set_tool_analog_input_domain",
-  "set_analog_outputdomain",
-  "set_safety_mode_transition_hardness",
-  "zero_ftsensor",
-  "step_count_reset",
-  "modbus_add_signal",
-  "request_boolean_from_primary_client",
-  "reset_world_model",
-  "set_target_payload_inertia",
-  "stopj",
-  "stopl",
-  "textmsg_debug",
-  // Said to other machines and to the operator.
-  "socket_open",
-  "socket_close",
-  "socket_send_string",
-  "socket_send_line",
-  "socket_send_byte",
-  "socket_send_int",
-  "socket_set_var",
-  "modbus_set_output_register",
-  "modbus_set_output_signal",
-  "modbus_set_signal_update_frequency",
-  "modbus_set_runstate_dependent_choice",
-  "modbus_delete_signal",
-  "rtde_set_watchdog",
-  "write_output_integer_register",
-  "write_output_float_register",
-  "write_output_boolean_register",
-  "set_analog_inputrange",
-  "set_standard_analog_inputrange",
-  "set_runstate_outputs",
-  "set_runstate_configurable_digital_output_to_value",
-  "set_runstate_tool_digital_output_to_value",
-  "set_runstate_gp_boolean_output_to_value",
-  "set_tool_analog_inputrange",
-  "set_tool_digital_output_mode",
-  "set_tool_output_mode",
-  "set_tool_digital_input_action",
-  "set_safety_mode_transition_hardness",
-  "set_digital_input_action",
-  "popup_close",
-  "varmsg",
-  "set_joint_limits",
-]);
+/** Functions whose answer comes from another machine or a sensor: what they say is in no text. */
+const OUTSIDE =
+  /^(?:socket_|rpc_factory$|read_(?:input|output|port)_|modbus_get_|get_tcp_force$|force$|get_joint_torques$|get_tool_accelerometer|get_tool_current$|get_controller_temp$|get_robot_mode$|get_actual_tcp_speed$|get_target_tcp_speed$)|\./;
 const THREADED = "is followed in real time by the controller's other tasks and cannot be written as steps.";
 const REFUSED: Readonly<Record<string, string>> = Object.fromEntries(
   [
@@ -95,6 +51,9 @@ const REFUSED: Readonly<Record<string, string>> = Object.fromEntries(
   ].map(name => [name, `${name} ${THREADED}`]),
 );
 
+/** A value that another machine gives. Never leaves an assignment; anything else that needs it is refused. */
+class OutsideValue extends TextError {}
+
 /** Executes URScript statement by statement. */
 export class Machine extends BlockMachine<Value> {
   readonly arm: ControllerArm;
@@ -102,6 +61,8 @@ export class Machine extends BlockMachine<Value> {
   private readonly constants: ReadonlySet<string>;
   private readonly outputs = new Map<string, boolean | number>();
   private readonly signals: Signals | undefined;
+  /** Variables whose value another machine gave, and how. */
+  private readonly outside = new Map<string, string>();
   private tool = "flange";
   /** Whether the tool was set where the program is now; joint angles alone do not ask for one. */
   private hasTool = false;
@@ -139,8 +100,11 @@ export class Machine extends BlockMachine<Value> {
         return expression.value;
       case "variable": {
         const value = this.variable(expression.name);
-        if (value === undefined)
+        if (value === undefined) {
+          const how = this.outside.get(expression.name);
+          if (how !== undefined) throw new OutsideValue(expression, "a value that stands in the text", how);
           throw new TextError(expression, "a variable that has a value", `"${expression.name}" has no value yet.`);
+        }
         return value;
       }
       case "list": {
@@ -180,6 +144,24 @@ export class Machine extends BlockMachine<Value> {
   }
   fromNumber(value: number): Value {
     return value;
+  }
+
+  /** A variable that another machine fills has no value here; whoever needs it is refused. */
+  override *statement(statement: Statement): Generator<Executed, Flow> {
+    try {
+      return yield* super.statement(statement);
+    } catch (cause) {
+      if (!(cause instanceof OutsideValue) || statement.kind !== "assign") throw cause;
+      const { to } = statement;
+      const name =
+        to.kind === "variable" ? to.name : to.kind === "index" && to.of.kind === "variable" ? to.of.name : "";
+      if (name === "") throw cause;
+      this.globals.delete(name);
+      for (const { names } of this.scopes) names.delete(name);
+      this.outside.set(name, cause.fault.sentence);
+      yield { line: statement.line };
+      return "next";
+    }
   }
 
   protected store(to: Expression, value: Value, global: boolean): void {
@@ -229,6 +211,12 @@ export class Machine extends BlockMachine<Value> {
     }
     const line = this.lineOf(expression);
     if (line !== undefined) return this.read(line);
+    if (OUTSIDE.test(name))
+      throw new OutsideValue(
+        expression,
+        "a value that stands in the text",
+        `What ${name} answers in line ${expression.line} is not in the text.`,
+      );
     const known = Object.hasOwn(FUNCTIONS, name) ? FUNCTIONS[name] : undefined;
     if (known === undefined)
       throw new TextError(expression, "a function of URScript", `"${name}" is no function that is understood here.`);
@@ -390,7 +378,16 @@ export class Machine extends BlockMachine<Value> {
           yield say(this.write(route, name, args, id()));
           return undefined;
         }
-        if (!SILENT.has(name))
+        if (name.includes(".")) {
+          // Another machine is asked to do something; that it exists must stand in the text.
+          if (this.outside.get(name.split(".", 1)[0]!)?.includes("rpc_factory") === true) break;
+          throw new TextError(
+            statement,
+            "a handle that rpc_factory has given",
+            `What "${name.split(".", 1)[0]}" is stands nowhere in the text.`,
+          );
+        }
+        if (!SILENT.has(name) && name !== "run" && name !== "kill" && name !== "join")
           throw new TextError(
             statement,
             "a statement of URScript",

@@ -1,0 +1,12 @@
+/** Parts that an installed package leaves out until somebody wants them, with the versions that are tested. */
+export const OPTIONAL_PARTS = [
+  { name: "@mujoco/mujoco", version: "3.14.0", what: "Physics" },
+  { name: "occt-import-js", version: "0.0.23", what: "Reading STEP files" },
+] as const;
+
+/** The sentence about an optional part that is not installed, or undefined for every other problem. */
+export function missingPart(problem: unknown): string | undefined {
+  if (!(problem instanceof Error) || !("code" in problem) || problem.code !== "ERR_MODULE_NOT_FOUND") return undefined;
+  const part = OPTIONAL_PARTS.find(({ name }) => problem.message.includes(`'${name}'`));
+  return part && `${part.what} needs a part that is not installed. Run npm install ${part.name}@${part.version}`;
+}

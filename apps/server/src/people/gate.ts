@@ -1,0 +1,121 @@
+import type { IncomingMessage } from "node:http";
+import type { Scheduler } from "@twincell/core";
+import { SOCKETS, type ApiRoute } from "@twincell/protocol";
+import { clientOf, type AccessCode } from "../access.ts";
+import type { Entered } from "../api/listener.ts";
+import type { AuditLog } from "./audit-log.ts";
+import { mayUse, type Role, type TokenAnswer } from "./tokens.ts";
+
+export interface Gate {
+  /** Whether that request may use a route of that kind, and in whose name. */
+  enter(request: IncomingMessage, access: ApiRoute["access"]): Entered;
+  /** Whether that request may open a socket. */
+  socket(request: IncomingMessage): boolean;
+  /** The name of the token that a request carries, or null. */
+  nameOf(request: IncomingMessage): string | null;
+}
+export interface GateOptions {
+  /** Null on loopback, where everybody of this machine is in. */
+  readonly access: AccessCode | null;
+  readonly tokens: (token: string) => TokenAnswer;
+  readonly audit: AuditLog | null;
+  readonly scheduler: Scheduler;
+  readonly onTrouble: (sentence: string) => void;
+}
+/** Of one client that is turned away a line is written this often [s]: the log is not filled by whoever knocks. */
+const LINE_EACH_S = 60;
+const MOST_CLIENTS = 1000;
+const bearer = (request: IncomingMessage): string | null =>
+  /^Bearer (.+)$/.exec(request.headers.authorization ?? "")?.[1] ?? null;
+const isToken = (given: string | null): given is string => given?.startsWith("twincell_") === true;
+
+/** Lets in by token, by access code, or on loopback without either; writes down who was turned away. */
+export function createGate({ access, tokens, audit, scheduler, onTrouble }: GateOptions): Gate {
+  const written_s = new Map<string, number>();
+  function out(
+    request: IncomingMessage,
+    status: 401 | 403 | 429,
+    who: string,
+    sentence: string,
+    hint: string,
+  ): Entered {
+    const client = clientOf(request.socket.remoteAddress);
+    const now_s = scheduler.now_s();
+    if (audit && now_s - (written_s.get(client) ?? -Infinity) > LINE_EACH_S) {
+      if (written_s.size >= MOST_CLIENTS) written_s.clear();
+      written_s.set(client, now_s);
+      try {
+        audit.write({ who, action: "is turned away", robot: "", detail: `${client}: ${sentence}`, outcome: "refused" });
+      } catch (problem) {
+        onTrouble(`The audit log cannot be written: ${problem instanceof Error ? problem.message : String(problem)}.`);
+      }
+    }
+    return { kind: "out", status, sentence, hint };
+  }
+  function enter(request: IncomingMessage, kind: ApiRoute["access"]): Entered {
+    if (kind === "open") return { kind: "in", who: "anyone", named: false };
+    const given = bearer(request);
+    if (isToken(given)) {
+      const answer = tokens(given);
+      if (answer.kind === "unknown")
+        return out(request, 401, "somebody", "This token is not known here.", "Make one with twincell token add.");
+      if (answer.kind === "ended")
+        return out(
+          request,
+          401,
+          answer.name,
+          `The token of ${answer.name} has ended.`,
+          "Make another one with twincell token add.",
+        );
+      if (!mayUse(answer.role, kind))
+        return out(
+          request,
+          403,
+          answer.name,
+          `${answer.name} is ${roleText(answer.role)} and may not do this.`,
+          needed(kind),
+        );
+      return { kind: "in", who: answer.name, named: true };
+    }
+    if (access === null) return { kind: "in", who: "api", named: false };
+    const entry = access.enter(request.headers.cookie, given, clientOf(request.socket.remoteAddress));
+    if (entry.kind === "welcome" || entry.kind === "welcome-with-cookie")
+      return { kind: "in", who: "api", named: false };
+    return entry.kind === "ask"
+      ? out(
+          request,
+          401,
+          "somebody",
+          "This server asks for its access code or a token.",
+          "Send it as the header authorization: Bearer CODE.",
+        )
+      : out(
+          request,
+          429,
+          "somebody",
+          "Too many wrong codes came from this address.",
+          "Wait a minute or longer, then send it again.",
+        );
+  }
+  return {
+    enter,
+    socket(request) {
+      const path = (request.url ?? "").split("?")[0];
+      // By code only the cookie counts here, as for every socket of the studio.
+      if (!isToken(bearer(request)))
+        return (
+          access === null ||
+          access.enter(request.headers.cookie, null, clientOf(request.socket.remoteAddress)).kind === "welcome"
+        );
+      return enter(request, path === SOCKETS.stream ? "look" : "command").kind === "in";
+    },
+    nameOf(request) {
+      const given = bearer(request);
+      const answer = isToken(given) ? tokens(given) : null;
+      return answer?.kind === "known" ? answer.name : null;
+    },
+  };
+}
+const roleText = (role: Role): string => (role === "operator" || role === "admin" ? `an ${role}` : `a ${role}`);
+const needed = (kind: ApiRoute["access"]): string =>
+  kind === "write" ? "It needs the role programmer or admin." : "It needs the role operator or admin.";

@@ -1,0 +1,92 @@
+import { sampleRate_Hz, type FilterOptions } from "@twincell/core";
+import { useStore } from "zustand";
+import { closeDemonstration, refilter, teachDemonstration } from "../../runtime/planning/demonstrating.ts";
+import { demonstrationStore, type OpenDemonstration } from "../../stores/demonstration.ts";
+import { dialogStore } from "../../stores/dialogs.ts";
+import { Segments } from "../../ui/Choice.tsx";
+import { showNumber } from "../../ui/expression.ts";
+import { Frame } from "../../ui/Frame.tsx";
+import { NumberField } from "../../ui/NumberField.tsx";
+import { words } from "../../messages/index.ts";
+import "./demonstration.css";
+
+/** A recorded hand: what the filters make of it, how far that is off, and the steps it becomes. */
+export default function DemonstrationDialog() {
+  const shown = useStore(dialogStore, state => state.open === "demonstration");
+  const open = useStore(demonstrationStore, state => state.open);
+  return (
+    <Frame
+      open={shown && open !== null}
+      title={open?.name ?? words.demonstration.title}
+      onClose={closeDemonstration}
+      width={460}
+      foot={
+        <>
+          <button className="btn" onClick={closeDemonstration}>
+            {words.common.cancel}
+          </button>
+          <span className="grow" />
+          <button className="btn primary" disabled={!open?.filtered} onClick={teachDemonstration}>
+            {words.demonstration.teach}
+          </button>
+        </>
+      }
+    >
+      {open && <Body open={open} />}
+    </Frame>
+  );
+}
+
+function Body({ open: { demonstration, dropped, filtered, options } }: { readonly open: OpenDemonstration }) {
+  const count = (kind: string): string => String(filtered?.parts.filter(part => part.kind === kind).length ?? 0);
+  const mm = (length_m: number): string => `${showNumber(length_m, "length", 2)} mm`;
+  const facts = [
+    [words.demonstration.samples, words.demonstration.samplesSay(demonstration.times_s.length, dropped)],
+    [words.demonstration.rate, words.demonstration.rateSays(sampleRate_Hz(demonstration).toFixed(0))],
+    [words.demonstration.stops, count("stop")],
+    [words.demonstration.straights, count("straight")],
+    [words.demonstration.curves, count("curve")],
+    [words.demonstration.points, String(filtered?.points ?? 0)],
+    [words.demonstration.largest, filtered ? mm(filtered.deviation.max_m) : "–"],
+    [words.demonstration.rms, filtered ? mm(filtered.deviation.rms_m) : "–"],
+  ] as const;
+  return (
+    <div className="stack demonstration">
+      <p className="small demonstration-key">
+        <i className="demonstration-original" aria-hidden /> {words.demonstration.original}
+        <i className="demonstration-filtered" aria-hidden /> {words.demonstration.filtered}
+      </p>
+      <dl className="facts">
+        {facts.map(([name, value]) => (
+          <div key={name}>
+            <dt>{name}</dt>
+            <dd className="num">{value}</dd>
+          </div>
+        ))}
+      </dl>
+      <div className="demonstration-options">
+        {(["rest_m", "straight_m"] as const).map(which => (
+          <NumberField
+            key={which}
+            label={words.demonstration.options[which]}
+            quantity="length"
+            value={options[which]}
+            min={0.0001}
+            max={0.1}
+            decimals={1}
+            onChange={value_m => refilter({ [which]: value_m })}
+          />
+        ))}
+      </div>
+      <Segments<FilterOptions["curves"]>
+        label={words.demonstration.fit}
+        value={options.curves}
+        onChange={curves => refilter({ curves })}
+        options={[
+          { value: "fitted", words: words.demonstration.fits.fitted },
+          { value: "averaged", words: words.demonstration.fits.averaged },
+        ]}
+      />
+    </div>
+  );
+}

@@ -1,0 +1,85 @@
+import type { Robot } from "@twincell/core";
+import { DRIVER_KINDS, robotsOf } from "@twincell/controllers";
+import { useMemo } from "react";
+import { languagesOf } from "../../stores/languages.ts";
+import { showNumber } from "../../ui/expression.ts";
+import { words } from "../../messages/index.ts";
+import { Picture } from "./Picture.tsx";
+
+/** Everything that is known of a robot, and what is not. */
+export function Details({ robot }: { readonly robot: Robot }) {
+  const languages = useMemo(() => languagesOf(robot).filter(({ why }) => why === null), [robot]);
+  const drivers = useMemo(() => DRIVER_KINDS.filter(kind => robotsOf(kind).some(({ id }) => id === robot.id)), [robot]);
+  return (
+    <section className="robots-details stack" aria-label={robot.name} aria-live="polite">
+      <Picture robot={robot} />
+      <h3>{robot.name}</h3>
+      {robot.madeUpGeometry && (
+        <p className="export-proof">
+          <i className="mark" data-verdict="warn" aria-hidden />
+          {words.robots.madeUpSays}
+        </p>
+      )}
+      <dl className="facts">
+        <div>
+          <dt>{words.robots.vendor}</dt>
+          <dd>{robot.vendor}</dd>
+        </div>
+        <div>
+          <dt>{words.robots.axes}</dt>
+          <dd>{robot.arm.joints.length}</dd>
+        </div>
+        <div>
+          <dt>{words.inspector.payload}</dt>
+          <dd>{robot.payload_kg === undefined ? words.robots.unknown : `${robot.payload_kg} kg`}</dd>
+        </div>
+        <div>
+          <dt>{words.inspector.reach}</dt>
+          <dd>{showNumber(robot.reach_m, "length", 0)} mm</dd>
+        </div>
+        <div>
+          <dt>{words.inspector.repeatability}</dt>
+          <dd>
+            {robot.repeatability_m === undefined
+              ? words.robots.unknown
+              : `±${showNumber(robot.repeatability_m, "length", 3)} mm`}
+          </dd>
+        </div>
+        <div>
+          <dt>{words.inspector.shapeError}</dt>
+          <dd>{showNumber(robot.shapeError_m, "length", 0)} mm</dd>
+        </div>
+        <div>
+          <dt>{words.robots.languages}</dt>
+          <dd>{languages.map(({ dialect }) => dialect.name).join(", ") || words.robots.noneKnown}</dd>
+        </div>
+        <div>
+          <dt>{words.robots.drivers}</dt>
+          <dd>{drivers.map(({ name }) => name).join(", ") || words.robots.noneKnown}</dd>
+        </div>
+      </dl>
+      {languages.length === 0 && <p className="muted small">{words.export.noLanguage(robot.name)}</p>}
+      {drivers.length === 0 && <p className="muted small">{words.robots.noDriver(robot.name)}</p>}
+      <details className="small">
+        <summary>{words.robots.sources}</summary>
+        <ul className="notes">
+          {Object.entries(robot.sources).map(([what, source]) => (
+            <li key={what}>
+              {what}: {source}
+            </li>
+          ))}
+        </ul>
+      </details>
+      {robot.assumptions.length > 0 && (
+        <>
+          <h4 className="dim small">{words.inspector.assumptions}</h4>
+          <ul className="notes small">
+            {robot.assumptions.map(says => (
+              <li key={says}>{says}</li>
+            ))}
+          </ul>
+        </>
+      )}
+    </section>
+  );
+}

@@ -1,0 +1,81 @@
+import type { StepReport, Verdict } from "@twincell/core";
+import { edgeTraceCell, tracedCartonCell } from "@twincell/project";
+import { afterEach, beforeEach, expect, test } from "vitest";
+import { registerCommands } from "../../stores/commands.ts";
+import { dialogStore } from "../../stores/dialogs.ts";
+import { showDocument } from "../../stores/document.ts";
+import { playStore } from "../../stores/play.ts";
+import { runQuestionStore } from "../../stores/run-question.ts";
+import { askBeforeRun, leaveRunQuestion, startRunQuestions } from "./ask-before-run.ts";
+
+const verdictOf = (ok: boolean): Verdict => ({
+  ok,
+  steps: [] as readonly StepReport[],
+  duration_s: 1,
+  clearance_m: null,
+  torque: { kind: "unknown", sentence: "" } as unknown as Verdict["torque"],
+  assumptions: [],
+});
+let begun = 0;
+const begin = (): void => {
+  begun++;
+};
+let end = (): void => undefined;
+beforeEach(() => {
+  begun = 0;
+  showDocument(tracedCartonCell());
+  end = startRunQuestions();
+});
+afterEach(() => {
+  end();
+  leaveRunQuestion();
+});
+const asked = (): string | undefined => runQuestionStore.getState().question?.kind;
+
+test("a program whose check is content begins at once; a red one asks, and begins only when told to", () => {
+  playStore.setState({ stale: false, checking: null, trouble: null, verdict: verdictOf(true) });
+  askBeforeRun(begin);
+  expect([begun, asked(), dialogStore.getState().open]).toEqual([1, undefined, null]);
+  playStore.setState({ verdict: verdictOf(false) });
+  askBeforeRun(begin);
+  expect([begun, asked(), dialogStore.getState().open]).toEqual([1, "red", "run-question"]);
+  leaveRunQuestion();
+  expect([begun, dialogStore.getState().open]).toEqual([1, null]);
+  askBeforeRun(begin);
+  runQuestionStore.getState().question!.proceed();
+  expect(begun).toBe(2);
+});
+
+test("a verdict of what was there before the last change does not count: the check is waited for, then it begins or asks", () => {
+  playStore.setState({ stale: true, checking: 0.5, trouble: null, verdict: verdictOf(true) });
+  askBeforeRun(begin);
+  expect([begun, asked()]).toEqual([0, "checking"]);
+  playStore.setState({ stale: false, checking: null, verdict: verdictOf(true) });
+  expect([begun, asked()]).toEqual([1, undefined]);
+  playStore.setState({ stale: true, checking: 0.5 });
+  askBeforeRun(begin);
+  playStore.setState({ stale: false, checking: null, verdict: verdictOf(false) });
+  expect([begun, asked()]).toEqual([1, "red"]);
+});
+
+test("a check that was cancelled begins anew, and one that could not be done is no green light", () => {
+  let checks = 0;
+  const off = registerCommands([{ id: "check.now", group: "program", words: "Check now", run: () => checks++ }]);
+  playStore.setState({ stale: true, checking: null, trouble: null, verdict: verdictOf(true) });
+  askBeforeRun(begin);
+  expect([checks, begun, asked()]).toEqual([1, 0, "checking"]);
+  playStore.setState({ stale: false, trouble: "The check stopped.", verdict: null });
+  expect([begun, asked(), runQuestionStore.getState().question?.sentence]).toEqual([
+    0,
+    "unchecked",
+    "The check stopped.",
+  ]);
+  off();
+});
+
+test("a program without steps has nothing to be checked", () => {
+  showDocument(edgeTraceCell());
+  playStore.setState({ stale: false, checking: null, trouble: null, verdict: null });
+  askBeforeRun(begin);
+  expect(begun).toBe(1);
+});

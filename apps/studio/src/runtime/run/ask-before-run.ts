@@ -1,0 +1,52 @@
+import { cellStore } from "../../stores/cell.ts";
+import { runCommand } from "../../stores/commands.ts";
+import { closeDialog, dialogStore, openDialog } from "../../stores/dialogs.ts";
+import { programOf } from "../../stores/document.ts";
+import { playStore } from "../../stores/play.ts";
+import { stationLive } from "../robot/stations.ts";
+import { runQuestionStore } from "../../stores/run-question.ts";
+
+/**
+ * Begins a run when the check of what the cell holds now is content with it; otherwise asks first. A check that is under way
+ * is waited for, since the verdict of what was there before says nothing of what is there now. A program without steps has
+ * nothing to be checked.
+ */
+export function askBeforeRun(proceed: () => void): void {
+  const { stale, checking, verdict, trouble } = playStore.getState();
+  const program = programOf(cellStore.getState().document);
+  if (program?.steps.length === 0 || (!stale && verdict?.ok === true)) {
+    proceed();
+    return;
+  }
+  const kind = stale ? "checking" : verdict ? "red" : "unchecked";
+  runQuestionStore.setState({ question: { kind, sentence: trouble ?? "", proceed } });
+  openDialog("run-question");
+  // One that was cancelled begins anew.
+  if (stale && checking === null) runCommand("check.now");
+}
+
+/**
+ * The same before a program goes to connected controllers. The check speaks of the cell's robot: a controller of another
+ * model gets a program that was taught anew for it, which its own connection checks before it is sent.
+ */
+export function askBeforeSending(ids: readonly string[], proceed: () => void): void {
+  const robot = cellStore.getState().document?.robot.id;
+  if (ids.some(id => stationLive(id)?.robot.id === robot)) askBeforeRun(proceed);
+  else proceed();
+}
+
+/** Takes the question away; the run does not begin. */
+export function leaveRunQuestion(): void {
+  runQuestionStore.setState({ question: null });
+  if (dialogStore.getState().open === "run-question") closeDialog();
+}
+
+/** Goes on with a question that waits for the check as soon as that is done. */
+export function startRunQuestions(): () => void {
+  return playStore.subscribe(({ stale }, before) => {
+    const { question } = runQuestionStore.getState();
+    if (stale || !before.stale || question?.kind !== "checking") return;
+    leaveRunQuestion();
+    askBeforeRun(question.proceed);
+  });
+}

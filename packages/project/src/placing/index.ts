@@ -1,0 +1,4 @@
+export * from "./bounds.ts";
+export * from "./snap.ts";
+export * from "./arrange.ts";
+export * from "./measure.ts";
