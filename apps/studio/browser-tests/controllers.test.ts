@@ -33,6 +33,7 @@ const cell: CellDocument = {
   name: "Three brands",
   robot: { ...carton.robot, worldFromBase: identity() },
   objects: [],
+  frames: [],
   program: "To and fro",
   programs: [{ ...carton.programs[0]!, name: "To and fro", tools: {}, frames: {}, groups: {}, steps: TO_AND_FRO }],
 };

@@ -59,7 +59,7 @@ async function sameJoints(page: Page): Promise<void> {
   });
   a!.forEach((angle, j) => expect(angle).toBeCloseTo(b![j]!, 9));
 }
-/** Jogs joint 1 … with the enabling switch held by Space, until it has turned by that much [rad]. */
+/** Jogs a joint with the enabling switch held by Space, until it has turned by that much [rad]. */
 async function jog(page: Page, joint: number, by_rad: number): Promise<void> {
   const from = (await shown(page))[joint - 1]!;
   await page.keyboard.down("Space");
@@ -86,6 +86,7 @@ async function start(page: Page): Promise<void> {
 for (const [maker, option, robot] of [
   ["Stäubli CS7", "Virtual: Stäubli CS7 (V+)", "staubli_rx90l"],
   ["UR", "Virtual: Universal Robots", "ur10e"],
+  ["Yaskawa", "Virtual: Yaskawa", "yaskawa_gp8"],
 ] as const)
   test(`T-36 T-37 T-38 ${maker}: the robot of the cell is the connected one, without a second arm: jog, record, run, stop, travel back, clone`, async () => {
     const { page, problems } = await studio.open();
@@ -131,7 +132,7 @@ for (const [maker, option, robot] of [
     await page.screenshot({ path: picture(`one-connection-live-${robot}`) });
     expect(await page.evaluate(arms)).toEqual(alone);
     await page.getByRole("button", { name: "PTP", exact: true }).click();
-    await jog(page, 5, 0.08);
+    await jog(page, 6, 0.08);
     await sameJoints(page);
     await page.getByRole("button", { name: "PTP", exact: true }).click();
     const steps = await page.evaluate(() =>
@@ -201,7 +202,7 @@ for (const [maker, option, robot] of [
     await slider.press("End");
     await page.waitForFunction(
       ([joint, at]) => Math.abs(window.twincell.live.shown().q_rad[joint!]! - at!) < 2e-3,
-      [4, taught[4]!] as const,
+      [5, taught[5]!] as const,
       { timeout: 20_000 },
     );
     expect(await page.evaluate(arms)).toEqual(alone);
@@ -237,6 +238,7 @@ for (const [maker, option, robot] of [
         { timeout: 10_000, polling: 30 },
       );
       await page.mouse.up();
+      await page.waitForFunction(() => !window.twincell.stores.jogStore.getState().moving, null, { polling: 30 });
     }
     expect(await reported(page)).toEqual(twin);
     await page.screenshot({ path: picture(`one-connection-clone-${robot}`) });

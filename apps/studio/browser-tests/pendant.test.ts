@@ -191,6 +191,7 @@ test("T-26 T-27 X-41 a virtual UR as a process, a station at its address, its pe
     name: "Pendant",
     robot: { ...carton.robot, worldFromBase: identity() },
     objects: [],
+    frames: [],
     program: "To and fro",
     programs: [
       {
@@ -210,6 +211,8 @@ test("T-26 T-27 X-41 a virtual UR as a process, a station at its address, its pe
   await page.getByRole("radio", { name: "Run" }).click();
   await page.getByRole("button", { name: "Add a controller" }).first().click();
   const dialog = page.getByRole("dialog", { name: "Add a controller to the cell" });
+  await dialog.getByRole("combobox", { name: "Manufacturer" }).click();
+  await page.getByRole("option", { name: "Universal Robots" }).click();
   await dialog.getByRole("radio", { name: "On the network" }).click();
   await dialog.getByLabel("Address").fill(HOST);
   await dialog.getByRole("button", { name: "Add and connect" }).click();

@@ -31,6 +31,7 @@ const cell: CellDocument = {
   name: "Face to face",
   robot: { ...carton.robot, worldFromBase: identity() },
   objects: [],
+  frames: [],
   program: "To and fro",
   programs: [
     {

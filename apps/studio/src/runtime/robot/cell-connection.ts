@@ -96,7 +96,6 @@ interface Key {
 }
 let pressed: Key | null = null;
 let underWay = false;
-let steps = 0;
 
 /**
  * Called every frame with what is held on pendant, keyboard or gamepad: a change of the key begins or ends a jog of the connected robot,
@@ -112,7 +111,9 @@ export function jogLive(held: Float64Array, now_ms: number): void {
   const jog = jogStore.getState();
   if (!connected) return;
   if (pressed && jog.manner === "hold") connected.stopJog();
-  if (underWay && next) return; // asked again in the next frame
+  pressed = null;
+  // The one before has not ended: asked again in the next frame.
+  if (underWay && next) return;
   pressed = next;
   if (!next) return;
   if (!connectionStore.getState().enabled) {
@@ -120,15 +121,13 @@ export function jogLive(held: Float64Array, now_ms: number): void {
     return;
   }
   underWay = true;
-  steps++;
-  const mine = steps;
+  const key = next;
   jogStore.setState({ blocked: null });
-  void jogOnce(connected, next, jog).then(outcome => {
-    if (steps === mine) underWay = false;
-    if (outcome.kind === "refused")
-      jogStore.setState({
-        blocked: { sentence: outcome.why.sentence, until_ms: performance.now() + REFUSED_MS },
-      });
+  void jogOnce(connected, key, jog).then(outcome => {
+    underWay = false;
+    // Let go is told by the robot that stands; stopped under a held key, or refused, by a sentence.
+    if (outcome.kind === "refused" || (outcome.kind === "stopped" && pressed === key))
+      jogStore.setState({ blocked: { sentence: outcome.why.sentence, until_ms: performance.now() + REFUSED_MS } });
   });
 }
 function jogOnce(connected: ConnectedRobot, { axis, sign }: Key, jog: JogState): Promise<CommandOutcome> {

@@ -270,6 +270,19 @@ describe("program texts", () => {
     expect(real.signals!.read("DO5")).toBe(true);
   });
 
+  test("over a late line the program that waits for targets begins where the robot stands: no old answer calls it back", async () => {
+    const { real, virtual, carryOut, scheduler, network } = await bench();
+    network.weather.delay_s = 0.02;
+    await scheduler.elapse(0.5);
+    expect(await carryOut(real.runText!(module(`MoveAbsJ ${there};`)))).toEqual({ kind: "done" });
+    let farthest_rad = 0;
+    for (let t_s = 0; t_s < 1; t_s += 0.002) {
+      await scheduler.elapse(0.002);
+      farthest_rad = Math.max(farthest_rad, Math.abs(virtual.neutral.jointAngle(1) - turned(0.2)[0]!));
+    }
+    expect(farthest_rad).toBeLessThan(1e-6);
+  });
+
   test("a stop ends it on its way; an emergency takes the motors off too; override 0 holds it by the speed ratio", async () => {
     const { real, virtual, carryOut, scheduler, heard } = await bench();
     const far = AROUND.map(q => (q * 180) / Math.PI).join(",");

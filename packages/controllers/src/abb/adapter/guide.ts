@@ -147,8 +147,9 @@ export function createSetpointStream(options: SetpointStreamOptions): SetpointSt
     events?.state(message, message.axes);
     // Silence ends EGM on the controller: the last word of an emergency stop, once the robot stands.
     if (!socket || (severed && going === null)) return;
-    if (because === "") advance(Math.min(MOST_GAP_S, Math.max(0, dt_s)));
-    else next_rad.set(target_rad);
+    // Who does not listen is not answered: an answer that is late would be the first target of a program that has just begun to listen.
+    if (because !== "") return;
+    advance(Math.min(MOST_GAP_S, Math.max(0, dt_s)));
     answer.sequence = told = (told + 1) >>> 0;
     answer.time_ms = message.time_ms;
     socket.send(write(answer), from);
