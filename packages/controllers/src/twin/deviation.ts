@@ -34,8 +34,9 @@ export class PlanFollower {
     return this.t_s;
   }
 
-  /** min over t near the last of max over joints of |q(t) − measured| [rad]. */
+  /** min over t near the last of max over joints of |q(t) − measured| [rad]; NaN for a plan that is nowhere and for angles that are no numbers. */
   take(measured_rad: ArrayLike<number>): number {
+    if (this.plan.segments.length === 0) return NaN;
     let best = Infinity;
     let best_s = this.t_s;
     for (let k = -BACK; k <= AHEAD; k++) {
@@ -57,7 +58,7 @@ export class PlanFollower {
       }
     }
     this.t_s = best_s;
-    return best;
+    return best === Infinity ? NaN : best;
   }
 
   private far(t_s: number, measured_rad: ArrayLike<number>): number {
