@@ -7,5 +7,5 @@ export { prepareJobInWorker } from "./stations/lay-out.ts";
 export { nodeNetwork } from "./sockets/node-network.ts";
 export { nodeScheduler } from "./clock.ts";
 export { stationHost } from "./stations/host.ts";
-export { newFile, recordingFile, recordingsFolder } from "./files/recordings-folder.ts";
+export { newFile, recordingFile, recordingFolderOf, recordingsFolder } from "./files/recordings-folder.ts";
 export { recordRemote, type RemoteRecorder } from "./stations/record-remote.ts";

@@ -103,6 +103,8 @@ export interface RobotServer {
   /** Somebody new; what comes from them goes into `hear`. Leaving gives back every lease they hold. */
   join(who: string, channel: Channel): { hear(text: string): void; leave(): void };
   readonly stations: readonly ServedConnection[];
+  /** Tells everybody something about a station that is not its own word: that it is not recorded, for instance. */
+  notice(station: string, why: Refusal): void;
   close(): void;
 }
 
@@ -281,6 +283,9 @@ export function createRobotServer(options: RobotServerOptions): RobotServer {
   }
 
   return {
+    notice(station, { code, sentence, hint }) {
+      all({ type: "notice", station, why: { code, sentence, hint } });
+    },
     get stations() {
       return [...stations.values()].map(({ station }) => station);
     },

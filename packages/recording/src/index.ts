@@ -18,7 +18,7 @@ export {
 } from "./digest.ts";
 export { memoryFiles, type ArchivePort, type FilePort, type FileSink, type StoredFile } from "./history/port.ts";
 export { expired, fileName, fileTime_ms, KEEPING, type Keeping } from "./history/keeping.ts";
-export { createArchive, type Archive, type ArchiveOptions } from "./history/archive.ts";
+export { createArchive, RETRY_S, type Archive, type ArchiveOptions } from "./history/archive.ts";
 export {
   openHistory,
   type History,

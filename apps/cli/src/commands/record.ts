@@ -3,7 +3,7 @@ import { join } from "node:path";
 import { createInterface } from "node:readline";
 import { createArchive, KEEPING, type Archive, type ArchivePort } from "@twincell/recording";
 import { zstd } from "@twincell/recording/zstd";
-import { newFile, recordingsFolder, recordRemote } from "@twincell/server";
+import { newFile, recordingFolderOf, recordingsFolder, recordRemote } from "@twincell/server";
 import { given } from "../io/arguments.ts";
 import { robotOf, ROBOT_HELP, ROBOT_OPTIONS } from "../io/robot.ts";
 import { stateLines } from "../io/state-lines.ts";
@@ -135,7 +135,7 @@ async function fromServer(
     },
     archive(station, robot) {
       if (only !== undefined && station.id !== only) return null;
-      const place = join(to, station.id.replace(/[^\w-]/g, "_"));
+      const place = join(to, recordingFolderOf(station.id));
       process.stderr.write(`Recording ${station.name} to ${place}. ${keptFor(keeping)}\n`);
       return createArchive(recordingsFolder(place), {
         robot,

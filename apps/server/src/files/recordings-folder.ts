@@ -1,7 +1,8 @@
 import { closeSync, mkdirSync, openSync, writeSync } from "node:fs";
-import { open, readdir, rm, stat } from "node:fs/promises";
+import { createHash } from "node:crypto";
+import { open, readdir, rm, rmdir, stat } from "node:fs/promises";
 import { basename, dirname, join } from "node:path";
-import type { ArchivePort, FilePort, FileSink } from "@twincell/recording";
+import { expired, fileTime_ms, KEEPING, type ArchivePort, type FilePort, type FileSink } from "@twincell/recording";
 
 /** What the operating system says, in words. */
 const WHY: Readonly<Record<string, string>> = {
@@ -76,6 +77,44 @@ export function recordingsFolder(folder: string): ArchivePort {
     create: name => newFile(join(folder, basename(name))),
     remove: name => rm(join(folder, basename(name)), { force: true }),
   };
+}
+
+/** Names that a disk of any system takes as they are, whatever other case it knows. */
+const PLAIN = /^[a-z0-9_][a-z0-9_-]{0,59}$/;
+/** Names of devices on Windows. */
+const DEVICE = /^(con|prn|aux|nul|com\d|lpt\d)$/;
+
+/** The folder of a robot's recordings among those of the others, by its id: never outside, never another one's. */
+export function recordingFolderOf(id: string): string {
+  if (PLAIN.test(id) && !DEVICE.test(id)) return id;
+  const letters = id
+    .slice(0, 60)
+    .replace(/[^\w-]/g, "_")
+    .replace(/^-/, "_");
+  return `${letters}-${createHash("sha256").update(id).digest("hex").slice(0, 12)}`;
+}
+
+/**
+ * Deletes what is too old or empty among the recordings of robots that are not recorded now, and folders of theirs that are empty: one that
+ * never comes back leaves nothing for ever. Files that are not recordings stay, and so do their folders.
+ *
+ * @param recorded  names of folders that are written to; their own archive keeps them tidy.
+ */
+export async function tidyRecordings(folder: string, recorded: ReadonlySet<string>, now_ms: number): Promise<void> {
+  const entries = await readdir(folder, { withFileTypes: true }).catch((problem: unknown) => {
+    if (problem instanceof Error && "code" in problem && problem.code === "ENOENT") return [];
+    throw problem;
+  });
+  for (const entry of entries) {
+    if (!entry.isDirectory() || recorded.has(entry.name)) continue;
+    const place = join(folder, entry.name);
+    const port = recordingsFolder(place);
+    const files = await port.list();
+    const empty = files.filter(({ name, bytes }) => bytes === 0 && !Number.isNaN(fileTime_ms(name)));
+    const old = expired(files, KEEPING, now_ms);
+    for (const name of [...old, ...empty.map(({ name }) => name)]) await port.remove(name);
+    if ((await readdir(place)).length === 0) await rmdir(place);
+  }
 }
 
 /** One recording by itself. */

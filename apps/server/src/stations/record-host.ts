@@ -1,19 +1,31 @@
 import { join } from "node:path";
 import type { Scheduler } from "@twincell/core";
 import type { RobotServer } from "@twincell/protocol";
-import { createArchive } from "@twincell/recording";
+import { createArchive, type ArchivePort } from "@twincell/recording";
 import { zstd } from "@twincell/recording/zstd";
-import { recordingsFolder } from "../files/recordings-folder.ts";
+import { recordingFolderOf, recordingsFolder, tidyRecordings } from "../files/recordings-folder.ts";
 import { recordStations, type StationRecorder } from "./recorder.ts";
 
 const TICK_S = 0.1;
+/** What robots left that are gone is looked through so often. */
+const TIDY_S = 3600;
 
-/** Records every station of that host to a folder of its own, file after file, until it is closed. */
+interface Surroundings {
+  readonly files: (folder: string) => ArchivePort;
+  /** Wall clock, nanoseconds since 1970. */
+  readonly clock_ns: () => bigint;
+}
+
+/**
+ * Records every station of that host to a folder of its own, file after file, until it is closed. When a station can't be recorded
+ * everybody who looks at it is told once, and once more when it goes on.
+ */
 export async function recordServer(
   host: RobotServer,
   folder: string,
   scheduler: Scheduler,
   onTrouble: (sentence: string) => void,
+  { files, clock_ns }: Surroundings = { files: recordingsFolder, clock_ns: () => BigInt(Date.now()) * 1_000_000n },
 ): Promise<StationRecorder> {
   const packing = await zstd();
   const recorder: StationRecorder = recordStations(
@@ -25,14 +37,17 @@ export async function recordServer(
     },
     {
       now_s: scheduler.now_s,
-      onTrouble,
+      onTrouble(sentence, about) {
+        onTrouble(sentence);
+        if (about) host.notice(about.station, about.why);
+      },
       archive: (station, robot) =>
-        createArchive(recordingsFolder(join(folder, station.id.replace(/[^\w-]/g, "_"))), {
+        createArchive(files(join(folder, recordingFolderOf(station.id))), {
           robot,
           cell: station.name,
           program: "",
           compact: { packing },
-          clock_ns: () => BigInt(Date.now()) * 1_000_000n,
+          clock_ns,
         }),
     },
   );
@@ -47,6 +62,15 @@ export async function recordServer(
   });
   ready = true;
   for (const text of heard) recorder.hear(text);
+  const tidy = (): void => {
+    tidyRecordings(folder, new Set(recorder.recording.map(recordingFolderOf)), Number(clock_ns() / 1_000_000n)).catch(
+      (problem: unknown) => {
+        onTrouble(`Old recordings stay: ${problem instanceof Error ? problem.message : String(problem)}.`);
+      },
+    );
+  };
+  tidy();
+  const stopTidying = scheduler.every(TIDY_S, tidy);
   const stop = scheduler.every(TICK_S, () => {
     recorder.tick().catch((faultInjection: unknown) => {
       onTrouble(
@@ -61,6 +85,7 @@ export async function recordServer(
     },
     close() {
       stop();
+      stopTidying();
       commander.leave();
       recorder.close();
     },

@@ -1,4 +1,4 @@
-import { robotById, type JointSample, type Robot } from "@twincell/core";
+import { robotById, type JointSample, type Refusal, type Robot } from "@twincell/core";
 import {
   auditNote,
   createClient,
@@ -14,7 +14,8 @@ export interface StationRecorderOptions {
   readonly archive: (station: ConnectionInfo, robot: Robot) => Archive | null;
   /** Seconds of the same clock for both ends of this recorder. */
   readonly now_s: () => number;
-  readonly onTrouble?: (sentence: string) => void;
+  /** Told once when recording stops and once when it goes on; `station` where it is about one of them. */
+  readonly onTrouble?: (sentence: string, about?: { readonly station: string; readonly why: Refusal }) => void;
 }
 export interface StationRecorder {
   hear(text: string): void;
@@ -32,13 +33,16 @@ const GUARD_TELLS: ReadonlySet<string> = new Set([
 ]);
 
 interface Recorded {
+  readonly id: string;
+  readonly name: string;
   readonly archive: Archive;
   signals: ReadonlyMap<string, boolean | number>;
   holder: string | null;
   pressed: boolean;
   trip: EventOf<"guard">["trip"];
   link: EventOf<"link">["state"] | "";
-  told: string;
+  /** That nothing is recorded has been said. */
+  told: boolean;
   readonly late: LatencyMeter;
   readonly back: LatencyMeter;
 }
@@ -58,13 +62,15 @@ export function recordStations(channel: Channel, options: StationRecorderOptions
     const archive = robot ? options.archive(words, robot) : null;
     if (!archive) return;
     stations.set(words.id, {
+      id: words.id,
+      name: words.name,
       archive,
       signals: new Map(),
       holder: null,
       pressed: false,
       trip: "none",
       link: "",
-      told: "",
+      told: false,
       late: latencyMeter("controller to host", "from-robot"),
       back: latencyMeter("controller and back", "round-trip"),
     });
@@ -205,12 +211,22 @@ export function recordStations(channel: Channel, options: StationRecorderOptions
         to.archive.event(message.why.code, message.why.sentence, "warning");
         break;
     }
-    const { problem } = to.archive;
-    if (problem && problem.sentence !== to.told) {
-      to.told = problem.sentence;
-      options.onTrouble?.(problem.sentence);
-    }
+    tellProblem(to);
   });
+
+  function tellProblem(to: Recorded): void {
+    const { problem } = to.archive;
+    if ((problem !== null) === to.told) return;
+    to.told = problem !== null;
+    const why: Refusal = problem
+      ? { ...problem, sentence: `${to.name}: ${problem.sentence}`, hint: "Make room: recording goes on by itself." }
+      : {
+          code: "recording.goes-on",
+          sentence: `${to.name} is recorded again.`,
+          hint: "What it did meanwhile is not kept.",
+        };
+    options.onTrouble?.(why.sentence, { station: to.id, why });
+  }
 
   return {
     hear: client.hear,
@@ -227,9 +243,11 @@ export function recordStations(channel: Channel, options: StationRecorderOptions
       }
       const now_s = options.now_s();
       const host = roundTrip.due(now_s);
-      for (const { archive, late, back } of stations.values()) {
+      for (const to of stations.values()) {
+        const { archive, late, back } = to;
         for (const said of [host, late.due(now_s), back.due(now_s)]) if (said) archive.note("latency", said);
         await archive.tick();
+        tellProblem(to);
       }
     },
     close() {

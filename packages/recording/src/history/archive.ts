@@ -27,12 +27,15 @@ export interface Archive {
   readonly file: string;
   /** Files that were deleted because they were too old or too many. */
   readonly deleted: number;
+  /** Why nothing is recorded now; the same from the first failure until recording goes on, which is tried every `RETRY_S`. */
   readonly problem: Refusal | null;
 }
 
 /** A crash costs less than a second: the open chunk, one sample and the writing of it. */
 const CHUNK_S = 0.8;
 const SILENT_NS = 900_000_000n;
+/** A place that takes nothing is tried again after so long: a full disk gets no file a sample [s]. */
+export const RETRY_S = 2;
 const TIDY_EVERY_NS = 60_000_000_000n;
 
 export function createArchive(port: ArchivePort, options: ArchiveOptions): Archive {
@@ -50,6 +53,9 @@ export function createArchive(port: ArchivePort, options: ArchiveOptions): Archi
   let cycle: OpenCycle | null = null;
   let version: Notes["cell"] | null = null;
   let problem: Refusal | null = null;
+  let retry_ns = 0n;
+  /** Files that were begun and took nothing. */
+  const empty: string[] = [];
   let closed = false;
 
   function open(): RunRecorder {
@@ -79,29 +85,41 @@ export function createArchive(port: ArchivePort, options: ArchiveOptions): Archi
     ({ cycle } = recorder);
     recorder.finish();
     sink.close();
-    problem = recorder.problem;
+    // What is begun while its place takes nothing holds nothing that could be read.
+    if (sink.position === 0 || (problem && recorder.problem)) empty.push(file);
+    if (recorder.problem) fail(recorder.problem);
     // The next millisecond: names of files count in them.
     ended_ns = began_ns + BigInt(Math.ceil(duration_s * 1000) + 1) * 1_000_000n;
     recorder = null;
     sink = null;
   }
+  /** Nothing is recorded until the next try; what went wrong first is what is said. */
+  function fail(why: Refusal): void {
+    problem ??= why;
+    retry_ns = clock_ns() + BigInt(RETRY_S * 1e9);
+  }
   /** The recorder under way; null when there is no room, or it is over. */
   function current(): RunRecorder | null {
     if (closed) return null;
     if (recorder && (recorder.duration_s >= keeping.file_s || sink!.position >= keeping.file_bytes)) end();
-    if (!recorder) {
-      try {
-        open();
-      } catch (reason) {
-        problem = {
-          code: "recording.no-file",
-          sentence: `No recording can be begun: ${reason instanceof Error ? reason.message : "its place takes none"}.`,
-          hint: "Make room, or choose another folder.",
-        };
-        return null;
-      }
+    if (recorder) return recorder;
+    if (problem && clock_ns() < retry_ns) return null;
+    let began: RunRecorder;
+    try {
+      began = open();
+    } catch (reason) {
+      fail({
+        code: "recording.no-file",
+        sentence: `No recording can be begun: ${reason instanceof Error ? reason.message : "its place takes none"}.`,
+        hint: "Make room, or choose another folder.",
+      });
+      return null;
     }
-    return recorder;
+    if (began.problem) {
+      end();
+      return null;
+    }
+    return began;
   }
   /** Hands something to the recorder; one whose place took no more is ended, so that the next begins a new file. */
   function hand(give: (to: RunRecorder) => void): void {
@@ -109,6 +127,12 @@ export function createArchive(port: ArchivePort, options: ArchiveOptions): Archi
     if (!to) return;
     give(to);
     if (to.problem) end();
+    else if (problem && sink && sink.position > 0) {
+      // Its head was written, but a chunk is what fills a disk.
+      to.flush();
+      if (to.problem) end();
+      else problem = null;
+    }
   }
 
   return {
@@ -119,7 +143,7 @@ export function createArchive(port: ArchivePort, options: ArchiveOptions): Archi
       return deleted;
     },
     get problem() {
-      return recorder?.problem ?? problem;
+      return problem ?? recorder?.problem ?? null;
     },
     record(sample) {
       hand(to => {
@@ -139,6 +163,7 @@ export function createArchive(port: ArchivePort, options: ArchiveOptions): Archi
     },
     async tick() {
       const now_ns = clock_ns();
+      for (let name = empty.pop(); name !== undefined; name = empty.pop()) await port.remove(name);
       // A source that fell silent closes no chunk by its samples.
       if (sink && sink.position !== seenAt) {
         seenAt = sink.position;

@@ -279,6 +279,55 @@ describe("keeping", () => {
     expect((await opened(port)).duration_s).toBeCloseTo(1.29, 6);
   });
 
+  test("a full disk, on which files can still be begun, gets no empty files: it is tried now and then, and recording goes on when there is room", async () => {
+    let full = false;
+    let now_ns = START_NS;
+    let begun = 0;
+    const kept = memoryFiles();
+    const port: ArchivePort = {
+      ...kept,
+      create(name) {
+        begun++;
+        const sink = kept.create(name);
+        return {
+          get position() {
+            return sink.position;
+          },
+          close() {
+            sink.close();
+          },
+          write(bytes) {
+            if (full) throw Object.assign(new Error("the disk is full"), { code: "ENOSPC" });
+            sink.write(bytes);
+          },
+        };
+      },
+    };
+    const archive = createArchive(port, { robot, cell: "", program: "", compact: { packing }, clock_ns: () => now_ns });
+    const problems = new Set<string>();
+    // A minute and a half, 50 s of it with a full disk.
+    for (let k = 0; k < 9000; k++) {
+      full = k >= 2000 && k < 7000;
+      now_ns += 10_000_000n;
+      archive.record(sampleAt(k));
+      if (archive.problem) problems.add(archive.problem.sentence);
+      if (k % 10 === 0) await archive.tick();
+      if (k === 6900) expect(archive.problem).not.toBeNull();
+    }
+    expect(archive.problem).toBeNull();
+    archive.close();
+    await archive.tick();
+    expect([...problems]).toEqual([expect.stringMatching(/^Recording ended after \d+ bytes: the disk is full$/)]);
+    expect(begun).toBeLessThanOrEqual(2 + 50 / 2);
+    const files = await kept.list();
+    expect(files.length).toBe(2);
+    expect(files.every(({ bytes }) => bytes > 1000)).toBe(true);
+    const history = await opened(port);
+    expect((await history.at(15)).recorded).toBe(true);
+    expect((await history.at(45)).recorded).toBe(false);
+    expect((await history.at(80)).recorded).toBe(true);
+  });
+
   test("a place that is full is said once, and recording goes on in a new file when there is room", async () => {
     let full = false;
     let now_ns = START_NS;
