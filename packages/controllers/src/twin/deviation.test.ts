@@ -9,8 +9,8 @@ const planOf = (...steps: Step[]): Plan =>
 test("a robot that stands through a program without a motion is nowhere beside its plan, and never infinitely far", () => {
   const programs: Step[][] = [
     [{ id: "m", type: "move", path: "ptp", target: { q: [...robot.home_rad] }, speed: { ratio: 1 }, blend_m: 0 }],
-    [{ id: "w", type: "wait", : 0 }],
-    [{ id: "w", type: "wait", : 0.5 }],
+    [{ id: "w", type: "wait", s: 0 }],
+    [{ id: "w", type: "wait", s: 0.5 }],
     [{ id: "g", type: "gripper", closed: true }],
     [{ id: "p", type: "payload", mass_kg: 1, center_m: [0, 0, 0] }],
   ];
@@ -26,6 +26,6 @@ test("a plan without a segment is nowhere: how far from it is not known", () => 
 });
 
 test("angles that are no numbers make the deviation unknown, not infinite", () => {
-  const follower = new PlanFollower(planOf({ id: "w", type: "wait", : 0.5 }), 6);
+  const follower = new PlanFollower(planOf({ id: "w", type: "wait", s: 0.5 }), 6);
   expect(follower.take([NaN, 0, 0, 0, 0, 0])).toBeNaN();
 });
