@@ -76,6 +76,61 @@ describe("the controller", () => {
     expect(session.over()).toBe(false);
   });
 
+  test("a position says its posture and turns, and a motion to it arrives in those; what the arm cannot take is refused", async () => {
+    const start_rad = [0.2, 0.3, -0.2, 3.3, -0.9, -4];
+    const made = await bench({ virtual: { start_rad } });
+    made.real.disconnect();
+    await made.scheduler.elapse(0.1);
+    const route = await lines(made, 16_001);
+    await route.ask('{"Communication":"FRC_Connect"}\r\n');
+    const session = await lines(made, 16_002);
+    await session.ask('{"Command":"FRC_Initialize","GroupMask":1}\r\n');
+    type Said = { readonly Configuration: Record<string, number>; readonly Position: Record<string, number> };
+    const read = async (): Promise<Said> => {
+      const [said] = await session.ask('{"Command":"FRC_ReadCartesianPosition","Group":1}\r\n');
+      const { Configuration, Position } = said as unknown as Said;
+      return { Configuration, Position };
+    };
+    const here = await read();
+    expect(here.Configuration).toEqual({
+      UToolNumber: 1,
+      UFrameNumber: 0,
+      Front: 1,
+      Up: 1,
+      Left: 0,
+      Flip: 0,
+      Turn4: 1,
+      Turn5: 0,
+      Turn6: -1,
+    });
+    let sequence = 0;
+    const go = async (name: string, Configuration: Record<string, number>): Promise<unknown> => {
+      const packet = {
+        Instruction: name,
+        SequenceID: ++sequence,
+        Configuration,
+        Position: here.Position,
+        SpeedType: "Percent",
+        Speed: 50,
+        TermType: "FINE",
+        TermValue: 0,
+      };
+      let [answer] = await session.ask(`${JSON.stringify(packet)}\r\n`);
+      for (let i = 0; i < 500 && answer === undefined; i++) [answer] = await session.ask("");
+      return answer?.["ErrorID"];
+    };
+    // The same pose with the wrist flipped and no axis turned over, and back again.
+    const other = { ...here.Configuration, Flip: 1, Turn4: 0, Turn6: 0 };
+    expect(await go("FRC_JointMotion", other)).toBe(0);
+    const moved = await read();
+    expect(moved.Configuration).toEqual(other);
+    for (const [axis, value] of Object.entries(here.Position)) expect(moved.Position[axis]).toBeCloseTo(value, 2);
+    expect(await go("FRC_JointMotion", here.Configuration)).toBe(0);
+    expect((await read()).Configuration).toEqual(here.Configuration);
+    expect(await go("FRC_JointMotion", { ...here.Configuration, Turn4: 2 })).toBe(2_556_951);
+    expect(await go("FRC_JointMotion", { ...here.Configuration, Flip: 7 })).toBe(2_556_951);
+  });
+
   test("the pendant shows joint 3 against the horizon", async () => {
     const made = await bench({ virtual: { start_rad: [0, 0.5, 0.2, 0, 0, 0] } });
     expect(farthest(made.real.jointAngles(), [0, 0.5, 0.2, 0, 0, 0])).toBeLessThan(1e-6);

@@ -24,6 +24,7 @@ import {
   rmiNumber,
   type RmiPacket,
 } from "../codec-rmi.ts";
+import { configurationOf } from "../configuration.ts";
 import { fanucJoints, JOINTS, shownOf, type FanucJoints } from "../joints.ts";
 import { instructionOf, type Instruction } from "./instructions.ts";
 import { serveFtp } from "./ftp-server.ts";
@@ -274,7 +275,7 @@ export async function createVirtualFanuc(options: VirtualFanucOptions): Promise<
         return {
           ...only(RMI_ERROR.ok),
           TimeTag,
-          Configuration: { UToolNumber: 1, UFrameNumber: 0 },
+          Configuration: { UToolNumber: 1, UFrameNumber: 0, ...configurationOf(robot, now_rad) },
           Position: { X, Y, Z, W, P, R, Ext1: 0, Ext2: 0, Ext3: 0 },
           Group: 1,
         };

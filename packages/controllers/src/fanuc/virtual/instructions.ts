@@ -9,6 +9,7 @@ import {
   type Step,
 } from "@twincell/core";
 import { RMI_ERROR, rmiJoints, rmiNumber, rmiPart, type RmiPacket } from "../codec-rmi.ts";
+import { askedConfiguration, branchOfConfiguration, jointsIn } from "../configuration.ts";
 import { jointsOf, JOINTS, shownOf, type FanucJoints } from "../joints.ts";
 
 export type Instruction =
@@ -66,21 +67,31 @@ export function instructionOf({ name, fields }: RmiPacket, robot: Robot, joints:
       const v = PLACE.map(axis => rmiNumber(part, axis));
       if (!speed) return error(RMI_ERROR.value);
       if (!v.every(value => Number.isFinite(value))) return error(RMI_ERROR.position);
+      const isJoint = name === "FRC_JointMotion";
+      const asked = name === "FRC_LinearRelative" ? null : askedConfiguration(fields);
+      const there = compose(
+        robot.baseFromVendorWorld as Pose,
+        pose([v[0]! / 1000, v[1]! / 1000, v[2]! / 1000], fromFanucWpr(v[3]!, v[4]!, v[5]!)),
+      );
+      if (asked === undefined) return error(RMI_ERROR.position);
+      if (asked && isJoint && !jointsIn(robot, there as Pose<"base", "flange">, asked))
+        return error(RMI_ERROR.position);
       return {
         kind: "step",
         make: q_rad => {
-          const at: Pose =
-            name === "FRC_LinearRelative"
-              ? moved(robot, q_rad, v)
-              : compose(
-                  robot.baseFromVendorWorld as Pose,
-                  pose([v[0]! / 1000, v[1]! / 1000, v[2]! / 1000], fromFanucWpr(v[3]!, v[4]!, v[5]!)),
-                );
-          // The base is the world here, and the flange its tool.
+          const at: Pose = name === "FRC_LinearRelative" ? moved(robot, q_rad, v) : there;
+          const q = asked && isJoint ? jointsIn(robot, at as Pose<"base", "flange">, asked, q_rad) : undefined;
+          if (q) return { ...speed, path: "ptp", target: { q } };
+          // The base is the world here, and the flange its tool. A line arrives in the posture that it is asked for, or not at all.
           return {
             ...speed,
-            path: name === "FRC_JointMotion" ? "ptp" : "lin",
-            target: { pose: at as Pose<"frame", "tcp">, frame: "world", tool: "flange" },
+            path: isJoint ? "ptp" : "lin",
+            target: {
+              pose: at as Pose<"frame", "tcp">,
+              frame: "world",
+              tool: "flange",
+              ...(asked ? { branch: branchOfConfiguration(asked) } : {}),
+            },
           };
         },
       };
