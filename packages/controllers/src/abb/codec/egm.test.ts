@@ -26,6 +26,40 @@ describe("EGM against bytes written out by hand", () => {
     });
     expect([...out.joints_deg.subarray(0, 6)]).toEqual([45, -90, 0, 0, 0, 1]);
   });
+  test("Cartesian values of feedback and plan: place [mm], then u0 … u3; a part of them is none", () => {
+    const double = (value: number): string =>
+      [...new Uint8Array(Float64Array.of(value).buffer)].map(byte => byte.toString(16).padStart(2, "0")).join(" ");
+    // Inside 12 (feedback) or 1A (plan): joints 0A 09 09 <8>, Cartesian 12: place 0A 1B 09 x 11 y 19 z, orientation 12 24 09 u0 11 u1 19 u2 21 u3.
+    const place = (x: number, y: number, z: number): string => `0A 1B 09 ${double(x)} 11 ${double(y)} 19 ${double(z)}`;
+    const turn = `12 24 09 ${double(0.5)} 11 ${double(-0.5)} 19 ${double(0.5)} 21 ${double(0.5)}`;
+    const part = (key: string, cartesian: string, size: string, whole: string): string =>
+      `${key} ${whole} 0A 09 09 ${double(30)} 12 ${size} ${cartesian}`;
+    const head = "0A 08 08 07 10 A0 9C 01 18 02";
+    const both = bytes(
+      `${head} ${part("12", `${place(400, -20, 630)} ${turn}`, "43", "50")} ${part("1A", `${place(401, -21, 631)} ${turn}`, "43", "50")}`,
+    );
+    const out = noEgmRobot();
+    expect(readEgmRobot(both, out)).toBeNull();
+    expect([out.pose.known, ...out.pose.position_mm, ...out.pose.orientation]).toEqual([
+      true,
+      400,
+      -20,
+      630,
+      0.5,
+      -0.5,
+      0.5,
+      0.5,
+    ]);
+    expect([out.plannedPose.known, ...out.plannedPose.position_mm, out.planned_deg[0]]).toEqual([
+      true,
+      401,
+      -21,
+      631,
+      30,
+    ]);
+    expect(readEgmRobot(bytes(`${head} ${part("12", place(400, -20, 630), "1D", "2A")}`), out)).toBeNull();
+    expect([out.joints_deg[0], out.pose.known, out.plannedPose.known]).toEqual([30, false, false]);
+  });
   test("a sensor's message, with speeds; doubles may be packed", () => {
     const out = noEgmSensor();
     expect(readEgmSensor(SENSOR, out)).toBeNull();
@@ -42,6 +76,9 @@ describe("EGM against bytes written out by hand", () => {
       time_ms: 123_456,
       axes: 7,
       joints_deg: Float64Array.of(1, 2, 3, 4, 5, 6, 7, 0, 0, 0, 0, 0),
+      planned_deg: Float64Array.of(1.5, 2, 3, 4, 5, 6, 7.5, 0, 0, 0, 0, 0),
+      pose: { known: true, position_mm: Float64Array.of(1, 2, 3), orientation: Float64Array.of(1, 0, 0, 0) },
+      plannedPose: { known: true, position_mm: Float64Array.of(4, 5, 6), orientation: Float64Array.of(0, 1, 0, 0) },
       motors: 2,
       state: 2,
       rapid: 1,

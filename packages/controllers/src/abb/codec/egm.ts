@@ -15,6 +15,18 @@ export const MOTORS = { undefined: 0, on: 1, off: 2 } as const;
 export const EGM_STATE = { undefined: 0, error: 1, stopped: 2, running: 3 } as const;
 export const RAPID = { undefined: 0, stopped: 1, running: 2 } as const;
 
+/** A pose of the tool in the frame that EGM was set up with: place [mm], orientation u0 … u3 (the real part first). */
+export interface EgmPose {
+  known: boolean;
+  readonly position_mm: Float64Array;
+  readonly orientation: Float64Array;
+}
+export const noEgmPose = (): EgmPose => ({
+  known: false,
+  position_mm: new Float64Array(3),
+  orientation: new Float64Array(4),
+});
+
 /** What a controller says in each cycle. Angles [deg]; axes beyond the sixth are the external ones. */
 export interface EgmRobot {
   sequence: number;
@@ -22,6 +34,10 @@ export interface EgmRobot {
   time_ms: number;
   axes: number;
   readonly joints_deg: Float64Array;
+  readonly pose: EgmPose;
+  /** Where it was told to be in this cycle. */
+  readonly planned_deg: Float64Array;
+  readonly plannedPose: EgmPose;
   motors: number;
   state: number;
   rapid: number;
@@ -32,6 +48,9 @@ export const noEgmRobot = (): EgmRobot => ({
   time_ms: 0,
   axes: 0,
   joints_deg: new Float64Array(MOST_AXES + MOST_EXTERNAL),
+  pose: noEgmPose(),
+  planned_deg: new Float64Array(MOST_AXES + MOST_EXTERNAL),
+  plannedPose: noEgmPose(),
   motors: 0,
   state: 0,
   rapid: 0,
@@ -89,6 +108,31 @@ function readJoints(
   return isWhole ? count : -1;
 }
 
+/** Reads the fields 1, 2, … of a message as doubles; false when one is missing or no number. */
+function readNumbers(bytes: Uint8Array, from: number, to: number, out: Float64Array): boolean {
+  out.fill(NaN);
+  const isWhole = readFields(bytes, from, to, (field, kind, value) => {
+    if (kind === DOUBLE && field >= 1 && field <= out.length) out[field - 1] = value;
+  });
+  return isWhole && out.every(value => Number.isFinite(value));
+}
+
+/** The Cartesian part of a position, if it has one: place and quaternion. Euler angles, which some send besides, say the same. */
+function readPose(bytes: Uint8Array, from: number, to: number, out: EgmPose): void {
+  out.known = false;
+  let hasPlace = false;
+  let hasTurn = false;
+  readFields(bytes, from, to, (field, kind, _value, begin, end) => {
+    if (field !== 2 || kind !== BYTES) return;
+    readFields(bytes, begin, end, (inner, innerKind, _number, first, last) => {
+      if (innerKind !== BYTES) return;
+      if (inner === 1) hasPlace = readNumbers(bytes, first, last, out.position_mm);
+      if (inner === 2) hasTurn = readNumbers(bytes, first, last, out.orientation);
+    });
+  });
+  out.known = hasPlace && hasTurn;
+}
+
 function readEnum(bytes: Uint8Array, from: number, to: number): number {
   let value = 0;
   readFields(bytes, from, to, (field, kind, number) => {
@@ -103,7 +147,7 @@ export function readEgmRobot(bytes: Uint8Array, out: EgmRobot): string | null {
   let isRobot = false;
   let axes = -1;
   out.motors = out.state = out.rapid = 0;
-  out.converged = false;
+  out.converged = out.pose.known = out.plannedPose.known = false;
   const isWhole = readFields(bytes, 0, bytes.length, (field, kind, value, begin, end) => {
     if (kind === VARINT && field === 6) out.converged = value !== 0;
     if (kind !== BYTES) return;
@@ -117,6 +161,11 @@ export function readEgmRobot(bytes: Uint8Array, out: EgmRobot): string | null {
         break;
       case 2:
         axes = readJoints(bytes, begin, end, 1, 3, out.joints_deg);
+        readPose(bytes, begin, end, out.pose);
+        break;
+      case 3:
+        readJoints(bytes, begin, end, 1, 3, out.planned_deg);
+        readPose(bytes, begin, end, out.plannedPose);
         break;
       case 4:
         out.motors = readEnum(bytes, begin, end);
@@ -187,17 +236,28 @@ const doubles = (out: FieldWriter, field: number, values: Float64Array, from: nu
 
 export function egmRobotWriter(): (message: EgmRobot) => Uint8Array {
   const out = new FieldWriter(1024);
-  return ({ sequence, time_ms, axes, joints_deg, motors, state, rapid, converged }) => {
-    const position = (field: number): void => {
+  const numbers = (field: number, values: Float64Array): void => {
+    out.inside(field, () => {
+      for (let i = 0; i < values.length; i++) out.double(i + 1, values[i]!);
+    });
+  };
+  return message => {
+    const { sequence, time_ms, axes, motors, state, rapid, converged } = message;
+    const position = (field: number, joints_deg: Float64Array, pose: EgmPose): void => {
       out.inside(field, () => {
         doubles(out, 1, joints_deg, 0, Math.min(axes, MOST_AXES));
+        if (pose.known)
+          out.inside(2, () => {
+            numbers(1, pose.position_mm);
+            numbers(2, pose.orientation);
+          });
         doubles(out, 3, joints_deg, MOST_AXES, axes);
       });
     };
     out.begin();
     header(out, sequence, time_ms, TYPE.robot);
-    position(2);
-    position(3);
+    position(2, message.joints_deg, message.pose);
+    position(3, message.planned_deg, message.plannedPose);
     out.inside(4, () => {
       out.varint(1, motors);
     });

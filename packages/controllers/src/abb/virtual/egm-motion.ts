@@ -1,4 +1,4 @@
-import { degrees, radians, type Robot } from "@twincell/core";
+import { degrees, flangePose, radians, type Robot } from "@twincell/core";
 import type { Address, DatagramSocket } from "../../transport/index.ts";
 import {
   COMM_TIMEOUT_S,
@@ -9,6 +9,7 @@ import {
   noEgmRobot,
   noEgmSensor,
   readEgmSensor,
+  type EgmPose,
 } from "../codec/index.ts";
 
 export interface EgmMotionOptions {
@@ -127,8 +128,11 @@ export class EgmMotion {
     let converged = true;
     for (let i = 0; i < q_rad.length; i++) {
       out.joints_deg[i] = degrees(q_rad[i]!);
+      out.planned_deg[i] = degrees(this.target_rad[i]!);
       converged &&= Math.abs(degrees(this.target_rad[i]! - q_rad[i]!)) < CONVERGED_DEG;
     }
+    this.tellPose(q_rad, out.pose);
+    this.tellPose(this.target_rad, out.plannedPose);
     out.sequence = this.sequence++;
     out.time_ms = time_ms;
     out.motors = this.motorsOn ? MOTORS.on : MOTORS.off;
@@ -138,6 +142,16 @@ export class EgmMotion {
     this.options.socket.send(this.write(out), this.options.to);
   }
 
+  /** The flange (tool0) in the base frame (wobj0), as EGM tells it that was set up with neither tool nor work object. */
+  private tellPose(q_rad: Float64Array, to: EgmPose): void {
+    const {
+      position: [x, y, z],
+      quaternion: [qx, qy, qz, qw],
+    } = flangePose(this.options.robot.arm, q_rad);
+    to.known = true;
+    to.position_mm.set([1000 * x, 1000 * y, 1000 * z]);
+    to.orientation.set([qw, qx, qy, qz]);
+  }
   private fail(because: string): void {
     this.end("error", because);
     this.options.failed(because);
