@@ -1,7 +1,7 @@
 import { LIBRARY, type Robot } from "@twincell/core";
-import { abb } from "./abb/index.ts";
+import { abb, abbOverEgm } from "./abb/index.ts";
 import { fanuc } from "./fanuc/index.ts";
-import { kuka } from "./kuka/index.ts";
+import { kuka, kukaOverRsi } from "./kuka/index.ts";
 import type { DriverKind } from "./driver/index.ts";
 import { staubli } from "./staubli/index.ts";
 import { staubliCs7 } from "./staubli-cs7/index.ts";
@@ -10,7 +10,9 @@ import { yaskawa } from "./yaskawa/index.ts";
 
 /** Every brand there is a driver and a virtual controller for. */
 export const DRIVER_KINDS: readonly DriverKind[] = [universalRobots, kuka, yaskawa, fanuc, abb, staubli, staubliCs7];
-export const driverKindById = (id: string): DriverKind | undefined => DRIVER_KINDS.find(kind => kind.id === id);
+/** Those, and the other ways to the same controllers. */
+export const ALL_DRIVER_KINDS: readonly DriverKind[] = [...DRIVER_KINDS, kukaOverRsi, abbOverEgm];
+export const driverKindById = (id: string): DriverKind | undefined => ALL_DRIVER_KINDS.find(kind => kind.id === id);
 /** Brands whose robots that one is. */
 export const driverKindsFor = (vendor: string): readonly DriverKind[] =>
   DRIVER_KINDS.filter(kind => kind.vendor === vendor);

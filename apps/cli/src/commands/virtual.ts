@@ -1,7 +1,7 @@
 import { existsSync } from "node:fs";
 import { createInterface } from "node:readline";
 import {
-  DRIVER_KINDS,
+  ALL_DRIVER_KINDS,
   driverKindById,
   openVirtualPendant,
   robotsOf,
@@ -45,7 +45,7 @@ export const virtualCommand: Command = {
   usage: `twincell virtual BRAND [--robot R] [--host 127.0.0.1] [--port-NAME N]… [--port-pendant N] [--json]
 
 Ports are the vendor's own unless they are given; 0 takes a free one. Several controllers on one machine stand at 127.0.0.2, 127.0.0.3, …
-${DRIVER_KINDS.map(brand => `  ${brand.id.padEnd(10)} ${brand.name}: ${portsOf(brand)}`).join("\n")}
+${ALL_DRIVER_KINDS.map(brand => `  ${brand.id.padEnd(10)} ${brand.name}: ${portsOf(brand)}`).join("\n")}
 
 Its pendant is a page in the browser, at the address that is printed: mode key, enabling switch, jog keys, red button, signals, faults.
 Lines on standard input are hands on it too: ${[...WORDS.keys()].join(", ")}.
@@ -57,7 +57,7 @@ Ctrl-C ends it.`,
       [portOption("pendant")]: { type: "string" },
       json: { type: "boolean" },
       ...Object.fromEntries(
-        DRIVER_KINDS.flatMap(brand =>
+        ALL_DRIVER_KINDS.flatMap(brand =>
           Object.keys(brand.ports).map(name => [portOption(name), { type: "string" as const }]),
         ),
       ),
@@ -71,7 +71,7 @@ Ctrl-C ends it.`,
           : options.positionals.length > 1
             ? `virtual takes one brand, not "${options.positionals[1]}" as well.`
             : `There is no virtual controller of "${id}".`,
-        `Brands: ${DRIVER_KINDS.map(each => each.id).join(", ")}.`,
+        `Brands: ${ALL_DRIVER_KINDS.map(each => each.id).join(", ")}.`,
       );
     }
     const wanted = options.text("robot") ?? robotsOf(brand)[0]?.id;

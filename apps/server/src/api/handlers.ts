@@ -1,7 +1,7 @@
 import { createReadStream } from "node:fs";
 import { readdir, stat } from "node:fs/promises";
 import { join } from "node:path";
-import { DRIVER_KINDS } from "@twincell/controllers";
+import { ALL_DRIVER_KINDS } from "@twincell/controllers";
 import { catalogueRobots, isSlide, LIBRARY, type CommandOutcome, type Scheduler } from "@twincell/core";
 import { DIALECTS } from "@twincell/languages";
 import {
@@ -83,7 +83,7 @@ export function apiHandlers(parts: ApiParts): Handlers {
     models: () => json({ models: models() }),
     drivers: () =>
       json({
-        drivers: DRIVER_KINDS.map(({ id, name, vendor, dialect, ports }) => ({ id, name, vendor, dialect, ports })),
+        drivers: ALL_DRIVER_KINDS.map(({ id, name, vendor, dialect, ports }) => ({ id, name, vendor, dialect, ports })),
       }),
     languages: () => json({ languages: DIALECTS.map(({ id, name, brand }) => ({ id, name, vendor: brand })) }),
     ...robotHandlers(parts),

@@ -246,6 +246,40 @@ describe("A the guard of a connected robot knows the objects of its cell", () =>
   }, 60_000);
 });
 
+describe.each([
+  ["kuka-rsi", "kuka_kr6r900sixx"],
+  ["abb-egm", "abb_irb120"],
+])("the other way %s to a controller", (brand, robotId) => {
+  test("T-20 T-23 is offered by the host, connects, moves to joint angles, runs steps, and stops", async () => {
+    const { scheduler, join, told, samples } = bench();
+    const { client } = join("you");
+    const robot = robotById(robotId)!;
+    const ask = (request: Request) => answered(scheduler, client, "s", client.ask(request));
+    const hello = told.find((message): message is EventOf<"hello"> => message.type === "hello")!;
+    expect(hello.brands.map(({ id }) => id)).toContain(brand);
+    expect(await ask({ type: "open", station: "s", brand, robot: robotId })).toEqual({ kind: "done" });
+    expect(await ask({ type: "take", station: "s" })).toEqual({ kind: "done" });
+    expect(await ask({ type: "connect", station: "s" })).toEqual({ kind: "done" });
+    for (let i = 0; i < 15; i++) {
+      client.alive("s");
+      await scheduler.elapse(0.02);
+    }
+    const there = robot.home_rad.map((q, i) => (i === 0 ? q + 0.2 : q));
+    expect(await ask({ type: "move", station: "s", q_rad: there })).toEqual({ kind: "done" });
+    expect(samples("s").at(-1)!.q_rad[0]).toBeCloseTo(there[0]!, 3);
+    expect(await ask({ type: "run", station: "s", program: program(robotId), asText: brand === "kuka-rsi" })).toEqual({
+      kind: "done",
+    });
+    const moving = client.ask({ type: "zero", station: "s" });
+    for (let i = 0; i < 10; i++) {
+      client.alive("s");
+      await scheduler.elapse(0.02);
+    }
+    client.stop("s");
+    expect(await answered(scheduler, client, "s", moving)).toMatchObject({ kind: "stopped" });
+  }, 60_000);
+});
+
 const EVERY_ROBOT: Readonly<Record<string, string>> = {
   ...ROBOTS,
   fanuc: "fanuc_lrmate200id",

@@ -1,6 +1,6 @@
 import {
   driverKindById,
-  DRIVER_KINDS,
+  ALL_DRIVER_KINDS,
   createSharedCell,
   openRobotConnection,
   startSynchronized,
@@ -69,7 +69,7 @@ export function stationHost(
   return createRobotServer({
     scheduler,
     version,
-    brands: DRIVER_KINDS.map(({ id, name, vendor, dialect, ports }) => ({
+    brands: ALL_DRIVER_KINDS.map(({ id, name, vendor, dialect, ports }) => ({
       id,
       name,
       vendor,
@@ -92,7 +92,7 @@ export function stationHost(
         return refused({
           code: "station.no-brand",
           sentence: `There is no driver for “${ask.brand}”.`,
-          hint: `There are: ${DRIVER_KINDS.map(({ id }) => id).join(", ")}, ${PLUG_IN}.`,
+          hint: `There are: ${ALL_DRIVER_KINDS.map(({ id }) => id).join(", ")}, ${PLUG_IN}.`,
         });
       if (!robot) return noRobot(ask.robot);
       const why = ask.address ? addressRefusal(rules, ask.address.host) : null;

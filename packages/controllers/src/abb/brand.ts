@@ -1,4 +1,4 @@
-import type { DriverKind } from "../driver/index.ts";
+import type { DriverKind, StartedDriver, VendorVirtualOptions } from "../driver/index.ts";
 import { ABB_CANNOT, ABB_EGM_CANNOT } from "./cannot.ts";
 import { EGM_PORT, RWS_PORT } from "./codec/index.ts";
 import { abbEgmAdapter, abbAdapter } from "./adapter/index.ts";
@@ -26,36 +26,52 @@ export const abb: DriverKind = {
     },
   ],
   face: ({ ports, ...options }) => abbAdapter({ ...options, ports: { ...PORTS, ...ports } }),
-  async virtual({ ports, robot, scheduler, network, host, start_rad, maxSpeed, interpret }) {
-    const started = await createVirtualAbb({
-      robot,
-      scheduler,
-      network,
-      host,
-      interpret,
-      sensor: { host, port: ports?.["egm"] ?? EGM_PORT },
-      rws: ports?.["rws"] ?? RWS_PORT,
-      ...(start_rad ? { start_rad } : {}),
-      ...(maxSpeed === undefined ? {} : { maxSpeed }),
-    });
-    if (started.kind === "taken") return started;
-    const { controller } = started;
-    return {
-      kind: "started",
-      virtual: {
-        name: `Virtual ABB ${robot.name.replace(/^ABB /, "")}`,
-        robot,
-        ports: { ...PORTS, ...ports, rws: controller.rws!.port },
-        brakingTime_s: controller.brakingTime_s,
-        pendant: abbPendant(controller),
-        jointAngles: out => controller.neutral.jointAngles(out),
-        reboot() {
-          controller.reboot(REBOOT_S);
-        },
-        close() {
-          controller.close();
-        },
-      },
-    };
-  },
+  virtual: options => start(options, true),
 };
+/** The same controllers where Robot Web Services are not those of RobotWare 6: EGM alone, which a person starts there. */
+export const abbOverEgm: DriverKind = {
+  ...abb,
+  id: "abb-egm",
+  name: "ABB over EGM alone",
+  ports: { egm: EGM_PORT },
+  cannot: ABB_EGM_CANNOT,
+  face: abbEgmAdapter,
+  virtual: options => start(options, false),
+};
+
+async function start(
+  { ports, robot, scheduler, network, host, start_rad, maxSpeed, interpret }: VendorVirtualOptions,
+  withRws: boolean,
+): Promise<StartedDriver> {
+  const egm = ports?.["egm"] ?? EGM_PORT;
+  const started = await createVirtualAbb({
+    robot,
+    scheduler,
+    network,
+    host,
+    interpret,
+    sensor: { host, port: egm },
+    ...(withRws ? { rws: ports?.["rws"] ?? RWS_PORT } : {}),
+    ...(start_rad ? { start_rad } : {}),
+    ...(maxSpeed === undefined ? {} : { maxSpeed }),
+  });
+  if (started.kind === "taken") return started;
+  const { controller } = started;
+  return {
+    kind: "started",
+    virtual: {
+      name: `Virtual ABB ${robot.name.replace(/^ABB /, "")}`,
+      robot,
+      ports: { egm, ...(controller.rws ? { rws: controller.rws.port } : {}) },
+      brakingTime_s: controller.brakingTime_s,
+      pendant: abbPendant(controller),
+      jointAngles: out => controller.neutral.jointAngles(out),
+      reboot() {
+        controller.reboot(REBOOT_S);
+      },
+      close() {
+        controller.close();
+      },
+    },
+  };
+}

@@ -1,4 +1,4 @@
-export { abb } from "./brand.ts";
+export { abb, abbOverEgm } from "./brand.ts";
 export { abbEgmAdapter, abbAdapter, type AbbEgmAdapterOptions, type AbbAdapterOptions } from "./adapter/index.ts";
 export {
   createVirtualAbb,

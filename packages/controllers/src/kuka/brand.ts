@@ -23,9 +23,22 @@ const TERMINALS: Readonly<Record<SignalLine["kind"], string>> = {
   "analogue-out": "$ANOUT",
 };
 
-const RSI = axisConfig("127.0.0.2", 49_152);
+/** Where the sensor file of a controller sends its telegrams when nothing else is set up. */
+const RSI_PORT = 49_152;
+/** Where a virtual controller on this machine sends them: its own address has the variables. */
+const NEAR = "127.0.0.2";
+/** A controller elsewhere sends to whichever address of this computer its sensor file names. */
+const rsiConfig = (host: string, ports: AdapterOptions["ports"]) =>
+  axisConfig(host.startsWith("127.") ? NEAR : "0.0.0.0", ports?.["rsi"] ?? RSI_PORT);
 const overRsi = ({ robot, scheduler, network, host, ports }: AdapterOptions): ControllerAdapter =>
-  createKukaRsiAdapter({ robot, scheduler, network, host, port: ports?.["variables"] ?? C3_PORT, config: RSI });
+  createKukaRsiAdapter({
+    robot,
+    scheduler,
+    network,
+    host,
+    port: ports?.["variables"] ?? C3_PORT,
+    config: rsiConfig(host, ports),
+  });
 
 /** KUKA as apps meet it. The virtual controller begins in EXT with its drives on and the program TWINCELL running. */
 export const kuka: DriverKind = {
@@ -55,6 +68,7 @@ export const kukaOverRsi: DriverKind = {
   ...kuka,
   id: "kuka-rsi",
   name: "KUKA over RSI",
+  ports: { variables: C3_PORT, rsi: RSI_PORT },
   cannot: KUKA_RSI_CANNOT,
   face: overRsi,
   virtual: options => start(options, true),
@@ -75,7 +89,7 @@ async function start(
     port: ports?.["variables"] ?? C3_PORT,
     ...(start_rad ? { start_rad } : {}),
     ...(maxSpeed === undefined ? {} : { maxSpeed }),
-    ...(overRsi ? { rsi: { config: RSI } } : {}),
+    ...(overRsi ? { rsi: { config: axisConfig(NEAR, ports?.["rsi"] ?? RSI_PORT) } } : {}),
   });
   const { listening, arm } = virtual;
   if (listening.kind === "taken") {
@@ -88,7 +102,7 @@ async function start(
     virtual: {
       name: `Virtual ${robot.name}`,
       robot,
-      ports: { variables: listening.address.port },
+      ports: { variables: listening.address.port, ...(overRsi ? { rsi: ports?.["rsi"] ?? RSI_PORT } : {}) },
       brakingTime_s: arm.brakingTime_s,
       jointAngles: out => arm.jointAngles(out),
       reboot() {
