@@ -2,7 +2,12 @@ import { defineConfig } from "vitest/config";
 
 const none = ["**/node_modules/**"];
 /** Real sockets and real clocks: one file after the other, when all else is done. */
-const REAL_TIME = ["apps/server/src/**/*.test.ts", "apps/cli/src/virtual.test.ts", "apps/cli/src/recordings.test.ts"];
+const REAL_TIME = [
+  "apps/server/src/**/*.test.ts",
+  "apps/cli/src/virtual.test.ts",
+  "apps/cli/src/recordings.test.ts",
+  "apps/cli/src/on-robot.test.ts",
+];
 
 export default defineConfig({
   test: {

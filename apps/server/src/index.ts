@@ -9,3 +9,6 @@ export { nodeScheduler } from "./clock.ts";
 export { stationHost } from "./stations/host.ts";
 export { newFile, recordingFile, recordingFolderOf, recordingsFolder } from "./files/recordings-folder.ts";
 export { recordRemote, type RemoteRecorder } from "./stations/record-remote.ts";
+export { joinHost, joinServer, type Joined, type Told } from "./stations/join.ts";
+export { readConnections, restoreConnections, saveConnection, type SavedConnection } from "./stations/connections.ts";
+export { schedulerWith } from "./api/robots.ts";

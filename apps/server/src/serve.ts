@@ -14,6 +14,7 @@ import { nodeScheduler } from "./clock.ts";
 import { HEADERS, isServed, LOOPBACK, studioListener } from "./pages.ts";
 import { stationHost } from "./stations/host.ts";
 import { prepareJobInWorker } from "./stations/lay-out.ts";
+import { readConnections, restoreConnections } from "./stations/connections.ts";
 import { recordServer } from "./stations/record-host.ts";
 import { openRoutes } from "./sockets/doors.ts";
 import { connectionRoute } from "./stations/socket.ts";
@@ -39,6 +40,8 @@ export interface ServeOptions {
   readonly training?: boolean;
   /** The only addresses of controllers; left out: every address, or with `lan` this machine alone. */
   readonly robots?: readonly string[];
+  /** A file of connections, whose robots are opened and connected when the server starts. */
+  readonly connections?: string;
   /** What the studio is told it speaks with. */
   readonly version?: string;
 }
@@ -52,6 +55,8 @@ export interface Served {
 
 /** Serves the built studio on loopback, or on the local network when asked. Rejects when the port is taken. */
 export async function serve(options: ServeOptions): Promise<Served> {
+  // A file that cannot be read is said before anything listens.
+  if (options.connections !== undefined) readConnections(options.connections);
   const addresses = options.lan ? lanAddresses() : [];
   const access = options.lan ? accessCode(() => nodeScheduler.now_s()) : null;
   const hosts = new Set([...LOOPBACK, ...addresses]);
@@ -126,6 +131,8 @@ export async function serve(options: ServeOptions): Promise<Served> {
       : await recordServer(stations, join(options.data, "recordings"), nodeScheduler, sentence => {
           console.error(sentence);
         });
+  const restoring =
+    options.connections === undefined ? null : restoreConnections(stations, options.connections, nodeScheduler, say);
   const port = (server.address() as AddressInfo).port;
   const scheme = options.lan ? "https" : "http";
   const query = access ? `?code=${access.code}` : "";
@@ -144,6 +151,7 @@ export async function serve(options: ServeOptions): Promise<Served> {
     code: access?.code ?? null,
     close: () =>
       new Promise(resolve => {
+        restoring?.close();
         recorder?.close();
         end();
         socket.close();

@@ -3,6 +3,7 @@ import { auditCommand } from "./audit.ts";
 import { benchCommand } from "./bench.ts";
 import { calibrateCommand } from "./calibrate.ts";
 import { checkCommand } from "./check.ts";
+import { connectCommand } from "./connect.ts";
 import { datasetCommand } from "./dataset.ts";
 import { demonstrateCommand } from "./demonstrate.ts";
 import { dialectsCommand } from "./dialects.ts";
@@ -11,7 +12,9 @@ import { doctorCommand } from "./doctor.ts";
 import { fkCommand } from "./fk.ts";
 import { ikCommand } from "./ik.ts";
 import { importCommand } from "./import.ts";
+import { jogCommand } from "./jog.ts";
 import { meshCommand } from "./mesh.ts";
+import { moveCommand } from "./move.ts";
 import { parseCommand } from "./parse.ts";
 import { postCommand } from "./post.ts";
 import { recordCommand } from "./record.ts";
@@ -20,9 +23,11 @@ import { robotsCommand } from "./robots.ts";
 import { runCommand } from "./run.ts";
 import { serveCommand } from "./serve.ts";
 import { simulateCommand } from "./simulate.ts";
+import { stopCommand } from "./stop.ts";
 import { tokenCommand } from "./token.ts";
 import { validateCommand } from "./validate.ts";
 import { virtualCommand } from "./virtual.ts";
+import { watchCommand } from "./watch.ts";
 
 export const COMMANDS: readonly Command[] = [
   robotsCommand,
@@ -39,6 +44,11 @@ export const COMMANDS: readonly Command[] = [
   runCommand,
   serveCommand,
   virtualCommand,
+  connectCommand,
+  moveCommand,
+  jogCommand,
+  stopCommand,
+  watchCommand,
   recordCommand,
   replayCommand,
   calibrateCommand,

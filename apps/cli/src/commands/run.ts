@@ -1,26 +1,44 @@
 import { pose, SignalTable, Stepper, type Executed, type Step } from "@twincell/core";
+import { COMMAND_GAP_S } from "@twincell/controllers";
 import { given } from "../io/arguments.ts";
+import { COMMANDER_HELP, COMMANDER_OPTIONS } from "../io/at.ts";
 import { lineWriter } from "../io/json-lines.ts";
 import { inputsFrom, ioOf, momentWriter } from "../io/moments.ts";
 import { readCell } from "../io/program.ts";
-import { robotOf, ROBOT_OPTIONS } from "../io/robot.ts";
+import { robotOf } from "../io/robot.ts";
 import { UseFault, type Command } from "../io/usage.ts";
 import { projectFault, textProject, type TextProject } from "../io/text-project.ts";
 import { reportSkipped } from "./parse.ts";
+import { runOn } from "./run-on.ts";
 
 /** A text that never ends is cut here. */
 const LONGEST_S = 24 * 3600;
 
 export const runCommand: Command = {
   name: "run",
-  summary: "interpret a vendor's program text, one line per period",
+  summary: "interpret a vendor's program text, one line per period; with --on run a program on a robot",
   usage: `twincell run FILE… --robot R [--dialect D] [--cell CELL] [--period 0.01] [--inputs part=true] [--skip-unknown]
+       twincell run FILE… --on HOST[:PORT] [--as-text] [--paced [--gap S]] [--despite CODES]
 
 FILE is a program text, several of one program, a folder of them, or a cell whose selected program is a text; a file's siblings
-(program.src has its program.dat) are found beside it. Executes the text with the vendor's own conventions and writes the same lines as simulate, each with the text line under way. With --skip-unknown what is not understood is left out and named on stderr.`,
+(program.src has its program.dat) are found beside it. Executes the text with the vendor's own conventions and writes the same lines as simulate, each with the text line under way. With --skip-unknown what is not understood is left out and named on stderr.
+
+With --on the program (a taught one, .json, or a text, executed to its steps) runs on a robot: planned from where it stands and checked
+in its cell first. What makes the check red keeps it from being sent.
+
+  --on HOST[:PORT]  the robot, as --at below
+  --as-text         as a program of the controller's own language; its steps otherwise
+  --paced           step by step: one command, its end, --gap S (default ${COMMAND_GAP_S}), the next
+  --despite CODES   red findings that you have seen and send it in spite of; the guard stops it before contact all the same
+${COMMANDER_HELP}`,
   async run(args) {
     const options = given(args, {
-      ...ROBOT_OPTIONS,
+      ...COMMANDER_OPTIONS,
+      on: { type: "string" },
+      "as-text": { type: "boolean" },
+      paced: { type: "boolean" },
+      gap: { type: "string" },
+      despite: { type: "string" },
       dialect: { type: "string" },
       cell: { type: "string" },
       period: { type: "string" },
@@ -28,6 +46,8 @@ FILE is a program text, several of one program, a folder of them, or a cell whos
       "skip-unknown": { type: "boolean" },
       json: { type: "boolean" },
     });
+    if (options.text("on") !== undefined)
+      return runOn({ ...options, text: name => options.text(name === "at" ? "on" : name) });
     const period_s = options.number("period") ?? 0.01;
     const cellPath = options.text("cell");
     if (!(period_s >= 1e-4)) throw new UseFault(`--period wants at least 0.0001 s, not ${period_s}.`);

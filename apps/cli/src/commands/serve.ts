@@ -1,4 +1,5 @@
 import { existsSync } from "node:fs";
+import { join } from "node:path";
 import { spawn } from "node:child_process";
 import { serve, type Served, type ServeOptions } from "@twincell/server";
 import { toString as qrText } from "qrcode";
@@ -12,12 +13,14 @@ const studio = studioFolder();
 export const serveCommand: Command = {
   name: "serve",
   summary: "serve the studio on this machine, or on the local network with --lan",
-  usage: `twincell serve [--port P] [--data DIR] [--lan] [--robots HOST,…] [--training] [--open]
+  usage: `twincell serve [--port P] [--data DIR] [--lan] [--robots HOST,…] [--connections FILE] [--training] [--open]
 
   --port P     port to listen on (default ${DEFAULT_PORT}, or the next free one)
   --data DIR   where the server keeps what must survive it: its certificate, and the recordings of its stations
   --lan        also serve other machines: HTTPS, a QR code and an access code
   --robots A,B the only addresses of real controllers; without it every address, with --lan none but this machine
+  --connections FILE  robots to open and connect when it starts; without it connections.json of --data, where there is one. Written by
+               twincell connect --save: {"format":"twincell.connections","version":1,"robots":[{"id","driver","model","address":{"host","ports"},"cell","watch"}]}
   --training   virtual controllers only: nobody reaches a real robot from here
   --open       open the address in a browser where there is one`,
   async run(args) {
@@ -27,6 +30,7 @@ export const serveCommand: Command = {
       lan: { type: "boolean" },
       robots: { type: "string" },
       training: { type: "boolean" },
+      connections: { type: "string" },
       open: { type: "boolean" },
     });
     if (options.positionals.length) throw new UseFault(`serve takes no argument "${options.positionals[0]}".`);
@@ -37,6 +41,8 @@ export const serveCommand: Command = {
       throw new UseFault("The studio is not built yet.", "Run npm run build, or npm start.");
 
     const data = options.text("data");
+    const kept = data === undefined ? undefined : join(data, "connections.json");
+    const connections = options.text("connections") ?? (kept !== undefined && existsSync(kept) ? kept : undefined);
     const robots = options
       .text("robots")
       ?.split(",")
@@ -49,6 +55,7 @@ export const serveCommand: Command = {
         lan: options.flag("lan"),
         training: options.flag("training"),
         ...(robots === undefined ? {} : { robots }),
+        ...(connections === undefined ? {} : { connections }),
         ...(data === undefined ? {} : { data }),
       },
       port === undefined,

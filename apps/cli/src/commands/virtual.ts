@@ -11,12 +11,11 @@ import {
 import { dialectById } from "@twincell/languages";
 import { nodeNetwork, nodeScheduler, servePendant } from "@twincell/server";
 import { given, type Given } from "../io/arguments.ts";
+import { portOption } from "../io/at.ts";
 import { robotOf, ROBOT_OPTIONS } from "../io/robot.ts";
 import { studioFolder } from "../io/studio-folder.ts";
 import { UseFault, type Command } from "../io/usage.ts";
 
-/** `realTime` is asked for as `--port-real-time`. */
-const portOption = (name: string): string => `port-${name.replace(/[A-Z]/g, letter => `-${letter.toLowerCase()}`)}`;
 const portsOf = (brand: DriverKind): string =>
   Object.entries(brand.ports)
     .map(([name, port]) => `--${portOption(name)} ${port}`)

@@ -8,7 +8,7 @@ import {
   type Contact,
   type Robot,
 } from "@twincell/core";
-import { HeldParts } from "./held-parts.ts";
+import { PartInGripper } from "./part-in-gripper.ts";
 
 export interface ClearOfOptions {
   /** Room to keep between robot and cell [m]; 0 asks for no contact only. */
@@ -49,7 +49,7 @@ export function clearOf(
   const collider = new CellCollider(cell, robot.arm);
   const wanted_m = margin_m + registrationError_m;
   collider.allowContactsAt(robot.home_rad);
-  const parts = new HeldParts(collider, cell, robot, wanted_m + (cell.placeError_m ?? 0));
+  const parts = new PartInGripper(collider, cell, robot, wanted_m + (cell.placeError_m ?? 0));
   let asked_rad: ArrayLike<number> = robot.home_rad;
   const checker = new PathValidator(collider, robot.arm, {
     margin_m: wanted_m,
@@ -89,4 +89,4 @@ export function clearOf(
   partsOf.set(clear, parts);
   return clear;
 }
-const partsOf = new WeakMap<ClearOf, HeldParts>();
+const partsOf = new WeakMap<ClearOf, PartInGripper>();

@@ -10,7 +10,7 @@ export interface PacedRun {
   readonly ended_s: readonly number[];
 }
 export interface PacedOptions {
-  readonly robot: RobotController;
+  readonly robot: Pick<RobotController, "run">;
   readonly scheduler: Scheduler;
   readonly gap_s?: number;
   readonly onSent?: (step: Step, at_s: number) => void;

@@ -34,7 +34,7 @@ interface Held {
  * with the flange from then on, and stays where the gripper opens. It may touch what it rested on while it leaves it, and what a
  * checked program puts it down on while it arrives there; everything else it is kept from like the tool.
  */
-export class HeldParts {
+export class PartInGripper {
   readonly #collider: CellCollider;
   readonly #cell: CellGeometry;
   readonly #robot: Robot;
@@ -61,7 +61,7 @@ export class HeldParts {
   }
 
   /** Goes on with what another held, where that is a part of this cell too. */
-  goOnFrom(before: HeldParts): void {
+  goOnFrom(before: PartInGripper): void {
     this.#carried = before.#carried;
     const held = before.#held;
     if (!held || !this.#parts.has(held.id)) return;

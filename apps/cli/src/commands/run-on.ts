@@ -1,0 +1,56 @@
+import { runPaced, COMMAND_GAP_S } from "@twincell/controllers";
+import { unrolled, type CommandOutcome, type Program, type RobotController } from "@twincell/core";
+import { executeText } from "@twincell/languages";
+import { nodeScheduler } from "@twincell/server";
+import type { Given } from "../io/arguments.ts";
+import { commandAt } from "../io/at.ts";
+import { readProgram } from "../io/program.ts";
+import { projectFault, textProject } from "../io/text-project.ts";
+import { UseFault } from "../io/usage.ts";
+import { codesOf } from "./move.ts";
+
+/** A taught program, or a vendor's text executed to its steps, run on a robot. */
+export async function runOn(options: Given): Promise<number> {
+  const gap_s = options.number("gap") ?? COMMAND_GAP_S;
+  const isPaced = options.flag("paced") || options.number("gap") !== undefined;
+  if (!(gap_s >= 0)) throw new UseFault(`--gap wants 0 s or more, not ${gap_s}.`);
+  if (isPaced && options.flag("as-text")) throw new UseFault("--paced sends steps one by one.", "Leave --as-text out.");
+  const [path] = options.positionals;
+  if (path === undefined) throw new UseFault("FILE is missing.", "Give a program (.json) or a vendor's program text.");
+  const taught = /\.json$/i.test(path) && options.positionals.length === 1;
+  return commandAt(options, async ({ info, robot }, ask) => {
+    const station = info.id;
+    const program = taught
+      ? (await readProgram(path, { robot, solids: () => [] })).program
+      : await executed(options, robot);
+    const despite = codesOf(options);
+    if (!isPaced) return ask({ type: "run", station, program, asText: options.flag("as-text"), despite });
+    const paced = await runPaced(unrolled(program), program, {
+      scheduler: nodeScheduler,
+      gap_s,
+      robot: stepwise(program, step => ask({ type: "run", station, program: step, asText: false, despite })),
+    });
+    const gaps = paced.sent_s.slice(1).map((sent_s, i) => sent_s - paced.ended_s[i]!);
+    if (gaps.length > 0)
+      process.stderr.write(
+        `${paced.sent_s.length} commands, ${((1000 * gaps.reduce((sum, gap) => sum + gap, 0)) / gaps.length).toFixed(3)} ms from the end of one to the next on average.\n`,
+      );
+    return paced.outcome;
+  });
+}
+
+async function executed(options: Given, robot: RobotController["robot"]): Promise<Program> {
+  const project = await textProject(options.positionals, options.text("dialect"));
+  const answer = executeText(project.dialect, project.joined.text, project.placeOf(1).path, robot);
+  if (answer.kind === "not-understood") throw projectFault(project, answer.faults);
+  if (answer.cut !== undefined)
+    throw new UseFault(answer.cut, "A text that does not end is run by its own controller.");
+  return answer.program;
+}
+
+/** As much of a controller as a paced run needs: each step goes out as a program of its own, which is planned and checked by itself. */
+function stepwise(program: Program, send: (program: Program) => Promise<CommandOutcome>): Pick<RobotController, "run"> {
+  return {
+    run: steps => send({ ...program, steps: [...steps] }),
+  };
+}
