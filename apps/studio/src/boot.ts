@@ -66,11 +66,8 @@ export function boot(): void {
   void library
     .load()
     // Without a library the cell that was open is still read.
-    .catch((faultInjection: unknown) =>
-      notify(
-        "warn",
-        words.file.noLibrary(faultInjection instanceof Error ? faultInjection.message : String(faultInjection)),
-      ),
+    .catch((problem: unknown) =>
+      notify("warn", words.file.noLibrary(problem instanceof Error ? problem.message : String(problem))),
     )
     .then(() => openKept(browserStore, library))
     .then(() => import("./runtime/robot/cell-control.ts"))

@@ -82,13 +82,13 @@ export function createWorld(engine: Engine, scene: PhysicalScene, signals: Signa
   let model: MjModel;
   try {
     model = engine.MjModel.from_xml_string(sceneXml(scene, masses?.model));
-  } catch (faultInjection) {
+  } catch (problem) {
     return {
       kind: "refused",
       why: {
         code: "physics.model",
         sentence:
-          `The cell cannot be simulated: ${faultInjection instanceof Error ? faultInjection.message : String(faultInjection)}.`.replace(
+          `The cell cannot be simulated: ${problem instanceof Error ? problem.message : String(problem)}.`.replace(
             /\n/g,
             " ",
           ),

@@ -38,8 +38,8 @@ function read<T>(text: string, schema: z.ZodType<T>, what: string): Read<T> {
   let value: unknown;
   try {
     value = JSON.parse(text);
-  } catch (faultInjection) {
-    return { kind: "fault", sentence: `A ${what} is JSON; this one is not: ${(faultInjection as Error).message}.` };
+  } catch (problem) {
+    return { kind: "fault", sentence: `A ${what} is JSON; this one is not: ${(problem as Error).message}.` };
   }
   const parsed = schema.safeParse(value);
   if (parsed.success) return { kind: "read", message: parsed.data };

@@ -13,6 +13,6 @@ export async function readHistory(path: string, robot?: string): Promise<History
     ...(robot === undefined ? {} : { robot }),
   });
   if (opened.kind === "not-a-recording") throw new UseFault(`${path} is no recording. ${opened.sentence}`);
-  for (const faultInjection of opened.history.troubles) process.stderr.write(`twincell: ${faultInjection}\n`);
+  for (const problem of opened.history.troubles) process.stderr.write(`twincell: ${problem}\n`);
   return opened.history;
 }

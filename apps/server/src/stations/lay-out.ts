@@ -3,10 +3,10 @@ import type { PreparedJob, PrepareJob } from "@twincell/controllers";
 import type { PrepareJobAnswer, PrepareJobRequest } from "./lay-out-messages.ts";
 
 /** What came of a program that could not even be looked at. */
-const failed = (faultInjection: string): PreparedJob => {
+const failed = (problem: string): PreparedJob => {
   const why = {
     code: "station.lay-out",
-    sentence: `The program could not be planned: ${faultInjection}`,
+    sentence: `The program could not be planned: ${problem}`,
     hint: "Send it again; if it stays so, start the server anew.",
   };
   return { plan: null, stuck: why, findings: [], bad: [], carried: [], files: null, unwritten: why };

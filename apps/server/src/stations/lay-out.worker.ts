@@ -27,8 +27,8 @@ parentPort!.on(
           ...(dialect ? { dialect } : {}),
         }),
       });
-    } catch (faultInjection) {
-      answer({ id, trouble: faultInjection instanceof Error ? faultInjection.message : String(faultInjection) });
+    } catch (problem) {
+      answer({ id, trouble: problem instanceof Error ? problem.message : String(problem) });
     }
   },
 );

@@ -72,10 +72,8 @@ export async function recordServer(
   tidy();
   const stopTidying = scheduler.every(TIDY_S, tidy);
   const stop = scheduler.every(TICK_S, () => {
-    recorder.tick().catch((faultInjection: unknown) => {
-      onTrouble(
-        `Recordings could not be tidied: ${faultInjection instanceof Error ? faultInjection.message : String(faultInjection)}.`,
-      );
+    recorder.tick().catch((problem: unknown) => {
+      onTrouble(`Recordings could not be tidied: ${problem instanceof Error ? problem.message : String(problem)}.`);
     });
   });
   return {

@@ -29,17 +29,17 @@ export function recordRemote(url: URL, options: Omit<StationRecorderOptions, "no
     { ...options, now_s: () => performance.now() / 1000 },
   );
   const timer = setInterval(() => {
-    recorder.tick().catch((faultInjection: unknown) => {
+    recorder.tick().catch((problem: unknown) => {
       options.onTrouble?.(
-        `Recordings could not be tidied: ${faultInjection instanceof Error ? faultInjection.message : String(faultInjection)}.`,
+        `Recordings could not be tidied: ${problem instanceof Error ? problem.message : String(problem)}.`,
       );
     });
   }, TICK_MS);
   socket.on("message", (data, binary) => {
     if (!binary) recorder.hear(String(data as Buffer));
   });
-  socket.on("error", faultInjection => {
-    why = `The server at ${url.host} cannot be reached: ${faultInjection.message || "it does not answer"}.`;
+  socket.on("error", problem => {
+    why = `The server at ${url.host} cannot be reached: ${problem.message || "it does not answer"}.`;
   });
   return {
     ended: new Promise(resolve => {

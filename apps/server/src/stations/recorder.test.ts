@@ -13,7 +13,7 @@ const packing = await zstd();
 function bench() {
   const scheduler = manualScheduler();
   const port = memoryFiles();
-  const faultInjections: string[] = [];
+  const problems: string[] = [];
   const told: ConnectionEvent[] = [];
   const host = createRobotServer({
     scheduler,
@@ -40,7 +40,7 @@ function bench() {
     {
       now_s: scheduler.now_s,
       onTrouble: sentence => {
-        faultInjections.push(sentence);
+        problems.push(sentence);
       },
       archive: (station, robot) =>
         createArchive(port, {
@@ -79,14 +79,14 @@ function bench() {
   const stop = scheduler.every(0.1, () => {
     void recorder.tick();
   });
-  return { scheduler, host, recorder, client, port, troubles: faultInjections, told, stop };
+  return { scheduler, host, recorder, client, port, troubles: problems, told, stop };
 }
 
 test.each(DRIVER_KINDS.map(brand => [brand.id, brand] as const))(
   "T-54 T-61 X-43 X-48 two-way telemetry of a virtual %s: every sample with its times, every command with who gave it, and how late both are",
   async (_, brand) => {
     const robot = robotsOf(brand)[0]!;
-    const { scheduler, host, recorder, client, port, troubles: faultInjections, told, stop } = bench();
+    const { scheduler, host, recorder, client, port, troubles: problems, told, stop } = bench();
     const ask = async (request: Parameters<typeof client.ask>[0]) => {
       const asked = client.ask(request);
       // ros_server of a Stäubli says nothing for its first second.
@@ -128,7 +128,7 @@ test.each(DRIVER_KINDS.map(brand => [brand.id, brand] as const))(
     stop();
     recorder.close();
     host.close();
-    expect(faultInjections).toEqual([]);
+    expect(problems).toEqual([]);
 
     const opened = await openHistory(port, { packing });
     if (opened.kind !== "history") throw new Error(opened.sentence);

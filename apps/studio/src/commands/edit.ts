@@ -73,7 +73,7 @@ function leave(): void {
   else if (selectionStore.getState().selected) select(null);
 }
 function stop(): void {
-  const faultInjections = stopEverything();
-  if (faultInjections.length > 0) notify("bad", `${words.top.stopTrouble} ${faultInjections.join(" ")}`);
+  const problems = stopEverything();
+  if (problems.length > 0) notify("bad", `${words.top.stopTrouble} ${problems.join(" ")}`);
   notify("warn", words.top.stopped, words.top.stoppedHint);
 }

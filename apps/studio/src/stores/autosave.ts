@@ -85,11 +85,11 @@ export function keepDocument(keeper: Keeper, clock: Clock, library?: CellLibrary
       told = "";
       if (library) putSoon(library);
       cellStore.setState(state => ({ saving: { kind: state.document === document ? "saved" : "unsaved" } }));
-    } catch (faultInjection) {
-      const full = faultInjection instanceof Error && faultInjection.name === "QuotaExceededError";
+    } catch (problem) {
+      const full = problem instanceof Error && problem.name === "QuotaExceededError";
       const sentence = full
         ? words.file.fullDisk
-        : words.file.noKeep(faultInjection instanceof Error ? faultInjection.message : String(faultInjection));
+        : words.file.noKeep(problem instanceof Error ? problem.message : String(problem));
       cellStore.setState({ saving: { kind: "problem", sentence } });
       if (told !== sentence) notify("bad", sentence, full ? words.file.fullDiskHint : words.file.noKeepHint);
       told = sentence;

@@ -289,8 +289,8 @@ test("10,000 random actions lose no cell: edits, other cells, trash, versions, a
   expect(promised.size).toBeGreaterThan(100);
 }, 120_000);
 
-const expectFull = (faultInjection: unknown): void => {
-  expect(String(faultInjection)).toContain("no room");
+const expectFull = (problem: unknown): void => {
+  expect(String(problem)).toContain("no room");
 };
 /** What a cell held when the studio last said it was saved, or when another was opened; and all it has held since. */
 interface Promised {

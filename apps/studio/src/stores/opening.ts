@@ -54,9 +54,9 @@ export function openCellText(text: string, name: string): boolean {
       return false;
   }
 }
-const notRead = (faultInjection: unknown): Fetched => ({
+const notRead = (problem: unknown): Fetched => ({
   kind: "missing",
-  sentence: words.file.noKeep(faultInjection instanceof Error ? faultInjection.message : String(faultInjection)),
+  sentence: words.file.noKeep(problem instanceof Error ? problem.message : String(problem)),
 });
 /** Moves a cell to the trash. The open one makes place for the newest other, or for an empty one. */
 export async function trashCell(id: string): Promise<void> {

@@ -17,14 +17,14 @@ export function afterStop(listen: () => void): () => void {
 
 /** Returns the sentences of stoppers that could not do it. */
 export function stopEverything(): readonly string[] {
-  const faultInjections: string[] = [];
+  const problems: string[] = [];
   for (const bringToRest of stoppers) {
     try {
       bringToRest();
-    } catch (faultInjection) {
-      faultInjections.push(faultInjection instanceof Error ? faultInjection.message : String(faultInjection));
+    } catch (problem) {
+      problems.push(problem instanceof Error ? problem.message : String(problem));
     }
   }
   for (const listen of listeners) listen();
-  return faultInjections;
+  return problems;
 }

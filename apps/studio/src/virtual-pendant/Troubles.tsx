@@ -11,11 +11,11 @@ const MOST_LOSS = 0.5;
 /** Who is connected, and what only a virtual controller lets a person do: make things go wrong. */
 export function FaultInjections({ link, open }: { readonly link: VirtualPendantLink; readonly open: boolean }) {
   const { host, ports } = useStore(link.view, state => state.words)!;
-  const { trouble: faultInjection, peers } = useStore(link.view, state => state.lamps)!;
+  const { trouble: problem, peers } = useStore(link.view, state => state.lamps)!;
   const [delay, setDelay] = useState<number | null>(null);
   const [loss, setLoss] = useState<number | null>(null);
-  const delay_s = delay ?? faultInjection.delay_s;
-  const lost = loss ?? faultInjection.loss;
+  const delay_s = delay ?? problem.delay_s;
+  const lost = loss ?? problem.loss;
   return (
     <>
       <details className="desk-part" open={open}>
@@ -70,9 +70,9 @@ export function FaultInjections({ link, open }: { readonly link: VirtualPendantL
         <div className="desk-buttons">
           <button
             className="btn"
-            aria-pressed={faultInjection.hangs}
+            aria-pressed={problem.hangs}
             onClick={() => {
-              link.act({ do: "trouble", hangs: !faultInjection.hangs });
+              link.act({ do: "trouble", hangs: !problem.hangs });
             }}
           >
             <Snowflake />
@@ -80,13 +80,13 @@ export function FaultInjections({ link, open }: { readonly link: VirtualPendantL
           </button>
           <button
             className="btn"
-            aria-pressed={faultInjection.unplugged}
+            aria-pressed={problem.unplugged}
             onClick={() => {
-              link.act({ do: "trouble", unplugged: !faultInjection.unplugged });
+              link.act({ do: "trouble", unplugged: !problem.unplugged });
             }}
           >
-            {faultInjection.unplugged ? <PlugZap /> : <Plug />}
-            {faultInjection.unplugged ? words.stations.plugIn : words.cabinet.unplug}
+            {problem.unplugged ? <PlugZap /> : <Plug />}
+            {problem.unplugged ? words.stations.plugIn : words.cabinet.unplug}
           </button>
           <button
             className="btn"

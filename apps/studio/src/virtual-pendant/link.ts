@@ -52,7 +52,7 @@ const lampsOf = ({
   gateOpen,
   near,
   on,
-  trouble: faultInjection,
+  trouble: problem,
   peers,
   says,
 }: PendantShown): Lamps => ({
@@ -70,7 +70,7 @@ const lampsOf = ({
   gateOpen,
   near,
   on,
-  trouble: faultInjection,
+  trouble: problem,
   peers,
   says,
 });

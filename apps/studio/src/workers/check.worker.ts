@@ -39,11 +39,11 @@ addEventListener("message", ({ data }: MessageEvent<ToChecker>) => {
       path: tcpPath(plan, verdict, program, robot, cell.worldFromBase),
       took_ms: performance.now() - began,
     });
-  } catch (faultInjection) {
+  } catch (problem) {
     answer({
       kind: "trouble",
       id,
-      sentence: faultInjection instanceof Error ? faultInjection.message : String(faultInjection),
+      sentence: problem instanceof Error ? problem.message : String(problem),
     });
   }
 });

@@ -26,10 +26,10 @@ addEventListener("message", ({ data }: MessageEvent<ToWatcher>) => {
       nearest: [clearance.a, clearance.b],
       took_ms: performance.now() - began,
     });
-  } catch (faultInjection) {
+  } catch (problem) {
     answer({
       kind: "trouble",
-      sentence: `The collision check stopped: ${faultInjection instanceof Error ? faultInjection.message : String(faultInjection)}.`,
+      sentence: `The collision check stopped: ${problem instanceof Error ? problem.message : String(problem)}.`,
     });
   }
 });

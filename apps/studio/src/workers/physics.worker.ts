@@ -78,11 +78,11 @@ function advance(dt_s: number, override: number): void {
 
 addEventListener("message", ({ data }: MessageEvent<ToPhysics>) => {
   if (data.kind === "start") {
-    start(data).catch((faultInjection: unknown) => {
+    start(data).catch((problem: unknown) => {
       answer({
         kind: "refused",
         edition: data.edition,
-        sentence: `Physics stopped: ${faultInjection instanceof Error ? faultInjection.message : String(faultInjection)}.`,
+        sentence: `Physics stopped: ${problem instanceof Error ? problem.message : String(problem)}.`,
         hint: "Reload the page; nothing is lost.",
       });
     });

@@ -8,11 +8,11 @@ addEventListener("message", ({ data }: MessageEvent<ToPlanner>) => {
   };
   try {
     answer(planTask(data, () => performance.now() / 1000, answer));
-  } catch (faultInjection) {
+  } catch (problem) {
     answer({
       kind: "trouble",
       id: data.id,
-      sentence: faultInjection instanceof Error ? faultInjection.message : String(faultInjection),
+      sentence: problem instanceof Error ? problem.message : String(problem),
     });
   }
 });

@@ -28,11 +28,11 @@ addEventListener(
         id,
         proof: dialect && runnable ? proveText(dialect, runnable, written.program, robot, worldFromBase) : null,
       });
-    } catch (faultInjection) {
+    } catch (problem) {
       answer({
         kind: "trouble",
         id,
-        sentence: faultInjection instanceof Error ? faultInjection.message : String(faultInjection),
+        sentence: problem instanceof Error ? problem.message : String(problem),
       });
     }
   },

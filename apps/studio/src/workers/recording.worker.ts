@@ -10,10 +10,10 @@ addEventListener("message", ({ data: file }: MessageEvent<ToRecordingReader>) =>
   };
   zstd()
     .then(packing => catalogue(blobFiles([file]), { name: file.name, bytes: file.blob.size }, packing))
-    .then(answer, (faultInjection: unknown) => {
+    .then(answer, (problem: unknown) => {
       answer({
         kind: "not-a-recording",
-        sentence: `The recording cannot be read: ${faultInjection instanceof Error ? faultInjection.message : String(faultInjection)}.`,
+        sentence: `The recording cannot be read: ${problem instanceof Error ? problem.message : String(problem)}.`,
       });
     });
 });

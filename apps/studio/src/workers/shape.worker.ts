@@ -22,9 +22,9 @@ const SEED = 1;
 addEventListener("message", ({ data }: MessageEvent<ShapeRequest>) => {
   void answerTo(data)
     .catch(
-      (faultInjection: unknown): ShapeAnswer => ({
+      (problem: unknown): ShapeAnswer => ({
         kind: "not-understood",
-        sentence: faultInjection instanceof Error ? faultInjection.message : String(faultInjection),
+        sentence: problem instanceof Error ? problem.message : String(problem),
       }),
     )
     .then(answer => postMessage(answer));

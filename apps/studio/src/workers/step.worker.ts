@@ -9,9 +9,7 @@ import { STEP_PARAMETERS, type OcctResult } from "@twincell/formats";
 addEventListener("message", ({ data }: MessageEvent<Uint8Array>) => {
   void load({ locateFile: () => new URL(kernelAddress, import.meta.url).href })
     .then(kernel => compact(kernel.ReadStepFile(data, STEP_PARAMETERS)))
-    .catch((faultInjection: unknown) =>
-      faultInjection instanceof Error ? faultInjection.message : String(faultInjection),
-    )
+    .catch((problem: unknown) => (problem instanceof Error ? problem.message : String(problem)))
     .then((answer: OcctResult | string) => postMessage(answer));
 });
 

@@ -9,11 +9,11 @@ const answer = (message: FromTextWorker): void => {
 addEventListener("message", ({ data }: MessageEvent<ToTextWorker>) => {
   try {
     answer(textTask(data));
-  } catch (faultInjection) {
+  } catch (problem) {
     answer({
       kind: "trouble",
       id: data.id,
-      sentence: faultInjection instanceof Error ? faultInjection.message : String(faultInjection),
+      sentence: problem instanceof Error ? problem.message : String(problem),
     });
   }
 });

@@ -7,11 +7,11 @@ addEventListener("message", ({ data: { id, task } }: MessageEvent<ToTracer>) => 
   let answer: TraceAnswer;
   try {
     answer = traceProgram(task);
-  } catch (faultInjection) {
+  } catch (problem) {
     answer = {
       kind: "cannot",
       edge: 0,
-      sentence: faultInjection instanceof Error ? faultInjection.message : String(faultInjection),
+      sentence: problem instanceof Error ? problem.message : String(problem),
     };
   }
   const message: FromTracer = { id, answer, took_ms: performance.now() - began };

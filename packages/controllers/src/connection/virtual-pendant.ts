@@ -357,11 +357,11 @@ function virtualPendantOf(
             pendant.setInput(act.signal, act.value);
             return DONE;
           case "trouble": {
-            const { trouble: faultInjection } = outside;
-            faultInjection.delay_s = act.delay_s ?? faultInjection.delay_s;
-            faultInjection.loss = act.loss ?? faultInjection.loss;
-            faultInjection.hangs = act.hangs ?? faultInjection.hangs;
-            faultInjection.unplugged = act.unplugged ?? faultInjection.unplugged;
+            const { trouble: problem } = outside;
+            problem.delay_s = act.delay_s ?? problem.delay_s;
+            problem.loss = act.loss ?? problem.loss;
+            problem.hangs = act.hangs ?? problem.hangs;
+            problem.unplugged = act.unplugged ?? problem.unplugged;
             return DONE;
           }
           case "reboot":

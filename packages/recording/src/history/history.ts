@@ -72,11 +72,11 @@ const GAP_S = 1.5;
 /** Opens all recordings of a place as one history. A file that cannot be read is named and left out. */
 export async function openHistory(port: FilePort, options: HistoryOptions = {}): Promise<OpenedHistory> {
   const files: CatalogueFile[] = [];
-  const faultInjections: string[] = [];
+  const problems: string[] = [];
   for (const stored of await port.list()) {
     const read = await (options.catalogue?.(stored) ?? catalogue(port, stored, options.packing));
     if (read.kind === "file") files.push(read.file);
-    else faultInjections.push(`${stored.name}: ${read.sentence}`);
+    else problems.push(`${stored.name}: ${read.sentence}`);
   }
   files.sort((a, b) =>
     a.facts.startedAt_ns < b.facts.startedAt_ns ? -1 : a.facts.startedAt_ns > b.facts.startedAt_ns ? 1 : 0,
@@ -87,24 +87,20 @@ export async function openHistory(port: FilePort, options: HistoryOptions = {}):
       facts.robot === wanted && facts.joints === files.findLast(each => each.facts.robot === wanted)!.facts.joints,
   );
   for (const { name, facts } of files)
-    if (facts.robot !== wanted) faultInjections.push(`${name} is of another robot, ${facts.robotName || facts.robot}.`);
+    if (facts.robot !== wanted) problems.push(`${name} is of another robot, ${facts.robotName || facts.robot}.`);
   const [first] = ours;
   if (!first)
     return {
       kind: "not-a-recording",
       sentence:
-        faultInjections.length === 1
-          ? faultInjections[0]!.replace(/^[^:]*: /, "")
-          : (faultInjections[0] ?? "There is no recording here."),
+        problems.length === 1 ? problems[0]!.replace(/^[^:]*: /, "") : (problems[0] ?? "There is no recording here."),
     };
   for (const { name, complete, damaged } of ours) {
     if (damaged > 0)
-      faultInjections.push(
-        `${name} is damaged in ${damaged} ${damaged === 1 ? "place" : "places"}; the rest of it is here.`,
-      );
-    else if (!complete) faultInjections.push(`${name} was cut off; it is here up to its last second.`);
+      problems.push(`${name} is damaged in ${damaged} ${damaged === 1 ? "place" : "places"}; the rest of it is here.`);
+    else if (!complete) problems.push(`${name} was cut off; it is here up to its last second.`);
   }
-  return { kind: "history", history: historyOf(port, ours, faultInjections, options.packing) };
+  return { kind: "history", history: historyOf(port, ours, problems, options.packing) };
 }
 
 interface Slice {
@@ -115,7 +111,7 @@ interface Slice {
 function historyOf(
   port: FilePort,
   files: readonly CatalogueFile[],
-  faultInjections: readonly string[],
+  problems: readonly string[],
   packing: Packing | undefined,
 ): History {
   const { facts } = files[0]!;
@@ -205,7 +201,7 @@ function historyOf(
     marks,
     cycles,
     minutes,
-    troubles: faultInjections,
+    troubles: problems,
     stretches: files.map((file, i) => ({
       name: file.name,
       bytes: file.bytes,

@@ -12,7 +12,7 @@ import "./check.css";
 
 /** Check mode: the joints at this moment, why something cannot be, and the figures of the whole program. */
 export function Check() {
-  const { verdict, checking, trouble: faultInjection, plan, withOthers } = useStore(playStore);
+  const { verdict, checking, trouble: problem, plan, withOthers } = useStore(playStore);
   const others = useStore(stationStore, state => state.stations.length);
   const robot = useStore(cellStore, state => robotOf(state.document));
   const steps = useStore(cellStore, state => programOf(state.document)?.steps.length ?? 0);
@@ -60,9 +60,9 @@ export function Check() {
               {words.check.others(others)}
             </label>
           )}
-          {faultInjection && (
+          {problem && (
             <p className="why" data-tone="bad" role="alert">
-              <b>{words.check.trouble}</b> {faultInjection}
+              <b>{words.check.trouble}</b> {problem}
             </p>
           )}
           {steps === 0 ? (
@@ -70,7 +70,7 @@ export function Check() {
           ) : verdict ? (
             <WhyCards verdict={verdict} />
           ) : (
-            checking === null && !faultInjection && <p className="muted small">{words.check.notYet}</p>
+            checking === null && !problem && <p className="muted small">{words.check.notYet}</p>
           )}
         </div>
       </section>

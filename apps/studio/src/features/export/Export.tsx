@@ -34,7 +34,7 @@ export default function Export() {
 }
 
 function Body() {
-  const { emitted, proof, working, trouble: faultInjection } = useStore(postStore);
+  const { emitted, proof, working, trouble: problem } = useStore(postStore);
   const cell = useStore(cellStore, state => state.document);
   const program = programOf(cell);
   const robot = robotOf(cell);
@@ -91,11 +91,10 @@ function Body() {
             {proof.sentence}
           </p>
         )}
-        {(faultInjection ?? (emitted?.kind === "cannot" ? `${emitted.sentence} ${emitted.hint}` : null)) !== null && (
+        {(problem ?? (emitted?.kind === "cannot" ? `${emitted.sentence} ${emitted.hint}` : null)) !== null && (
           <p className="export-proof" role="alert">
             <i className="mark" data-verdict="bad" aria-hidden />
-            {words.export.cannot}{" "}
-            {faultInjection ?? (emitted?.kind === "cannot" && `${emitted.sentence} ${emitted.hint}`)}
+            {words.export.cannot} {problem ?? (emitted?.kind === "cannot" && `${emitted.sentence} ${emitted.hint}`)}
           </p>
         )}
         {emitted?.kind === "emitted" && (

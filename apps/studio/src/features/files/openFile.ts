@@ -28,12 +28,8 @@ export async function openFile(file: File): Promise<void> {
       const [fault] = importText(await file.text(), file.name);
       if (fault !== undefined) notify("bad", words.file.notCell(file.name, fault), words.file.notCellHint);
     } else notify("bad", words.file.unknownKind(file.name), words.file.unknownHint);
-  } catch (faultInjection) {
-    notify(
-      "bad",
-      words.file.unreadable(file.name),
-      faultInjection instanceof Error ? faultInjection.message : undefined,
-    );
+  } catch (problem) {
+    notify("bad", words.file.unreadable(file.name), problem instanceof Error ? problem.message : undefined);
   }
 }
 
@@ -64,11 +60,11 @@ export async function openFiles(files: readonly FileAt[]): Promise<void> {
   try {
     if (hasShapes) await importShapes(others);
     if (texts.length > 0) await openTexts(texts);
-  } catch (faultInjection) {
+  } catch (problem) {
     notify(
       "bad",
       words.file.unreadable(files[0]?.file.name ?? ""),
-      faultInjection instanceof Error ? faultInjection.message : undefined,
+      problem instanceof Error ? problem.message : undefined,
     );
   }
   if (!hasShapes) for (const { file } of others) await openFile(file);

@@ -113,11 +113,8 @@ function RunRow({ run, open, top_px }: { readonly run: RunRecord; readonly open:
   const save = async (): Promise<void> => {
     try {
       download(`${run.id}.mcap`, await theHistory.file(run.id));
-    } catch (faultInjection) {
-      notify(
-        "bad",
-        `${words.history.unreadable} ${faultInjection instanceof Error ? faultInjection.message : String(faultInjection)}.`,
-      );
+    } catch (problem) {
+      notify("bad", `${words.history.unreadable} ${problem instanceof Error ? problem.message : String(problem)}.`);
     }
   };
   const remove = async (): Promise<void> => {

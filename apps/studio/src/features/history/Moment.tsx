@@ -7,16 +7,16 @@ import { clockOf, MOST_SHOWN, wallOf } from "./times.ts";
 
 /** How everything stood at the moment that is looked at, what can be done with it, and what happened around it. */
 export function Moment() {
-  const { moment, marks, troubles: faultInjections, window, startedAt_ms, t_s } = useStore(historyStore);
+  const { moment, marks, troubles: problems, window, startedAt_ms, t_s } = useStore(historyStore);
   const { modes, safeties } = words.history;
   const inSight = marks.filter(mark => mark.at_s >= window.from_s && mark.at_s <= window.to_s);
   const lines = Object.entries(moment.signals);
   return (
     <div className="history-moment">
       <p className="small muted">{wallOf(startedAt_ms, t_s)}</p>
-      {faultInjections.map(faultInjection => (
-        <p key={faultInjection} className="small history-trouble">
-          {faultInjection}
+      {problems.map(problem => (
+        <p key={problem} className="small history-trouble">
+          {problem}
         </p>
       ))}
       {!moment.recorded && <p className="small history-trouble">{words.history.gap}</p>}

@@ -23,12 +23,8 @@ export function SavedPoses() {
       const answer = readPoses(await file.text());
       if (answer.kind === "read") notify("done", words.poses.loaded(answer.count), file.name);
       else notify("bad", answer.sentence, file.name);
-    } catch (faultInjection) {
-      notify(
-        "bad",
-        words.file.unreadable(file.name),
-        faultInjection instanceof Error ? faultInjection.message : undefined,
-      );
+    } catch (problem) {
+      notify("bad", words.file.unreadable(file.name), problem instanceof Error ? problem.message : undefined);
     }
   };
   const save = (): void => {

@@ -30,7 +30,7 @@ export default function Run() {
   const held = useStore(playStore, state => state.speed === 0);
   const dialect = useStore(languageStore, state => languageOf(robot, state));
   const nothing = !program || !robot || program.steps.length === 0;
-  const { emitted, trouble: faultInjection } = useStore(postStore);
+  const { emitted, trouble: problem } = useStore(postStore);
   const id = dialect?.id ?? "";
   useEffect(() => {
     postStore.setState({ emitted: null, proof: null, trouble: null });
@@ -41,7 +41,7 @@ export default function Run() {
   useEffect(() => {
     openTextOfCell(text);
   }, [text]);
-  const cannot = faultInjection ?? (emitted?.kind === "cannot" ? emitted.sentence : null);
+  const cannot = problem ?? (emitted?.kind === "cannot" ? emitted.sentence : null);
 
   if (foreign)
     return (

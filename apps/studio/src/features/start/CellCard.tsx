@@ -121,11 +121,8 @@ function NameField({ cell, current, onDone }: { cell: StoredCell; current: boole
     if (current) commit(words.undo.cellName, document => ({ ...document, name }));
     theLibrary()
       ?.rename(cell.id, name)
-      .catch((faultInjection: unknown) =>
-        notify(
-          "bad",
-          words.cells.failed(faultInjection instanceof Error ? faultInjection.message : String(faultInjection)),
-        ),
+      .catch((problem: unknown) =>
+        notify("bad", words.cells.failed(problem instanceof Error ? problem.message : String(problem))),
       );
   };
   return (

@@ -22,11 +22,8 @@ const robotName = (id: string): string => {
 };
 /** What went wrong is one sentence; the cells stay as they are. */
 const told = (done: Promise<unknown>): void => {
-  done.catch((faultInjection: unknown) =>
-    notify(
-      "bad",
-      words.cells.failed(faultInjection instanceof Error ? faultInjection.message : String(faultInjection)),
-    ),
+  done.catch((problem: unknown) =>
+    notify("bad", words.cells.failed(problem instanceof Error ? problem.message : String(problem))),
   );
 };
 

@@ -138,7 +138,7 @@ function Problems({
   readonly lines: number;
 }) {
   const reading = useStore(textStore, state => state.reading);
-  const faultInjection = useStore(textStore, state => state.trouble);
+  const problem = useStore(textStore, state => state.trouble);
   const checking = useStore(playStore, state => state.checking !== null);
   const bad = findings.filter(each => each.verdict === "bad").length;
   return (
@@ -148,12 +148,12 @@ function Problems({
         {bad > 0 && <span className="text-count bad">{bad}</span>}
         {findings.length > bad && <span className="text-count near">{findings.length - bad}</span>}
       </h2>
-      {faultInjection !== null && (
+      {problem !== null && (
         <p className="empty" role="alert">
-          {faultInjection}
+          {problem}
         </p>
       )}
-      {findings.length === 0 && faultInjection === null && (
+      {findings.length === 0 && problem === null && (
         <p className="empty" role="status">
           {reading || checking ? words.text.reading : words.text.clean(lines)}
         </p>

@@ -14,7 +14,7 @@ const SAY_EVERY_MS = 250;
 
 /** One camera: its picture, how old it is, and what can be done with it. */
 export function VideoPanel({
-  panel: { id, name, source, trouble: faultInjection },
+  panel: { id, name, source, trouble: problem },
   place,
 }: {
   readonly panel: Panel;
@@ -25,12 +25,7 @@ export function VideoPanel({
   const held = useStore(videoStore, state => state.heldBy === id);
   useEffect(() => (frame.current && grip.current ? movable(frame.current, grip.current, place) : undefined), [place]);
   return (
-    <section
-      ref={frame}
-      className="video-panel"
-      aria-label={words.video.panel(name)}
-      data-trouble={faultInjection !== ""}
-    >
+    <section ref={frame} className="video-panel" aria-label={words.video.panel(name)} data-trouble={problem !== ""}>
       <header>
         <div
           ref={grip}
@@ -80,11 +75,11 @@ export function VideoPanel({
           </button>
         </Tip>
       </header>
-      <Picture id={id} trouble={faultInjection} />
-      {faultInjection && (
+      <Picture id={id} trouble={problem} />
+      {problem && (
         <p className="video-trouble" role="status">
-          {faultInjection}{" "}
-          {source.kind === "here" && faultInjection !== words.video.asking && (
+          {problem}{" "}
+          {source.kind === "here" && problem !== words.video.asking && (
             <button className="btn tight" onClick={() => tryAgain(id)}>
               <RotateCcw />
               {words.video.again}
@@ -118,7 +113,7 @@ function useSaying(write: () => void): void {
 }
 
 /** The feed's own canvas, and over it what is to be known about it. */
-function Picture({ id, trouble: faultInjection }: { readonly id: string; readonly trouble: string }) {
+function Picture({ id, trouble: problem }: { readonly id: string; readonly trouble: string }) {
   const box = useRef<HTMLDivElement>(null);
   const says = useRef<HTMLParagraphElement>(null);
   useEffect(() => {
@@ -140,7 +135,7 @@ function Picture({ id, trouble: faultInjection }: { readonly id: string; readonl
         ? words.video.late(now.age_s)
         : now.kind === "still"
           ? words.video.still(now.still_s)
-          : now.kind === "none" && faultInjection === ""
+          : now.kind === "none" && problem === ""
             ? words.video.waiting
             : "";
     box.current.dataset["state"] = now.kind;

@@ -37,13 +37,13 @@ export interface RunFile {
 export function openRunFile(runStorage: RunStorage, id: string): RunFile {
   let position = 0;
   let pieces = 0;
-  let faultInjection: string | null = null;
+  let problem: string | null = null;
   let last: Promise<void> = Promise.resolve();
   const keep = (key: string, value: unknown): void => {
     last = last
       .then(() => runStorage.set(key, value))
       .catch((reason: unknown) => {
-        faultInjection ??= isFull(reason)
+        problem ??= isFull(reason)
           ? "The browser has no room left for this recording."
           : `The recording could not be kept: ${reason instanceof Error ? reason.message : String(reason)}.`;
       });
@@ -54,7 +54,7 @@ export function openRunFile(runStorage: RunStorage, id: string): RunFile {
         return position;
       },
       write(bytes) {
-        if (faultInjection !== null) throw new Error(faultInjection);
+        if (problem !== null) throw new Error(problem);
         position += bytes.length;
         keep(pieceKey(id, pieces++), bytes.slice());
       },
@@ -64,7 +64,7 @@ export function openRunFile(runStorage: RunStorage, id: string): RunFile {
     },
     async settled() {
       await last;
-      return faultInjection;
+      return problem;
     },
   };
 }

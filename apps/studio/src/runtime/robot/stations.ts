@@ -369,8 +369,8 @@ async function endRecording(id: string, { recorder, file, note }: Recording, out
   );
   recorder.finish();
   note(outcome.kind);
-  const faultInjection = (await file.settled()) ?? recorder.problem?.sentence ?? null;
-  if (faultInjection !== null) changeStation(id, { notice: faultInjection });
+  const problem = (await file.settled()) ?? recorder.problem?.sentence ?? null;
+  if (problem !== null) changeStation(id, { notice: problem });
   historyStore.setState({ runs: await listRuns(shelf) });
 }
 

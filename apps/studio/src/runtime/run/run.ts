@@ -289,9 +289,7 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
     };
     const written = await world
       .write(program)
-      .catch((faultInjection: unknown) =>
-        faultInjection instanceof Error ? faultInjection.message : String(faultInjection),
-      );
+      .catch((problem: unknown) => (problem instanceof Error ? problem.message : String(problem)));
     // Whoever pressed stop meanwhile has stopped this run.
     if (starting !== mine) {
       if (starting === null) controlStore.setState({ running: false });
@@ -385,8 +383,8 @@ export function controlCell(world: RunWorld, { robot, worldFromBase, flangeFromT
     );
     done.finish();
     note(outcome.kind);
-    const faultInjection = (await file.settled()) ?? done.problem?.sentence ?? null;
-    if (faultInjection !== null) controlStore.setState({ message: faultInjection });
+    const problem = (await file.settled()) ?? done.problem?.sentence ?? null;
+    if (problem !== null) controlStore.setState({ message: problem });
     historyStore.setState({ runs: await listRuns(world.shelf) });
   }
 

@@ -68,7 +68,7 @@ export function textRun(
   let over = false;
   let running = false;
   let line = 0;
-  let faultInjection: Fault | undefined;
+  let problem: Fault | undefined;
 
   const take = (): Executed | undefined => {
     const held = next;
@@ -79,7 +79,7 @@ export function textRun(
       if (answer.done !== true) return answer.value;
     } catch (cause) {
       if (!(cause instanceof Fault)) throw cause;
-      faultInjection = cause;
+      problem = cause;
     }
     over = true;
     return undefined;
@@ -132,8 +132,7 @@ export function textRun(
     tell({ phase: "running", line });
     const outcome = await session.part(part(single, goesOn, session), context);
     running = false;
-    if (faultInjection)
-      await finish({ kind: "fault", line, sentence: faultInjection.message, hint: faultInjection.hint });
+    if (problem) await finish({ kind: "fault", line, sentence: problem.message, hint: problem.hint });
     else if (outcome.kind !== "done" || over) await finish(outcome);
     else tell({ phase: "paused", line: next?.line ?? line });
   }

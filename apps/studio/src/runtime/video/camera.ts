@@ -33,10 +33,10 @@ export async function openCamera(wanted: string): Promise<OpenedCamera> {
       video: { ...which, width: { ideal: WIDTH }, height: { ideal: HEIGHT }, frameRate: { ideal: PER_SECOND } },
     });
     return { kind: "opened", stream, name: stream.getVideoTracks()[0]?.label || "Camera" };
-  } catch (faultInjection) {
+  } catch (problem) {
     return {
       kind: "refused",
-      sentence: sentenceOf(faultInjection instanceof Error ? faultInjection.name : "", String(faultInjection)),
+      sentence: sentenceOf(problem instanceof Error ? problem.name : "", String(problem)),
     };
   }
 }
@@ -83,8 +83,8 @@ export function eachPicture(
   Object.assign(video, { muted: true, playsInline: true, srcObject: stream });
   handle = video.requestVideoFrameCallback(next);
   // A stream that is stopped before it plays is no fault: whoever stopped it knows.
-  video.play().catch((faultInjection: unknown) => {
-    if (!over) console.warn(String(faultInjection));
+  video.play().catch((problem: unknown) => {
+    if (!over) console.warn(String(problem));
   });
   return {
     video,

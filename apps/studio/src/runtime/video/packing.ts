@@ -26,9 +26,9 @@ export async function packed({ bitmap, quality, headBytes, most }: PackRequest):
     const bytes = new Uint8Array(headBytes + blob.size);
     bytes.set(new Uint8Array(await blob.arrayBuffer()), headBytes);
     return { bytes };
-  } catch (faultInjection) {
+  } catch (problem) {
     return {
-      fault: `The picture could not be made into a JPEG: ${faultInjection instanceof Error ? faultInjection.message : String(faultInjection)}.`,
+      fault: `The picture could not be made into a JPEG: ${problem instanceof Error ? problem.message : String(problem)}.`,
     };
   } finally {
     bitmap.close();

@@ -57,11 +57,11 @@ export function startSender(stream: MediaStream, name: string, key: string, list
   const done = (): void => {
     busy = false;
   };
-  const failed = (faultInjection: unknown): void => {
+  const failed = (problem: unknown): void => {
     done();
     if (!over)
       listener.trouble(
-        `The picture could not be taken from the camera: ${faultInjection instanceof Error ? faultInjection.message : String(faultInjection)}.`,
+        `The picture could not be taken from the camera: ${problem instanceof Error ? problem.message : String(problem)}.`,
       );
   };
 

@@ -92,11 +92,9 @@ async function unpack(each: Watched, { bytes, head, at_s }: Waiting): Promise<vo
       toHere_s: at_s + clock.offset_s - head.relayed_s,
       unpacked_s: feed.times!.shown_s - at_s,
     };
-  } catch (faultInjection) {
+  } catch (problem) {
     changePanel(feed.id, {
-      trouble: words.video.unreadable(
-        faultInjection instanceof Error ? faultInjection.message : String(faultInjection),
-      ),
+      trouble: words.video.unreadable(problem instanceof Error ? problem.message : String(problem)),
     });
   }
   seen(head);

@@ -13,7 +13,7 @@ async function answer(): Promise<{ ready: boolean; reason: string }> {
     return (await navigator.xr.isSessionSupported("immersive-vr"))
       ? { ready: true, reason: "" }
       : { ready: false, reason: WORDS.noHeadsetDevice };
-  } catch (faultInjection) {
-    return { ready: false, reason: faultInjection instanceof Error ? faultInjection.message : WORDS.noHeadsetDevice };
+  } catch (problem) {
+    return { ready: false, reason: problem instanceof Error ? problem.message : WORDS.noHeadsetDevice };
   }
 }

@@ -23,7 +23,7 @@ const TURN_RAD = -0.75;
 
 /** The picture of a camera beside the twin. It says how old it is; one that stands still goes grey. */
 export function CameraPanel({
-  panel: { id, name, trouble: faultInjection },
+  panel: { id, name, trouble: problem },
   place,
   keys,
 }: {
@@ -75,7 +75,7 @@ export function CameraPanel({
     since_s.current = 0;
     const age = now.kind === "none" || now.kind === "still" ? "" : words.video.age(now.age_s);
     const warns =
-      faultInjection ||
+      problem ||
       (now.kind === "late"
         ? words.video.late(now.age_s)
         : now.kind === "still"
@@ -83,7 +83,7 @@ export function CameraPanel({
           : now.kind === "none"
             ? words.video.waiting
             : "");
-    const text = now.kind === "still" && faultInjection ? `${faultInjection} ${words.video.still(now.still_s)}` : warns;
+    const text = now.kind === "still" && problem ? `${problem} ${words.video.still(now.still_s)}` : warns;
     if (age !== said[0] || text !== said[1]) setSaid([age, text, text !== ""]);
   });
   return (

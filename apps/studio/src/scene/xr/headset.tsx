@@ -49,8 +49,8 @@ export function Headset({
   const keys = useMemo<KeyAim>(() => new Set(), []);
   useEffect(() => {
     if (wish === 0 || store.getState().session) return;
-    store.enterVR().catch((faultInjection: unknown) => {
-      notify("warn", faultInjection instanceof Error ? faultInjection.message : String(faultInjection));
+    store.enterVR().catch((problem: unknown) => {
+      notify("warn", problem instanceof Error ? problem.message : String(problem));
     });
   }, [wish]);
   useEffect(() => {
